@@ -1,0 +1,113 @@
+"""What pool and ledger cost, what a second worker brings, and that killing loses nothing.
+
+Batches of 20 capsule robots, as the genetic algorithm sends them. Wall times mean nothing on a busy machine.
+Run `python benchmarks/search_pool.py [--kills N]`.
+"""
+
+import argparse
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from jumpcad.search.campaign import Campaign
+from jumpcad.search.ledger import Ledger, Row
+from jumpcad.search.models import RobotModel
+from jumpcad.search.objective import find_objective
+from jumpcad.search.pool import local_pool
+from jumpcad.search.space import Space
+
+BATCH, BATCHES = 20, 25
+MODEL = RobotModel("capsule")
+# Designs near the top of the hill: all of them pass the gate and jump, so that an evaluation takes its full time.
+SPACE = Space.parse(bound=["compression_ratio=0.6:0.8", "rest_angle_deg=55:70", "c_coef=0.95:1.05", "e_coef=0.8:1.1",
+                           "stiffness_nmm_per_deg=20:30", "ground_link_angle_deg=10:40"])  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Wall time of all batches, the evaluations' own part of it, and CPU time of the calling process (s)."""
+
+    wall_s: float
+    own_s: float
+    caller_s: float
+
+
+def batches_cost(workers: int, path: Path | None, repeat: int) -> Cost:
+    """Return what all batches cost with that many workers, started beforehand; 0 computes in the calling process."""
+    points = SPACE.spread((BATCHES + 1) * BATCH, np.random.default_rng(repeat))
+    designs = [SPACE.to_design(point) for point in points]
+    with Ledger.write(path, {}) as ledger, local_pool(workers) as pool:
+        campaign = Campaign(SPACE, find_objective("fitness"), MODEL, ledger, pool)
+        campaign.evaluate(designs[:BATCH], "sample", 0)
+        wall, caller = time.perf_counter(), time.process_time()
+        for step in range(1, BATCHES + 1):
+            campaign.evaluate(designs[step * BATCH : (step + 1) * BATCH], "sample", step)
+        wall, caller = time.perf_counter() - wall, time.process_time() - caller
+        return Cost(wall, sum(row.duration_s for row in campaign.rows[BATCH:]), caller)
+
+
+def contents(path: Path) -> list[Row]:
+    """Return the rows of a study but for how long they took."""
+    with Ledger.read(path) as ledger:
+        return [replace(row, duration_s=0.0) for row in ledger.rows()]
+
+
+def killed_rows(kills: int, folder: Path) -> tuple[int, int]:
+    """Kill one study again and again; return how many rows differ from an uninterrupted one, and how many there are."""
+
+    def command(name: str) -> list[str]:
+        options = ["--model", "capsule", "--evaluations", "400", "--workers", "2", "--settings", "fine"]
+        return [sys.executable, "-m", "jumpcad", "optimize", "ga", *options, "--study", str(folder / name)]
+
+    moments = random.Random(1)
+    for number in range(kills):
+        process = subprocess.Popen(command("killed.db"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(moments.uniform(0.5, 5.0))
+        process.send_signal(signal.SIGKILL)
+        if process.wait() == 0:
+            raise SystemExit(f"the study was finished before kill {number + 1}: make it longer")
+    for name in ("killed.db", "whole.db"):
+        subprocess.run(command(name), check=True, stdout=subprocess.DEVNULL)
+    killed, whole = contents(folder / "killed.db"), contents(folder / "whole.db")
+    different = sum(one != other for one, other in zip(killed, whole, strict=False)) + abs(len(killed) - len(whole))
+    return different, len(whole)
+
+
+def _shown(values: list[float]) -> str:
+    return f"{np.median(values):.2f} ({', '.join(f'{value:.2f}' for value in values)})"
+
+
+def main() -> None:
+    """Print the figures."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--kills", type=int, default=20)
+    parser.add_argument("--repeats", type=int, default=5)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        overheads, shares, ratios = [], [], []
+        for repeat in range(arguments.repeats):
+            alone = batches_cost(0, None, repeat)
+            one = batches_cost(1, folder / f"1-{repeat}.db", repeat)
+            two = batches_cost(2, folder / f"2-{repeat}.db", repeat)
+            overheads.append(100 * (1 - one.own_s / one.wall_s))
+            shares.append(100 * one.caller_s / alone.caller_s)
+            ratios.append(one.wall_s / two.wall_s)
+        print("median, and each of", arguments.repeats)
+        print(f"pool and ledger, CPU of the caller / of the evaluations: {_shown(shares)} %")
+        print(f"pool and ledger, share of one worker's wall time: {_shown(overheads)} %")
+        print(f"two workers, times as fast as one: {_shown(ratios)}", flush=True)
+        if arguments.kills:
+            different, total = killed_rows(arguments.kills, folder)
+            print(f"{arguments.kills} times killed (SIGKILL): {different} of {total} rows differ")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,195 @@
+"""From eight numbers and a workshop to a `Robot`: drive, plan, parts, bought parts, bodies."""
+
+import math
+from collections import defaultdict
+from dataclasses import replace
+
+import numpy as np
+
+from jumpcad.design import Design
+from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits, synthesise
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import errors
+from jumpcad.gate import geometry_findings
+from jumpcad.hardware import Bearing, load_catalogue
+from jumpcad.layout.lateral import GAP_MM
+from jumpcad.layout.plan import CLEAR_MM, SPACER_RADIUS_MM, Electronics, Plan, make_plan
+from jumpcad.mass import MassProperties, combined
+from jumpcad.parts import body_plate, foot, links, shopping, small, toes, train
+from jumpcad.parts.bores import Bores
+from jumpcad.parts.bought import Bought, in_metres
+from jumpcad.parts.part import Drawing, Part
+from jumpcad.robot import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Robot, Surface, five_bar
+from jumpcad.sizing import Sections, sections
+from jumpcad.solids.layers import mass_properties
+from jumpcad.workshop import Workshop, load_workshop
+
+
+def build(design: Design, workshop: Workshop | None = None, name: str = "robot") -> Robot:
+    """Build the printed robot of a design in a workshop; its name, if it has one, is engraved on its plates.
+
+    Raises
+    ------
+    CannotBuildError
+        If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
+    """
+    workshop = workshop or load_workshop("default")
+    refused = errors(geometry_findings(design))
+    if refused:
+        raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")
+    plan, bores = plan_of(design, workshop)
+    drawn = drawings(plan, bores, name)
+    for drawing in drawn:
+        drawing.require_bed(workshop.printer.bed_mm)
+    parts = tuple(_printed(drawing, workshop) for drawing in drawn)
+    hardware = tuple(shopping.bought_parts(plan, bores, load_catalogue(), workshop.bought))
+    joints, loop, spring = five_bar(design, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
+    return Robot(
+        name=name,
+        design=design,
+        bodies=_bodies(plan, parts, hardware),
+        joints=joints,
+        loop=loop,
+        spring=spring,
+        foot_depth_m=plan.sections.foot_depth_mm / 1000.0,
+        parts=parts,
+        hardware=hardware,
+        workshop=workshop,
+        plan=plan,
+    )
+
+
+def plan_of(design: Design, workshop: Workshop) -> tuple[Plan, Bores]:
+    """Return the plan of a design in a workshop, and the bores of its parts."""
+    catalogue = load_catalogue()
+    chosen = workshop.bought
+    bores = Bores.of(workshop)
+    sizes = sections(design, workshop)
+    roller = catalogue.bearings[chosen.roller]
+    drive = synthesise(design, _drive_limits(workshop, sizes, roller))
+    electronics = Electronics(
+        catalogue.batteries[chosen.battery], catalogue.boards[chosen.controller], catalogue.boards[chosen.driver]
+    )
+    plan = make_plan(design, sizes, drive, electronics, workshop.body.plate_mm, roller.width_mm, chosen.axle_mm)
+    return replace(plan, toes_apart=not foot.in_one_piece(plan, workshop.printer.bed_mm)), bores
+
+
+def drawings(plan: Plan, bores: Bores, name: str) -> list[Drawing]:
+    """Return every printed part of a plan."""
+    lateral = plan.lateral
+    half = plan.sections.thickness_mm / 2.0
+    low, high = lateral.inside
+    front_left = (plan.front_mm, half + GAP_MM / 2.0, high - GAP_MM / 2.0)
+    front_right = (plan.front_mm, low + GAP_MM / 2.0, -half - GAP_MM / 2.0)
+    cam_right = (plan.cam_axis_mm, low + GAP_MM / 2.0, lateral.cam[0] - GAP_MM / 2.0)
+    made = [
+        links.main_leg(plan, bores),
+        links.front_link(plan, bores),
+        foot.foot(plan, bores),
+        *toes.toes_apart(plan, bores),
+        *body_plate.plates(plan, bores, name),
+        train.cam(plan, bores),
+        *train.gears(plan, bores),
+        small.motor_cap(plan, bores),
+        small.spring_bushing(plan, bores, "left"),
+        small.spring_bushing(plan, bores, "right"),
+        small.spacer(plan, bores, "front_spacer_left", [front_left]),
+        small.spacer(plan, bores, "front_spacer_right", [front_right]),
+        small.spacer(plan, bores, "cam_spacer_right", [cam_right]),
+        small.collars(plan, bores),
+        small.trays(plan, bores),
+    ]
+    if plan.idler_mm is not None:
+        cam_left = (plan.cam_axis_mm, lateral.gears[0][1] + GAP_MM / 2.0, high - GAP_MM / 2.0)
+        idler_right = (plan.idler_mm, low + GAP_MM / 2.0, lateral.gears[0][0] - GAP_MM / 2.0)
+        made += [
+            small.spacer(plan, bores, "cam_spacer_left", [cam_left]),
+            small.spacer(plan, bores, "idler_spacer_right", [idler_right]),
+        ]
+    return made
+
+
+def _printed(drawing: Drawing, workshop: Workshop) -> Part:
+    """Return a drawing with its material and the mass of one copy."""
+    material, material_name = workshop.material(drawing.role), workshop.material_name(drawing.role)
+    model, nozzle = workshop.mass.model, workshop.printer.nozzle_mm
+    mass = mass_properties(drawing.shape, material.density_g_cm3, workshop.process, nozzle, model)
+    weighed = workshop.mass.weighed_g.get(drawing.name)
+    if weighed is not None:
+        return Part(drawing, material_name, mass.scaled_to(weighed / 1000.0), "weighed")
+    return Part(drawing, material_name, mass, model)
+
+
+def _bodies(plan: Plan, parts: tuple[Part, ...], hardware: tuple[Bought, ...]) -> dict[str, Body]:
+    """Return the four rigid bodies with everything that they carry."""
+    carried: dict[str, list[MassProperties]] = defaultdict(list)
+    for part in parts:
+        for placement in part.placements:
+            carried[placement.body].append(part.mass.placed(in_metres(placement.T_body_part)))
+    for item in hardware:
+        carried[item.body].append(item.mass)
+    contacts = _contacts(plan)
+    bodies = {}
+    for name in BODY_NAMES:
+        mass = combined(carried[name])
+        bodies[name] = Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts.get(name, ()))
+    return bodies
+
+
+def _contacts(plan: Plan) -> dict[str, tuple[ContactSphere, ...]]:
+    """Return what touches the ground: the foot's round nose, both toe tips, the plates' corners under the pivots."""
+    sections = plan.sections
+    depth, tip_radius = sections.foot_depth_mm, sections.toe_tip_mm / 2.0
+    tip_x, tip_y = toes.toe_tip_mm(plan)
+    tip_z = tip_radius - depth
+
+    def sphere(name: str, x: float, y: float, z: float, radius: float, surface: Surface) -> ContactSphere:
+        return ContactSphere(name, np.array([x, y, z]) / 1000.0, radius / 1000.0, surface)
+
+    pad = plan.axle_mm / 2.0 + body_plate.PAD_WALL_MM
+    return {
+        FOOT: (
+            sphere("front_eye", plan.design.l4_mm, 0.0, 0.0, depth, "foot"),
+            sphere("left_toe", tip_x, tip_y, tip_z, tip_radius, "foot"),
+            sphere("right_toe", tip_x, -tip_y, tip_z, tip_radius, "foot"),
+        ),
+        BODY: (
+            sphere("back", plan.hub_mm[0], 0.0, plan.hub_mm[1], pad, "body"),
+            sphere("front", plan.front_mm[0], 0.0, plan.front_mm[1], pad, "body"),
+        ),
+    }
+
+
+def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing) -> DriveLimits:
+    """Return what the drive must respect in this workshop, beside a main leg of this size."""
+    fits, safety, process = workshop.fits, workshop.safety, workshop.process
+    gears = workshop.material("gears")
+    axle_radius = workshop.bought.axle_mm / 2.0 + fits.sliding_mm
+    hub_radius = max(Bores.of(workshop).hub_radius_mm, sizes.leg_root_mm / 2.0)
+    lever_eye = max(links.LEVER_EYE_RADIUS_MM, sizes.lever_root_mm / 2.0)
+    return DriveLimits(
+        spring=SpringLimits(
+            mandrel_min_mm=2.0 * (axle_radius + fits.wall_min_mm),
+            pin_radius_min_mm=hub_radius + CLEAR_MM + workshop.bought.axle_mm / math.sqrt(2.0),
+            stress_share=safety.spring_stress_share,
+        ),
+        cam=CamLimits(
+            roller_radius_mm=roller.outer_mm / 2.0,
+            cam_width_mm=roller.width_mm,
+            roller_load_n=roller.static_load_n,
+            gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
+            core_radius_mm=train.KEY_ACROSS_FLATS_MM / math.sqrt(3.0) + fits.wall_min_mm,
+            modulus_mpa=gears.modulus_mpa,
+        ),
+        train=TrainLimits(
+            stall_share=safety.motor_stall_share,
+            torque_max_nm=safety.motor_torque_max_nm,
+            pair_efficiency=safety.gear_efficiency,
+            backlash_circumferential_mm=fits.backlash_circumferential_mm,
+            stress_mpa=gears.strength_in_plane_mpa / safety.strength_factor,
+            tip_min_mm=process.line_width_mm,
+        ),
+        motors=workshop.bought.motors,
+        gap_mm=CLEAR_MM,
+        hub_axle_radius_mm=SPACER_RADIUS_MM,
+    )

@@ -1,0 +1,95 @@
+"""Does anything but the foot touch the ground or the foot while the legs move (mm)?"""
+
+import numpy as np
+from manifold3d import Manifold
+
+from jumpcad.checks.interference import Component, Moment, components, pose_of
+from jumpcad.findings import Finding, limit
+from jumpcad.linkage import Linkage, direction
+from jumpcad.parts.body_plate import PAD_WALL_MM, STANDOFF_PAD_MM
+from jumpcad.parts.small import COLLAR_RADIUS_MM
+from jumpcad.robot import BODY, FOOT, Array, Robot
+
+GROUND_GAP_MM = FOOT_GAP_MM = 0.5
+"""Least gaps to the ground and to the foot; judgement: play of the joints and the flexing of legs and foot."""
+POSITIONS = 9
+SEARCH_MM = 3.0
+"""Gaps that are wider need not be known."""
+
+
+def ground_findings(robot: Robot) -> list[Finding]:
+    """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from wound to rest."""
+    plan = robot.plan
+    if plan is None:
+        return []
+    linkage, sections, cam = Linkage(robot.design), plan.sections, plan.drive.cam
+    leg = np.linspace(-robot.design.compression_rad, 0.0, POSITIONS)
+    pose = linkage.pose(leg)
+    down = np.stack([np.sin(pose.foot_rad), np.cos(pose.foot_rad)], axis=-1)  # up, in the body's frame
+    fixed, radii = _body_discs(robot)
+    tips = plan.hub_mm + cam.lever_length_mm * direction(-cam.lever_start_rad + leg)
+    heights = {
+        "the body": (down @ fixed.T - _along(pose.ankle_mm, down)[:, None] - radii).min(axis=1),
+        "the roller": _along(tips - pose.ankle_mm, down) - cam.roller_radius_mm,
+        "the legs' ends": np.full(POSITIONS, -sections.eye_radius_mm),
+    }
+    name, lowest = min(((what, float(height.min())) for what, height in heights.items()), key=lambda item: item[1])
+    clearance = lowest + sections.foot_depth_mm
+    return [
+        limit(
+            "ground_clearance", clearance - GROUND_GAP_MM, "mm",
+            f"{name} passes {clearance:.1f} mm above the ground; {GROUND_GAP_MM:g} mm are kept",
+            "lower compression_ratio, or raise rest_angle_deg",
+        )
+    ]  # fmt: skip
+
+
+def foot_findings(robot: Robot) -> list[Finding]:
+    """Return `foot_clearance`: the gap between the foot and what the body carries, springs wound (exact)."""
+    plan = robot.plan
+    if plan is None:
+        return []
+    linkage = Linkage(robot.design)
+    wound = Moment("wound", -robot.design.compression_rad, plan.drive.cam.law.lift_rad)
+
+    def placed(piece: Component) -> Manifold:
+        return piece.solid.transform(pose_of(piece, plan, linkage, wound)[:3])
+
+    pieces = {body: [p for p in components(robot) if p.body == body] for body in (BODY, FOOT)}
+    foot = [placed(piece) for piece in pieces[FOOT]]
+    gap, name = min(
+        (solid.min_gap(other, SEARCH_MM), piece.name)
+        for piece, solid in ((piece, placed(piece)) for piece in pieces[BODY])
+        for other in foot
+    )
+    found = f"{name} comes within {gap:.1f} mm" if gap < SEARCH_MM else f"nothing comes within {gap:g} mm"
+    return [
+        limit(
+            "foot_clearance", gap - FOOT_GAP_MM, "mm",
+            f"{found} of the foot, springs wound; {FOOT_GAP_MM:g} mm are kept",
+            "lower compression_ratio, or raise ground_link_angle_deg",
+        )
+    ]  # fmt: skip
+
+
+def _along(vector: Array, unit: Array) -> Array:
+    """Return the components (n,) of vectors (n, 2) along units (n, 2)."""
+    return np.einsum("ij,ij->i", vector, unit)
+
+
+def _body_discs(robot: Robot) -> tuple[Array, Array]:
+    """Return what hangs lowest on the body as discs: middles (n, 2) in its frame and radii (n,)."""
+    plan = robot.plan
+    assert plan is not None
+    pad = max(plan.axle_mm / 2.0 + PAD_WALL_MM, COLLAR_RADIUS_MM)
+    discs = [(place, pad) for place in plan.axles.values()]
+    discs += [(place, STANDOFF_PAD_MM / 2.0) for place in plan.standoffs_mm]
+    discs.append((plan.hub_mm, plan.drive.spring.outer_diameter_mm / 2.0))
+    discs.append((plan.cam_axis_mm, plan.drive.cam.outer_radius_mm))
+    discs.append((plan.cam_axis_mm, plan.drive.train.stages[-1].wheel.tip_radius_mm))
+    discs.append((plan.motor_mm, plan.drive.train.motor.height_mm))
+    if plan.idler_mm is not None:
+        discs.append((plan.idler_mm, plan.drive.train.stages[0].wheel.tip_radius_mm))
+    half = plan.electronics.length_mm / 2.0
+    discs += [(plan.tray_mm + np.array([x, 0.0]), 0.0) for x in (-half, half)]
+    return np.array([place for place, _ in discs]), np.array([radius for _, radius in discs])

@@ -1,0 +1,192 @@
+"""Do solids meet that should not? Exact intersection volumes through winding and drop (mm).
+
+Nearly every part is extruded along y, as all motion is in planes parallel to x-z, so most pairs are compared as flat
+regions over common intervals of y; the others as solids.
+"""
+
+import itertools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from manifold3d import Manifold
+
+from jumpcad.findings import Finding
+from jumpcad.layout.plan import Plan
+from jumpcad.linkage import Linkage
+from jumpcad.parts.part import Shape
+from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Robot
+from jumpcad.solids.stack import Stack, overlap_volume_mm3
+
+WINDING_POSITIONS = 13
+DROP_POSITIONS = 13
+TOLERANCE_MM3 = 0.05
+"""Facets of two circles that touch share less than this."""
+TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
+INTENDED = (
+    ("cap_screw", "body_plate_right", "thread"),
+    ("standoff", "standoff", "thread"),
+    ("toe", "foot", "thread"),
+    ("spring", "spring", "coil and arm are one wire"),
+)
+"""Pairs of name beginnings that may share volume, and why."""
+
+
+@dataclass(frozen=True)
+class Component:
+    """One printed or bought piece at its place in its body's frame."""
+
+    name: str
+    body: str
+    shape: Shape
+    T_body_part: Array
+
+    @cached_property
+    def solid(self) -> Manifold:
+        """The piece in its own frame (mm)."""
+        return self.shape.solid()
+
+    @cached_property
+    def corners(self) -> Array:
+        """The corners (8, 4) of its bounding box in its own frame, homogeneous."""
+        low, high = self.shape.bounds_mm
+        return np.array([[*corner, 1.0] for corner in itertools.product(*zip(low, high, strict=True))])
+
+
+@dataclass(frozen=True)
+class Moment:
+    """One position of the mechanism: leg angle and cam angle (rad), and what it is called."""
+
+    label: str
+    leg_rad: float
+    cam_rad: float
+
+
+def components(robot: Robot) -> list[Component]:
+    """Return every piece of a robot, copies apart."""
+    printed = [
+        Component(part.name, placement.body, part.drawing.shape, placement.T_body_part)
+        for part in robot.parts
+        for placement in part.placements
+    ]
+    return printed + [Component(item.name, item.body, item.shape, item.T_body_part) for item in robot.hardware]
+
+
+def moments(plan: Plan) -> list[Moment]:
+    """Return the positions that are looked at: winding with its cam angles, and the roller's drop."""
+    cam, wound = plan.drive.cam, plan.design.compression_rad
+    lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
+    winding = [
+        Moment(f"wound by {math.degrees(wind):.1f}°", -float(wind), float(turn))
+        for turn, wind in zip(lift, cam.wind_rad(lift), strict=True)
+    ]
+    falls = np.linspace(wound, 0.0, DROP_POSITIONS)
+    free = float(cam.wind_rad(cam.free_rad - 1e-6))
+    drop = [Moment(f"dropping, at {math.degrees(w):.1f}°", -float(w), cam.free_rad) for w in falls if w <= free]
+    return winding + drop
+
+
+def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
+    """Yield pairs of pieces that share more than the tolerance: names, position, volume (mm³); each pair's worst."""
+    plan = robot.plan
+    if plan is None:
+        return
+    linkage = Linkage(robot.design)
+    pieces = components(robot)
+    worst: dict[tuple[int, int], tuple[float, str]] = {}
+    settled: set[tuple[int, int]] = set()
+    for moment in moments(plan):
+        poses = [pose_of(piece, plan, linkage, moment) for piece in pieces]
+        boxes = [_box(piece, pose) for piece, pose in zip(pieces, poses, strict=True)]
+        for i, j in _near(boxes):
+            a, b = pieces[i], pieces[j]
+            fixed = a.body == b.body and a.name not in TURNING and b.name not in TURNING
+            if (fixed and (i, j) in settled) or _intended(a.name, b.name):
+                continue
+            settled.add((i, j))
+            volume = shared_volume_mm3(a, poses[i], b, poses[j])
+            if volume > max(TOLERANCE_MM3, worst.get((i, j), (0.0, ""))[0]):
+                worst[i, j] = (float(volume), moment.label)
+    for (i, j), (volume, label) in sorted(worst.items(), key=lambda item: -item[1][0]):
+        yield pieces[i].name, pieces[j].name, label, volume
+
+
+def interference_findings(robot: Robot) -> list[Finding]:
+    """Return a finding a pair of pieces that meet, or one that says that none do; none where nothing is placed."""
+    if robot.plan is None:
+        return []
+    found = [
+        Finding(
+            "interference", "error", -volume, "mm³", f"{a} and {b} share {volume:.2f} mm³, {label}",
+            "raise carrying_link_mm or d_coef, or wind less",
+        )
+        for a, b, label, volume in overlaps(robot)
+    ]  # fmt: skip
+    positions = f"{WINDING_POSITIONS} positions of winding and {DROP_POSITIONS} of the drop"
+    return found or [
+        Finding("interference", "info", TOLERANCE_MM3, "mm³", f"no two pieces meet in {positions}", "nothing to do")
+    ]
+
+
+def shared_volume_mm3(a: Component, T_a: Array, b: Component, T_b: Array) -> float:
+    """Return the volume that two placed pieces share (mm³)."""
+    parallel = abs(abs(T_a[:3, 2] @ T_b[:3, 2]) - 1.0) < 1e-9
+    if isinstance(a.shape, Stack) and isinstance(b.shape, Stack) and parallel:
+        return overlap_volume_mm3(a.shape, T_a, b.shape, T_b)
+    return float((a.solid.transform(T_a[:3]) ^ b.solid.transform(T_b[:3])).volume())
+
+
+def pose_of(piece: Component, plan: Plan, linkage: Linkage, moment: Moment) -> Array:
+    """Return the pose (4, 4) of a piece in the body's frame (mm)."""
+    pose = linkage.pose([moment.leg_rad])
+    places = {
+        BODY: (np.zeros(2), 0.0),
+        MAIN_LEG: (linkage.back_pivot_mm, linkage.rest_rad + moment.leg_rad),
+        FRONT_LINK: (linkage.front_pivot_mm, linkage.rest_rad + float(pose.front_rad[0])),
+        FOOT: (pose.ankle_mm[0], float(pose.foot_rad[0])),
+    }
+    origin, angle = places[piece.body]
+    T_world_piece = _turned(origin, angle) @ piece.T_body_part
+    if piece.name not in TURNING:
+        return T_world_piece
+    centre, turn = _train_turn(piece.name, plan, moment.cam_rad)
+    return _turned(centre, turn) @ _turned(-centre, 0.0) @ T_world_piece
+
+
+def _train_turn(name: str, plan: Plan, cam_rad: float) -> tuple[Array, float]:
+    """Return a turning piece's axis (2,) and its turn about +y at a cam angle; meshing wheels turn against another."""
+    stages = plan.drive.train.stages
+    if name in ("cam", "cam_gear"):
+        return plan.cam_axis_mm, cam_rad
+    idler = -cam_rad * stages[-1].ratio
+    if name == "idler" and plan.idler_mm is not None:
+        return plan.idler_mm, idler
+    return plan.motor_mm, idler if len(stages) == 1 else -idler * stages[0].ratio
+
+
+def _turned(place_mm: Array, angle_rad: float) -> Array:
+    """Return a pose (4, 4): turned about +y by an angle, then moved to x-z."""
+    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    x, z = place_mm
+    return np.array([[cos, 0.0, sin, x], [0.0, 1.0, 0.0, 0.0], [-sin, 0.0, cos, z], [0.0, 0.0, 0.0, 1.0]])
+
+
+def _box(piece: Component, pose: Array) -> Array:
+    """Return lower and upper corner (2, 3) of a placed piece's bounding box."""
+    corners = (piece.corners @ pose.T)[:, :3]
+    return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+
+def _near(boxes: list[Array]) -> Iterator[tuple[int, int]]:
+    """Yield the pairs of boxes that overlap."""
+    low, high = np.stack([box[0] for box in boxes]), np.stack([box[1] for box in boxes])
+    meet = ((low[:, None] < high[None] - 1e-6) & (low[None] < high[:, None] - 1e-6)).all(axis=-1)
+    yield from zip(*np.nonzero(np.triu(meet, 1)), strict=True)
+
+
+def _intended(a: str, b: str) -> bool:
+    """Tell whether two pieces may share volume."""
+    pairs = ((a, b), (b, a))
+    return any(x.startswith(first) and y.startswith(second) for x, y in pairs for first, second, _ in INTENDED)

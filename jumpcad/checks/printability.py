@@ -1,0 +1,212 @@
+"""Can every part be printed as it lies? Bed, walls, holes, pins, overhangs, bridges, one closed solid (mm).
+
+A stack is judged by its flat regions, anything else by sections through its solid and by its mesh. Each finding speaks
+for all parts, names the worst, and has its margin.
+"""
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+
+import numpy as np
+import trimesh
+from manifold3d import CrossSection, JoinType
+
+from jumpcad.exporters.stl import write_stl
+from jumpcad.findings import Finding, limit
+from jumpcad.parts.part import Drawing
+from jumpcad.robot import Robot
+from jumpcad.solids.finish import faults
+from jumpcad.solids.outline import Region, grown, union
+from jumpcad.solids.stack import Stack
+from jumpcad.workshop import Fits, Process
+
+HALVINGS = 7
+"""When a width is looked for: to 1 % of the range."""
+SECTION_SPACING_MM = 1.0
+"""Between sections through solids that are no stacks."""
+SMALLEST_PIECE_MM2 = 0.05
+"""Facets of circles over one another leave less than this."""
+TOUCH_MM = 0.05
+ROUND_OFF_MM = 0.02
+"""What polygons take from a width."""
+
+Fails = Callable[[Region, float], bool]
+"""Tells whether something in a region is narrower than a width (mm)."""
+
+
+def bed_findings(robot: Robot) -> list[Finding]:
+    """Return `bed_fit`: every part within the printer's bed, along it or askew."""
+    if robot.workshop is None or not robot.parts:
+        return []
+    bed = robot.workshop.printer.bed_mm
+    margin, part = min(((part.drawing.lie(bed).margin_mm, part) for part in robot.parts), key=lambda item: item[0])
+    size = np.ptp(part.drawing.shape.bounds_mm, axis=0)
+    return [
+        limit(
+            "bed_fit", margin, "mm",
+            f"{part.name}, {size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm, on a bed of "
+            f"{bed[0]:g} x {bed[1]:g} x {bed[2]:g} mm",
+            "a larger printer, or a smaller carrying_link_mm",
+        )
+    ]  # fmt: skip
+
+
+def printability_findings(robot: Robot) -> list[Finding]:
+    """Return those that need outlines and meshes: walls, holes, pins, overhangs, bridges, solid."""
+    if robot.workshop is None or not robot.parts:
+        return []
+    fits, process = robot.workshop.fits, robot.workshop.process
+    drawings = [part.drawing for part in robot.parts]
+    regions = [(drawing.name, *tall) for drawing in drawings for tall in _tall_regions(drawing, fits.wall_min_mm)]
+    hole_min = min(fits.hole_min_mm, fits.m2_tap_mm)
+    columns = [(name, height, piece) for name, height, region in regions for piece in region.decompose()]
+    slender = [
+        (name, piece)
+        for name, height, piece in columns
+        if height > fits.pin_min_mm and _longest_mm(piece) < 3.0 * fits.pin_min_mm  # longer ones are walls
+    ]
+    flat = [(name, region) for name, _, region in regions]
+    finer = "a finer nozzle with its own fits, or a larger part"
+    undersides = [(drawing.name, *side) for drawing in drawings for side in _undersides(drawing, fits, process)]
+    reaches = [(size, name) for name, bridge, size in undersides if not bridge]
+    spans = [(size, name) for name, bridge, size in undersides if bridge]
+    return [
+        _narrowest("walls", "wall", flat, _thin_wall, fits.wall_min_mm, finer),
+        _narrowest("holes", "hole", flat, _narrow_hole, hole_min, f"{finer}, or drill it"),
+        _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, finer),
+        _largest("overhangs", "overhang", reaches, 2.0 * process.line_width_mm, "turn the part over, or use support"),
+        _largest("bridges", "bridge", spans, fits.bridge_mm, "use support, or raise fits.bridge_mm if it may"),
+        *_solid_findings(drawings),
+    ]
+
+
+def _narrowest(
+    name: str, what: str, regions: Sequence[tuple[str, Region]], fails: Fails, least_mm: float, remedy: str
+) -> Finding:
+    """Return the finding of the narrowest thing in named regions, looked for up to twice the least width."""
+    worst, where = 2.0 * least_mm, ""
+    for part, region in regions:
+        if not fails(region, worst):
+            continue
+        low, high = 0.0, worst
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2.0
+            low, high = (low, middle) if fails(region, middle) else (middle, high)
+        worst, where = high, part
+    found = f"the narrowest {what} is {worst:.2f} mm, in {where}" if where else f"no {what} is under {worst:.2f} mm"
+    return limit(name, worst - least_mm, "mm", f"{found}; {least_mm:g} mm are needed", remedy)
+
+
+def _largest(name: str, what: str, sizes: Sequence[tuple[float, str]], most_mm: float, remedy: str) -> Finding:
+    """Return the finding of the largest of named sizes."""
+    worst, where = max(sizes, default=(0.0, ""))
+    found = f"the longest {what} is {worst:.2f} mm, in {where}" if where else f"no part has an {what}"
+    return limit(name, most_mm - worst, "mm", f"{found}; {most_mm:g} mm hold without support", remedy)
+
+
+def _tall_regions(drawing: Drawing, least_mm: float) -> Iterator[tuple[float, Region]]:
+    """Yield sections with the height over which they stay the same; lower ones (engravings, chamfers) are left out."""
+    if isinstance(drawing.shape, Stack):
+        for slab in drawing.shape.slabs:
+            if slab.height_mm >= least_mm:
+                yield slab.height_mm, slab.region
+        return
+    top = float(drawing.shape.bounds_mm[1, 2])
+    for z in np.arange(SECTION_SPACING_MM, top - 0.5 * SECTION_SPACING_MM, SECTION_SPACING_MM):
+        yield SECTION_SPACING_MM, drawing.solid.slice(float(z))
+
+
+def _thin_wall(region: Region, width_mm: float) -> bool:
+    """Tell whether opening a region by a width takes more from it than corners and the tips of teeth."""
+    half = width_mm / 2.0 - ROUND_OFF_MM
+    opened = region.offset(-half, JoinType.Miter).offset(half + ROUND_OFF_MM, JoinType.Miter)
+    return any(piece.area() > 0.5 * width_mm**2 for piece in (region - opened).decompose())
+
+
+def _narrow_hole(region: Region, width_mm: float) -> bool:
+    """Tell whether one of a region's holes closes when its sides move in by half a width."""
+    return any(_vanishes(hole, width_mm) for hole in _contours(region, -1.0))
+
+
+def _slender(region: Region, width_mm: float) -> bool:
+    """Tell whether the outline of a region, holes filled, is narrower than a width."""
+    return any(_vanishes(outline, width_mm) for outline in _contours(region, 1.0))
+
+
+def _vanishes(region: Region, width_mm: float) -> bool:
+    return bool(region.offset(ROUND_OFF_MM - width_mm / 2.0, JoinType.Miter).is_empty())
+
+
+def _contours(region: Region, sign: float) -> Iterator[Region]:
+    """Yield a region's outer contours (sign +1) or its holes (-1) as filled regions."""
+    for contour in region.to_polygons():
+        x, y = np.asarray(contour).T
+        if sign * (x @ np.roll(y, -1) - y @ np.roll(x, -1)) > 0:
+            yield CrossSection([contour if sign > 0 else contour[::-1]])
+
+
+def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tuple[bool, float]]:
+    """Yield what hangs over air: whether it is held on more than one side (a bridge), and how far it spans (mm)."""
+    angle = math.radians(fits.overhang_deg)
+    if not isinstance(drawing.shape, Stack):
+        yield from _mesh_undersides(drawing.mesh, angle)
+        return
+    leaning = process.layer_height_mm * math.tan(angle) + ROUND_OFF_MM
+    slabs = drawing.shape.slabs
+    for below, above in itertools.pairwise(slabs):
+        if (above.region - grown(below.region, leaning)).area() < SMALLEST_PIECE_MM2:
+            continue
+        for ledge in (above.region - below.region).decompose():
+            if (ledge - grown(below.region, leaning)).area() < SMALLEST_PIECE_MM2:
+                continue
+            held = (grown(ledge, TOUCH_MM) ^ below.region).decompose()
+            ring = any(True for piece in held for _ in _contours(piece, -1.0))
+            inside = (ledge - union(_contours(below.region, 1.0))).is_empty()
+            if len(held) > 1 or (ring and inside):
+                yield True, _least(partial(_vanishes, ledge), _longest_mm(ledge))
+            else:
+                yield False, _least(partial(_covered, ledge, below.region), _longest_mm(ledge))
+
+
+def _covered(ledge: Region, below: Region, reach_mm: float) -> bool:
+    return bool((ledge - grown(below, reach_mm)).is_empty())
+
+
+def _longest_mm(region: Region) -> float:
+    low_x, low_y, high_x, high_y = region.bounds()
+    return math.hypot(high_x - low_x, high_y - low_y)
+
+
+def _least(holds: Callable[[float], bool], top_mm: float) -> float:
+    """Return the least length up to `top_mm` from which on something holds."""
+    low, high = 0.0, top_mm
+    for _ in range(HALVINGS + 3):
+        middle = (low + high) / 2.0
+        low, high = (low, middle) if holds(middle) else (middle, high)
+    return high
+
+
+def _mesh_undersides(mesh: trimesh.Trimesh, angle_rad: float) -> Iterator[tuple[bool, float]]:
+    """Yield a mesh's undersides; level ones are taken for bridges across their narrow side."""
+    steep = -mesh.face_normals[:, 2] > math.sin(angle_rad) + 1e-3
+    hangs = steep & (mesh.triangles_center[:, 2] > mesh.bounds[0, 2] + TOUCH_MM)
+    faces = np.flatnonzero(hangs)
+    adjacency = mesh.face_adjacency[hangs[mesh.face_adjacency].all(axis=1)]
+    for patch in trimesh.graph.connected_components(adjacency, nodes=faces):
+        flat = mesh.triangles[patch][:, :, :2].reshape(-1, 2)
+        _, sizes = trimesh.bounds.oriented_bounds_2D(flat)
+        level = bool((mesh.face_normals[patch, 2] < -0.99).all())
+        yield level, float(min(sizes))
+
+
+def _solid_findings(drawings: Sequence[Drawing]) -> list[Finding]:
+    """Return `solid`: what keeps a part's file from being one closed solid."""
+    broken = [(drawing.name, found) for drawing in drawings if (found := faults(write_stl(drawing.mesh)))]
+    remedy = "change the dimension that thins the part"
+    if not broken:
+        return [limit("solid", 0.0, "faults", "every part's file is one closed solid", remedy)]
+    return [
+        limit("solid", -float(len(found)), "faults", f"{name}: {', '.join(found)}", remedy) for name, found in broken
+    ]

@@ -1,0 +1,72 @@
+"""`jumpcad coupon`: a gauge to print, and a workshop from what it says."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from jumpcad.cli.output import JsonFlag, print_json
+
+FOLDER = Path("exports/coupon")
+WORKSHOP = Path("my-workshop.toml")
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module."""
+    app.command()(coupon)
+
+
+def coupon(
+    measured: Annotated[
+        Path | None, typer.Option(help="Turn these readings into a workshop file.", metavar="READINGS.toml")
+    ] = None,
+    workshop: Annotated[str, typer.Option(help="Workshop: a template's name or a file.")] = "default",
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help=f"Folder [{FOLDER}], or with --measured the workshop file [{WORKSHOP}]."),
+    ] = None,
+    as_json: JsonFlag = False,
+) -> None:
+    """Write a fit coupon to print; with --measured, turn what it says into a workshop file."""
+    if measured is not None:
+        facts = _measured(measured, workshop, output or WORKSHOP)
+    else:
+        facts = _written(workshop, output or FOLDER)
+    if as_json:
+        print_json(facts)
+    elif measured is None:
+        print(f"{facts['folder']}: {len(facts['files']) + 1} files, {facts['grams']:.1f} g to print")
+        print(f"read {facts['folder']}/coupon.md next")
+    else:
+        for key, change in facts["fits"].items():
+            print(f"{key:<28} {change['before']:.3f} -> {change['after']:.3f}")
+        print(
+            f"{facts['workshop']}: {workshop} with these fits" if facts["fits"] else f"{facts['workshop']}: as before"
+        )
+
+
+def _written(workshop: str, folder: Path) -> dict[str, Any]:
+    """Write the coupon and return what to say of it."""
+    from jumpcad.exporters.coupon import export_coupon
+    from jumpcad.workshop import load_workshop
+
+    bundle = export_coupon(load_workshop(workshop), folder)
+    return {"folder": str(folder), "files": [*bundle.files], "grams": 1000.0 * bundle.manifest["mass_kg"]}
+
+
+def _measured(readings: Path, workshop: str, output: Path) -> dict[str, Any]:
+    """Write the workshop with the fits that were read, complete; return what changed."""
+    from jumpcad.coupon import Readings, measured_workshop
+    from jumpcad.files import require_new_toml, write_text_atomically
+    from jumpcad.workshop import load_workshop
+
+    require_new_toml(output)
+    base = load_workshop(workshop)
+    found = measured_workshop(Readings.from_toml(readings), base, str(readings))
+    before, after = base.fits.model_dump(), found.fits.model_dump()
+    changed = {key: value for key, value in after.items() if value != before[key]}
+    write_text_atomically(output, found.to_toml())
+    return {
+        "workshop": str(output),
+        "fits": {key: {"before": before[key], "after": value} for key, value in changed.items()},
+    }

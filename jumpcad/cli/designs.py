@@ -1,0 +1,31 @@
+"""`jumpcad new`: a design file to edit."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from jumpcad.cli.output import JsonFlag, print_json
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module."""
+    app.command()(new)
+
+
+def new(
+    file: Annotated[Path, typer.Argument(help="The design file to write.", metavar="FILE.toml")],
+    template: Annotated[str, typer.Option("--from", help="A template's name or another design file.")] = "kenan-2.0",
+    as_json: JsonFlag = False,
+) -> None:
+    """Write a new design file, copied from a template."""
+    from jumpcad.design import load_design
+    from jumpcad.files import require_new_toml, write_text_atomically
+
+    require_new_toml(file)
+    design = load_design(template)
+    write_text_atomically(file, design.to_toml())
+    if as_json:
+        print_json({"file": str(file), "design": design.model_dump()})
+    else:
+        print(f"{file}: a copy of {template}; try: jumpcad simulate {file}")

@@ -1,0 +1,84 @@
+"""`jumpcad reproduce`: the published study's table of results, and how to read it."""
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+import typer
+
+from jumpcad.cli.output import JsonFlag, print_json
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from jumpcad.reproduction import Hyperparameter, Reproduction
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module."""
+    app.command()(reproduce)
+
+
+def reproduce(as_json: JsonFlag = False) -> None:
+    """Print the published table of results, simulated again, beside what the evaluator says."""
+    from jumpcad import reproduction
+
+    rows = reproduction.reproduce()
+    if as_json:
+        print_json(
+            {
+                "robots": [row.to_dict() for row in rows],
+                "hyperparameters": [asdict(item) for item in reproduction.HYPERPARAMETERS],
+                "why_they_differ": reproduction.WHY_THEY_DIFFER,
+            }
+        )
+        return
+    from rich.console import Console
+
+    console = Console(highlight=False)
+    console.print(_results(rows))
+    console.print(reproduction.READING)
+    console.print(_hyperparameters(reproduction.HYPERPARAMETERS))
+    console.print("Why the published figures and the evaluator's differ:")
+    for reason in reproduction.WHY_THEY_DIFFER:
+        console.print(f"- {reason}")
+
+
+def _results(rows: "list[Reproduction]") -> "Table":
+    table = _table(
+        "Published results", "robot", "quantity", ">published", ">again", ">measured", ">evaluator", "of what"
+    )
+    for row in rows:
+        there, here, jump = row.printed.simulated, row.again, row.jump
+        measured = asdict(row.printed.measured) if row.printed.measured else {}
+        built = {name: f"{value:g}" for name, value in measured.items()}
+        length = ("length m", f"{there.distance_m:g}", f"{here.distance_m:.4f}", built.get("distance_m"))
+        height = ("height m", f"{there.base_height_m:g}", f"{here.base_height_m:.4f}", built.get("height_m"))
+        energy = ("energy J", f"{there.energy_j:g}", f"{here.energy_j:.4f}", built.get("electrical_energy_j"))
+        table.add_row(row.printed.title, *length, _shown(jump.ballistic_range_m), "ballistic")
+        table.add_row("", "", "", "", "", _shown(jump.touchdown_distance_m), "touchdown")
+        table.add_row("", *height, _shown(jump.com_rise_m), "rise")
+        table.add_row("", *energy, _shown(jump.takeoff_energy_ratio), "of energy", end_section=True)
+    return table
+
+
+def _hyperparameters(items: "tuple[Hyperparameter, ...]") -> "Table":
+    title = "The study's hyperparameter table is not what its results come from"
+    table = _table(title, "hyperparameter", ">in its table", ">in its results")
+    for item in items:
+        table.add_row(item.name, "–" if item.in_table is None else f"{item.in_table:g}", f"{item.in_results:g}")
+    return table
+
+
+def _table(title: str, *headings: str) -> "Table":
+    """Return an empty table; a heading that starts with > is of a column of numbers."""
+    from rich.box import SIMPLE
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", box=SIMPLE)
+    for heading in headings:
+        table.add_column(heading.removeprefix(">"), justify="right" if heading.startswith(">") else "left")
+    return table
+
+
+def _shown(value: float | None) -> str:
+    return "none" if value is None else f"{value:.4f}"

@@ -1,0 +1,142 @@
+"""What the commands of the search share: options, the objects made from them, progress, and how rows are shown."""
+
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jumpcad.errors import JumpcadError
+
+if TYPE_CHECKING:
+    from jumpcad.search.campaign import Watch
+    from jumpcad.search.ledger import Row
+    from jumpcad.search.models import RobotModel
+    from jumpcad.search.pool import Pool
+    from jumpcad.search.space import Space
+
+ModelOption = Annotated[str, typer.Option(help="The robot behind the objective: printed, capsule or published.")]
+StudyOption = Annotated[Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db")]
+SeedOption = Annotated[int, typer.Option(help="Decides everything that chance decides.")]
+WorkersOption = Annotated[int | None, typer.Option(help="Processes; one for each core unless given.")]
+DaskOption = Annotated[
+    str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")
+]
+ObjectiveOption = Annotated[
+    str | None, typer.Option(help="fitness, range, rise, range-per-joule or jumps-per-joule.", show_default="fitness")
+]
+FixOption = Annotated[list[str] | None, typer.Option(help="Fix a parameter.", metavar="NAME=VALUE")]
+BoundOption = Annotated[
+    list[str] | None, typer.Option(help="Search a parameter in another range.", metavar="NAME=LO:HI")
+]
+ChooseOption = Annotated[list[str] | None, typer.Option(help="Allow some values only.", metavar="NAME=a,b,c")]
+AroundOption = Annotated[
+    str | None, typer.Option(help="The design from which --only and --within start.", metavar="DESIGN")
+]
+OnlyOption = Annotated[
+    str | None, typer.Option(help="Free these parameters alone; the rest as in --around.", metavar="NAME,…")
+]
+WithinOption = Annotated[
+    float | None, typer.Option(help="Search each range within ± this share of it.", metavar="PERCENT")
+]
+WorkshopOption = Annotated[str, typer.Option(help="Workshop of the printed robot: a template's name or a file.")]
+SettingsOption = Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")]
+EngineOption = Annotated[str | None, typer.Option(help="pybullet or mujoco; the first that is installed.")]
+LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation may take.", metavar="SECONDS")]
+PlotsOption = Annotated[Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER")]
+
+
+def make_space(
+    fix: Sequence[str] | None,
+    bound: Sequence[str] | None,
+    choose: Sequence[str] | None,
+    around: str | None,
+    only: str | None,
+    within: float | None,
+) -> "Space":
+    """Return the space that the options describe."""
+    from jumpcad.design import load_design
+    from jumpcad.search.space import Space
+
+    centre = load_design(around) if around else None
+    names = [name.strip() for name in only.split(",")] if only else []
+    return Space.parse(fix or (), bound or (), choose or (), centre, names, within)
+
+
+def make_model(name: str, workshop: str, settings: str, engine: str | None) -> "RobotModel":
+    """Return the model that the options describe."""
+    from jumpcad.search.models import MODELS, RobotModel
+    from jumpcad.simulation.engines import ENGINES, default_engine
+    from jumpcad.simulation.settings import load_settings
+    from jumpcad.workshop import load_workshop
+
+    if engine is not None and engine not in ENGINES:
+        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {' and '.join(ENGINES)}")
+    if name not in MODELS or name == "published":
+        return RobotModel(name)
+    return RobotModel(
+        name,
+        load_workshop(workshop) if name == "printed" else None,
+        load_settings(settings),
+        engine or default_engine(),
+    )
+
+
+def make_pool(workers: int | None, dask: str | None, limit_s: float) -> "Pool":
+    """Return the pool that the options describe."""
+    from jumpcad.search.pool import dask_pool, local_pool
+
+    if dask is not None and workers is not None:
+        raise JumpcadError("--workers and --dask exclude each other: Dask has its own workers")
+    return local_pool(workers, limit_s) if dask is None else dask_pool(dask, limit_s)
+
+
+@contextmanager
+def watching(total: int, quiet: bool) -> Iterator["Watch"]:
+    """Show rate, best and time left on standard error while a search runs, if a terminal is there to see it."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (
+        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
+        TextColumn("{task.fields[rate]}  best {task.fields[best]}"), TimeRemainingColumn(),
+    )  # fmt: skip
+    with Progress(*columns, console=Console(stderr=True), disable=quiet or not sys.stderr.isatty()) as progress:
+        task = progress.add_task("search", total=total, rate="", best="–")
+        best: list[float] = []
+
+        def watch(row: "Row", computed: bool) -> None:
+            if row.phase in ("robust", "bounds"):
+                progress.update(task, description="robust pick")
+                return
+            if row.score is not None and (not best or row.score > best[0]):
+                best[:] = [row.score]
+            speed = progress.tasks[0].speed
+            progress.update(
+                task, advance=1, description=row.phase,
+                rate=f"{speed:.1f}/s" if speed else "", best=f"{best[0]:.4g}" if best else "–",
+            )  # fmt: skip
+
+        yield watch
+
+
+def row_data(row: "Row") -> dict[str, Any]:
+    """Return a row as plain data for JSON."""
+    evaluation = row.evaluation
+    return {
+        "phase": row.phase,
+        "score": row.score,
+        "fitness": evaluation.metrics.get("fitness") if evaluation.feasible else 0.0,
+        "verdict": evaluation.verdict,
+        "detail": evaluation.detail,
+        "design": row.design.model_dump(),
+        "metrics": dict(evaluation.metrics),
+        "margins": {finding.name: {"margin": finding.margin, "unit": finding.unit} for finding in evaluation.findings},
+    }
+
+
+def design_lines(row: "Row") -> list[str]:
+    """Return the parameters of a row's design, one a line."""
+    return [f"  {name:24s}{value:12.5g}" for name, value in row.design.model_dump().items()]

@@ -1,0 +1,186 @@
+"""`jumpcad simulate`: let a design jump."""
+
+import csv
+import io
+import json
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.subjects import designed, written_robot
+from jumpcad.errors import JumpcadError
+
+if TYPE_CHECKING:
+    from jumpcad.design import Design
+    from jumpcad.robot import Robot
+    from jumpcad.simulation import Jump, Settings
+
+TRAJECTORY_SUFFIXES = (".csv", ".json")
+LINES = (
+    ("ballistic range", "ballistic_range_m", "{:.4f} m"),
+    ("rise of the centre of mass", "com_rise_m", "{:.4f} m"),
+    ("touchdown distance", "touchdown_distance_m", "{:.4f} m"),
+    ("take-off speed", "takeoff_speed_m_s", "{:.3f} m/s"),
+    ("take-off angle", "takeoff_angle_deg", "{:.1f}°"),
+    ("take-off after", "takeoff_time_s", "{:.4f} s"),
+    ("energy at take-off / of the springs", "takeoff_energy_ratio", "{:.4f}"),
+    ("energy of the springs", "spring_energy_j", "{:.4f} J"),
+    ("mass", "mass_kg", "{:.4f} kg"),
+    ("fitness (range / longest link)", "fitness", "{:.3f}"),
+)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module."""
+    app.command()(simulate)
+
+
+def simulate(
+    design: Annotated[
+        str,
+        typer.Argument(help="A template, a design file, a bundle, a URDF file.", metavar="DESIGN|BUNDLE"),
+    ],
+    capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
+    published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
+    workshop: Annotated[str, typer.Option(help="Workshop of the printed robot: name or file.")] = "default",
+    engine: Annotated[str | None, typer.Option(help="pybullet, mujoco or both; the first that is installed.")] = None,
+    settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
+    flight: Annotated[bool, typer.Option("--flight", help="Go on to the first touchdown.")] = False,
+    trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
+    as_json: JsonFlag = False,
+) -> None:
+    """Simulate one jump: gate, release, take-off, flight.
+
+    The exit code is 0 for a jump and 1 if the design is refused or does not jump.
+    """
+    from jumpcad.capsule import capsule_robot
+    from jumpcad.design import load_design
+
+    if capsule and published:
+        raise JumpcadError("--capsule and --published exclude each other: choose one model")
+    if trajectory and trajectory.suffix not in TRAJECTORY_SUFFIXES:
+        raise JumpcadError(f"{trajectory}: a trajectory file ends in {' or '.join(TRAJECTORY_SUFFIXES)}")
+    written = written_robot(design)
+    subject = written.design if written else load_design(design)
+    if published:
+        _published(subject, engine, as_json)
+        return
+    engines = _engines(engine)
+    if trajectory and len(engines) > 1:
+        raise JumpcadError("--trajectory records one engine: choose --engine pybullet or mujoco")
+    asked = _settings(settings, flight, trajectory is not None)
+    robot = capsule_robot(subject) if capsule else written or designed(design, workshop)
+    model = "capsule" if capsule else "URDF" if written else "printed"
+    heading = {"design": design, "model": model, "settings": settings}
+    jumps = _jumps(robot, asked, engines)
+    if trajectory:
+        _write_trajectory(trajectory, jumps[0])
+    _report(heading, jumps, as_json)
+    if any(jump.verdict != "jump" for jump in jumps):
+        raise typer.Exit(1)
+
+
+def _published(design: "Design", engine: str | None, as_json: bool) -> None:
+    """Print the published study's quantities, which are not those of the jump."""
+    if engine not in (None, "pybullet"):
+        raise JumpcadError(f"--engine {engine}: the published simulation exists in pybullet alone")
+    from jumpcad import published
+
+    result = asdict(published.simulate(design))
+    if as_json:
+        print_json({"model": "published", **result})
+        return
+    print(f"published distance  {result['distance_m']:.6f} m   where the body is at the first contact after 0.5 s")
+    print(f"published height    {result['base_height_m']:.6f} m   the body's height above ground, standing included")
+    print(f"energy              {result['energy_j']:.6f} J")
+
+
+def _engines(asked: str | None) -> list[str]:
+    """Return the engines to use; without a wish the first that is installed, said where it is not the usual one."""
+    from jumpcad.simulation.engines import ENGINES, default_engine
+
+    if asked == "both":
+        return list(ENGINES)
+    if asked is not None:
+        return [asked]
+    engine = default_engine()
+    if engine != ENGINES[0]:
+        print(f"jumpcad: {ENGINES[0]} is not installed; simulated with {engine}", file=sys.stderr)
+    return [engine]
+
+
+def _settings(name: str, flight: bool, trajectory: bool) -> "Settings":
+    from jumpcad.simulation import load_settings
+
+    settings = load_settings(name)
+    changes: dict[str, Any] = {"flight": "simulated"} if flight else {}
+    if trajectory:
+        changes["trajectory"] = True
+    return settings.model_copy(update=changes)
+
+
+def _jumps(robot: "Robot", settings: "Settings", engines: list[str]) -> "list[Jump]":
+    from jumpcad.simulation import simulate as simulate_jump
+
+    return [simulate_jump(robot, settings, engine) for engine in engines]
+
+
+def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None:
+    if as_json:
+        results = [jump.to_dict() for jump in jumps]
+        if len(jumps) == 1:
+            print_json(heading | results[0])
+        else:
+            engines = {jump.engine: result for jump, result in zip(jumps, results, strict=True)}
+            print_json({**heading, "engines": engines, "range_difference_percent": _difference_percent(jumps)})
+        return
+    print(f"{heading['design']}, {heading['model']} robot, settings {heading['settings']}")
+    for jump in jumps:
+        print(f"{jump.engine}: {jump.verdict}")
+        for finding in jump.findings:
+            if finding.severity == "error":
+                print(f"  {finding.message}; {finding.remedy}")
+        for label, name, form in LINES:
+            value = getattr(jump, name)
+            if value is not None:
+                print(f"  {label:<36}{form.format(value)}")
+        if jump.energy:
+            print("  where the springs' energy is at take-off, J:")
+            for name, value in asdict(jump.energy).items():
+                print(f"    {name.removesuffix('_j').replace('_', ' '):<34}{value:.4f}")
+        if jump.published:
+            for name, quantity in asdict(jump.published).items():
+                shown = "none" if quantity is None else f"{quantity:.4f} m"
+                print(f"  {'published ' + name.removesuffix('_m').replace('_', ' '):<36}{shown}")
+    difference = _difference_percent(jumps)
+    if difference is not None:
+        print(f"{jumps[1].engine} jumps {difference:+.3f} % of the range of {jumps[0].engine}")
+
+
+def _difference_percent(jumps: "list[Jump]") -> float | None:
+    """Return by how much the second engine's range differs from the first's, if both jump."""
+    ranges = [jump.ballistic_range_m for jump in jumps]
+    if len(ranges) != 2 or ranges[0] is None or ranges[1] is None:
+        return None
+    return 100.0 * (ranges[1] / ranges[0] - 1.0)
+
+
+def _write_trajectory(path: Path, jump: "Jump") -> None:
+    """Write the trajectory, one row or object a moment; a refused design has none."""
+    from jumpcad.files import write_text_atomically
+
+    if jump.trajectory is None:
+        return
+    if path.suffix == ".json":
+        columns = {name: values.tolist() for name, values in jump.trajectory.columns().items()}
+        write_text_atomically(path, json.dumps(columns, indent=1) + "\n")
+        return
+    text = io.StringIO()
+    table = csv.DictWriter(text, fieldnames=list(jump.trajectory.columns()), lineterminator="\n")
+    table.writeheader()
+    table.writerows(jump.trajectory.rows())
+    write_text_atomically(path, text.getvalue())

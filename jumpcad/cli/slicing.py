@@ -1,0 +1,115 @@
+"""`jumpcad slice`: what a slicer says of a bundle's parts and plates."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jumpcad.cli.output import JsonFlag, print_json
+
+if TYPE_CHECKING:
+    from jumpcad.sliced_bundle import SlicedBundle
+
+WIDE = 120
+"""Columns of a table that holds the longest names of parts."""
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module."""
+    app.command("slice")(slice_command)
+
+
+def slice_command(
+    bundle: Annotated[Path, typer.Argument(help="A bundle's folder.", metavar="BUNDLE")],
+    workshop: Annotated[
+        str | None, typer.Option(help="Print it as another workshop does: a template's name or a file.")
+    ] = None,
+    write_masses: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write the workshop, complete, with the sliced grams as weighed masses.", metavar="FILE.toml"
+        ),
+    ] = None,
+    as_json: JsonFlag = False,
+) -> None:
+    """Slice a bundle with PrusaSlicer: grams beside the mass model, printing times, settings that it ignored."""
+    from rich.console import Console
+
+    from jumpcad.files import require_new_toml, write_text_atomically
+    from jumpcad.sliced_bundle import slice_bundle
+    from jumpcad.workshop import load_workshop
+
+    if write_masses is not None:
+        require_new_toml(write_masses)
+    printed_by = load_workshop(workshop) if workshop else None
+    with Console(stderr=True).status("slicing …") as status:
+        found = slice_bundle(bundle, printed_by, lambda name: status.update(f"slicing {name} …"))
+    if write_masses is not None:
+        require_new_toml(write_masses)  # once more: slicing takes a minute
+        write_text_atomically(write_masses, found.weighed.to_toml())
+    if as_json:
+        print_json(_facts(bundle, found) | {"workshop": write_masses and str(write_masses)})
+        return
+    _tell(found)
+    if write_masses is not None:
+        print(f"written   {write_masses}: try jumpcad build DESIGN --workshop {write_masses}")
+
+
+def _facts(bundle: Path, found: "SlicedBundle") -> dict[str, Any]:
+    return {
+        "bundle": str(bundle),
+        "slicer": found.version,
+        "ignored": {key: {"asked": asked, "used": used} for key, (asked, used) in found.ignored.items()},
+        "parts": [vars(part) | {"difference": part.difference} for part in found.parts],
+        "plates": [vars(plate) for plate in found.plates],
+        "grams": sum(plate.grams for plate in found.plates),
+        "time_s": sum(plate.time_s for plate in found.plates),
+    }
+
+
+def _tell(found: "SlicedBundle") -> None:
+    _print_table(
+        ("part", "quantity", "material", "g each", "model g", "model", "time each"),
+        [
+            (
+                part.name,
+                str(part.quantity),
+                part.material,
+                f"{part.grams:.2f}",
+                f"{part.modelled_grams:.2f}",
+                f"{100.0 * part.difference:+.1f} %",
+                duration(part.time_s),
+            )
+            for part in found.parts
+        ],
+    )
+    print()
+    plates = [(plate.name, plate.material, f"{plate.grams:.2f}", duration(plate.time_s)) for plate in found.plates]
+    grams, seconds = sum(plate.grams for plate in found.plates), sum(plate.time_s for plate in found.plates)
+    _print_table(("plate", "material", "g", "time"), [*plates, ("all", "", f"{grams:.2f}", duration(seconds))])
+    print()
+    print(f"slicer    PrusaSlicer {found.version}")
+    for key, (asked, used) in found.ignored.items():
+        print(f"ignored   {key} = {asked}: the slicer used {used}")
+    if not found.ignored:
+        print("settings  all taken over")
+
+
+def _print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print a table as wide as it needs to be; columns of figures are set right."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False)
+    for number, title in enumerate(head):
+        table.add_column(title, justify="right" if rows[0][number][:1] in "+-0123456789" else "left", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    Console(width=WIDE).print(table)
+
+
+def duration(seconds: float) -> str:
+    """Return a time in hours and minutes, rounded to whole minutes: `2:31 h`."""
+    hours, minutes = divmod(round(seconds / 60.0), 60)
+    return f"{hours}:{minutes:02d} h"

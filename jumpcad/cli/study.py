@@ -1,0 +1,102 @@
+"""`jumpcad study`: what a study holds, in figures, tables and pictures."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.searching import PlotsOption, row_data
+from jumpcad.errors import JumpcadError
+
+if TYPE_CHECKING:
+    from jumpcad.search.ledger import Ledger
+
+StudiesArgument = Annotated[
+    list[Path], typer.Argument(help="One study to look at, or several to compare.", metavar="F.db…")
+]
+ExportOption = Annotated[Path | None, typer.Option(help="Write all rows to FILE.csv or FILE.parquet.", metavar="FILE")]
+ListOption = Annotated[int, typer.Option("--list", help="Show the best rows.", metavar="COUNT")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module."""
+    app.command()(study)
+
+
+def study(
+    files: StudiesArgument,
+    best: ListOption = 5,
+    export: ExportOption = None,
+    plots: PlotsOption = None,
+    as_json: JsonFlag = False,
+) -> None:
+    """Show a study, also while it runs; compare several; export the rows."""
+    from jumpcad.search.ledger import Ledger
+    from jumpcad.search.table import write_table
+
+    if len(files) > 1 and (export or plots):
+        raise JumpcadError("--export and --plots are for one study; name one file")
+    summaries = []
+    for file in files:
+        with Ledger.read(file) as ledger:
+            summaries.append(_summary(file, ledger, best))
+            if export is not None:
+                write_table(ledger.rows(), export)
+            if plots is not None:
+                from jumpcad.report.studies import plot_study
+
+                summaries[-1]["pictures"] = [str(picture) for picture in plot_study(ledger, plots)]
+    if as_json:
+        print_json(summaries[0] if len(files) == 1 else {"studies": summaries})
+    elif len(files) == 1:
+        _print_one(summaries[0])
+    else:
+        _print_comparison(summaries)
+
+
+def _summary(file: Path, ledger: "Ledger", best: int) -> dict[str, Any]:
+    from jumpcad.search.study import best_row, count_refusals, search_rows
+
+    rows, identity = ledger.rows(), ledger.identity
+    searched = search_rows(rows)
+    top = sorted((row for row in searched if row.score is not None), key=lambda row: -(row.score or 0.0))[:best]
+    winner = best_row(searched)
+    return {
+        "study": str(file),
+        "identity": identity,
+        "planned": sum(stage["evaluations"] for stage in ledger.recall("stages", [])),
+        "evaluations": len(searched),
+        "other_evaluations": len(rows) - len(searched),
+        "refused": count_refusals(searched),
+        "evaluation_time_s": sum(row.duration_s for row in rows),
+        "best": None if winner is None else row_data(winner),
+        "top": [row_data(row) for row in top],
+        "quarantined": [row_data(row) for row in rows if row.evaluation.verdict == "quarantined"],
+        "notes": ledger.notes(),
+    }
+
+
+def _print_one(summary: dict[str, Any]) -> None:
+    identity = summary["identity"]
+    print(f"{summary['study']}: {identity['method']} on the {identity['model']['name']} robot, {identity['objective']}")
+    print(
+        f"{summary['evaluations']} of {summary['planned']} designs, and {summary['other_evaluations']} around the best"
+    )
+    for name, count in summary["refused"].items():
+        print(f"  refused {count:6d}  {name}")
+    for note in summary["notes"]:
+        print(f"  note: {note}")
+    for number, row in enumerate(summary["top"], start=1):
+        values = "  ".join(f"{value:.5g}" for value in row["design"].values())
+        print(f"{number:3d}. {row['score']:10.4f}  {row['phase']:6s}  {values}")
+
+
+def _print_comparison(summaries: list[dict[str, Any]]) -> None:
+    for summary in summaries:
+        identity, best = summary["identity"], summary["best"]
+        score = "none" if best is None else f"{best['score']:.4f}"
+        print(
+            f"{summary['study']}: best {identity['objective']} {score} in {summary['evaluations']} designs "
+            f"({identity['method']}, {identity['model']['name']}, seed {identity['seed']})"
+        )

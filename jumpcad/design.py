@@ -1,0 +1,162 @@
+"""The eight numbers of a jumping robot, and what follows from them alone.
+
+Symbols are those of the published study: the body carries the main leg (link a, length l2) at the back and the front
+link (link c, l3) at the front; foot link d (l4) joins their ends; two toes (link e, l5) reach backwards from the
+ankle. At rest the legs are parallel, the foot is flat and the body is tilted by beta.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Self
+
+from pydantic import Field
+
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files import Record, find_template, to_toml
+
+
+class Design(Record):
+    """Eight parameters of a Kovac-type jumper, each within what is physically meaningful.
+
+    The limits here say what a design can be; the narrower box in which a search looks is `SEARCH_BOUNDS`.
+    """
+
+    carrying_link_mm: Annotated[float, Field(ge=20, le=400, description="length of the main leg, l2")]
+    c_coef: Annotated[float, Field(ge=0.3, le=3, description="front link over main leg, l3 / l2")]
+    d_coef: Annotated[float, Field(ge=0.1, le=3, description="foot link over main leg, l4 / l2")]
+    e_coef: Annotated[float, Field(ge=0.1, le=3, description="toe over main leg, l5 / l2")]
+    compression_ratio: Annotated[float, Field(ge=0.01, le=0.99, description="wound part of the angle to a flat leg")]
+    rest_angle_deg: Annotated[float, Field(ge=5, le=90, description="angle between body and legs at rest")]
+    stiffness_nmm_per_deg: Annotated[float, Field(ge=0.1, le=200, description="of both springs together")]
+    ground_link_angle_deg: Annotated[float, Field(ge=1, le=89, description="each toe from the foot's centre line")]
+
+    @classmethod
+    def from_vector(cls, vector: Sequence[float]) -> Self:
+        """Make a design from 8 floats in the order of `PARAMETERS`."""
+        if len(vector) != len(PARAMETERS):
+            raise JumpcadError(f"a design vector has {len(PARAMETERS)} values, not {len(vector)}")
+        return cls(**{name: float(value) for name, value in zip(PARAMETERS, vector, strict=True)})
+
+    def to_vector(self) -> list[float]:
+        """Return the 8 parameters as floats, in the order of `PARAMETERS`."""
+        return [float(getattr(self, name)) for name in PARAMETERS]
+
+    def to_toml(self) -> str:
+        """Return the design as a TOML document."""
+        return to_toml(dict(zip(PARAMETERS, self.to_vector(), strict=True)))
+
+    @property
+    def l2_mm(self) -> float:
+        """Main leg, back pivot to ankle (mm)."""
+        return self.carrying_link_mm
+
+    @property
+    def l3_mm(self) -> float:
+        """Front link, front pivot to front eye (mm)."""
+        return self.c_coef * self.carrying_link_mm
+
+    @property
+    def l4_mm(self) -> float:
+        """Foot, ankle to front eye (mm)."""
+        return self.d_coef * self.carrying_link_mm
+
+    @property
+    def l5_mm(self) -> float:
+        """Each toe, ankle to tip (mm)."""
+        return self.e_coef * self.carrying_link_mm
+
+    @property
+    def l_max_mm(self) -> float:
+        """Longest link, the body length of the fitness: max(l2, l3, l5) (mm)."""
+        return max(self.l2_mm, self.l3_mm, self.l5_mm)
+
+    @property
+    def assembly_margin_mm(self) -> float:
+        """By how much an assembled pose exists, with parallel legs, a flat foot and l1 > 0 (mm).
+
+        The foot spans the legs' difference in height at rest, and the front link's surplus when the legs lie flat.
+        """
+        surplus = self.l3_mm - self.l2_mm
+        return self.l4_mm - max(abs(surplus) * math.sin(math.radians(self.rest_angle_deg)), surplus)
+
+    @property
+    def beta_rad(self) -> float:
+        """Tilt of the body at rest, nose up (rad).
+
+        Raises
+        ------
+        CannotBuildError
+            If no assembled pose exists.
+        """
+        missing = -self.assembly_margin_mm
+        if missing >= 0:
+            raise CannotBuildError(
+                f"no assembled pose: for legs of {self.l2_mm:g} and {self.l3_mm:g} mm the foot l4 = {self.l4_mm:.1f} "
+                f"mm must be more than {self.l4_mm + missing:.1f} mm: bring c_coef = {self.c_coef:g} nearer to 1 or "
+                f"raise d_coef = {self.d_coef:g}"
+            )
+        rise = (self.l3_mm - self.l2_mm) * math.sin(math.radians(self.rest_angle_deg))
+        return math.asin(rise / self.l4_mm)
+
+    @property
+    def l1_mm(self) -> float:
+        """Distance between the two body pivots, l4·sin(rest - beta)/sin(rest) (mm)."""
+        rest = math.radians(self.rest_angle_deg)
+        return self.l4_mm * math.sin(rest - self.beta_rad) / math.sin(rest)
+
+    @property
+    def compression_rad(self) -> float:
+        """Angle by which the springs are wound before release, ratio·(rest + beta) (rad)."""
+        return self.compression_ratio * (math.radians(self.rest_angle_deg) + self.beta_rad)
+
+    @property
+    def stiffness_nm_per_rad(self) -> float:
+        """Stiffness of both springs together (N·m/rad)."""
+        return self.stiffness_nmm_per_deg * 180.0 / math.pi / 1000.0
+
+    @property
+    def spring_energy_j(self) -> float:
+        """Energy that the wound springs hold, ½·k·δ² (J)."""
+        return 0.5 * self.stiffness_nm_per_rad * self.compression_rad**2
+
+    @property
+    def peak_spring_torque_nm(self) -> float:
+        """Torque of both springs together at full compression, k·δ (N·m)."""
+        return self.stiffness_nm_per_rad * self.compression_rad
+
+
+PARAMETERS: tuple[str, ...] = tuple(Design.model_fields)
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """Lower and upper limit of one searched parameter, in the parameter's own unit."""
+
+    lower: float
+    upper: float
+
+
+SEARCH_BOUNDS: dict[str, Bounds] = {
+    "carrying_link_mm": Bounds(100.0, 200.0),
+    "c_coef": Bounds(0.8, 1.2),
+    "d_coef": Bounds(0.5, 0.9),
+    "e_coef": Bounds(0.6, 1.4),
+    "compression_ratio": Bounds(0.1, 0.8),
+    "rest_angle_deg": Bounds(20.0, 70.0),
+    "stiffness_nmm_per_deg": Bounds(5.0, 30.0),
+    "ground_link_angle_deg": Bounds(10.0, 80.0),
+}
+"""The box that the published study searched (both prototypes lie outside it, with a rest angle of 88.2°)."""
+
+
+def load_design(name_or_path: str | Path) -> Design:
+    """Return the design of a template (`kenan-2.0`) or of a TOML file.
+
+    Raises
+    ------
+    JumpcadError
+        If there is no such file, or a key is missing, unknown or out of range.
+    """
+    return Design.from_toml(find_template("robots", name_or_path))

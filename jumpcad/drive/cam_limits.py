@@ -1,0 +1,196 @@
+"""What a cam must respect, and how far a shape is from it, many shapes at once. Notation as in `cam`.
+
+Turned about the hub, a cam stays the same cam, so its shape has three numbers: the lever, the distance from the circle
+of the lever's end to the cam's axis (the gap), and the lever's lead over the direction of that axis.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.drive.cam import Array, CamLaw
+
+
+@dataclass(frozen=True)
+class CamLimits:
+    """What a cam must respect; lengths in mm, angles in rad.
+
+    Attributes
+    ----------
+    lift_rad, ramp_rad
+        Cam angle of the lift and of its ramp; what is left of the turn is for release and drop.
+    roller_radius_mm, roller_load_n, cam_width_mm
+        Roller and its static load rating (a 623 bearing by default), and the width on which it runs.
+    hub_radius_mm, clearance_mm
+        What lies around the leg's pivot in the cam's plane (hub or spring), and the gap between it and the cam. Leg
+        and lever lie beside that plane.
+    gap_min_mm
+        Least distance from the circle of the lever's end to the cam's axis, for the axle that crosses the lever's
+        plane.
+    core_radius_mm
+        Material around the cam's axis that nothing may cut into (bore and key).
+    pressure_angle_rad, undercut_margin_mm
+        Largest pressure angle; least profile radius where the pitch curve is convex.
+    overshoot_rad
+        How far the leg may swing past rest before the roller meets the cam.
+    reserve_rad
+        How far the cam may turn on after the roller's fall while that room stays free.
+    axis_max_rad, axis_min_rad
+        Direction of the cam's axis from the hub, counter-clockwise from forward: as far back as wished, at most.
+    lever_wound_max_rad
+        Direction of the wound lever, at most (level with the pivots is pi).
+    lowest_mm
+        The cam stays above this height over the hub.
+    lever_max_mm, gap_max_mm, lead_max_rad
+        Where the search ends: lever, distance from the lever's circle to the cam's axis, lead of the lever over it.
+    modulus_mpa, poisson, pressure_mpa
+        Of the cam's material, against a steel roller. Rolling line contact shakes down to an elastic state up to 4k, k
+        the yield strength in shear (Johnson, Contact Mechanics, 9.2): 104 MPa for a printed PETG that yields at 45 MPa
+        in tension (judgement), less 15 %.
+    """
+
+    lift_rad: float = math.radians(310)
+    ramp_rad: float = math.radians(30)
+    roller_radius_mm: float = 5.0
+    roller_load_n: float = 220.0
+    cam_width_mm: float = 3.4
+    hub_radius_mm: float = 4.5
+    clearance_mm: float = 0.5
+    gap_min_mm: float = 8.5
+    core_radius_mm: float = 4.9
+    pressure_angle_rad: float = math.radians(45)
+    undercut_margin_mm: float = 0.5
+    overshoot_rad: float = math.radians(5)
+    reserve_rad: float = math.radians(8)
+    axis_max_rad: float = math.radians(115)
+    axis_min_rad: float = math.radians(60)
+    lever_wound_max_rad: float = math.pi
+    lowest_mm: float = 0.0
+    lever_max_mm: float = 45.0
+    gap_max_mm: float = 50.0
+    lead_max_rad: float = math.radians(45)
+    modulus_mpa: float = 2200.0
+    poisson: float = 0.38
+    pressure_mpa: float = 90.0
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A checked limit: its finding's name and unit, the size of a margin that counts as 1, and words."""
+
+    name: str
+    unit: str
+    scale: float
+    message: str
+    remedy: str
+
+
+_WIND_LESS = "lower compression_ratio"
+LIMITS = (
+    Limit("cam_pressure_angle", "rad", 0.1, "pressure angle below its limit", f"{_WIND_LESS}, or a larger cam"),
+    Limit("cam_undercut", "mm", 1.0, "convex radius of the profile above its limit", "a smaller roller"),
+    Limit("cam_contact", "MPa", 10.0, "contact pressure below its limit",
+           "lower stiffness_nmm_per_deg or compression_ratio, or a wider cam"),
+    Limit("cam_roller_load", "N", 10.0, "force on the roller below its static rating",
+           "lower stiffness_nmm_per_deg or compression_ratio, or a larger roller"),
+    Limit("cam_core", "mm", 1.0, "material left around the cam's axis, beyond the core", f"{_WIND_LESS}"),
+    Limit("cam_hub", "mm", 1.0, "gap between cam and hub, beyond the clearance",
+           f"{_WIND_LESS}, or a thinner hub (hub_radius_mm)"),
+    Limit("cam_drop", "rad", 0.1, "cam angle left between the roller's fall and the next lift",
+           "a shorter lift (lift_rad) or a smaller roller"),
+    Limit("cam_next_lift", "mm", 1.0, "gap between the leg past rest and the next lift, beyond the clearance",
+           "a shorter lift (lift_rad) or a smaller overshoot_rad"),
+    Limit("cam_overshoot", "rad", 0.1, "room for the leg past rest, beyond the overshoot", "a smaller overshoot_rad"),
+    Limit("cam_place", "rad", 0.1, "range of directions in which the cam finds room around the hub", _WIND_LESS),
+)  # fmt: skip
+
+
+ROWS = np.array([0, 0, 1, 1, 2, 2, 3, 4, 4, 5, 6, 7, 7, 7, 8, 8, 9])
+"""The limit of every row of margins. A limit that several things can set has a row for each: all rows are smooth."""
+FIRST_ROWS = np.flatnonzero(np.diff(ROWS, prepend=-1))
+SCALES = np.array([LIMITS[row].scale for row in ROWS])
+
+
+def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tuple[Array, Array, dict[str, Array]]:
+    """Return outer radii (n,), margins (rows, n) and key figures of shapes (n, 3) at some samples of the lift.
+
+    Points are complex numbers, with the hub at 0 and the cam's axis at the real number `axis`. The pitch curve's
+    tangent is i·W with W = L(1 + theta')u - axis, as in `CamGeometry.normal`; the pressure angle a has
+    cos a = axis·sin(psi)/|W|; the curvature is (|W|² + W x W')/|W|³.
+    """
+    roller, clearance = limits.roller_radius_mm, limits.clearance_mm
+    # The law's second derivative jumps where the ramp ends: the sharpest curvature is just behind it.
+    ramp = np.linspace(0.0, law.ramp_rad, samples // 4, endpoint=False)
+    rest = law.ramp_rad + (law.lift_rad - law.ramp_rad) * np.linspace(0.0, 1.0, samples - samples // 4) ** 2
+    cam = np.concatenate([ramp, rest])
+    wind, first, second = law.derivatives(cam)
+    lever, axis, lead = shapes[:, 0, None], shapes[:, :2].sum(axis=1)[:, None], shapes[:, 2, None]
+    psi = lead + wind
+    direction = np.exp(1j * psi)
+    arm = lever * (1 + first)
+    normal = arm * direction - axis
+    length = np.abs(normal)
+    cos_pressure = axis * direction.imag / length
+    turning = arm**2 * first - axis * (lever * second * direction.imag + arm * first * direction.real)
+    curvature = 1 / length + turning / length**3
+    force = 1000 * law.stiffness_nm_per_rad * wind / (lever * np.maximum(cos_pressure, 1e-3))
+    # Hertz, line contact of a steel roller (stiff) on a profile of radius 1/curvature - roller.
+    flatness = roller * np.maximum(1 - roller * curvature, 1e-3)
+    modulus = limits.modulus_mpa / (1 - limits.poisson**2)
+    pressure = np.sqrt(force * modulus / (math.pi * limits.cam_width_mm * flatness))
+    touched = lever * direction - axis - roller * normal / length
+
+    lever, axis, past = lever[:, 0], axis[:, 0], lead[:, 0] - limits.overshoot_rad
+    tip = touched[:, -1]
+    outer = np.abs(tip)
+    reach = lever + roller + clearance
+    cos_free = (reach**2 - axis**2 - outer**2) / (2 * axis * outer)
+    free = np.arccos(np.clip(cos_free, -1.0, 1.0))
+    corner = np.angle(axis + outer * np.exp(1j * free))
+    bottom = lever * np.exp(1j * past) - axis
+    fallen = law.lift_rad + np.mod(np.angle(tip) - free, 2 * math.pi) + limits.reserve_rad
+    # The edge where the next lift begins, as it stands when the leg swings past rest.
+    edge = touched[:, 0] * np.exp(-1j * fallen)
+    swung = lever * np.exp(1j * (past + limits.overshoot_rad * np.array([[0.0], [0.5], [1.0]]))) - axis
+    edge_gap = np.abs(edge - swung) - roller - clearance
+    relief = np.abs(bottom) - roller - clearance
+    face = np.abs(reach * np.exp(1j * past) - axis)
+    highest, lowest = axis_range(law, limits, axis, lead[:, 0], outer)
+
+    # The extremes lie at either end of the lift or just behind the ramp, so each half is smooth in the shape.
+    halves = [0, 2 * len(ramp)]
+    pressure_angle = np.arccos(np.clip(np.minimum.reduceat(cos_pressure, halves, axis=1), -1.0, 1.0))
+    convex_radius = 1 / np.maximum(np.maximum.reduceat(curvature, halves, axis=1), 1e-9)
+    peak_pressure = np.maximum.reduceat(pressure, halves, axis=1)
+    margins = np.column_stack([
+        limits.pressure_angle_rad - pressure_angle,
+        convex_radius - roller - limits.undercut_margin_mm,
+        limits.pressure_mpa - peak_pressure,
+        limits.roller_load_n - force.max(axis=1),
+        relief - limits.core_radius_mm,
+        face - limits.core_radius_mm,
+        axis - outer - limits.hub_radius_mm - clearance,
+        np.where(np.abs(cos_free) <= 1, 2 * math.pi - fallen, -1.0),
+        edge_gap.T,
+        corner - past,
+        past,
+        highest - lowest,
+    ])  # fmt: skip
+    numbers = {
+        "pressure_angle": pressure_angle.max(axis=1),
+        "convex_radius": convex_radius.min(axis=1),
+        "force": force.max(axis=1),
+        "pressure": peak_pressure.max(axis=1),
+    }
+    return outer, margins.T, numbers
+
+
+def axis_range(law: CamLaw, limits: CamLimits, axis: Array, lead: Array, outer: Array) -> tuple[Array, Array]:
+    """Return the highest and lowest direction (n,) of the cam's axis that its place and the lever allow."""
+    above = np.arcsin(np.clip((outer + limits.lowest_mm) / axis, -1.0, 1.0))
+    highest = np.minimum(
+        np.minimum(limits.axis_max_rad, limits.lever_wound_max_rad - law.compression_rad - lead), math.pi - above
+    )
+    lowest = np.maximum(limits.axis_min_rad, above)
+    return highest, lowest

@@ -1,0 +1,188 @@
+"""The smallest cam that meets every limit.
+
+A coarse grid over the three numbers of a cam's shape gives the start, sequential quadratic programming the optimum,
+always in the same way; the direction of the cam's axis follows from where there is room.
+"""
+
+import itertools
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy import optimize
+
+from jumpcad.drive.cam import Array, Cam, CamGeometry, CamLaw
+from jumpcad.drive.cam_limits import FIRST_ROWS, LIMITS, ROWS, SCALES, CamLimits, axis_range, measure
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding
+
+
+def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
+    """Find the smallest cam for a law: outer radius first, then lever and distance of the axis.
+
+    Raises
+    ------
+    CannotBuildError
+        If no shape meets every limit.
+    """
+    search = _Shapes(law, limits)
+    for _ in range(4):
+        shape, fits = search.best()
+        outer, margins, numbers = measure(law, limits, shape[None], samples=181)
+        fine = bool((margins[:, 0] > -1e-9).all())
+        if fine or not fits:
+            break
+        search.allow_for(shape, margins[:, 0])
+    margin = np.minimum.reduceat(margins[:, 0], FIRST_ROWS)
+    if not fine:
+        raise CannotBuildError(_refusal(law, margin))
+    geometry = _geometry(law, limits, shape, outer)
+    outline = geometry.outline_mm()
+    radii = np.hypot(*outline.T)
+    return Cam(
+        geometry=geometry,
+        profile_mm=outline,
+        pitch_mm=geometry.pitch_mm(np.linspace(0.0, law.lift_rad, 181)),
+        outer_radius_mm=float(radii.max()),
+        core_radius_mm=float(radii.min()),
+        max_pressure_angle_rad=float(numbers["pressure_angle"][0]),
+        min_convex_radius_mm=float(numbers["convex_radius"][0]),
+        peak_contact_n=float(numbers["force"][0]),
+        contact_pressure_mpa=float(numbers["pressure"][0]),
+        findings=tuple(
+            Finding(limit.name, "info", float(value), limit.unit, limit.message, limit.remedy)
+            for limit, value in zip(LIMITS, margin, strict=True)
+        ),
+    )
+
+
+def _refusal(law: CamLaw, margin: Array) -> str:
+    missing = margin / SCALES[FIRST_ROWS]
+    binding = [i for i in np.argsort(missing) if missing[i] < 0.7 * missing.min()]
+    missed = ", ".join(f"{LIMITS[i].message} ({-margin[i]:.2g} {LIMITS[i].unit} short)" for i in binding)
+    return (
+        f"no cam winds the leg by {math.degrees(law.compression_rad):.1f}° against "
+        f"{law.stiffness_nm_per_rad * law.compression_rad:.2f} N·m; the nearest one misses: {missed}: "
+        f"{LIMITS[binding[0]].remedy}"
+    )
+
+
+class _Shapes:
+    """The search for a shape: logarithms of lever (mm), gap from lever to axis (mm) and lead (rad), shape (3,)."""
+
+    STEP = 1e-6
+
+    def __init__(self, law: CamLaw, limits: CamLimits) -> None:
+        self.law, self.limits = law, limits
+        self.reserve = np.full(len(ROWS), 1e-4)
+        lever_min = limits.hub_radius_mm + limits.roller_radius_mm + limits.clearance_mm
+        self.lower = np.log([lever_min, max(limits.gap_min_mm, limits.core_radius_mm), limits.overshoot_rad])
+        self.upper = np.log([limits.lever_max_mm, limits.gap_max_mm, limits.lead_max_rad])
+        if (self.lower >= self.upper).any():
+            raise CannotBuildError(
+                f"no lever from {lever_min:.1f} mm (hub, roller and clearance) to {limits.lever_max_mm:g} mm with the "
+                f"cam's axis {limits.gap_min_mm:.1f} to {limits.gap_max_mm:g} mm beyond it and at least "
+                f"{math.degrees(limits.overshoot_rad):.1f}° of overshoot: make hub, roller or core smaller"
+            )
+        self.known: dict[bytes, tuple[float, Array, Array, Array]] = {}
+
+    def best(self) -> tuple[Array, bool]:
+        """Return the shape (3,) itself, and whether it meets every limit with the reserve; else it is the least bad.
+
+        Sequential quadratic programming from the best point of a coarse grid; where that ends outside the limits, it
+        starts again from where the largest violation is smallest.
+        """
+        self.known.clear()
+        starts = self._coarse()
+        for start in starts:
+            shape = self._smallest(start)
+            if not self._fits(shape):
+                starts[0] = start = self._least_bad(start)
+                shape = self._smallest(start) if self._fits(start) else start
+            if self._fits(shape):
+                return np.exp(shape), True
+        nearest = max(starts, key=lambda logs: float(self._at(logs)[2].min()))
+        return np.exp(nearest), False
+
+    def allow_for(self, shape: Array, margin: Array) -> None:
+        """Ask for what the coarse samples of the search hid at a shape (3,) whose true margins are known."""
+        hidden = self._at(np.log(shape))[2] + self.reserve - margin / SCALES
+        self.reserve = np.maximum(self.reserve, 1.05 * hidden + 1e-4)
+
+    def _fits(self, logs: Array) -> bool:
+        return float(self._at(logs)[2].min()) >= -1e-5
+
+    def _coarse(self) -> list[Array]:
+        """Return the best points of a coarse grid, one a lever."""
+        grid = np.array(list(itertools.product(*np.linspace(self.lower, self.upper, 7).T)))
+        size, margins = self._size_and_margins(grid, samples=12)
+        missing = np.log1p(np.maximum(-margins, 0.0)).sum(axis=0)
+        rank = np.where(missing > 0, 1e6 + missing, size).reshape(7, -1)
+        order = np.argsort(rank.min(axis=1))[:3]
+        return list(grid.reshape(7, -1, 3)[order, rank.argmin(axis=1)[order]])
+
+    def _smallest(self, start: Array) -> Array:
+        """Return where the size is smallest, every margin positive."""
+        return _constrained_minimum(
+            lambda logs: self._at(logs)[:2],
+            lambda logs: self._at(logs)[2:],
+            start,
+            list(zip(self.lower, self.upper, strict=True)),
+        )
+
+    def _least_bad(self, start: Array) -> Array:
+        """Return where the largest violation is smallest: least t with every margin above -t."""
+        violation = max(0.0, -float(self._at(start)[2].min()))
+        last = np.array([0.0, 0.0, 0.0, 1.0])
+
+        def margins(point: Array) -> tuple[Array, Array]:
+            _, _, values, slopes = self._at(point[:3])
+            return values + point[3], np.column_stack([slopes, np.ones(len(values))])
+
+        bounds = [*zip(self.lower, self.upper, strict=True), (-0.05, None)]
+        return _constrained_minimum(lambda point: (point[3], last), margins, np.append(start, violation), bounds)[:3]
+
+    def _at(self, logs: Array) -> tuple[float, Array, Array, Array]:
+        """Return size, its gradient (3,), margins (rows,) and their gradients (rows, 3) at one point."""
+        key = logs.tobytes()
+        if key not in self.known:
+            size, margins = self._size_and_margins(np.vstack([logs, logs + self.STEP * np.eye(3)]), samples=25)
+            size_slope, margin_slope = (size[1:] - size[0]) / self.STEP, (margins[:, 1:] - margins[:, :1]) / self.STEP
+            self.known[key] = float(size[0]), size_slope, margins[:, 0], margin_slope
+        return self.known[key]
+
+    def _size_and_margins(self, logs: Array, samples: int) -> tuple[Array, Array]:
+        shapes = np.exp(logs)
+        outer, margins, _ = measure(self.law, self.limits, shapes, samples)
+        return outer + 0.1 * (2 * shapes[:, 0] + shapes[:, 1]), margins / SCALES[:, None] - self.reserve[:, None]
+
+
+def _constrained_minimum(
+    objective: Callable[[Array], tuple[float, Array]],
+    margins: Callable[[Array], tuple[Array, Array]],
+    start: Array,
+    bounds: Any,
+) -> Array:
+    """Return where a function is least with every margin positive; both come with their gradients."""
+    constraints: Any = {"type": "ineq", "fun": lambda x: margins(x)[0], "jac": lambda x: margins(x)[1]}
+    found = optimize.minimize(
+        objective, start, jac=True, bounds=bounds, constraints=constraints, method="SLSQP",
+        options={"maxiter": 25, "ftol": 1e-5},
+    )  # fmt: skip
+    return np.asarray(found.x)
+
+
+def _geometry(law: CamLaw, limits: CamLimits, shape: Array, outer: Array) -> CamGeometry:
+    lever, gap, lead = (float(value) for value in shape)
+    highest, _ = axis_range(law, limits, np.array([lever + gap]), shape[2:], outer)
+    return CamGeometry(
+        law=law,
+        lever_mm=lever,
+        axis_distance_mm=lever + gap,
+        axis_rad=float(highest[0]),
+        lead_rad=lead,
+        roller_radius_mm=limits.roller_radius_mm,
+        clearance_mm=limits.clearance_mm,
+        overshoot_rad=limits.overshoot_rad,
+    )

@@ -1,0 +1,191 @@
+"""Torsion springs, made to order: one left-hand and one right-hand, half of the stiffness each.
+
+Formulas: Shigley, Mechanical Engineering Design, 10-12 (helical torsion springs): stiffness k = E·d⁴/(10.8·D·N) per
+turn with the arms counted as (l1 + l2)/(3·pi·D) turns; bending stress K·32·M/(pi·d³) with K of the inner fibre;
+D·N/(N + turns wound) when wound in the closing direction. Static strength: 0.78 of the tensile strength.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding
+from jumpcad.hardware import Wire
+
+_TURNS_MIN, _INDEX_MIN, _INDEX_MAX = 2.0, 4.0, 16.0
+"""What springs are wound as: at least 2 turns, and 4 to 16 for coil over wire diameter."""
+
+
+@dataclass(frozen=True)
+class SpringLimits:
+    """Room and strength of the springs (mm).
+
+    Attributes
+    ----------
+    mandrel_min_mm, mandrel_clearance_mm
+        The smallest bushing that can carry a coil, and the gap that a wound coil leaves around it, on the diameter.
+    outer_max_mm, body_lengths_max_mm
+        Of the coil. The lengths are those of the wound body, in the order tried: a long, thin spring widens the robot,
+        a short one is larger around the leg's axle.
+    arm_reach_mm, pin_radius_min_mm
+        From the outside of the coil to the pins that hold its arms, and from the axle to those, at least: the body's
+        pin crosses the plane of the main leg.
+    stress_share
+        Allowable bending stress over tensile strength. 0.78 is the yield strength of cold-drawn wire in bending.
+    """
+
+    mandrel_min_mm: float = 5.0
+    mandrel_clearance_mm: float = 0.3
+    outer_max_mm: float = 18.0
+    body_lengths_max_mm: tuple[float, ...] = (10.0, 13.0)
+    arm_reach_mm: float = 5.0
+    pin_radius_min_mm: float = 0.0
+    stress_share: float = 0.78
+
+
+@dataclass(frozen=True)
+class TorsionSpring:
+    """One of the two springs; the other is its mirror image. Lengths in mm.
+
+    Attributes
+    ----------
+    turns
+        Turns of the body at rest, which its maker winds; real-valued, so that the stiffness is the design's exactly.
+    body_length_mm
+        Of the wound, close-coiled body.
+    mandrel_mm
+        Largest bushing that clears the wound coil.
+    arm_length_mm
+        Of each arm, from the coil to its pin.
+    stiffness_nm_per_rad
+        Of this one spring.
+    stress_mpa, allowable_mpa
+        Bending stress when wound, at the inner fibre, and its limit.
+    """
+
+    wire_mm: float
+    inside_diameter_mm: float
+    outer_diameter_mm: float
+    turns: float
+    body_length_mm: float
+    mandrel_mm: float
+    arm_length_mm: float
+    stiffness_nm_per_rad: float
+    stress_mpa: float
+    allowable_mpa: float
+    mass_g: float
+    findings: tuple[Finding, ...]
+    hands: tuple[Literal["left"], Literal["right"]] = ("left", "right")
+
+    @property
+    def pin_radius_mm(self) -> float:
+        """From the axle to the pins that hold the arms, which are tangents of the coil (mm)."""
+        return math.hypot((self.inside_diameter_mm + self.wire_mm) / 2, self.arm_length_mm)
+
+    @property
+    def free_arm_angle_rad(self) -> float:
+        """Angle between the two arms at rest, as the body's part of a turn (rad)."""
+        return 2 * math.pi * (self.turns % 1.0)
+
+
+def synthesise_spring(
+    stiffness_nm_per_rad: float, compression_rad: float, wire: Wire, limits: SpringLimits
+) -> TorsionSpring:
+    """Find the pair of springs with the smallest outer diameter.
+
+    Parameters
+    ----------
+    stiffness_nm_per_rad, compression_rad
+        Of both springs together, and how far they are wound from rest without preload.
+
+    Raises
+    ------
+    CannotBuildError
+        If no wire is strong enough in the room that there is.
+    """
+    torque_nmm = 1000 * stiffness_nm_per_rad * compression_rad / 2
+    for length in limits.body_lengths_max_mm:
+        springs = [
+            spring
+            for d, tensile in zip(wire.diameters_mm, wire.tensile_strength_mpa, strict=True)
+            if (spring := _of_wire(d, tensile, stiffness_nm_per_rad / 2, compression_rad, wire, limits, length))
+        ]
+        if springs:
+            return min(springs, key=lambda spring: (spring.outer_diameter_mm, spring.mass_g))
+    raise CannotBuildError(
+        f"no wire of {wire.diameters_mm[0]:g} to {wire.diameters_mm[-1]:g} mm makes a torsion spring for "
+        f"{torque_nmm:.0f} N·mm at {math.degrees(compression_rad):.1f}° in {limits.outer_max_mm:g} mm diameter and "
+        f"{max(limits.body_lengths_max_mm):g} mm length: lower stiffness_nmm_per_deg or compression_ratio, or give the "
+        "springs more room"
+    )
+
+
+def _of_wire(
+    d: float,
+    tensile_mpa: float,
+    stiffness: float,
+    compression_rad: float,
+    wire: Wire,
+    limits: SpringLimits,
+    length_max_mm: float,
+) -> TorsionSpring | None:
+    """Return the smallest spring of one wire, or nothing where none fits."""
+    wound = compression_rad / (2 * math.pi)
+    allowable = limits.stress_share * tensile_mpa
+    plain_stress = 32 * 1000 * stiffness * compression_rad / (math.pi * d**3)
+    index = _least_index(allowable / plain_stress)
+    # Mean diameter times active turns follows from the stiffness.
+    product = wire.modulus_mpa * d**4 / (10.8 * 1000 * stiffness * 2 * math.pi)
+    arm = 2 * limits.arm_reach_mm
+    mean = 0.0
+    for _ in range(20):
+        body = product - 2 * arm / (3 * math.pi)
+        longest = length_max_mm / d - 1 - wound
+        wound_mean = limits.mandrel_min_mm + limits.mandrel_clearance_mm + d
+        if body <= 0 or longest <= 0 or 1 / wound_mean <= wound / body:
+            return None
+        mean = max(index * d, body / longest, 1 / (1 / wound_mean - wound / body))
+        pin = max(mean / 2 + d / 2 + limits.arm_reach_mm, limits.pin_radius_min_mm)
+        arm = math.sqrt(pin**2 - (mean / 2) ** 2)
+    turns = product / mean - 2 * arm / (3 * math.pi * mean)
+    if turns < _TURNS_MIN or mean > _INDEX_MAX * d or mean + d > limits.outer_max_mm:
+        return None
+    length = d * (turns + 1 + wound)
+    inside_wound = mean * turns / (turns + wound) - d
+    stress = plain_stress * _inner_fibre(mean / d)
+    volume = math.pi / 4 * d**2 * (math.pi * mean * turns + 2 * arm)
+    return TorsionSpring(
+        wire_mm=d,
+        inside_diameter_mm=mean - d,
+        outer_diameter_mm=mean + d,
+        turns=turns,
+        body_length_mm=length,
+        mandrel_mm=inside_wound - limits.mandrel_clearance_mm,
+        arm_length_mm=arm,
+        stiffness_nm_per_rad=stiffness,
+        stress_mpa=stress,
+        allowable_mpa=allowable,
+        mass_g=wire.density_g_cm3 * volume / 1000,
+        findings=(
+            Finding(
+                "spring_stress", "info", allowable - stress, "MPa",
+                f"the wound springs' wire of {d:g} mm bears {stress:.0f} of {allowable:.0f} MPa",
+                "lower stiffness_nmm_per_deg or compression_ratio",
+            ),
+        ),
+    )  # fmt: skip
+
+
+def _inner_fibre(index: float) -> float:
+    """Return the stress correction of the coil's inner fibre at an index D/d."""
+    return (4 * index**2 - index - 1) / (4 * index * (index - 1))
+
+
+def _least_index(correction: float) -> float:
+    """Return the smallest index D/d whose inner-fibre correction is at most what the strength allows."""
+    if correction <= 1:
+        return math.inf
+    b = 4 * correction - 1
+    root = (b + math.sqrt(b**2 - 16 * (correction - 1))) / (8 * (correction - 1))
+    return max(_INDEX_MIN, root)

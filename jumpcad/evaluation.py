@@ -1,0 +1,74 @@
+"""The closed loop: from eight numbers to how far the robot that can be printed from them jumps."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from jumpcad.assembly import build
+from jumpcad.checks import constraint_findings
+from jumpcad.design import Design
+from jumpcad.findings import Finding
+from jumpcad.robot import Robot
+from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.workshop import Workshop
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """A built, simulated and checked design.
+
+    `findings` are those of gate, audit and checks; `metrics` are figures beside the jump's own, by name with unit.
+    """
+
+    robot: Robot
+    jump: Jump
+    findings: tuple[Finding, ...]
+    metrics: dict[str, float]
+
+    @property
+    def verdict(self) -> str:
+        """The jump's verdict."""
+        return self.jump.verdict
+
+    @property
+    def fitness(self) -> float:
+        """Ballistic range over the longest link; 0 for everything but a jump."""
+        return self.jump.fitness
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        return {
+            "design": self.robot.design.model_dump(),
+            "jump": self.jump.to_dict(),
+            "metrics": self.metrics,
+            "findings": [finding.to_dict() for finding in self.findings],
+        }
+
+
+def evaluate(
+    design: Design, workshop: Workshop | None = None, settings: Settings | None = None, engine: str = "pybullet"
+) -> Evaluated:
+    """Build a design in a workshop, let it jump with the mass and inertia of its own parts, and check it.
+
+    A candidate has no name yet, so none is engraved on its plates.
+
+    Raises
+    ------
+    CannotBuildError
+        If the mechanism cannot work or cannot be laid out.
+    """
+    robot = build(design, workshop, name="")
+    jump = simulate(robot, settings, engine)
+    findings = (*jump.findings, *constraint_findings(robot))
+    return Evaluated(robot, jump, findings, _metrics(robot))
+
+
+def _metrics(robot: Robot) -> dict[str, float]:
+    """Return what winding takes, and the masses."""
+    assert robot.plan is not None
+    train = robot.plan.drive.train
+    masses = {f"{name}_mass_kg": body.mass_kg for name, body in robot.bodies.items()}
+    return {
+        "mass_kg": robot.mass_kg,
+        "electrical_energy_j": train.electrical_j,
+        "winding_time_s": train.winding_s,
+    } | masses

@@ -1,0 +1,116 @@
+"""The bundle: one folder with everything that a robot is made, printed and simulated from.
+
+The same robot gives the same bytes.
+"""
+
+import re
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters.bom import bill_of_materials, write_bom
+from jumpcad.exporters.dxf import write_dxfs
+from jumpcad.exporters.folder import write_folder
+from jumpcad.exporters.glb import write_glb
+from jumpcad.exporters.guide import write_guide
+from jumpcad.exporters.manifest import Bundle
+from jumpcad.exporters.mjcf import write_mjcf
+from jumpcad.exporters.plates import packed
+from jumpcad.exporters.sdf import write_sdf
+from jumpcad.exporters.shapes import shapes
+from jumpcad.exporters.step import require_step, write_step
+from jumpcad.exporters.stl import write_stl
+from jumpcad.exporters.threemf import write_threemf
+from jumpcad.exporters.urdf import MESH_FOLDER, write_loop, write_urdf
+from jumpcad.pictures.stills import step_pictures, stills
+from jumpcad.robot import Robot
+from jumpcad.solids.finish import require_part
+
+NAME = re.compile(r"\w[\w .+-]*")
+
+
+def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False) -> Bundle:
+    """Write a robot's bundle.
+
+    Parameters
+    ----------
+    robot
+        With its parts, from `build`.
+    folder
+        Is made, with its parents; may be empty or hold an older bundle, which is replaced as a whole.
+    pictures
+        Whether to draw the robot, which takes most of the time; without PyBullet there are none.
+    step
+        Whether to write STEP files too; needs the extra `step`.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder holds anything else or cannot be written, or the extra for STEP is missing.
+    """
+    if not NAME.fullmatch(robot.name):
+        raise JumpcadError(f"{robot.name!r} names files: use letters, digits, blanks, '.', '-', '+' and '_'")
+    if step:
+        require_step()
+    return write_folder(folder, robot.name, _facts(robot), contents(robot, pictures, step))
+
+
+def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of every file of a bundle but its manifest."""
+    name = robot.name
+    yield "design.toml", robot.design.to_toml()
+    if robot.workshop is not None:
+        yield "workshop.toml", robot.workshop.to_toml()
+    for part in robot.parts:
+        stl = write_stl(part.mesh)
+        require_part(part.name, stl)
+        yield f"stl/{part.name}.stl", stl
+        if step:
+            yield f"step/{part.name}.step", write_step(part.drawing)
+    if robot.parts and robot.workshop is not None:
+        spacing = robot.workshop.process.part_spacing_mm
+        for plate in packed(robot.parts, robot.workshop.printer.bed_mm, spacing):
+            yield f"print/{plate.name}.3mf", write_threemf(plate)
+    for mesh_name, mesh in {shape.mesh_name: shape.mesh for shape in shapes(robot)}.items():
+        yield f"urdf/{MESH_FOLDER}/{mesh_name}.stl", write_stl(mesh)
+    yield f"urdf/{name}.urdf", write_urdf(robot)
+    yield f"urdf/{name}.loop.json", write_loop(robot)
+    yield f"mjcf/{name}.xml", write_mjcf(robot)
+    yield f"sdf/{name}.sdf", write_sdf(robot)
+    yield f"{name}.glb", write_glb(robot)
+    for outline, dxf in write_dxfs(robot).items():
+        yield f"dxf/{outline}.dxf", dxf
+    yield "bom.csv", write_bom(robot)
+    drawn = pictures and bool(robot.parts) and find_spec("pybullet") is not None
+    yield "assembly.md", write_guide(robot, drawn)
+    if drawn:
+        for picture, png in (stills(robot) | step_pictures(robot)).items():
+            yield f"pictures/{picture}.png", png
+
+
+def _facts(robot: Robot) -> dict[str, Any]:
+    """Return what the manifest says of the robot."""
+    return {
+        "mass_kg": robot.mass_kg,
+        "masses": [
+            {
+                "kind": item.kind,
+                "name": item.name,
+                "quantity": item.quantity,
+                "material": item.material,
+                "mass_kg": item.mass_kg,
+                "source": item.mass_source,
+            }
+            for item in bill_of_materials(robot)
+        ],
+        "bodies": {
+            name: {
+                "mass_kg": body.mass_kg,
+                "com_m": body.com_m.tolist(),
+                "inertia_kg_m2": body.inertia_kg_m2.tolist(),
+            }
+            for name, body in robot.bodies.items()
+        },
+    }

@@ -1,0 +1,74 @@
+"""DXF of the body plates: flat sheets can be cut by laser instead of printed. Lengths in mm, seen from the outside.
+
+Layer `CUT` holds the outline and every hole, `ENGRAVE` the name. What stands on a plate (the motor's socket) is not in
+a flat drawing; a cut plate wants it printed and glued on.
+"""
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import ezdxf
+from ezdxf.layouts import Modelspace
+
+from jumpcad.parts.body_plate import ENGRAVING_MM
+from jumpcad.parts.part import Part
+from jumpcad.robot import Robot
+from jumpcad.solids.outline import Region
+from jumpcad.solids.stack import Stack
+
+CUT, ENGRAVE = "CUT", "ENGRAVE"
+RED, BLUE = 1, 5
+MILLIMETRES = 4
+"""DXF's code of the unit."""
+PLATES = ("body_plate_left", "body_plate_right")
+
+
+def write_dxfs(robot: Robot) -> dict[str, str]:
+    """Return the DXF document of every body plate by the part's name; none for a robot without a plan."""
+    plan = robot.plan
+    if plan is None:
+        return {}
+    thickness = dict(zip(PLATES, (plan.lateral.left_plate, plan.lateral.right_plate), strict=True))
+    return {
+        part.name: write_dxf(*sheet(part, thickness[part.name][1] - thickness[part.name][0]))
+        for part in robot.parts
+        if part.name in thickness
+    }
+
+
+def sheet(part: Part, thickness_mm: float) -> tuple[Region, Region]:
+    """Return the region of a plate half way through it, and what is engraved into its outside, seen from there."""
+    shape = part.drawing.shape
+    assert isinstance(shape, Stack)
+    region, engraved = shape.regions_at([thickness_mm / 2.0, 0.99 * ENGRAVING_MM])
+    # the outside lies on the bed
+    return region.mirror((1.0, 0.0)), (region - engraved).mirror((1.0, 0.0))
+
+
+def write_dxf(cut: Region, engraved: Region) -> str:
+    """Return a DXF document (R2010) with closed polylines, the same text for the same regions."""
+    with _fixed_metadata():
+        document = ezdxf.new("R2010", units=MILLIMETRES)
+        for layer, colour, region in ((CUT, RED, cut), (ENGRAVE, BLUE, engraved)):
+            document.layers.add(layer, color=colour)
+            _outlines(document.modelspace(), layer, region)
+        stream = io.StringIO()
+        document.write(stream)
+    return stream.getvalue()
+
+
+def _outlines(space: Modelspace, layer: str, region: Region) -> None:
+    for contour in region.to_polygons():
+        space.add_lwpolyline(contour.tolist(), close=True, dxfattribs={"layer": layer})
+
+
+@contextmanager
+def _fixed_metadata() -> Iterator[None]:
+    """Keep ezdxf from writing the time of day and random identifiers."""
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before

@@ -1,0 +1,50 @@
+"""GLB: the assembled robot as a scene of named, coloured parts, standing with springs at rest.
+
+Every body's frame is a node (`foot_frame`) with its parts below it, so that a viewer can pose the robot. glTF wants
+metres and y up.
+"""
+
+import numpy as np
+import trimesh
+from trimesh.visual.material import PBRMaterial
+
+from jumpcad.exporters.poses import body_poses
+from jumpcad.exporters.shapes import Colour, Shape, shapes
+from jumpcad.robot import Robot
+
+Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+"""From the robot's z up to y up."""
+FRAME = "robot"
+ROUGHNESS = 0.6
+CREASE_RAD = 0.5
+"""Faces that meet at less than this look smooth."""
+
+
+def write_glb(robot: Robot) -> bytes:
+    """Return the GLB file of a robot."""
+    scene = trimesh.Scene(base_frame="world")
+    scene.graph.update(FRAME, "world", matrix=Y_UP)
+    for name, pose in body_poses(robot).items():
+        scene.graph.update(frame_name(name), FRAME, matrix=pose)
+    for shape in shapes(robot):
+        if shape.mesh_name not in scene.geometry:
+            scene.geometry[shape.mesh_name] = _in_metres(shape)
+        scene.graph.update(shape.name, frame_name(shape.body), matrix=shape.T_body_mesh, geometry=shape.mesh_name)
+    return bytes(scene.export(file_type="glb"))
+
+
+def frame_name(body: str) -> str:
+    """Return the name of a body's node; the main part of a body may have the name of the body."""
+    return f"{body}_frame"
+
+
+def _in_metres(shape: Shape) -> trimesh.Trimesh:
+    """Return a mesh (m) with a vertex per face and corner where the surface is creased."""
+    mesh = trimesh.graph.smooth_shade(shape.mesh, angle=CREASE_RAD)
+    mesh.apply_scale(0.001)
+    mesh.visual = trimesh.visual.TextureVisuals(material=_material(shape.mesh_name, shape.colour))
+    return mesh
+
+
+def _material(name: str, colour: Colour) -> PBRMaterial:
+    return PBRMaterial(name=name, baseColorFactor=(*colour, 1.0), metallicFactor=0.0, roughnessFactor=ROUGHNESS)

@@ -1,0 +1,150 @@
+"""MJCF: the robot above a floor for MuJoCo, loop and spring included, ready to be released.
+
+Loading key frame `wound` and stepping is the whole jump. The cam is not modelled: it lets go at once.
+"""
+
+import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+
+from jumpcad.exporters.poses import body_poses, standing
+from jumpcad.exporters.shapes import Shape, shapes
+from jumpcad.exporters.xml import about_y, add, document, wxyz
+from jumpcad.robot import BODY, Body, Joint, Robot
+from jumpcad.simulation.mujoco import IMPEDANCE, SOFTNESS_STEPS, SUBSTEPS
+from jumpcad.simulation.settings import Settings, surface_friction
+
+MESH_FOLDER = "../urdf/meshes"
+"""Folder of the meshes, seen from that of the MJCF file."""
+
+
+def write_mjcf(robot: Robot, settings: Settings | None = None) -> str:
+    """Return the MJCF document of a robot, with the settings' time step, friction and damping."""
+    settings = settings or Settings()
+    root = ET.Element("mujoco", model=robot.name)
+    add(root, "compiler", angle="radian", meshdir=MESH_FOLDER, inertiafromgeom="false")
+    add(
+        root,
+        "option",
+        timestep=settings.dt_s / SUBSTEPS,
+        gravity=(0.0, 0.0, -settings.gravity_m_s2),
+        integrator="implicitfast",
+        cone="elliptic",
+        impratio=10.0,
+        tolerance=1e-12,
+    )
+    things = shapes(robot)
+    asset = add(root, "asset")
+    for name in dict.fromkeys(shape.mesh_name for shape in things):
+        add(asset, "mesh", name=name, file=f"{name}.stl", scale="0.001 0.001 0.001")
+    world = add(root, "worldbody")
+    add(world, "light", pos="0.2 -0.5 1", dir="-0.2 0.5 -1", directional="true")
+    add(world, "geom", name="ground", type="plane", size="2 2 0.1", rgba="0.9 0.9 0.9 1", contype="0", conaffinity="0")
+    rest = body_poses(robot)[BODY]
+    base = add(world, "body", name=BODY, pos=rest[:3, 3], quat=wxyz(rest[:3, :3]))
+    add(base, "freejoint", name="free")
+    _fill(base, robot.bodies[BODY], things)
+    order = _children(base, robot, BODY, settings, things)
+    _contacts(root, robot, settings)
+    _loop(root, robot, settings)
+    _wound(root, robot, order)
+    return document(root)
+
+
+def _children(parent: ET.Element, robot: Robot, name: str, settings: Settings, things: tuple[Shape, ...]) -> list[str]:
+    """Append the bodies that hang on a body; return their joints in the order in which MuJoCo numbers them."""
+    order: list[str] = []
+    for joint in (joint for joint in robot.joints if joint.parent == name):
+        node = add(parent, "body", name=joint.child, pos=joint.origin_m, quat=wxyz(about_y(joint.rest_angle_rad)))
+        _hinge(node, joint, robot, settings)
+        _fill(node, robot.bodies[joint.child], things)
+        order += [joint.name, *_children(node, robot, joint.child, settings, things)]
+    return order
+
+
+def _hinge(node: ET.Element, joint: Joint, robot: Robot, settings: Settings) -> None:
+    spring = {"stiffness": robot.spring.stiffness_nm_per_rad} if joint.name == robot.spring.joint else {}
+    add(
+        node,
+        "joint",
+        name=joint.name,
+        type="hinge",
+        axis="0 1 0",
+        damping=settings.joint_damping_nms_per_rad,
+        frictionloss=settings.joint_friction_nm,
+        **spring,
+    )
+
+
+def _fill(node: ET.Element, body: Body, things: tuple[Shape, ...]) -> None:
+    """Give a body its mass properties, what is seen of it, its contact spheres."""
+    tensor = body.inertia_kg_m2
+    six = (*tensor.diagonal(), tensor[0, 1], tensor[0, 2], tensor[1, 2])
+    add(node, "inertial", pos=body.com_m, mass=body.mass_kg, fullinertia=six)
+    for shape in (shape for shape in things if shape.body == body.name):
+        pose = shape.T_body_mesh
+        add(
+            node,
+            "geom",
+            name=shape.name,
+            type="mesh",
+            mesh=shape.mesh_name,
+            pos=pose[:3, 3],
+            quat=wxyz(pose[:3, :3]),
+            rgba=(*shape.colour, 1.0),
+            contype="0",
+            conaffinity="0",
+            group="2",
+        )
+    for contact in body.contacts:
+        add(
+            node,
+            "geom",
+            name=f"{body.name}_{contact.name}_contact",
+            type="sphere",
+            pos=contact.centre_m,
+            size=contact.radius_m,
+            contype="0",
+            conaffinity="0",
+            group="3",
+        )
+
+
+def _contacts(root: ET.Element, robot: Robot, settings: Settings) -> None:
+    """Pair every contact sphere with the ground alone."""
+    node = add(root, "contact")
+    spin = settings.ground_friction * settings.spinning_friction_m
+    roll = settings.ground_friction * settings.rolling_friction_m
+    for body in robot.bodies.values():
+        slide = settings.ground_friction * surface_friction(body, settings)
+        for contact in body.contacts:
+            add(
+                node,
+                "pair",
+                geom1="ground",
+                geom2=f"{body.name}_{contact.name}_contact",
+                condim="6" if spin or roll else "3",
+                friction=(slide, slide, spin, roll, roll),
+                **_stiff(settings),
+            )
+
+
+def _loop(root: ET.Element, robot: Robot, settings: Settings) -> None:
+    """Tie the loop's two points, a site on each body."""
+    loop = robot.loop
+    for name, point in ((loop.body_a, loop.point_a_m), (loop.body_b, loop.point_b_m)):
+        body = next(node for node in root.iter("body") if node.get("name") == name)
+        add(body, "site", name=f"{name}_loop", pos=point)
+    sites = {"site1": f"{loop.body_a}_loop", "site2": f"{loop.body_b}_loop"}
+    add(add(root, "equality"), "connect", name="loop", **sites, **_stiff(settings))
+
+
+def _wound(root: ET.Element, robot: Robot, order: list[str]) -> None:
+    release = standing(robot, 1.0)
+    attitude = wxyz(about_y(release.body_pitch_rad))
+    angles = [release.joint_rad[name] for name in order]
+    add(add(root, "keyframe"), "key", name="wound", qpos=(*release.body_position_m, *attitude, *angles))
+
+
+def _stiff(settings: Settings) -> dict[str, Sequence[float]]:
+    """Return how stiff contacts and loop are: as stiff as the project's own MuJoCo runs have them."""
+    return {"solref": (SOFTNESS_STEPS * settings.dt_s / SUBSTEPS, 1.0), "solimp": IMPEDANCE}

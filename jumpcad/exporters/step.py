@@ -1,0 +1,107 @@
+"""STEP (ISO 10303-214): parts for CAD programs. Needs the extra `step`.
+
+A part that is a stack of extruded outlines is exact: flat faces, and cylinders where its outlines are circles or arcs
+(see `jumpcad.exporters.curves`). A part that is not keeps the flat facets of its mesh.
+"""
+
+import io
+from collections.abc import Iterator
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.exporters.curves import Arc, Circle, Curve, Line, curves_of
+from jumpcad.parts.part import Drawing
+from jumpcad.solids.outline import Region
+from jumpcad.solids.stack import Slab, Stack
+
+if TYPE_CHECKING:
+    from build123d import Edge, Shape, Solid, Wire
+
+FIXED_DATE = "1980-01-01T00:00:00"
+FUZZY_MM = (0.0, 1e-4, 1e-3)
+"""How near to each other faces may be to be taken for one; tried in this order until the solid closes."""
+
+
+def is_installed() -> bool:
+    """Tell whether the library that writes STEP is there."""
+    return find_spec("build123d") is not None
+
+
+def require_step() -> None:
+    """Refuse to go on without the library that writes STEP.
+
+    Raises
+    ------
+    JumpcadError
+        If it is not installed.
+    """
+    if not is_installed():
+        raise JumpcadError('STEP needs build123d, which is not installed: pip install "jumpcad[step]"')
+
+
+def write_step(drawing: Drawing) -> bytes:
+    """Return the STEP file of a part in printing orientation; the same part gives the same bytes.
+
+    Raises
+    ------
+    CannotBuildError
+        If its faces do not close.
+    """
+    from build123d import export_step
+
+    tries = _stacked(drawing.shape) if isinstance(drawing.shape, Stack) else _faceted(drawing)
+    solid = next((solid for solid in tries if len(solid.solids()) == 1 and solid.is_valid), None)
+    if solid is None:
+        raise CannotBuildError(f"part {drawing.name} is no valid solid as STEP: build without --step")
+    solid.label = drawing.name
+    buffer = io.BytesIO()
+    export_step(solid, buffer, timestamp=FIXED_DATE)
+    return buffer.getvalue()
+
+
+def _stacked(stack: Stack) -> "Iterator[Shape]":
+    """Yield a stack as one solid of flat and cylindrical faces, more and more tolerant of faces that nearly meet."""
+    first, *others = (solid for slab in stack.slabs for solid in _extruded(slab))
+    if not others:
+        yield first
+        return
+    for tolerance in FUZZY_MM:
+        yield first.fuse(*others, tol=tolerance).clean()
+
+
+def _extruded(slab: Slab) -> "list[Solid]":
+    from build123d import Face, Solid
+
+    made = []
+    for piece in slab.region.decompose():
+        outer, *inner = sorted(_wires(piece, slab.z0_mm), key=lambda wire: -wire.bounding_box().diagonal)
+        made.append(Solid.extrude(Face(outer, inner), (0.0, 0.0, slab.height_mm)))
+    return made
+
+
+def _wires(region: Region, z_mm: float) -> "list[Wire]":
+    from build123d import Wire
+
+    return [Wire([_edge(curve, z_mm) for curve in curves_of(contour)]) for contour in region.to_polygons()]
+
+
+def _edge(curve: Curve, z_mm: float) -> "Edge":
+    from build123d import Edge, Plane
+
+    match curve:
+        case Line(start, end):
+            return Edge.make_line((*start, z_mm), (*end, z_mm))
+        case Arc(start, middle, end):
+            return Edge.make_three_point_arc((*start, z_mm), (*middle, z_mm), (*end, z_mm))
+        case Circle(centre, radius):
+            return Edge.make_circle(radius, Plane((*centre, z_mm)))
+
+
+def _faceted(drawing: Drawing) -> "Iterator[Shape]":
+    """Yield the mesh of a part as one solid; triangles that lie in one plane become one face."""
+    from build123d import Face, Shell, Solid, Wire
+
+    triangles = drawing.mesh.triangles
+    faces = [Face(Wire.make_polygon([tuple(corner) for corner in triangle])) for triangle in triangles.tolist()]
+    yield Solid(Shell(faces)).clean()

@@ -1,0 +1,17 @@
+"""STL: one mesh a file, binary, in millimetres; a printed part lies as it is printed."""
+
+import numpy as np
+import trimesh
+from trimesh.exchange.stl import export_stl
+
+HEADER = b"jumpcad, millimetres".ljust(80)  # must not begin with "solid", which marks text files
+
+
+def write_stl(mesh: trimesh.Trimesh) -> bytes:
+    """Return the STL file of a mesh (mm); the same mesh gives the same bytes.
+
+    Whether a file is a part that prints is another question: see `jumpcad.solids.finish.faults`.
+    """
+    corners = mesh.vertices.astype(np.float32)  # what is written: the normals must be those of these
+    written = trimesh.Trimesh(corners, mesh.faces, process=False)
+    return HEADER + bytes(export_stl(written)[len(HEADER) :])

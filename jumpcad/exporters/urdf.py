@@ -1,0 +1,118 @@
+"""URDF: the tree of the mechanism, and a JSON file beside it with what URDF cannot say: loop, spring, release.
+
+Link frames are the body frames of `Robot`. Inertial frames lie along the principal axes, because PyBullet turns any
+other tensor to them with an error of 1e-5. What is seen are the parts' meshes (`meshes/NAME.stl`, in mm, scaled to
+metres); what touches the ground are spheres.
+"""
+
+import json
+import math
+import xml.etree.ElementTree as ET
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from jumpcad.exporters.shapes import Shape, shapes
+from jumpcad.exporters.xml import Array, add, document, rpy
+from jumpcad.robot import Body, Joint, Robot
+from jumpcad.simulation.mechanics import release_pose
+from jumpcad.simulation.settings import Settings
+
+MESH_FOLDER = "meshes"
+"""Folder of the meshes, beside the URDF file."""
+SWING_RAD = math.pi / 2
+"""Limits leave this much on either side of the travel: simulators make stops of them, and legs swing past rest."""
+
+
+def write_urdf(robot: Robot, settings: Settings | None = None) -> str:
+    """Return the URDF document of a robot; its joints have the settings' damping and dry friction.
+
+    MuJoCo's own element keeps it from dropping the root link's mass and the folder of the meshes.
+    """
+    settings = settings or Settings()
+    root = ET.Element("robot", name=robot.name)
+    add(add(root, "mujoco"), "compiler", fusestatic="false", strippath="false", discardvisual="false")
+    things = shapes(robot)
+    for body in robot.bodies.values():
+        _link(root, body, [shape for shape in things if shape.body == body.name])
+    for joint in robot.joints:
+        _joint(root, joint, settings)
+    return document(root)
+
+
+def write_loop(robot: Robot) -> str:
+    """Return the JSON document beside the URDF: loop closure, spring, pose at release, what may touch the ground."""
+    release = release_pose(robot)
+    loop, spring = robot.loop, robot.spring
+    data = {
+        "design": robot.design.model_dump(),
+        "loop": {
+            "body_a": loop.body_a,
+            "point_a_m": loop.point_a_m.tolist(),
+            "body_b": loop.body_b,
+            "point_b_m": loop.point_b_m.tolist(),
+        },
+        "spring": {
+            "joint": spring.joint,
+            "stiffness_nm_per_rad": spring.stiffness_nm_per_rad,
+            "rest_rad": 0.0,
+            "wind_rad": spring.wind_rad,
+        },
+        "travel_rad": {joint.name: [joint.lower_rad, joint.upper_rad] for joint in robot.joints},
+        "release": {
+            "joint_rad": release.joint_rad,
+            "body_position_m": release.body_position_m.tolist(),
+            "body_pitch_rad": release.body_pitch_rad,
+        },
+        "foot_depth_m": robot.foot_depth_m,
+        "surfaces": {contact.name: contact.surface for body in robot.bodies.values() for contact in body.contacts},
+    }
+    return json.dumps(data, indent=2, allow_nan=False) + "\n"
+
+
+def _link(root: ET.Element, body: Body, visible: list[Shape]) -> None:
+    link = add(root, "link", name=body.name)
+    moments, axes = principal_axes(body.inertia_kg_m2)
+    inertial = add(link, "inertial")
+    add(inertial, "origin", xyz=body.com_m, rpy=rpy(axes))
+    add(inertial, "mass", value=body.mass_kg)
+    add(inertial, "inertia", ixx=moments[0], ixy=0.0, ixz=0.0, iyy=moments[1], iyz=0.0, izz=moments[2])
+    for shape in visible:
+        visual = add(link, "visual", name=shape.name)
+        add(visual, "origin", xyz=shape.T_body_mesh[:3, 3], rpy=rpy(shape.T_body_mesh[:3, :3]))
+        geometry = add(visual, "geometry")
+        add(geometry, "mesh", filename=f"{MESH_FOLDER}/{shape.mesh_name}.stl", scale="0.001 0.001 0.001")
+        material = add(visual, "material", name=f"{shape.name}_colour")
+        add(material, "color", rgba=(*shape.colour, 1.0))
+    for contact in body.contacts:
+        collision = add(link, "collision", name=contact.name)
+        add(collision, "origin", xyz=contact.centre_m, rpy="0 0 0")
+        add(add(collision, "geometry"), "sphere", radius=contact.radius_m)
+
+
+def principal_axes(inertia_kg_m2: Array) -> tuple[Array, Array]:
+    """Return principal moments (3,) and the rotation (3, 3) from their axes to the tensor's, as small as it can be."""
+    moments, axes = np.linalg.eigh(inertia_kg_m2)
+    _, order = linear_sum_assignment(-np.abs(axes))
+    moments, axes = moments[order], axes[:, order]
+    axes = axes * np.where(np.diag(axes) < 0, -1.0, 1.0)
+    if np.linalg.det(axes) < 0:
+        axes[:, np.argmin(np.diag(axes))] *= -1.0
+    return moments, axes
+
+
+def _joint(root: ET.Element, joint: Joint, settings: Settings) -> None:
+    node = add(root, "joint", name=joint.name, type="revolute")
+    add(node, "origin", xyz=joint.origin_m, rpy=(0.0, joint.rest_angle_rad, 0.0))
+    add(node, "parent", link=joint.parent)
+    add(node, "child", link=joint.child)
+    add(node, "axis", xyz="0 1 0")
+    add(
+        node,
+        "limit",
+        lower=joint.lower_rad - SWING_RAD,
+        upper=joint.upper_rad + SWING_RAD,
+        effort=joint.effort_nm,
+        velocity=joint.velocity_rad_s,
+    )
+    add(node, "dynamics", damping=settings.joint_damping_nms_per_rad, friction=settings.joint_friction_nm)

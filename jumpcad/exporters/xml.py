@@ -1,0 +1,47 @@
+"""What the XML formats share: elements whose numbers are written so that they read back as the same doubles."""
+
+import xml.etree.ElementTree as ET
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial.transform import Rotation
+
+Array = npt.NDArray[np.float64]
+Value: TypeAlias = str | float | npt.ArrayLike
+
+
+def add(parent: ET.Element, tag: str, text: Value | None = None, **attributes: Value) -> ET.Element:
+    """Append an element with text and attributes; numbers and arrays keep all their digits."""
+    child = ET.SubElement(parent, tag, {name.rstrip("_"): written(value) for name, value in attributes.items()})
+    if text is not None:
+        child.text = written(text)
+    return child
+
+
+def written(value: Value) -> str:
+    """Return a value as text: the shortest decimals that read back as the same doubles, with blanks between them."""
+    if isinstance(value, str):
+        return value
+    return " ".join(repr(float(number) + 0.0) for number in np.ravel(value))
+
+
+def document(root: ET.Element) -> str:
+    """Return an XML document, indented."""
+    ET.indent(root)
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
+
+
+def rpy(rotation: Array) -> Array:
+    """Return roll, pitch and yaw (3,) about fixed axes (rad) of a rotation (3, 3), as URDF and SDF want them."""
+    return Rotation.from_matrix(rotation).as_euler("xyz")
+
+
+def wxyz(rotation: Array) -> Array:
+    """Return the quaternion (4,), scalar first, of a rotation (3, 3), as MJCF wants it."""
+    return Rotation.from_matrix(rotation).as_quat(scalar_first=True)
+
+
+def about_y(angle_rad: float) -> Array:
+    """Return the rotation (3, 3) about y."""
+    return Rotation.from_euler("y", angle_rad).as_matrix()

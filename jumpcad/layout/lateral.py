@@ -1,0 +1,105 @@
+"""The lateral stack: who occupies which interval of y (mm, y to the left, 0 in the middle of the main leg).
+
+From the leg to the left: roller and cam, the screw head that holds the roller, beyond the spring the cam gear, for two
+stages the first wheel, the left plate. To the right: the spring alone, the motor's body, the right plate. The motor
+lies across, its shaft to the left.
+"""
+
+from dataclasses import dataclass
+
+from jumpcad.hardware import Motor
+
+Interval = tuple[float, float]
+
+GAP_MM = 0.5
+"""Axial gap between parts that move past each other; judgement, three first-layer squashes."""
+ROLLER_WASHER_MM = 0.5
+"""Washer ISO 7089 M3 between lever and roller."""
+ROLLER_HEAD_MM = 1.65
+"""Head of the button screw ISO 7380 M3 that holds the roller."""
+MOTOR_CAP_MM = 2.4
+TERMINALS_MM = 0.5
+"""Between the motor's rear face and the plate; the terminals reach through a window in the plate."""
+
+
+@dataclass(frozen=True)
+class Lateral:
+    """Intervals of y (mm), each (lower, upper); the roller shares the cam's."""
+
+    leg: Interval
+    lug_left: Interval
+    lug_right: Interval
+    cam: Interval
+    gears: tuple[Interval, ...]
+    motor: Interval
+    motor_cap: Interval
+    left_plate: Interval
+    right_plate: Interval
+    spring_left: Interval
+    spring_right: Interval
+
+    @property
+    def inside(self) -> Interval:
+        """Between the plates."""
+        return self.right_plate[1], self.left_plate[0]
+
+    @property
+    def outside(self) -> Interval:
+        """Over both plates."""
+        return self.right_plate[0], self.left_plate[1]
+
+
+def lateral_stack(
+    leg_mm: float,
+    lug_mm: float,
+    roller_width_mm: float,
+    spring_length_mm: float,
+    gear_widths_mm: tuple[float, ...],
+    motor: Motor,
+    plate_mm: float,
+    tray_width_mm: float,
+) -> Lateral:
+    """Stack everything across the robot.
+
+    Parameters
+    ----------
+    leg_mm, lug_mm
+        Thickness of legs and of the foot's lugs beside them.
+    roller_width_mm, spring_length_mm
+        Of the roller bearing, and of one spring's wound body.
+    gear_widths_mm
+        Face widths of the gear planes, the cam gear's first, the motor pinion's last.
+    motor
+        The gear motor, across the robot.
+    plate_mm
+        Thickness of the body plates.
+    tray_width_mm
+        What the electronics need at least between the plates.
+    """
+    half = leg_mm / 2.0
+    cam = (half + ROLLER_WASHER_MM, half + ROLLER_WASHER_MM + roller_width_mm)
+    spring_left = (half + GAP_MM, half + GAP_MM + spring_length_mm)
+    y = max(cam[1] + ROLLER_HEAD_MM, spring_left[1]) + GAP_MM
+    gears = []
+    for width in gear_widths_mm:
+        gears.append((y, y + width))
+        y += width + GAP_MM
+    left = y
+    cap = (gears[-1][0] - GAP_MM - MOTOR_CAP_MM, gears[-1][0] - GAP_MM)
+    body = (cap[0] - motor.body_length_mm, cap[0])
+    spring_right = (-spring_left[1], -spring_left[0])
+    right = min(body[0] - TERMINALS_MM, spring_right[0] - GAP_MM, left - tray_width_mm)
+    lug = (half + GAP_MM, half + GAP_MM + lug_mm)
+    return Lateral(
+        leg=(-half, half),
+        lug_left=lug,
+        lug_right=(-lug[1], -lug[0]),
+        cam=cam,
+        gears=tuple(gears),
+        motor=body,
+        motor_cap=cap,
+        left_plate=(left, left + plate_mm),
+        right_plate=(right - plate_mm, right),
+        spring_left=spring_left,
+        spring_right=spring_right,
+    )

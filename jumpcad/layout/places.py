@@ -1,0 +1,66 @@
+"""Places in the plane of motion for what the body carries: motor, idler, electronics, standoffs, spring pins (mm).
+
+Everything bought sits above the line through the two pivots, out of what leg, lever, cam and foot sweep. Each thing
+takes the free place that keeps the body small and its weight over the feet; candidates are fixed grids, so that the
+same numbers give the same robot.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from jumpcad.errors import CannotBuildError
+from jumpcad.layout.room import Array, Cloud, Obstacle, clearance
+
+TURN_STEPS = 72
+BATCH = 24
+"""Candidates measured at once, the cheapest first."""
+ROUND_OFF_MM = 1e-6
+"""What a drive synthesised to just clear a thing may be short of."""
+
+
+def ring_candidates(centre_mm: Array, radius_mm: float) -> tuple[Array, Array]:
+    """Return places (n, 2) on a circle, and their directions (n,) counter-clockwise from x."""
+    angle = np.linspace(0.0, 2.0 * math.pi, TURN_STEPS, endpoint=False)
+    return centre_mm + radius_mm * np.stack([np.cos(angle), np.sin(angle)], axis=-1), angle
+
+
+def grid_candidates(x_mm: tuple[float, float], z_mm: tuple[float, float], step_mm: float) -> Array:
+    """Return places (n, 2) on a regular grid that includes the lower corner."""
+    x, z = np.arange(*x_mm, step_mm), np.arange(*z_mm, step_mm)
+    return np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2)
+
+
+def best_place(
+    what: str,
+    obstacles: Sequence[Obstacle],
+    centres_mm: Array,
+    half_mm: tuple[float, float],
+    angles_rad: Array | float,
+    y_mm: tuple[float, float],
+    cost: Callable[[Array], Array],
+    remedy: str,
+) -> int:
+    """Return the index of the cheapest candidate that meets no obstacle.
+
+    Raises
+    ------
+    CannotBuildError
+        If no candidate is free; it says by how much the best one collides, with what, and the remedy.
+    """
+    order = np.argsort(cost(centres_mm), kind="stable")
+    angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
+    free = np.full(len(centres_mm), -np.inf)
+    cloud = Cloud.of(obstacles, y_mm)
+    for first in range(0, len(order), BATCH):
+        batch = order[first : first + BATCH]
+        free[batch] = cloud.near(centres_mm[batch], half_mm).clearance(centres_mm[batch], half_mm, angles[batch])
+        if (free[batch] >= -ROUND_OFF_MM).any():
+            return int(batch[np.argmax(free[batch] >= -ROUND_OFF_MM)])
+    best = int(np.argmax(free))
+    here, turn = centres_mm[best : best + 1], angles[best : best + 1]
+    blocker = min(obstacles, key=lambda obstacle: clearance([obstacle], here, half_mm, turn, y_mm)[0])
+    raise CannotBuildError(
+        f"no room for the {what}: {-free[best]:.1f} mm too little beside the {blocker.name}: {remedy}"
+    )

@@ -1,0 +1,113 @@
+"""Finding room: obstacles as clouds of points with radii, and the clearance of boxes among them (numpy only, mm).
+
+All motion is in planes parallel to x-z, so an obstacle is a flat cloud that occupies an interval of y; two things can
+only meet where their intervals do.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+EVERYWHERE = (-1e3, 1e3)
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """Points (n, 2) with one radius or radii (n,) in the body frame's x-z plane, over an interval of y (mm)."""
+
+    name: str
+    points_mm: Array
+    radius_mm: float | Array
+    y_mm: tuple[float, float]
+
+
+def disc(name: str, centre_mm: npt.ArrayLike, radius_mm: float, y_mm: tuple[float, float]) -> Obstacle:
+    """Return a round obstacle."""
+    return Obstacle(name, np.atleast_2d(np.asarray(centre_mm, dtype=float)), radius_mm, y_mm)
+
+
+def bar(start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, spacing_mm: float = 4.0) -> Array:
+    """Return points (n, 2), or (m·n, 2) for ends (m, 2), along straight bars."""
+    start, end = np.atleast_2d(np.asarray(start_mm, dtype=float)), np.atleast_2d(np.asarray(end_mm, dtype=float))
+    longest = float(np.linalg.norm(end - start, axis=1).max())
+    share = np.linspace(0.0, 1.0, max(2, 1 + round(longest / spacing_mm)))
+    return (start[:, None] + share[None, :, None] * (end - start)[:, None]).reshape(-1, 2)
+
+
+def box_obstacle(
+    name: str, centre_mm: npt.ArrayLike, half_mm: npt.ArrayLike, angle_rad: float, y_mm: tuple[float, float]
+) -> Obstacle:
+    """Return a box (half sizes (2,), turned by an angle in x-z) as a grid of points 2 mm apart with 1 mm radius."""
+    half = np.asarray(half_mm, dtype=float)
+    ticks = [np.linspace(-h + 1.0, h - 1.0, max(2, 1 + round(h))) for h in half]
+    grid = np.stack(np.meshgrid(*ticks), axis=-1).reshape(-1, 2)
+    return Obstacle(name, np.asarray(centre_mm, dtype=float) + grid @ _frame(angle_rad).T, 1.0, y_mm)
+
+
+def clearance(
+    obstacles: Iterable[Obstacle],
+    centres_mm: Array,
+    half_mm: npt.ArrayLike,
+    angles_rad: npt.ArrayLike,
+    y_mm: tuple[float, float],
+) -> Array:
+    """Return the smallest distance (k,) from k boxes to any obstacle that shares an interval of y; negative inside.
+
+    Parameters
+    ----------
+    obstacles
+        What must not be met.
+    centres_mm, angles_rad
+        Box centres (k, 2) and their turns in x-z (k,) or one for all.
+    half_mm
+        Half sizes (2,) of all boxes; (0, 0) measures from points.
+    y_mm
+        Interval of y that the boxes occupy.
+    """
+    angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
+    return Cloud.of(obstacles, y_mm).clearance(centres_mm, half_mm, angles)
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """The points (n, 2) and radii (n,) of several obstacles together (mm)."""
+
+    points_mm: Array
+    radii_mm: Array
+
+    @classmethod
+    def of(cls, obstacles: Iterable[Obstacle], y_mm: tuple[float, float]) -> "Cloud":
+        """Return the cloud of those obstacles that share an interval of y."""
+        met = [obstacle for obstacle in obstacles if obstacle.y_mm[0] < y_mm[1] and y_mm[0] < obstacle.y_mm[1]]
+        if not met:
+            return cls(np.zeros((0, 2)), np.zeros(0))
+        radii = [np.broadcast_to(obstacle.radius_mm, len(obstacle.points_mm)) for obstacle in met]
+        return cls(np.concatenate([obstacle.points_mm for obstacle in met]), np.concatenate(radii))
+
+    def near(self, centres_mm: Array, half_mm: npt.ArrayLike) -> "Cloud":
+        """Return only what can meet boxes of half sizes (2,), however turned, about centres (k, 2)."""
+        reach = np.hypot(*np.asarray(half_mm, dtype=float)) + self.radii_mm[:, None]
+        low, high = centres_mm.min(axis=0), centres_mm.max(axis=0)
+        kept = ((self.points_mm > low - reach) & (self.points_mm < high + reach)).all(axis=1)
+        return Cloud(self.points_mm[kept], self.radii_mm[kept])
+
+    def clearance(self, centres_mm: Array, half_mm: npt.ArrayLike, angles_rad: Array) -> Array:
+        """Return the smallest distance (k,) from k boxes to any disc; negative inside, infinite where there is none."""
+        half_u, half_v = np.asarray(half_mm, dtype=float)
+        offset = self.points_mm[None, :, :] - centres_mm[:, None, :]
+        cos, sin = np.cos(angles_rad)[:, None], np.sin(angles_rad)[:, None]
+        beyond_u = np.abs(cos * offset[..., 0] + sin * offset[..., 1]) - half_u
+        beyond_v = np.abs(cos * offset[..., 1] - sin * offset[..., 0]) - half_v
+        outside = np.hypot(np.maximum(beyond_u, 0.0), np.maximum(beyond_v, 0.0))
+        distance = outside + np.minimum(np.maximum(beyond_u, beyond_v), 0.0) - self.radii_mm
+        return np.asarray(distance.min(axis=1, initial=np.inf))
+
+
+def _frame(angle_rad: float) -> Array:
+    """Return the rotation (2, 2) that turns x towards z by an angle."""
+    cos, sin = np.cos(angle_rad), np.sin(angle_rad)
+    return np.array([[cos, -sin], [sin, cos]])

@@ -1,0 +1,166 @@
+"""The planar five-bar, solved exactly at any leg angle.
+
+While the foot is on the ground the mechanism is a four-bar: body l1, main leg l2, foot l4, front link l3. Everything
+here is in the body frame's x-z plane (see `robot`), in mm and rad. Directions are given by their angle *below* the x
+axis: angle a points along (cos a, -sin a), so that a grows with a positive turn about +y.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from jumpcad.design import Design
+from jumpcad.errors import CannotBuildError
+
+Array = npt.NDArray[np.float64]
+Complex = npt.NDArray[np.complex128]
+
+
+def direction(angle_rad: npt.ArrayLike) -> Array:
+    """Return unit vectors (..., 2) in x-z that point `angle_rad` (...) below the x axis."""
+    angle = np.asarray(angle_rad, dtype=float)
+    return np.stack([np.cos(angle), -np.sin(angle)], axis=-1)
+
+
+@dataclass(frozen=True)
+class Pose:
+    """The mechanism at n leg angles; points (n, 2) in mm in the body frame's x-z plane, angles (n,) in rad.
+
+    `leg_rad`, `front_rad`, `ankle_rad` are joint coordinates (zero in the assembled pose);
+    `foot_rad` is the foot's direction below the body's x axis, so a flat foot means that the body is nose-up by it.
+    """
+
+    leg_rad: Array
+    front_rad: Array
+    ankle_rad: Array
+    foot_rad: Array
+    ankle_mm: Array
+    front_eye_mm: Array
+
+
+class Linkage:
+    """The four-bar of one design.
+
+    Parameters
+    ----------
+    design
+        Its eight parameters.
+
+    Raises
+    ------
+    CannotBuildError
+        If the design has no assembled pose.
+    """
+
+    def __init__(self, design: Design) -> None:
+        self.design = design
+        self.l1, self.l2, self.l3, self.l4 = design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm
+        self.rest_rad = math.radians(design.rest_angle_deg)
+        self.beta_rad = design.beta_rad
+        self.back_pivot_mm = np.array([-self.l1 / 2, 0.0])
+        self.front_pivot_mm = np.array([self.l1 / 2, 0.0])
+
+    @property
+    def travel_rad(self) -> tuple[float, float]:
+        """Leg angles from wound to rest (rad)."""
+        return -self.design.compression_rad, 0.0
+
+    def diagonal_mm(self, leg_rad: npt.ArrayLike) -> Array:
+        """Return the distance (n,) from ankle to front pivot at leg angles (n,)."""
+        return np.asarray(np.abs(self.l1 - self._ankle(leg_rad)))
+
+    def closing_margin_mm(self) -> float:
+        """Return by how much the loop closes over the whole travel; negative where it cannot.
+
+        Ankle and front pivot must stay nearer than foot and front link reach and farther than their difference. The
+        diagonal grows with the leg's angle from the body line up to 180°, so its extremes are at the ends of the
+        travel, or where the leg crosses the body line.
+        """
+        shortest = self.diagonal_mm(-min(self.design.compression_rad, self.rest_rad))
+        longest = self.diagonal_mm(0.0)
+        return float(min(shortest - abs(self.l3 - self.l4), self.l3 + self.l4 - longest))
+
+    def pose(self, leg_rad: npt.ArrayLike, other_branch: bool = False) -> Pose:
+        """Solve the loop at leg angles (n,), on the branch continuous with the assembled pose, or on the other one.
+
+        Raises
+        ------
+        CannotBuildError
+            If the loop does not close at one of the angles.
+        """
+        leg = np.atleast_1d(np.asarray(leg_rad, dtype=float))
+        ankle, foot = self._ankle(leg), self._foot(leg, other_branch)
+        # Turned back to the assembled pose, no link comes near the half turn at which angles jump.
+        front = _below((ankle + foot - self.l1) * np.exp(1j * self.rest_rad))
+        angle = _below(foot)
+        ankle_mm = self.back_pivot_mm + _points(ankle)
+        return Pose(leg, front, angle - leg - self.beta_rad, angle, ankle_mm, ankle_mm + _points(foot))
+
+    def height_of_body_mm(self, leg_rad: npt.ArrayLike) -> Array:
+        """Return the heights (n, 2) of back and front pivot above the line through ankle and front eye.
+
+        Raises
+        ------
+        CannotBuildError
+            If the loop does not close at one of the angles.
+        """
+        ankle, foot = self._ankle(leg_rad), self._foot(leg_rad)
+        return np.stack([(pivot - ankle) * foot.conjugate() for pivot in (0.0, self.l1)], axis=-1).imag / self.l4
+
+    def jacobian(self, leg_rad: npt.ArrayLike) -> Array:
+        """Return d(ankle x, ankle z, foot angle)/d(leg angle), shape (n, 3), in mm/rad, mm/rad and rad/rad.
+
+        Velocity analysis of the four-bar (e.g. Norton, Design of Machinery, ch. 6): the eye's velocity is the same
+        seen along main leg and foot as along the front link.
+        """
+        pose = self.pose(leg_rad)
+        ankle_rate = self.l2 * _turn(direction(self.rest_rad + pose.leg_rad))
+        foot_arm = _turn(pose.front_eye_mm - pose.ankle_mm)
+        front_arm = _turn(pose.front_eye_mm - self.front_pivot_mm)
+        matrix = np.stack([foot_arm, -front_arm], axis=-1)
+        rates = np.linalg.solve(matrix, -ankle_rate[..., None])[..., 0]
+        return np.column_stack([ankle_rate, rates[:, 0]])
+
+    def transmission_angle_rad(self, leg_rad: npt.ArrayLike) -> Array:
+        """Return the angle (n,) between foot and front link at the front eye, folded into 0…π/2."""
+        pose = self.pose(leg_rad)
+        angle = np.abs(np.mod(pose.foot_rad - (self.rest_rad + pose.front_rad), math.pi))
+        return np.minimum(angle, math.pi - angle)
+
+    def _ankle(self, leg_rad: npt.ArrayLike) -> Complex:
+        """Return the ankle (n,) as x + iz, seen from the back pivot."""
+        return self.l2 * np.exp(-1j * (self.rest_rad + np.asarray(leg_rad, dtype=float)))
+
+    def _foot(self, leg_rad: npt.ArrayLike, other_branch: bool = False) -> Complex:
+        """Return the vector (n,) from ankle to front eye as x + iz: the triangle of diagonal, foot and front link.
+
+        In the assembled pose the front pivot stands above the flat foot, so the eye lies below the diagonal.
+        """
+        diagonal = self.l1 - self._ankle(leg_rad)
+        distance = np.abs(diagonal)
+        along = (self.l4**2 - self.l3**2 + distance**2) / (2 * distance)
+        square = self.l4**2 - along**2
+        if (square < 0).any():
+            where = math.degrees(np.ravel(leg_rad)[np.argmin(square)])
+            raise CannotBuildError(
+                f"the loop of foot and front link does not close with the leg turned by {where:.1f}° from rest"
+            )
+        side = 1j if other_branch else -1j
+        return diagonal / distance * (along + side * np.sqrt(square))
+
+
+def _points(vector: Complex) -> Array:
+    """Return the points (n, 2) of numbers x + iz (n,)."""
+    return np.stack([vector.real, vector.imag], axis=-1)
+
+
+def _below(vector: Complex) -> Array:
+    """Return the angle (n,) of vectors x + iz (n,) below the x axis."""
+    return -np.angle(vector)
+
+
+def _turn(vector: Array) -> Array:
+    """Return the velocity (n, 2) of points at `vector` (n, 2) from a pivot, per unit turn about +y."""
+    return np.stack([vector[:, 1], -vector[:, 0]], axis=-1)

@@ -1,0 +1,58 @@
+"""Mass, centre of mass and inertia of rigid things, moved and added up."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MassProperties:
+    """Mass (kg), centre of mass (3,) in m, and inertia tensor (3, 3) in kg·m² about that centre, in one frame."""
+
+    mass_kg: float
+    com_m: Array
+    inertia_kg_m2: Array
+
+    @classmethod
+    def box(cls, mass_kg: float, size_m: npt.ArrayLike) -> Self:
+        """Return a uniform box of edge lengths (3,) about its centre."""
+        x, y, z = np.asarray(size_m, dtype=float) ** 2
+        return cls(mass_kg, np.zeros(3), mass_kg / 12.0 * np.diag([y + z, x + z, x + y]))
+
+    @classmethod
+    def tube_y(cls, mass_kg: float, outer_m: float, length_m: float, inner_m: float = 0.0) -> Self:
+        """Return a uniform tube along y, given its outer and inner *diameters* and its length, about its centre."""
+        radii = (outer_m**2 + inner_m**2) / 4.0
+        across = mass_kg / 12.0 * (3.0 * radii + length_m**2)
+        return cls(mass_kg, np.zeros(3), np.diag([across, mass_kg * radii / 2.0, across]))
+
+    def placed(self, transform: Array) -> "MassProperties":
+        """Return the same thing seen from a frame in which this frame is `transform` (4, 4), lengths in m."""
+        rotation = transform[:3, :3]
+        return MassProperties(
+            self.mass_kg,
+            rotation @ self.com_m + transform[:3, 3],
+            rotation @ self.inertia_kg_m2 @ rotation.T,
+        )
+
+    def scaled_to(self, mass_kg: float) -> "MassProperties":
+        """Return the same distribution with another total mass."""
+        return MassProperties(mass_kg, self.com_m, self.inertia_kg_m2 * (mass_kg / self.mass_kg))
+
+
+def combined(items: Iterable[MassProperties]) -> MassProperties:
+    """Return the mass properties of several things that share a frame (parallel-axis theorem)."""
+    items = list(items)
+    mass = math.fsum(item.mass_kg for item in items)
+    com = sum((item.mass_kg * item.com_m for item in items), np.zeros(3)) / mass
+    inertia = np.zeros((3, 3))
+    for item in items:
+        offset = item.com_m - com
+        inertia += item.inertia_kg_m2 + item.mass_kg * (offset @ offset * np.eye(3) - np.outer(offset, offset))
+    return MassProperties(mass, com, inertia)

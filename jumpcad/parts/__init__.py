@@ -1,0 +1,1 @@
+"""The printed parts, one module each: numbers in, shape and place out."""

@@ -1,0 +1,63 @@
+"""Main leg with its lever, and front link: flat bars with eyes, drawn in their own link frames (mm)."""
+
+import math
+
+import numpy as np
+
+from jumpcad.layout.plan import Plan
+from jumpcad.parts.bores import Bores
+from jumpcad.parts.part import Drawing, Placement, laid
+from jumpcad.robot import FRONT_LINK, MAIN_LEG
+from jumpcad.solids.outline import disc, filleted, hole, stadium, tapered_bar, union
+
+LEVER_EYE_RADIUS_MM = 4.5
+"""Around the M3 screw of the roller; carries the nut, 6.35 mm across its corners."""
+FILLET_MM = 3.0
+
+
+def main_leg(plan: Plan, bores: Bores) -> Drawing:
+    """Return the main leg: hub on the leg axle, beam to the ankle, lever with the roller's screw, springs' pin."""
+    sections, cam = plan.sections, plan.drive.cam
+    half = sections.thickness_mm / 2.0
+    ankle = (plan.design.l2_mm, 0.0)
+    # the leg's x axis points rest_angle below the body's, so directions grow by it
+    lever_angle = cam.lever_start_rad + math.radians(plan.design.rest_angle_deg)
+    lever = cam.lever_length_mm * np.array([math.cos(lever_angle), math.sin(lever_angle)])
+    pin = (plan.leg_pin_mm, 0.0)
+    hub_radius = bores.hub_radius_mm
+    outline = union(
+        [
+            disc(2.0 * hub_radius),
+            tapered_bar((0.0, 0.0), ankle, sections.leg_root_mm, sections.leg_tip_mm),
+            disc(2.0 * sections.eye_radius_mm, ankle),
+            disc(max(sections.leg_root_mm, 2.0 * sections.eye_radius_mm), pin),
+            tapered_bar((0.0, 0.0), lever, sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM),
+        ]
+    )
+    beam = filleted(outline, FILLET_MM) - union(
+        [
+            hole(bores.running(plan.axle_mm), ankle),
+            hole(bores.m3_clearance_mm, lever),
+            hole(bores.press(plan.axle_mm), pin),
+        ]
+    )
+    stack, pose = laid((y0, y1, beam - region) for y0, y1, region in bores.hub_slabs(-half, half))
+    return Drawing("main_leg", "links", bores.chamfered(stack), (Placement(MAIN_LEG, pose),))
+
+
+def front_link(plan: Plan, bores: Bores) -> Drawing:
+    """Return the front link: two eyes and a beam."""
+    sections = plan.sections
+    half = sections.thickness_mm / 2.0
+    eye = (plan.design.l3_mm, 0.0)
+    outline = union(
+        [
+            stadium((0.0, 0.0), eye, sections.front_mm),
+            disc(2.0 * sections.eye_radius_mm),
+            disc(2.0 * sections.eye_radius_mm, eye),
+        ]
+    )
+    bore = bores.running(plan.axle_mm)
+    region = filleted(outline, FILLET_MM) - union([hole(bore), hole(bore, eye)])
+    stack, pose = laid([(-half, half, region)])
+    return Drawing("front_link", "links", bores.chamfered(stack), (Placement(FRONT_LINK, pose),))

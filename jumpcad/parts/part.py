@@ -1,0 +1,154 @@
+"""What every printed part is: a shape in printing orientation, and the places where it sits on the robot.
+
+Parts are drawn where they belong, in the x-z plane of their body's frame and over intervals of y (all mm), and then
+laid on the bed on their left or right face.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from manifold3d import Manifold
+
+from jumpcad.mass import MassProperties
+from jumpcad.solids.bed import Lie, lie, require_bed
+from jumpcad.solids.blocks import Blocks
+from jumpcad.solids.outline import Region
+from jumpcad.solids.stack import Stack
+
+if TYPE_CHECKING:
+    import trimesh
+
+Array = npt.NDArray[np.float64]
+Shape: TypeAlias = Stack | Blocks
+Face = Literal["left", "right"]
+
+UNSEEN_MM = 0.05
+"""Detail that may be missing from a mesh that is only looked at."""
+
+
+@dataclass(frozen=True)
+class Placement:
+    """One copy of a part: its body, and the pose (4, 4) of the printing frame in the body's frame, lengths in mm."""
+
+    body: str
+    T_body_part: Array
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A part before it is printed: its name, what it does, its shape in printing orientation (z up) and its places.
+
+    `role` chooses the material in the workshop: `links`, `body` or `gears`.
+    """
+
+    name: str
+    role: Literal["links", "body", "gears"]
+    shape: Shape
+    placements: tuple[Placement, ...]
+
+    @cached_property
+    def solid(self) -> Manifold:
+        """The part as one closed solid in printing orientation (mm)."""
+        return self.shape.solid()
+
+    def lie(self, bed_mm: Sequence[float]) -> Lie:
+        """Return how the part fits a bed (x, y, z)."""
+        return lie(self.shape.bounds_mm, self._outline_mm, bed_mm)
+
+    def require_bed(self, bed_mm: Sequence[float]) -> None:
+        """Refuse a part that fits the bed at no angle."""
+        require_bed(self.name, self.shape.bounds_mm, self._outline_mm, bed_mm)
+
+    def _outline_mm(self) -> Array:
+        return self.shape.outline_mm
+
+    @cached_property
+    def mesh(self) -> "trimesh.Trimesh":
+        """The part's mesh in printing orientation (mm)."""
+        from jumpcad.solids.finish import to_trimesh
+
+        return to_trimesh(self.solid)
+
+    @cached_property
+    def look(self) -> "trimesh.Trimesh":
+        """The mesh without detail that eyes miss, for whatever only shows the part (mm)."""
+        from jumpcad.solids.finish import to_trimesh
+
+        return to_trimesh(self.solid.simplify(UNSEEN_MM))
+
+
+def laid(slabs: Iterable[tuple[float, float, Region]], face: Face = "left") -> tuple[Stack, Array]:
+    """Lay slabs (y0, y1, region in x-z) on their left or right face; return stack and pose in the frame drawn in."""
+    slabs = list(slabs)
+    if face == "left":
+        top = max(y1 for _, y1, _ in slabs)
+        return Stack.of([(top - y1, top - y0, region) for y0, y1, region in slabs]), lying_on_left(top)
+    bottom = min(y0 for y0, _, _ in slabs)
+    flipped = [(y0 - bottom, y1 - bottom, region.mirror((1.0, 0.0))) for y0, y1, region in slabs]
+    return Stack.of(flipped), lying_on_right(bottom)
+
+
+def lying_on_left(y_mm: float, x_mm: float = 0.0, z_mm: float = 0.0) -> Array:
+    """Return the pose (4, 4) of a part whose bed face is its left one, at y."""
+    return np.array([[1.0, 0, 0, x_mm], [0, 0, -1, y_mm], [0, 1, 0, z_mm], [0, 0, 0, 1]])
+
+
+def lying_on_right(y_mm: float, x_mm: float = 0.0, z_mm: float = 0.0) -> Array:
+    """Return the pose (4, 4) of a part whose bed face is its right one, at y."""
+    return np.array([[-1.0, 0, 0, x_mm], [0, 0, 1, y_mm], [0, 1, 0, z_mm], [0, 0, 0, 1]])
+
+
+def upright(z_mm: float, x_mm: float = 0.0, y_mm: float = 0.0) -> Array:
+    """Return the pose (4, 4) of a part that stands on the robot as it does on the bed."""
+    pose = np.eye(4)
+    pose[:3, 3] = x_mm, y_mm, z_mm
+    return pose
+
+
+def about_z(angle_rad: float) -> Array:
+    """Return the pose (4, 4) of a part turned counter-clockwise about z."""
+    pose = np.eye(4)
+    pose[:2, :2] = [[np.cos(angle_rad), -np.sin(angle_rad)], [np.sin(angle_rad), np.cos(angle_rad)]]
+    return pose
+
+
+@dataclass(frozen=True)
+class Part:
+    """A printed part: a drawing with its material, and the mass of one copy in its printing frame (kg, m).
+
+    `mass_source` says where the mass came from: `printed` (layer model), `solid` (volume times density), `weighed`.
+    """
+
+    drawing: Drawing
+    material: str
+    mass: MassProperties
+    mass_source: Literal["printed", "solid", "weighed"]
+
+    @property
+    def name(self) -> str:
+        """The part's name; its files are called after it."""
+        return self.drawing.name
+
+    @property
+    def placements(self) -> tuple[Placement, ...]:
+        """Where its copies sit."""
+        return self.drawing.placements
+
+    @property
+    def quantity(self) -> int:
+        """How many copies the robot needs."""
+        return len(self.drawing.placements)
+
+    @property
+    def mesh(self) -> "trimesh.Trimesh":
+        """Mesh in printing orientation (mm)."""
+        return self.drawing.mesh
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass of one copy (kg)."""
+        return self.mass.mass_kg

@@ -1,0 +1,245 @@
+"""The bought parts of a robot: what they are, where they sit, what they weigh (mm, g; drawn like printed parts)."""
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from jumpcad.hardware import Bearing, Catalogue, Screw
+from jumpcad.layout.lateral import GAP_MM, ROLLER_WASHER_MM, Interval
+from jumpcad.layout.plan import TRAY_MM, Plan
+from jumpcad.parts import toes
+from jumpcad.parts.body_plate import ear_places
+from jumpcad.parts.bores import Bores
+from jumpcad.parts.bought import Bought, bought
+from jumpcad.parts.small import COLLAR_MM
+from jumpcad.parts.train import gear_turns
+from jumpcad.robot import BODY, FOOT, MAIN_LEG, Array
+from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, ring, stadium
+from jumpcad.workshop import BoughtParts
+
+TOE_THREAD_MM = 4.0
+"""Thread of a toe's screw in the foot's stub, at least."""
+SCREW_END_MM = 6.0
+"""Thread of a standoff's screw inside the standoff."""
+
+
+def bought_parts(plan: Plan, bores: Bores, catalogue: Catalogue, chosen: BoughtParts) -> list[Bought]:
+    """Return every bought part at its place, in the assembled pose."""
+    return [
+        *_axles(plan, catalogue),
+        *_leg_things(plan, bores, catalogue, chosen),
+        *_springs(plan, catalogue),
+        *_motor_things(plan, catalogue),
+        *_standoffs(plan, catalogue),
+        *_electronics(plan, catalogue, chosen),
+        *_toe_screws(plan, bores, catalogue),
+    ]
+
+
+@lru_cache(maxsize=64)
+def _round(outer_mm: float, bore_mm: float = 0.0) -> Region:
+    """Return a disc, or a ring, about the origin."""
+    return ring(outer_mm, bore_mm) if bore_mm else disc(outer_mm)
+
+
+@lru_cache(maxsize=64)
+def _box_of(width_mm: float, height_mm: float) -> Region:
+    return rectangle((width_mm, height_mm))
+
+
+@lru_cache(maxsize=64)
+def _hexagon(across_flats_mm: float, bore_mm: float) -> Region:
+    angles = np.arange(6) * math.pi / 3.0
+    corners = across_flats_mm / math.sqrt(3.0) * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    return polygon(corners) - hole(bore_mm)
+
+
+@lru_cache(maxsize=64)
+def _d_shaft(diameter_mm: float, across_flat_mm: float) -> Region:
+    flat = rectangle((diameter_mm, 2.0 * diameter_mm)).translate((across_flat_mm, 0.0))
+    return disc(diameter_mm) - flat
+
+
+def _rod(name: str, body: str, centre: Array, y: Interval, diameter_mm: float, catalogue: Catalogue) -> Bought:
+    length = y[1] - y[0]
+    article = f"spring steel rod {diameter_mm:g} x {length:.1f} mm"
+    slabs = [(0.0, length, _round(diameter_mm))]
+    at = (centre[0], y[0], centre[1])
+    return bought(name, article, body, catalogue.rod_mass_g(diameter_mm, length), slabs, at)
+
+
+def _axles(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
+    """Yield the axles across the plates with room for a collar at either end, and the pins of the foot."""
+    low, high = plan.lateral.outside
+    reach = COLLAR_MM + GAP_MM
+    for name, place in plan.axles.items():
+        yield _rod(f"{name}_axle", BODY, place, (low - reach, high + reach), plan.axle_mm, catalogue)
+    lugs = (plan.lateral.lug_right[0], plan.lateral.lug_left[1])
+    yield _rod("ankle_pin", FOOT, np.zeros(2), lugs, plan.axle_mm, catalogue)
+    yield _rod("front_eye_pin", FOOT, np.array([plan.design.l4_mm, 0.0]), lugs, plan.axle_mm, catalogue)
+
+
+def _leg_things(plan: Plan, bores: Bores, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[Bought]:
+    """Yield what the main leg carries: hub bearings, the springs' pin, the roller with its screw."""
+    lateral, cam = plan.lateral, plan.drive.cam
+    spring = plan.drive.spring
+    low, high = lateral.leg
+    if bores.bearing is not None:
+        seats = [(low, low + bores.bearing.width_mm), (high - bores.bearing.width_mm, high)]
+        if high - low < 2.0 * bores.bearing.width_mm + 0.8:
+            seats = seats[:1]
+        for number, seat in enumerate(seats, start=1):
+            yield _bearing(f"hub_bearing_{number}", np.zeros(2), seat, bores.bearing)
+    pin = np.array([plan.leg_pin_mm, 0.0])
+    arm = GAP_MM + 2.0 * spring.wire_mm
+    yield _rod("leg_spring_pin", MAIN_LEG, pin, (low - arm, high + arm), plan.axle_mm, catalogue)
+    angle = cam.lever_start_rad + math.radians(plan.design.rest_angle_deg)
+    end = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
+    roller = catalogue.bearings[chosen.roller]
+    yield _bearing("roller", end, lateral.cam, roller)
+    washer, nut, screw = catalogue.washers["M3"], catalogue.nuts["M3"], catalogue.screws["M3"]
+    slabs = [(0.0, ROLLER_WASHER_MM, _round(washer.outer_mm, washer.bore_mm))]
+    yield bought("roller_washer", "washer M3 ISO 7089", MAIN_LEG, washer.mass_g, slabs, (end[0], high, end[1]))
+    head = lateral.cam[1]
+    length = screw.length_for(head - low + nut.height_mm)
+    shank = (head - length, head)
+    yield _screw("roller_screw", MAIN_LEG, end, shank, 1.0, screw, catalogue)
+    slabs = [(-nut.height_mm, 0.0, _hexagon(nut.across_flats_mm, screw.diameter_mm))]
+    yield bought("roller_nut", "nut M3 ISO 4032", MAIN_LEG, nut.mass_g, slabs, (end[0], low, end[1]))
+
+
+def _springs(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
+    """Yield both springs, each as coil with body arm and as leg arm, and the pins in the plates.
+
+    The springs push their arms apart: the leg's arm lies on the upper side of the leg's pin, the body's arm on the
+    lower side of the pin that both plates hold: a pin in one plate alone would tilt in it.
+    """
+    spring, lateral, wire = plan.drive.spring, plan.lateral, plan.drive.spring.wire_mm
+    coil = ring(spring.outer_diameter_mm, spring.inside_diameter_mm, plan.hub_mm)
+    offset = (plan.axle_mm + wire) / 2.0
+    pin = plan.spring_pin_mm
+    body_arm = _arm(plan.hub_mm, pin, spring.outer_diameter_mm, wire, -offset)
+    leg_arm = _arm(np.zeros(2), np.array([plan.leg_pin_mm, 0.0]), spring.outer_diameter_mm, wire, offset)
+    arm_share = 0.1  # of a spring's wire; a turn is some 30 mm long, an arm some 10 mm
+    for side, sign, hand in (("left", 1.0, "left"), ("right", -1.0, "right")):
+        inner, outer = lateral.spring_left if side == "left" else lateral.spring_right[::-1]
+        order = (
+            f"torsion spring, wire {wire:g} mm, inside diameter {spring.inside_diameter_mm:.1f} mm, "
+            f"{spring.turns:.2f} turns, {hand} hand"
+        )
+        arm_y = _sorted(outer - sign * wire, outer)
+        slabs = [(*_sorted(inner, outer), coil), (*arm_y, body_arm)]
+        yield bought(f"spring_{side}", order, BODY, (1.0 - arm_share) * spring.mass_g, slabs)
+        leg_slabs = [(*_sorted(inner, inner + sign * wire), leg_arm)]
+        yield bought(f"spring_{side}_leg_arm", order, MAIN_LEG, arm_share * spring.mass_g, leg_slabs, units=0)
+    yield _rod("spring_pin", BODY, pin, lateral.outside, plan.axle_mm, catalogue)
+
+
+def _sorted(a: float, b: float) -> Interval:
+    return (a, b) if a < b else (b, a)
+
+
+def _arm(hub: Array, pin: Array, coil_mm: float, wire_mm: float, offset_mm: float) -> Region:
+    """Return a spring's arm: from its coil past a pin, at an offset counter-clockwise from the pin."""
+    along = (pin - hub) / np.linalg.norm(pin - hub)
+    shift = offset_mm * np.array([-along[1], along[0]])
+    start, end = hub + along * (coil_mm / 2.0 - wire_mm) + shift, pin + along * 2.0 + shift
+    return stadium(start, end, wire_mm)
+
+
+def _motor_things(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
+    """Yield the gear motor and the screws of its cap; the shaft stands as the pinion's teeth want it."""
+    motor, (x, z) = plan.drive.train.motor, plan.motor_mm
+    low, front = plan.lateral.motor
+    shaft_mass = catalogue.rod_mass_g(motor.shaft_mm, motor.shaft_length_mm)
+    body = [(0.0, front - low, _box_of(motor.width_mm, motor.height_mm))]
+    shaft = [(0.0, motor.shaft_length_mm, _d_shaft(motor.shaft_mm, motor.shaft_flat_mm))]
+    article, turn = f"gear motor {motor.name}", gear_turns(plan)["motor_pinion"]
+    yield bought("motor", article, BODY, motor.mass_g - shaft_mass, body, (x, low, z), plan.motor_angle_rad)
+    yield bought("motor_shaft", article, BODY, shaft_mass, shaft, (x, front, z), turn, units=0)
+    screw = catalogue.screws["M2"]
+    for number, ear in enumerate(ear_places(plan), start=1):
+        top = plan.lateral.motor_cap[1] - screw.button_head_height_mm
+        yield _screw(f"cap_screw_{number}", BODY, ear, (top - 8.0, top), 1.0, screw, catalogue)
+
+
+def _standoffs(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
+    """Yield the standoffs between the plates and their screws from outside."""
+    standoff, screw = catalogue.standoffs["M3"], catalogue.screws["M3"]
+    low, high = plan.lateral.inside
+    length = high - low
+    plate = plan.lateral.left_plate[1] - high
+    region = _hexagon(standoff.across_flats_mm, standoff.bore_mm)
+    mass = standoff.density_g_cm3 * region.area() * length / 1000.0
+    article = f"standoff M3 x {length:.1f} mm, hexagon {standoff.across_flats_mm:g} mm, polyamide"
+    for number, place in enumerate(plan.standoffs_mm, start=1):
+        at = (place[0], low, place[1])
+        yield bought(f"standoff_{number}", article, BODY, mass, [(0.0, length, region)], at)
+        shank = screw.length_for(plate + SCREW_END_MM)
+        left = (high + plate - shank, high + plate)
+        right = (low - plate, low - plate + shank)
+        yield _screw(f"standoff_{number}_screw_left", BODY, place, left, 1.0, screw, catalogue)
+        yield _screw(f"standoff_{number}_screw_right", BODY, place, right, -1.0, screw, catalogue)
+
+
+def _toe_screws(plan: Plan, bores: Bores, catalogue: Catalogue) -> Iterator[Bought]:
+    """Yield the screws of toes that are parts of their own, from outside into the foot's stubs."""
+    if not plan.toes_apart:
+        return
+    screw, height = catalogue.screws["M3"], toes.joint_height_mm(plan, bores) / 2.0 - plan.sections.foot_depth_mm
+    outer = toes.beside_mm(plan, bores) + plan.sections.toe_width_mm / 2.0
+    length = screw.length_for(plan.sections.toe_width_mm + TOE_THREAD_MM)
+    for toe in toes.toes(plan):
+        pose = toe.pose_mm
+        shank = _sorted(toe.outside * outer, toe.outside * (outer - length))
+        for number, x in enumerate(toes.SCREWS_MM, start=1):
+            name = f"{toe.name}_screw_{number}"
+            yield _screw(name, FOOT, np.array([x, height]), shank, toe.outside, screw, catalogue).moved(pose)
+
+
+def _electronics(plan: Plan, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[Bought]:
+    """Yield battery and boards on their trays, in the middle across the robot."""
+    electronics = plan.electronics
+    middle = (plan.lateral.inside[0] + plan.lateral.inside[1]) / 2.0
+    x, z = plan.tray_mm
+    battery = electronics.battery
+    yield _box("battery", battery.description, x, middle, z + TRAY_MM, battery.length_mm, battery.width_mm,
+               battery.height_mm, battery.mass_g)  # fmt: skip
+    top = z + electronics.upper_tray_mm + TRAY_MM
+    controller, driver = electronics.controller, electronics.driver
+    total = controller.width_mm + driver.width_mm + 1.0
+    start = x - total / 2.0
+    for name, board, at in (
+        ("controller", controller, start + controller.width_mm / 2.0),
+        ("driver", driver, start + total - driver.width_mm / 2.0),
+    ):
+        yield _box(name, board.description, at, middle, top, board.width_mm, board.length_mm, board.height_mm,
+                   board.mass_g)  # fmt: skip
+
+
+def _box(
+    name: str, article: str, x: float, y: float, z: float, size_x: float, size_y: float, size_z: float, mass_g: float
+) -> Bought:
+    slabs = [(-size_y / 2.0, size_y / 2.0, _box_of(size_x, size_z))]
+    return bought(name, article, BODY, mass_g, slabs, (x, y, z + size_z / 2.0))
+
+
+def _bearing(name: str, centre: Array, y: Interval, bearing: Bearing) -> Bought:
+    slabs = [(0.0, bearing.width_mm, _round(bearing.outer_mm, bearing.bore_mm))]
+    at = (centre[0], y[0], centre[1])
+    return bought(name, f"ball bearing {bearing.name}", MAIN_LEG, bearing.mass_g, slabs, at)
+
+
+def _screw(
+    name: str, body: str, centre: Array, shank: Interval, side: float, screw: Screw, catalogue: Catalogue
+) -> Bought:
+    """Return a screw whose shank fills an interval of y; its head sits at the left end (side +1) or the right (-1)."""
+    height, width = screw.button_head_height_mm, screw.button_head_mm
+    length = round(shank[1] - shank[0], 6)
+    seat = length if side > 0 else -height
+    volume_mass = catalogue.rod_mass_g(screw.diameter_mm, length) + catalogue.rod_mass_g(width, 0.7 * height)
+    slabs = [(0.0, length, _round(screw.diameter_mm)), (seat, seat + height, _round(width))]
+    at = (centre[0], shank[0], centre[1])
+    return bought(name, f"screw {screw.name} x {length:g} ISO 7380-1", body, volume_mass, slabs, at)

@@ -1,0 +1,153 @@
+"""The foot's toes: fingers from the ankle to their tips, one piece with the foot where the bed is large enough.
+
+Where it is not, each toe is a part of its own, screwed to a stub of the foot from outside: stub and toe lie side by
+side, so that both keep their height where the push-off bends them, and two screws across carry the moment.
+
+A toe's own frame has its origin at the root and x towards the tip; its printing frame is the same, on the ground.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.layout.lateral import GAP_MM
+from jumpcad.layout.plan import Plan
+from jumpcad.parts.bores import Bores
+from jumpcad.parts.part import Drawing, Placement, upright
+from jumpcad.robot import FOOT, Array
+from jumpcad.sizing import TOE_TIP_WIDTH_MM
+from jumpcad.solids.blocks import Bar, Block, Blocks, Finger, Turned
+from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
+
+JOINT_MM = (12.0, 34.0)
+"""Where a toe of its own and its stub overlap, from the root."""
+SCREWS_MM = (16.0, 30.0)
+"""Where the screws across are, from the root."""
+GRIP_MM = 0.4
+"""Depth of the grooves in the sole, across the toe."""
+GRIP_PITCH_MM = 2.4
+
+
+@dataclass(frozen=True)
+class Toe:
+    """Where one toe is: its root (2,) in the foot's frame, its direction, and its length to the tip's middle.
+
+    `sign` is +1 for the left one; `outside` is the side of its frame's x axis on which a toe of its own lies.
+    """
+
+    name: str
+    sign: float
+    root_mm: Array
+    angle_rad: float
+    length_mm: float
+
+    @property
+    def outside(self) -> float:
+        """-1 for the left toe, whose y axis points inwards."""
+        return -self.sign
+
+    @property
+    def pose_mm(self) -> Array:
+        """Pose (4, 4) of the toe's frame, at the height of the ankle, in the foot's frame."""
+        pose = np.eye(4)
+        cos, sin = math.cos(self.angle_rad), math.sin(self.angle_rad)
+        pose[:2, :2] = [[cos, -sin], [sin, cos]]
+        pose[:2, 3] = self.root_mm
+        return pose
+
+
+def toes(plan: Plan) -> tuple[Toe, Toe]:
+    """Return the left and the right toe."""
+    left, right = (_toe(plan, name, sign) for name, sign in (("toe_left", 1.0), ("toe_right", -1.0)))
+    return left, right
+
+
+def toe_tip_mm(plan: Plan) -> Array:
+    """Return the tip (2,) of the left toe, x and y in the foot's frame (mm)."""
+    angle = math.radians(plan.design.ground_link_angle_deg)
+    return plan.design.l5_mm * np.array([-math.cos(angle), math.sin(angle)])
+
+
+def joint_height_mm(plan: Plan, bores: Bores) -> float:
+    """Return the height of stub and toe where they are screwed: the screw's hole with two walls above and below."""
+    return max(plan.sections.toe_root_mm, bores.m3_clearance_mm + 4.0 * bores.fits.wall_mm)
+
+
+def beside_mm(plan: Plan, bores: Bores) -> float:
+    """Return how far beside its stub a toe of its own lies, from middle to middle."""
+    return plan.sections.toe_width_mm + bores.fits.sliding_mm
+
+
+def on_the_foot(plan: Plan, bores: Bores) -> tuple[list[Block], list[Block]]:
+    """Return what the foot has of its toes, standing on the bed, and what is cut from it."""
+    added: list[Block] = []
+    removed: list[Block] = []
+    for toe in toes(plan):
+        if plan.toes_apart:
+            added.append(Turned(_stub(plan, bores), toe.angle_rad, toe.root_mm))
+            removed.append(Turned(_holes(plan, bores, bores.fits.m3_tap_mm, 0.0), toe.angle_rad, toe.root_mm))
+        else:
+            added.append(Turned(_finger(plan, np.zeros(2), toe.length_mm), toe.angle_rad, toe.root_mm))
+            removed.append(Turned(_grip(toe), toe.angle_rad, toe.root_mm))
+    return added, removed
+
+
+def toes_apart(plan: Plan, bores: Bores) -> list[Drawing]:
+    """Return the toes that are parts of their own."""
+    return [_drawing(plan, bores, toe) for toe in toes(plan)] if plan.toes_apart else []
+
+
+def lying_hole(diameter_mm: float, place_mm: tuple[float, float]) -> Region:
+    """Return a hole that prints lying: round, with a 45° roof to a flat of a quarter of its width."""
+    radius = diameter_mm / 2.0
+    side, top = radius * math.sqrt(0.5), 1.15 * radius
+    flat = radius * math.sqrt(2.0) - top
+    roof = polygon([(-side, side), (-flat, top), (flat, top), (side, side)])
+    return hole(diameter_mm, place_mm) + roof.translate(place_mm)
+
+
+def _toe(plan: Plan, name: str, sign: float) -> Toe:
+    sections = plan.sections
+    root = np.array([0.0, sign * (sections.thickness_mm / 2.0 + GAP_MM + sections.toe_width_mm / 2.0)])
+    along = toe_tip_mm(plan) * (1.0, sign) - root
+    return Toe(name, sign, root, math.atan2(along[1], along[0]), float(np.hypot(*along)))
+
+
+def _drawing(plan: Plan, bores: Bores, toe: Toe) -> Drawing:
+    """Return a toe of its own: beside the stub, then on to the tip."""
+    width, height = plan.sections.toe_width_mm, joint_height_mm(plan, bores)
+    y = toe.outside * beside_mm(plan, bores)
+    start, end = np.array([JOINT_MM[0] + width / 2.0, y]), np.array([JOINT_MM[1], y])
+    joint = Finger(start, width, height, end, width, height)
+    holes = _holes(plan, bores, bores.m3_clearance_mm, y)
+    shape = Blocks((joint, _finger(plan, end, toe.length_mm)), (holes, _grip(toe)))
+    pose = toe.pose_mm @ upright(-plan.sections.foot_depth_mm)
+    return Drawing(toe.name, "links", shape, (Placement(FOOT, pose),))
+
+
+def _finger(plan: Plan, start_mm: Array, length_mm: float) -> Finger:
+    """Return a toe from somewhere near its root to its tip: flat below, higher at the root."""
+    sections = plan.sections
+    tip = np.array([length_mm, 0.0])
+    return Finger(start_mm, sections.toe_width_mm, sections.toe_root_mm, tip, TOE_TIP_WIDTH_MM, sections.toe_tip_mm)
+
+
+def _stub(plan: Plan, bores: Bores) -> Finger:
+    """Return what the foot has of a toe that is a part of its own."""
+    width, height = plan.sections.toe_width_mm, joint_height_mm(plan, bores)
+    return Finger(np.zeros(2), width, height, np.array([JOINT_MM[1] - width / 2.0, 0.0]), width, height)
+
+
+def _holes(plan: Plan, bores: Bores, diameter_mm: float, y_mm: float) -> Bar:
+    """Return the screws' holes through stub or toe, whose middle is at y."""
+    half = plan.sections.toe_width_mm / 2.0 + 1.0
+    middle = joint_height_mm(plan, bores) / 2.0
+    return Bar(union(lying_hole(diameter_mm, (x, middle)) for x in SCREWS_MM), ((y_mm - half, y_mm + half),))
+
+
+def _grip(toe: Toe) -> Bar:
+    """Return grooves across the sole under a toe's tip."""
+    places = [(toe.length_mm + step * GRIP_PITCH_MM, 0.0) for step in (-0.5, 0.5)]
+    half = TOE_TIP_WIDTH_MM / 2.0 - 1.0
+    return Bar(union(rectangle((0.8, 2.0 * GRIP_MM), place) for place in places), ((-half, half),))

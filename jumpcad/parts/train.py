@@ -1,0 +1,128 @@
+"""Gears and cam: the drive's profiles made solid and turned so that teeth meet gaps (mm).
+
+The cam stands as it does at cam angle 0, springs at rest. Its hexagonal boss reaches through the cam gear and turns
+with it; both run on the cam's dead axle.
+"""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from jumpcad.drive.gears import Gear
+from jumpcad.layout.plan import Plan
+from jumpcad.parts.bores import Bores
+from jumpcad.parts.part import Drawing, Placement, about_z, laid, lying_on_left
+from jumpcad.robot import BODY
+from jumpcad.solids.outline import Point, Region, d_bore, disc, hole, polygon, rectangle, rounded, union
+from jumpcad.solids.stack import Stack
+
+KEY_ACROSS_FLATS_MM = 7.0
+WEB_RIM_MM = 3.0
+"""Material kept inside the root circle and around the hub of a gear with web holes."""
+WEB_HOLES = 6
+
+
+def cam(plan: Plan, bores: Bores) -> Drawing:
+    """Return the cam with its hexagonal boss."""
+    centre = plan.cam_axis_mm
+    profile = polygon(plan.drive.cam.profile_mm).translate(centre)
+    bore = hole(bores.running(plan.axle_mm), centre)
+    y0, y1 = plan.lateral.cam
+    slabs = [(y0, y1, profile - bore), (y1, plan.lateral.gears[0][1], _hexagon(KEY_ACROSS_FLATS_MM, centre) - bore)]
+    stack, pose = laid(slabs, "right")
+    return Drawing("cam", "gears", bores.chamfered(stack), (Placement(BODY, pose),))
+
+
+def gears(plan: Plan, bores: Bores) -> list[Drawing]:
+    """Return motor pinion, compound idler where there is one, and cam gear.
+
+    Each is drawn with a tooth on +x and turned where it is placed, so that equal gears are one shape in every robot.
+    """
+    stages, motor = plan.drive.train.stages, plan.drive.train.motor
+    cam_y, motor_y = plan.lateral.gears[0], plan.lateral.gears[-1]
+    turns = gear_turns(plan)
+    key_mm = KEY_ACROSS_FLATS_MM + 2.0 * bores.fits.press_mm
+    shaft_mm = (bores.press(motor.shaft_mm), motor.shaft_flat_mm + 2.0 * bores.fits.press_mm)
+    cam_gear = _cam_gear(stages[-1].wheel, key_mm, bores)
+    pinion = _motor_pinion(stages[0].pinion, *shaft_mm, bores)
+    made = [
+        Drawing("cam_gear", "gears", cam_gear, (_placed(cam_y[1], plan.cam_axis_mm, turns["cam_gear"]),)),
+        Drawing("motor_pinion", "gears", pinion, (_placed(motor_y[1], plan.motor_mm, turns["motor_pinion"]),)),
+    ]
+    if plan.idler_mm is not None:
+        idler = _idler(stages[0].wheel, stages[-1].pinion, motor_y[0] - cam_y[1], plan.axle_mm, bores)
+        made.append(Drawing("idler", "gears", idler, (_placed(motor_y[1], plan.idler_mm, turns["idler"]),)))
+    return made
+
+
+def gear_turns(plan: Plan) -> dict[str, float]:
+    """Return the turns (rad, counter-clockwise in x-z) of cam gear, motor pinion and idler, springs at rest."""
+    stages = plan.drive.train.stages
+    if plan.idler_mm is None:
+        pinion = mesh_turn(stages[0].wheel, stages[0].pinion, plan.cam_axis_mm, plan.motor_mm, 0.0)
+        return {"cam_gear": 0.0, "motor_pinion": pinion}
+    idler = mesh_turn(stages[-1].wheel, stages[-1].pinion, plan.cam_axis_mm, plan.idler_mm, 0.0)
+    pinion = mesh_turn(stages[0].wheel, stages[0].pinion, plan.idler_mm, plan.motor_mm, idler)
+    return {"cam_gear": 0.0, "motor_pinion": pinion, "idler": idler}
+
+
+def mesh_turn(wheel: Gear, pinion: Gear, wheel_mm: np.ndarray, pinion_mm: np.ndarray, wheel_turn_rad: float) -> float:
+    """Return the turn (counter-clockwise in x-z) of a pinion whose teeth sit in the middle of a wheel's gaps.
+
+    Both profiles have a tooth centred on +x. The wheel is turned as given; the pinion gets a gap where a tooth of the
+    wheel points at it.
+    """
+    line = math.atan2(pinion_mm[1] - wheel_mm[1], pinion_mm[0] - wheel_mm[0])
+    offset = (line - wheel_turn_rad) * wheel.teeth / (2.0 * math.pi)
+    # a share of a pitch by which the wheel's nearest tooth is away from the line of centres
+    share = offset - round(offset)
+    pinion_pitch = 2.0 * math.pi / pinion.teeth
+    return line + math.pi + pinion_pitch * (0.5 + share)
+
+
+def _placed(top_mm: float, centre_mm: np.ndarray, turn_rad: float) -> Placement:
+    """Return the place of a gear that lies on its left face, turned about its axis."""
+    return Placement(BODY, lying_on_left(top_mm, *centre_mm) @ about_z(turn_rad))
+
+
+@lru_cache(maxsize=64)
+def _cam_gear(gear: Gear, key_mm: float, bores: Bores) -> Stack:
+    return bores.chamfered(Stack.of([(0.0, gear.face_width_mm, _webbed(gear, _hexagon(key_mm, (0.0, 0.0)), 0.0))]))
+
+
+@lru_cache(maxsize=64)
+def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, bores: Bores) -> Stack:
+    return bores.chamfered(Stack.of([(0.0, gear.face_width_mm, _webbed(gear, d_bore(shaft_mm, flat_mm), 0.0))]))
+
+
+@lru_cache(maxsize=64)
+def _idler(wheel: Gear, pinion: Gear, gap_mm: float, axle_mm: float, bores: Bores) -> Stack:
+    """Return an idler on its wheel's left face; the small teeth stand on the wheel, so that they print unsupported."""
+    bore = hole(bores.running(axle_mm))
+    low = wheel.face_width_mm
+    slabs = [
+        (0.0, low, _webbed(wheel, bore, pinion.tip_radius_mm)),
+        (low, low + gap_mm + pinion.face_width_mm, polygon(pinion.profile_mm) - bore),
+    ]
+    return bores.chamfered(Stack.of(slabs))
+
+
+def _webbed(gear: Gear, bore: Region, hub_radius_mm: float) -> Region:
+    """Return a gear with its bore, and web holes where there is room between hub and rim."""
+    low_x, _, high_x, _ = bore.bounds()
+    hub = max(hub_radius_mm, (high_x - low_x) / 2.0) + WEB_RIM_MM
+    rim = gear.root_radius_mm - WEB_RIM_MM
+    region = polygon(gear.profile_mm) - bore
+    if rim - hub < 4.0:
+        return region
+    spokes = union(
+        rectangle((2.0 * rim, WEB_RIM_MM)).rotate(180.0 * index / (WEB_HOLES / 2)) for index in range(WEB_HOLES // 2)
+    )
+    return region - rounded(disc(2.0 * rim) - disc(2.0 * hub) - spokes, 1.0)
+
+
+def _hexagon(across_flats_mm: float, centre: Point) -> Region:
+    radius = across_flats_mm / math.sqrt(3.0)
+    angles = np.arange(6) * math.pi / 3.0
+    return polygon(np.asarray(centre) + radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1))

@@ -1,0 +1,1 @@
+"""What people see of robots and searches: pictures and pages."""

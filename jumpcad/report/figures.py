@@ -1,0 +1,59 @@
+"""Figures as files: no display, one style, the same bytes for the same data."""
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from jumpcad.errors import JumpcadError
+
+BLUE, ORANGE, GREY, RED = "#1f5fa8", "#d9822b", "#8a8f98", "#b3322b"
+STYLE: dict[Any, Any] = {
+    "svg.hashsalt": "jumpcad",
+    "svg.fonttype": "path",
+    "font.size": 9.0,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.alpha": 0.25,
+    "legend.frameon": False,
+}
+
+
+def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4) -> tuple[Figure, list[Axes]]:
+    """Return a figure of `count` equal panels, each `width` by `height` inches."""
+    with matplotlib.rc_context(STYLE):
+        columns = min(columns, count)
+        rows = -(-count // columns)
+        figure = Figure(figsize=(width * columns, height * rows), layout="constrained")
+        axes = [figure.add_subplot(rows, columns, index + 1) for index in range(count)]
+    return figure, axes
+
+
+def save(figure: Figure, folder: Path, name: str) -> Path:
+    """Write a figure as `folder/name.svg` and return the path."""
+    path = folder / f"{name}.svg"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with matplotlib.rc_context(STYLE):
+            figure.savefig(path, metadata={"Date": None})
+    except OSError as error:
+        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
+    return path
+
+
+def heat(figure: Figure, axes: Axes, x: Any, y: Any, values: Any, label: str) -> None:
+    """Draw values (len(y), len(x)) as a map with its scale."""
+    image = axes.pcolormesh(x, y, values, shading="nearest", cmap="viridis", rasterized=True)
+    axes.grid(False)
+    figure.colorbar(image, ax=axes, label=label)
+
+
+def labels(axes: Axes, x: str, y: str, title: str = "") -> None:
+    """Name the axes."""
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    if title:
+        axes.set_title(title, fontsize=9.0)

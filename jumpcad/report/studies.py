@@ -1,0 +1,34 @@
+"""All pictures of a study."""
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from jumpcad.report import plots
+from jumpcad.report.figures import save
+from jumpcad.search.ledger import Ledger
+from jumpcad.search.objective import find_objective
+from jumpcad.search.space import Space
+from jumpcad.search.study import FRONTS, search_rows
+from jumpcad.search.surrogate import Belief
+
+
+def plot_study(ledger: Ledger, folder: Path) -> list[Path]:
+    """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
+    rows, identity = search_rows(ledger.rows()), ledger.identity
+    space, objective = Space.from_record(identity["space"]), find_objective(identity["objective"])
+    figures: dict[str, Callable[[], Figure]] = {}
+    if rows:
+        figures["history"] = partial(plots.history, rows, objective)
+        figures["slices"] = partial(plots.slices, space, rows, objective)
+    if rows and space.dimension > 1:
+        figures["parallel"] = partial(plots.parallel, space, rows)
+    if rows and identity["method"] in FRONTS:
+        figures["pareto"] = partial(plots.pareto, rows, objective)
+    theta = rows[-1].proposal.get("theta") if rows else None
+    if theta is not None and space.dimension <= 2:
+        belief = Belief.from_rows(space, rows, theta, fit=())
+        figures["acquisition"] = partial(plots.acquisition, space, rows, belief, objective)
+    return [save(draw(), folder, name) for name, draw in figures.items()]

@@ -1,0 +1,119 @@
+"""Where to evaluate next: expected improvement times the probability of being feasible, maximised over a space."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import minimize
+
+from jumpcad.design import Design
+from jumpcad.search.space import Array, Space
+from jumpcad.search.surrogate import Belief
+
+CANDIDATES = 1024
+LOCAL = 128
+STARTS = 6
+_STEP = 1e-6
+_STEPS = 40
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A design to evaluate, its point (d,), and what is believed of it (logarithms of EI and of P(feasible))."""
+
+    design: Design
+    unit: Array
+    log_improvement: float
+    log_feasible: float
+
+    def note(self) -> dict[str, float]:
+        """Return what the ledger keeps of the belief."""
+        return {"log_improvement": self.log_improvement, "log_feasible": self.log_feasible}
+
+
+def propose(
+    space: Space,
+    belief: Belief,
+    best: float,
+    elite: Array,
+    admits: Callable[[Design], bool],
+    generator: np.random.Generator,
+    penalty: Callable[[Array], Array] | None = None,
+) -> Proposal | None:
+    """Return the design with the largest acquisition that is found, or None where no candidate is admitted.
+
+    Parameters
+    ----------
+    space, belief
+        Where to look, and what is believed of it.
+    best
+        The score to improve upon.
+    elite
+        Points (k, d) near which to look more closely: the best designs so far.
+    admits
+        Whether a design may be proposed: it was not yet, and no free test refuses it.
+    generator
+        Draws the candidates.
+    penalty
+        Is subtracted from the logarithm of the acquisition: points (m, d) to (m,), 0 where allowed.
+    """
+
+    def log_acquisition(points: Array) -> Array:
+        value = belief.log_improvement(points, best) + belief.log_feasible(points)
+        return value if penalty is None else value - penalty(points)
+
+    candidates = [space.spread(CANDIDATES, generator)]
+    for point in elite:
+        scale = 10.0 ** generator.uniform(-3, -0.7, (LOCAL, 1))
+        candidates.append(space.snap(point + scale * generator.standard_normal((LOCAL, space.dimension))))
+    points = np.vstack(candidates)
+    values = log_acquisition(points)
+    order = np.argsort(-values, kind="stable")
+    starts = points[_apart(points, order, STARTS)]
+    polished = [_climb(space, log_acquisition, start) for start in starts]
+    points = np.vstack([*polished, points[order]])
+    values = log_acquisition(points)
+    for index in np.argsort(-values, kind="stable"):
+        design = space.to_design(points[index])
+        if admits(design):
+            at = points[index][None]
+            improvement, feasible = belief.log_improvement(at, best), belief.log_feasible(at)
+            return Proposal(design, points[index], float(improvement[0]), float(feasible[0]))
+    return None
+
+
+def _apart(points: Array, order: npt.NDArray[np.intp], count: int) -> list[int]:
+    """Return the first `count` of an order whose points are not near each other, so that climbs differ."""
+    chosen: list[int] = []
+    for index in order[:256]:
+        if all(np.abs(points[index] - points[other]).max() > 0.05 for other in chosen):
+            chosen.append(int(index))
+        if len(chosen) == count:
+            break
+    return chosen
+
+
+def _climb(space: Space, function: Callable[[Array], Array], start: Array) -> Array:
+    """Return the local maximum (d,) near a point, choices kept as they are; bounds may become active."""
+    moving = [index for index, parameter in enumerate(space.free) if not parameter.choices]
+    if not moving:
+        return start
+
+    def negative(coordinates: Array) -> tuple[float, Array]:
+        # Value and forward differences (backward at the upper bound) in one prediction.
+        base = start.copy()
+        base[moving] = coordinates
+        signs = np.where(coordinates > 0.5, -_STEP, _STEP)
+        stack = np.repeat(base[None], len(moving) + 1, axis=0)
+        stack[np.arange(1, len(moving) + 1), moving] += signs
+        values = function(stack)
+        return -values[0], -(values[1:] - values[0]) / signs
+
+    found = minimize(
+        negative, start[moving], method="L-BFGS-B", jac=True, bounds=[(0.0, 1.0)] * len(moving),
+        options={"maxiter": _STEPS},
+    )  # fmt: skip
+    end = start.copy()
+    end[moving] = np.clip(found.x, 0.0, 1.0)
+    return end

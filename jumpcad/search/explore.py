@@ -1,0 +1,177 @@
+"""Looking around instead of optimising: sweeps, principal components, importance, and where designs are refused."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from jumpcad.design import Design
+from jumpcad.errors import JumpcadError
+from jumpcad.search.campaign import Campaign
+from jumpcad.search.ledger import Row
+from jumpcad.search.space import Array, Parameter
+from jumpcad.search.surrogate import Surrogate, warped
+
+ELITE_SHARE = 0.1
+ELITE_LEAST = 20
+FOLDS = 5
+REPEATS = 10
+
+UNIFORM_NOTE = (
+    "Components of evenly sampled parameters are equal by construction, up to chance: they say nothing of the robot. "
+    "What matters shows in the components of the best tenth, and in the importance."
+)
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """One parameter varied alone: the rows, in the order of its values."""
+
+    parameter: str
+    values: Array
+    rows: list[Row]
+
+
+@dataclass(frozen=True)
+class Components:
+    """Principal components of standardised parameters.
+
+    ``shares`` (k,) of the variance, falling; ``directions`` (k, k), one component a row, over ``names``.
+    """
+
+    names: tuple[str, ...]
+    shares: Array
+    directions: Array
+    designs: int
+
+
+@dataclass(frozen=True)
+class Importance:
+    """By how much a prediction's R² on designs it has not seen falls when a parameter is shuffled: mean and deviation.
+
+    ``r_squared`` is the R² before; ``designs`` the number of designs that jump.
+    """
+
+    names: tuple[str, ...]
+    mean: Array
+    deviation: Array
+    r_squared: float
+    designs: int
+
+
+@dataclass(frozen=True)
+class FeasibilityMap:
+    """Verdicts over a grid of two parameters, the others as in a design: rows[j][i] at ``y[j]``, ``x[i]``."""
+
+    x_name: str
+    y_name: str
+    x: Array
+    y: Array
+    rows: list[list[Row]]
+
+
+def sweep(campaign: Campaign, around: Design, points: int) -> list[Sweep]:
+    """Vary each free parameter alone over its range, `points` values each (or its choices)."""
+    if points < 2:
+        raise JumpcadError(f"points = {points} must be at least 2")
+    sweeps = []
+    for step, parameter in enumerate(campaign.space.free):
+        values = _grid(parameter, points)
+        rows = _all(campaign, [_with(around, {parameter.name: value}) for value in values], "sweep", step)
+        sweeps.append(Sweep(parameter.name, values, rows))
+    return sweeps
+
+
+def sample(campaign: Campaign, count: int, seed: int) -> list[Row]:
+    """Evaluate `count` designs spread evenly over the space."""
+    if count < 20:
+        raise JumpcadError(f"samples = {count} must be at least 20")
+    points = campaign.space.spread(count, np.random.default_rng([seed, 5]))
+    return _all(campaign, [campaign.space.to_design(point) for point in points], "sample", 0)
+
+
+def components(campaign: Campaign, rows: Sequence[Row]) -> Components:
+    """Return the principal components of the free parameters of some rows."""
+    from sklearn.decomposition import PCA
+
+    if len(rows) < 3:
+        raise JumpcadError(f"{len(rows)} designs are too few for principal components; raise --samples")
+    units = np.array([campaign.space.to_unit(row.design) for row in rows])
+    deviation = units.std(axis=0)
+    found = PCA(svd_solver="full").fit((units - units.mean(axis=0)) / np.where(deviation > 0, deviation, 1.0))
+    names = tuple(parameter.name for parameter in campaign.space.free)
+    return Components(names, found.explained_variance_ratio_, found.components_, len(rows))
+
+
+def elite(rows: Sequence[Row]) -> list[Row]:
+    """Return the best tenth of the feasible rows, at least `ELITE_LEAST` if there are so many, best first."""
+    feasible = sorted((row for row in rows if row.score is not None), key=lambda row: -(row.score or 0.0))
+    return feasible[: max(ELITE_LEAST, round(ELITE_SHARE * len(feasible)))]
+
+
+def importance(campaign: Campaign, rows: Sequence[Row], seed: int) -> Importance:
+    """Return the permutation importance of the free parameters for the score of designs that jump.
+
+    A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is shuffled there.
+    """
+    feasible = [row for row in rows if row.score is not None]
+    if len(feasible) < 2 * FOLDS:
+        raise JumpcadError(
+            f"{len(feasible)} of {len(rows)} designs jump, which is too few to say what is important; raise --samples"
+        )
+    x = np.array([campaign.space.to_unit(row.design) for row in feasible])
+    y = warped(np.array([row.score for row in feasible]))
+    generator = np.random.default_rng([seed, 6])
+    fold = generator.permutation(len(y)) % FOLDS
+    theta, scores, falls = None, [], []
+    with threadpool_limits(1):
+        for part in range(FOLDS):
+            known = fold != part
+            surrogate = Surrogate(x[known], y[known], theta)
+            theta = surrogate.theta
+            plain = _r_squared(surrogate, x[~known], y[~known])
+            scores.append(plain)
+            for _ in range(REPEATS):
+                shuffled = [_shuffled(x[~known], column, generator) for column in range(x.shape[1])]
+                falls.append([plain - _r_squared(surrogate, points, y[~known]) for points in shuffled])
+    names = tuple(parameter.name for parameter in campaign.space.free)
+    return Importance(names, np.mean(falls, axis=0), np.std(falls, axis=0), float(np.mean(scores)), len(feasible))
+
+
+def feasibility_map(campaign: Campaign, around: Design, x_name: str, y_name: str, points: int) -> FeasibilityMap:
+    """Evaluate a grid over two free parameters, the others as in a design."""
+    parameters = {parameter.name: parameter for parameter in campaign.space.free}
+    for name in (x_name, y_name):
+        if name not in parameters:
+            raise JumpcadError(f"{name!r} is not a free parameter; these are {', '.join(parameters)}")
+    if x_name == y_name:
+        raise JumpcadError(f"a map needs two different parameters, not {x_name} twice")
+    x, y = _grid(parameters[x_name], points), _grid(parameters[y_name], points)
+    designs = [_with(around, {x_name: u, y_name: v}) for v in y for u in x]
+    rows = _all(campaign, designs, "sweep", campaign.space.dimension)
+    return FeasibilityMap(x_name, y_name, x, y, [rows[j * len(x) : (j + 1) * len(x)] for j in range(len(y))])
+
+
+def _grid(parameter: Parameter, points: int) -> Array:
+    return np.array(parameter.choices) if parameter.choices else np.linspace(parameter.lower, parameter.upper, points)
+
+
+def _with(design: Design, values: dict[str, float]) -> Design:
+    return Design(**{**design.model_dump(), **{name: float(value) for name, value in values.items()}})
+
+
+def _all(campaign: Campaign, designs: Sequence[Design], phase: str, step: int) -> list[Row]:
+    return [row for row in campaign.evaluate(designs, phase, step) if row is not None]
+
+
+def _r_squared(surrogate: Surrogate, x: Array, y: Array) -> float:
+    """Return the share of the variance of y (n,) that predictions at x (n, d) explain."""
+    error = y - surrogate.predict(x)[0]
+    return 1.0 - float(np.sum(error**2) / np.sum((y - y.mean()) ** 2))
+
+
+def _shuffled(x: Array, column: int, generator: np.random.Generator) -> Array:
+    shuffled = x.copy()
+    shuffled[:, column] = generator.permutation(shuffled[:, column])
+    return shuffled

@@ -1,0 +1,126 @@
+"""The robot behind an objective: printed, capsule or published, chosen by name."""
+
+import hashlib
+import importlib.metadata
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from jumpcad import __version__
+from jumpcad.design import Design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.findings import errors
+from jumpcad.gate import geometry_findings, statics_findings
+from jumpcad.search.objective import Evaluation
+
+MODELS = ("printed", "capsule", "published")
+
+
+@dataclass(frozen=True)
+class RobotModel:
+    """A picklable function from design to evaluation.
+
+    Parameters
+    ----------
+    name
+        `printed`: built, simulated and checked in a workshop. `capsule`: the published masses as capsules, simulated
+        right. `published`: the published simulation behind the geometric gate, which its study lacked.
+    workshop
+        What `printed` is built in.
+    settings, engine
+        How `printed` and `capsule` are simulated; the defaults if None.
+    """
+
+    name: str
+    workshop: Any = None
+    settings: Any = None
+    engine: str = "pybullet"
+
+    def __post_init__(self) -> None:
+        if self.name not in MODELS:
+            raise JumpcadError(
+                f"{self.name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(self.name, MODELS)}"
+            )
+
+    def __call__(self, design: Design) -> Evaluation:
+        """Evaluate a design; one that cannot be built is a verdict, not an error."""
+        findings = tuple(geometry_findings(design))
+        refused = errors(findings)
+        if refused:
+            return Evaluation(refused[0].name, findings=findings)
+        try:
+            return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
+        except CannotBuildError as error:
+            return Evaluation("cannot_build", detail=str(error))
+
+    def admits(self, design: Design) -> bool:
+        """Whether the gate lets a design pass as far as that is known in microseconds: without solids or simulation."""
+        if errors(geometry_findings(design)):
+            return False
+        if self.name != "capsule":
+            return True
+        from jumpcad.capsule import capsule_robot
+
+        return not errors(statics_findings(capsule_robot(design)))
+
+    def describe(self) -> dict[str, Any]:
+        """Return all that decides an evaluation, as plain data."""
+        record: dict[str, Any] = {"name": self.name, "engine": "pybullet" if self.name == "published" else self.engine}
+        for key in ("workshop", "settings"):
+            value = getattr(self, key)
+            record[key] = None if value is None else value.model_dump(mode="json")
+        return record
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of the description and of the versions of what computes (hexadecimal)."""
+        content = json.dumps([self.describe(), self.versions()], sort_keys=True)
+        return hashlib.sha256(content.encode()).hexdigest()
+
+    def versions(self) -> dict[str, str]:
+        """Return the versions of the packages that decide an evaluation."""
+        solids = ["manifold3d", "trimesh"] if self.name == "printed" else []
+        return {"jumpcad": __version__} | versions("numpy", self.describe()["engine"], *solids)
+
+    def _printed(self, design: Design) -> Evaluation:
+        from jumpcad.evaluation import evaluate
+
+        result = evaluate(design, self.workshop, self.settings, self.engine)
+        return Evaluation(result.verdict, _figures(result.jump) | result.metrics, tuple(result.findings))
+
+    def _capsule(self, design: Design) -> Evaluation:
+        from jumpcad.capsule import capsule_robot
+        from jumpcad.simulation import simulate
+
+        jump = simulate(capsule_robot(design), self.settings, self.engine)
+        return Evaluation(jump.verdict, _figures(jump), tuple(jump.findings))
+
+    def _published(self, design: Design) -> Evaluation:
+        from jumpcad import published
+
+        jump = published.simulate(design)
+        metrics = {
+            "fitness": jump.distance_m / (design.l_max_mm / 1000.0),
+            "base_distance_m": jump.distance_m,
+            "base_height_m": jump.base_height_m,
+            "spring_energy_j": jump.energy_j,
+        }
+        return Evaluation("jump" if jump.distance_m > 0 else "no_takeoff", metrics, tuple(geometry_findings(design)))
+
+
+def versions(*packages: str) -> dict[str, str]:
+    """Return the installed versions of packages; of those that are not installed, `none`."""
+    found = {}
+    for package in packages:
+        try:
+            found[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            found[package] = "none"
+    return found
+
+
+def _figures(jump: Any) -> dict[str, float]:
+    """Return the plain figures of a jump."""
+    return {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}

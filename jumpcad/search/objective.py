@@ -1,0 +1,116 @@
+"""What is searched for: the outcome of one evaluation, and the score that an objective gives it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from jumpcad.design import Design
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.findings import Finding, errors
+
+QUARANTINED = "quarantined"
+"""Verdict of a design whose evaluation ended two workers, or ran past its limit twice."""
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What a model says of one design.
+
+    ``metrics`` are named figures with the unit in the name; ``findings`` hold the margins of every limit that was
+    reached before the verdict; ``detail`` says more where verdict and findings do not.
+    """
+
+    verdict: str
+    metrics: Mapping[str, float] = field(default_factory=dict)
+    findings: tuple[Finding, ...] = ()
+    detail: str = ""
+
+    @property
+    def feasible(self) -> bool:
+        """Whether the design jumps and no finding forbids it."""
+        return self.verdict == "jump" and not errors(self.findings)
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """Names of what forbids the design; the verdict where no finding does."""
+        names = tuple(dict.fromkeys(finding.name for finding in errors(self.findings)))
+        return names or (() if self.feasible else (self.verdict,))
+
+
+class Model(Protocol):
+    """What stands behind an objective: a picklable, pure function of the design."""
+
+    def __call__(self, design: Design, /) -> Evaluation:
+        """Evaluate a design. Raises `JumpcadError` only where no design would do."""
+
+    def admits(self, design: Design, /) -> bool:
+        """Whether a design is worth an evaluation, as far as that is known in microseconds."""
+
+    def describe(self) -> dict[str, Any]:
+        """Return all that decides an evaluation, as plain data."""
+
+    def versions(self) -> dict[str, str]:
+        """Return the versions of the packages that decide an evaluation."""
+
+    @property
+    def digest(self) -> str:
+        """A hash of description and versions."""
+
+
+@dataclass(frozen=True)
+class Objective:
+    """A score to be maximised; a refused design has none."""
+
+    name: str
+    meaning: str
+    unit: str
+    figure: Callable[[Mapping[str, float]], float]
+
+    def score(self, evaluation: Evaluation) -> float | None:
+        """Return the score of a feasible evaluation, None of a refused one.
+
+        Raises
+        ------
+        JumpcadError
+            If the model behind the evaluation does not give the figures that the objective needs.
+        """
+        if not evaluation.feasible:
+            return None
+        try:
+            return float(self.figure(evaluation.metrics))
+        except KeyError as missing:
+            raise JumpcadError(
+                f"the objective {self.name} needs {missing.args[0]}, which this model does not give: "
+                f"choose another --objective or --model"
+            ) from None
+
+
+def _range_m(metrics: Mapping[str, float]) -> float:
+    # The published model has no ballistic range; its base distance is what its study calls distance.
+    return metrics["base_distance_m"] if "base_distance_m" in metrics else metrics["ballistic_range_m"]
+
+
+def _range_per_joule(metrics: Mapping[str, float]) -> float:
+    return _range_m(metrics) / metrics["spring_energy_j"]
+
+
+OBJECTIVES: dict[str, Objective] = {
+    objective.name: objective
+    for objective in (
+        Objective("fitness", "range over the longest link", "body lengths", lambda m: m["fitness"]),
+        Objective("range", "range of the jump", "m", _range_m),
+        Objective("rise", "rise of the centre of mass", "m", lambda m: m["com_rise_m"]),
+        Objective("range-per-joule", "range per joule in the springs", "m/J", _range_per_joule),
+        Objective("jumps-per-joule", "jumps per joule of electricity", "1/J", lambda m: 1.0 / m["electrical_energy_j"]),
+    )
+}
+
+
+def find_objective(name: str) -> Objective:
+    """Return an objective by its name."""
+    if name not in OBJECTIVES:
+        raise JumpcadError(
+            f"{name!r} is not one of the objectives {', '.join(OBJECTIVES)}{did_you_mean(name, OBJECTIVES)}"
+        )
+    return OBJECTIVES[name]

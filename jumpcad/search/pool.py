@@ -1,0 +1,264 @@
+"""Evaluations on many processes or machines, under supervision.
+
+Whatever is a `concurrent.futures.Executor` can do the work: local processes (loky), a Dask cluster, or the calling
+process itself. A lost worker costs time, never a design and never the run: what was under way is repeated one design
+at a time, and a design that fails again is quarantined, with the reason.
+"""
+
+import contextlib
+import math
+import os
+import re
+import signal
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from dataclasses import dataclass
+from typing import Any
+
+from jumpcad.design import Design
+from jumpcad.errors import JumpcadError
+from jumpcad.search.objective import QUARANTINED, Evaluation, Model
+
+TASK_S = 0.03
+"""Evaluations are sent in tasks of up to this length: long against the 0.4 ms that sending one takes."""
+
+ANSWER_S = 10.0
+"""How long a Dask scheduler may take to answer."""
+
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One finished evaluation of a batch: the design's place in it, the result, and how long it took."""
+
+    index: int
+    evaluation: Evaluation
+    duration_s: float
+
+
+@dataclass(frozen=True)
+class _Failure:
+    """An evaluation that ended in an unforeseen exception."""
+
+    text: str
+
+
+class Pool:
+    """Supervisor of an executor.
+
+    Parameters
+    ----------
+    open_executor
+        Makes the executor, now and again after its processes were lost.
+    end_executor
+        Ends it, without waiting for what is still running.
+    workers
+        How many evaluations it runs at a time.
+    limit_s
+        Time that one evaluation may take; a worker past it is ended. 0 for no limit.
+    notice
+        Is told of every failure in one line.
+    """
+
+    def __init__(
+        self,
+        open_executor: Callable[[], Executor],
+        end_executor: Callable[[Any], None],
+        workers: int,
+        limit_s: float = 0.0,
+        notice: Callable[[str], None] = lambda text: None,
+    ) -> None:
+        self.workers = workers
+        self.notice = notice
+        self._open = open_executor
+        self._end = end_executor
+        self._limit_s = limit_s
+        self._executor: Executor | None = None
+        self._mean_s = TASK_S
+
+    def __enter__(self) -> "Pool":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the workers."""
+        if self._executor is not None:
+            self._end(self._executor)
+            self._executor = None
+
+    def evaluate(self, model: Model, designs: Sequence[Design]) -> Iterator[Outcome]:
+        """Evaluate designs; outcomes come in the order in which they finish.
+
+        Raises
+        ------
+        JumpcadError
+            If the model itself cannot work, whatever the design.
+        """
+        suspects: dict[int, str] = {}
+        waiting = deque(self._tasks(len(designs)))
+        running: dict[Future[Any], list[int]] = {}
+        while waiting or running:
+            while waiting and len(running) < self.workers + 1:  # one more keeps workers busy while results travel
+                task = waiting.popleft()
+                running[self._submit(model, [designs[index] for index in task])] = task
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                yield from self._collect(future, running.pop(future), suspects)
+        for index, reason in suspects.items():
+            self.notice(f"an evaluation failed and is repeated alone: {reason}")
+            again: dict[int, str] = {}
+            yield from self._collect(self._submit(model, [designs[index]]), [index], again)
+            if again:
+                self.notice(f"a design is quarantined: {again[index]}; before: {reason}")
+                yield Outcome(index, Evaluation(QUARANTINED, detail=again[index]), 0.0)
+
+    def _tasks(self, count: int) -> list[list[int]]:
+        """Split a batch into tasks of `TASK_S` at most that grow smaller, so that all workers finish together."""
+        most = max(1, int(TASK_S / self._mean_s))
+        tasks, start = [], 0
+        while start < count:
+            size = min(most, math.ceil((count - start) / (2 * self.workers)))
+            tasks.append(list(range(start, start + size)))
+            start += size
+        return tasks
+
+    def _submit(self, model: Model, designs: list[Design]) -> Future[Any]:
+        if self._executor is None:
+            self._executor = self._open()
+        try:
+            return self._executor.submit(_evaluate_task, model, designs, self._limit_s)
+        except BrokenExecutor:
+            self.close()
+            self._executor = self._open()
+            return self._executor.submit(_evaluate_task, model, designs, self._limit_s)
+
+    def _collect(self, future: Future[Any], task: list[int], suspects: dict[int, str]) -> Iterator[Outcome]:
+        try:
+            results = future.result()
+        except JumpcadError:
+            raise
+        except Exception as error:  # whatever an executor raises for a lost worker
+            suspects |= dict.fromkeys(task, self._loss(error))
+            return
+        for index, (result, duration_s) in zip(task, results, strict=True):
+            self._mean_s += 0.1 * (duration_s - self._mean_s)
+            if isinstance(result, _Failure):
+                suspects[index] = result.text
+            else:
+                yield Outcome(index, result, duration_s)
+
+    def _loss(self, error: Exception) -> str:
+        """Say in one line how a worker was lost."""
+        ended_by = re.search(r"SIG[A-Z]+", str(error))
+        if ended_by and ended_by[0] == "SIGALRM":
+            return f"it ran past its limit of {self._limit_s:g} s"
+        if ended_by:
+            killed = " (killed, perhaps because memory ran out)" if ended_by[0] == "SIGKILL" else ""
+            return f"its worker was ended by {ended_by[0]}{killed}"
+        return f"its worker was lost: {type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"
+
+
+def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
+    """Return a pool of processes on this machine, by default one for each core that this process may use.
+
+    0 workers evaluate in the calling process: no start-up, and no supervision.
+    """
+    if workers is None:
+        workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if workers < 0:
+        raise JumpcadError(f"workers = {workers} must be at least 1 (0 evaluates without worker processes)")
+    if limit_s <= 0:
+        raise JumpcadError(f"limit = {limit_s:g} s must be more than 0: the time that one evaluation may take")
+    if workers == 0:
+        return Pool(InProcess, InProcess.shutdown, 1)
+
+    def open_executor() -> Executor:
+        import loky
+
+        return loky.ProcessPoolExecutor(workers, initializer=_start_worker, env=ONE_THREAD)
+
+    return Pool(open_executor, lambda executor: executor.shutdown(kill_workers=True), workers, limit_s)
+
+
+def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
+    """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad)."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise JumpcadError("Dask is not installed: pip install 'jumpcad[dask]', or use --workers") from None
+    try:
+        client = Client(address, timeout=ANSWER_S, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise JumpcadError(f"no Dask scheduler answers at {address}: {error}") from None
+    workers = sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
+    if workers == 0:
+        client.close()
+        raise JumpcadError(f"the Dask scheduler at {address} has no workers: start some with `dask worker {address}`")
+
+    def end_executor(executor: Any) -> None:
+        executor.shutdown(wait=False)
+        client.close()
+
+    return Pool(lambda: client.get_executor(pure=False), end_executor, workers, limit_s)
+
+
+class InProcess(Executor):
+    """An executor that does its work in the calling process when it is submitted."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Return a future that is done."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(fn(*args, **kwargs))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+def _start_worker() -> None:
+    # Ctrl-C reaches the whole process group; only the parent may answer it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Engines greet on standard output, where the parent may be printing one JSON document.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
+
+
+def _end_with_parent(parent: int) -> None:
+    """End this process when its parent was killed: the queue to it would wait for ever."""
+    while os.getppid() == parent:
+        time.sleep(1.0)
+    os._exit(1)
+
+
+def _evaluate_task(model: Model, designs: Sequence[Design], limit_s: float) -> list[tuple[Any, float]]:
+    """Evaluate designs one after the other, in a worker."""
+    results: list[tuple[Any, float]] = []
+    for design in designs:
+        start = time.perf_counter()
+        with _alarm(limit_s):
+            try:
+                result: Evaluation | _Failure = model(design)
+            except JumpcadError:
+                raise
+            except Exception as error:  # the run must outlive a bug that one design in a thousand meets
+                result = _Failure(f"{type(error).__name__}: {error}")
+        results.append((result, time.perf_counter() - start))
+    return results
+
+
+@contextlib.contextmanager
+def _alarm(limit_s: float) -> Iterator[None]:
+    """Have the system end this process when the block takes longer; that works even where Python cannot interrupt."""
+    if limit_s <= 0 or not hasattr(signal, "setitimer"):
+        yield
+        return
+    signal.setitimer(signal.ITIMER_REAL, limit_s)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)

@@ -1,0 +1,165 @@
+"""The final pick: of the best designs, the one whose neighbours jump well too; and what its active bounds are worth.
+
+Near some designs a thousandth of one parameter decides over the jump. A printer does not hit thousandths.
+"""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import qmc
+
+from jumpcad.design import PARAMETERS, Design
+from jumpcad.search.campaign import Campaign
+from jumpcad.search.ledger import Row
+from jumpcad.search.space import Array, Space, physical_limits
+
+CANDIDATES, ROUNDS = 10, 3
+KEPT = 0.9
+"""Share of the best score at which a robust score is good enough to look no further."""
+SAMPLES = 16
+PERCENT = 1.0
+PERCENTILE = 10
+APART = 0.02
+WIDENING = 0.05
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A design among the best, and how its neighbours do.
+
+    ``parameters_score`` and ``print_score`` are the 10th percentiles of the score when every parameter varies by ±1 %,
+    and when every length varies by the tolerance of print and assembly; a refused neighbour counts 0. ``refusals``
+    counts why neighbours were refused.
+    """
+
+    row: Row
+    parameters_score: float
+    print_score: float
+    refusals: dict[str, int]
+
+    @property
+    def robust_score(self) -> float:
+        """The lesser of both percentiles, by which candidates are ranked."""
+        return min(self.parameters_score, self.print_score)
+
+
+@dataclass(frozen=True)
+class ActiveBound:
+    """A bound of the search on which a design lies.
+
+    ``worth`` is the change of the score if the parameter goes ``beyond`` it, everything else kept; None where that
+    design is refused, for ``reason``.
+    """
+
+    name: str
+    side: str
+    value: float
+    beyond: float
+    worth: float | None
+    reason: str = ""
+
+
+def rank_candidates(campaign: Campaign, rows: Sequence[Row], seed: int, tolerance_mm: float) -> list[Candidate]:
+    """Evaluate the neighbours of the best of some rows and return these, most robust first.
+
+    The best often lie at the edge of a constraint; as long as none of ten keeps most of its score, the next ten follow.
+    """
+    chosen = best_apart(campaign.space, rows, ROUNDS * CANDIDATES)
+    candidates: list[Candidate] = []
+    for turn in range(ROUNDS):
+        ten = chosen[turn * CANDIDATES : (turn + 1) * CANDIDATES]
+        candidates += _examined(campaign, ten, ROUNDS * len(rows) + turn, seed, tolerance_mm)
+        if any(candidate.robust_score >= KEPT * (chosen[0].score or 0.0) for candidate in candidates):
+            break
+    return sorted(candidates, key=lambda candidate: -candidate.robust_score)
+
+
+def _examined(campaign: Campaign, chosen: Sequence[Row], step: int, seed: int, tolerance_mm: float) -> list[Candidate]:
+    """Return candidates made of rows and the outcomes of their neighbours."""
+    neighbours: list[tuple[int, str, Design]] = []
+    for index, row in enumerate(chosen):
+        generator = np.random.default_rng([seed, 4, index])
+        for kind, designs in (
+            ("parameters", varied_parameters(row.design, generator)),
+            ("print", varied_lengths(row.design, tolerance_mm, generator)),
+        ):
+            neighbours += [(index, kind, design) for design in designs]
+    found = campaign.evaluate([design for _, _, design in neighbours], "robust", step)
+    candidates = []
+    for index, row in enumerate(chosen):
+        scores: dict[str, list[float]] = {"parameters": [], "print": []}
+        refusals: Counter[str] = Counter()
+        for (owner, kind, _), neighbour in zip(neighbours, found, strict=True):
+            if owner == index and neighbour is not None:
+                scores[kind].append(neighbour.score or 0.0)
+                refusals.update(neighbour.evaluation.reasons)
+        tenth = {kind: float(np.percentile(values, PERCENTILE)) for kind, values in scores.items()}
+        candidates.append(Candidate(row, tenth["parameters"], tenth["print"], dict(sorted(refusals.items()))))
+    return candidates
+
+
+def best_apart(space: Space, rows: Sequence[Row], count: int) -> list[Row]:
+    """Return the best feasible rows that differ by at least a fiftieth of a range in some parameter, best first."""
+    chosen: list[Row] = []
+    for row in sorted((row for row in rows if row.score is not None), key=lambda row: -(row.score or 0.0)):
+        unit = space.to_unit(row.design)
+        if all(np.abs(unit - space.to_unit(other.design)).max() >= APART for other in chosen):
+            chosen.append(row)
+        if len(chosen) == count:
+            break
+    return chosen
+
+
+def varied_parameters(design: Design, generator: np.random.Generator) -> list[Design]:
+    """Return designs with every parameter varied evenly within ±1 %, as far as a design can be."""
+    factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)
+    return [_clipped(np.array(design.to_vector()) * factor) for factor in factors]
+
+
+def varied_lengths(design: Design, tolerance_mm: float, generator: np.random.Generator) -> list[Design]:
+    """Return designs whose links l2…l5 each vary evenly within a tolerance (mm)."""
+    lengths = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm])
+    varied = []
+    for error in tolerance_mm * _even(4, generator):
+        l2, l3, l4, l5 = lengths + error
+        varied.append(_clipped(np.array([l2, l3 / l2, l4 / l2, l5 / l2, *design.to_vector()[4:]])))
+    return varied
+
+
+def active_bounds(campaign: Campaign, row: Row, step: int) -> list[ActiveBound]:
+    """Return the bounds on which a design lies, each with what going beyond it by a twentieth of the range is worth.
+
+    A bound beyond which no design can be is not among them.
+    """
+    found = []
+    for parameter in campaign.space.free:
+        value = getattr(row.design, parameter.name)
+        lowest, highest = physical_limits(parameter.name)
+        reach = WIDENING * parameter.width
+        for side, bound, beyond in (
+            ("lower", parameter.lower, max(lowest, parameter.lower - reach)),
+            ("upper", parameter.upper, min(highest, parameter.upper + reach)),
+        ):
+            if abs(value - bound) <= 1e-3 * parameter.width and beyond != bound:
+                found.append(ActiveBound(parameter.name, side, bound, beyond, None))
+    designs = [row.design.model_copy(update={bound.name: bound.beyond}) for bound in found]
+    rows = campaign.evaluate(designs, "bounds", step)
+    return [_worth(bound, row, beyond) for bound, beyond in zip(found, rows, strict=True) if beyond is not None]
+
+
+def _worth(bound: ActiveBound, row: Row, beyond: Row) -> ActiveBound:
+    if beyond.score is None:
+        return replace(bound, reason=", ".join(beyond.evaluation.reasons))
+    return replace(bound, worth=beyond.score - (row.score or 0.0))
+
+
+def _even(dimension: int, generator: np.random.Generator) -> Array:
+    """Return evenly spread points (SAMPLES, dimension) of the cube from -1 to 1."""
+    return 2.0 * qmc.Sobol(dimension, seed=generator).random(SAMPLES) - 1.0
+
+
+def _clipped(vector: Array) -> Design:
+    limits = np.array([physical_limits(name) for name in PARAMETERS])
+    return Design.from_vector(np.clip(vector, limits[:, 0], limits[:, 1]).tolist())

@@ -1,0 +1,205 @@
+"""Gaussian processes that stand in for the evaluator between evaluations.
+
+One process for the score, trained on feasible designs only (a refused design has no score, and a zero in its place
+would be a cliff in a smooth hill), and one for the margin of each constraint, trained wherever it is known.
+"""
+
+import warnings
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+import numpy.typing as npt
+from scipy.linalg import solve_triangular
+from scipy.optimize import minimize
+from scipy.special import erfcx, log_ndtr
+
+from jumpcad.search.ledger import Row
+from jumpcad.search.space import Array, Space
+
+VERDICT = "verdict"
+"""Stands among the constraints for all refusals together, also those that leave no margin: +1 for a jump, else -1."""
+MAX_CONSTRAINTS = 8
+_FIT_STEPS = 30
+
+
+class Surrogate:
+    """A Gaussian process over the unit cube: constant times Matérn 5/2 with one length per axis, plus noise.
+
+    Parameters
+    ----------
+    x, y
+        Points (n, d) and values (n,).
+    theta
+        Logarithms of the hyperparameters to start from, (d + 2,).
+    fit
+        Whether to improve them by maximum likelihood.
+    """
+
+    def __init__(self, x: Array, y: Array, theta: Sequence[float] | None = None, fit: bool = True) -> None:
+        from sklearn.exceptions import ConvergenceWarning
+        from sklearn.gaussian_process import GaussianProcessRegressor
+
+        regressor = GaussianProcessRegressor(
+            _kernel(x.shape[1], theta), alpha=1e-8, normalize_y=True, optimizer=_improve if fit else None
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its bound only says: this axis is flat
+            regressor.fit(x, y)
+        self.x, self.y = x, y
+        self.theta: list[float] = regressor.kernel_.theta.tolist()
+        scale, self._lengths = regressor.kernel_.k1.k1.constant_value, regressor.kernel_.k1.k2.length_scale
+        self._variance = float(scale)
+        self._chol, self._alpha = regressor.L_, regressor.alpha_.reshape(-1)
+        self._centre, self._spread = float(regressor._y_train_mean), float(regressor._y_train_std)
+
+    def predict(self, points: Array) -> tuple[Array, Array]:
+        """Return mean (m,) and standard deviation (m,) of the noise-free function at points (m, d)."""
+        covariance = self._covariance(points)
+        half = solve_triangular(self._chol, covariance.T, lower=True, check_finite=False)
+        variance = np.maximum(self._variance - np.einsum("ij,ij->j", half, half), 1e-12)
+        return self._centre + self._spread * (covariance @ self._alpha), self._spread * np.sqrt(variance)
+
+    def believing(self, point: Array) -> Self:
+        """Return the process that took its own mean at a point (d,) for a measurement (kriging believer)."""
+        mean, _ = self.predict(point[None])
+        return type(self)(np.vstack([self.x, point]), np.append(self.y, mean), self.theta, fit=False)
+
+    def _covariance(self, points: Array) -> Array:
+        """Return the covariance (m, n) of points with the data."""
+        difference = points[:, None, :] / self._lengths - self.x[None] / self._lengths
+        distance = np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        return self._variance * (1.0 + distance + distance**2 / 3.0) * np.exp(-distance)
+
+
+@dataclass(frozen=True)
+class Belief:
+    """What is believed of a space: the score, if any design is feasible yet, and each constraint's scaled margin."""
+
+    score: Surrogate | None
+    constraints: Mapping[str, Surrogate]
+
+    @classmethod
+    def from_rows(cls, space: Space, rows: Sequence[Row], thetas: Mapping[str, Any], fit: Sequence[str] | None) -> Self:
+        """Learn from rows, starting from the hyperparameters `thetas` of an earlier belief.
+
+        Parameters
+        ----------
+        space, rows
+            The space, and evaluated designs in it.
+        thetas
+            Hyperparameters by name, as `thetas` gives them.
+        fit
+            Names of the processes to fit; None for all. What has no hyperparameters yet is always fitted.
+        """
+        x = np.array([space.to_unit(row.design) for row in rows]).reshape(-1, space.dimension)
+
+        def learn(name: str, chosen: Array, values: Array) -> Surrogate:
+            known = thetas.get(name)
+            return Surrogate(x[chosen], values, known, fit=known is None or fit is None or name in fit)
+
+        feasible = np.array([row.score is not None for row in rows], dtype=bool)
+        score = None
+        if feasible.sum() >= 2:
+            score = learn("score", feasible, warped(np.array([row.score for row in rows if row.score is not None])))
+        constraints = {}
+        for name, margins in constraint_margins(rows).items():
+            known = np.isfinite(margins)
+            constraints[name] = learn(name, known, _scaled(margins[known]))
+        return cls(score, constraints)
+
+    @property
+    def thetas(self) -> dict[str, list[float]]:
+        """Hyperparameters of every process, by name; `score` for the score."""
+        found = {name: surrogate.theta for name, surrogate in self.constraints.items()}
+        return found if self.score is None else {"score": self.score.theta} | found
+
+    def log_feasible(self, points: Array) -> Array:
+        """Return the logarithm of the probability (m,) that designs (m, d) meet every constraint."""
+        total = np.zeros(len(points))
+        for surrogate in self.constraints.values():
+            mean, deviation = surrogate.predict(points)
+            total += log_ndtr(mean / deviation)
+        return total
+
+    def log_improvement(self, points: Array, best: float) -> Array:
+        """Return the logarithm of the expected improvement (m,) of the warped score over `best` at points (m, d)."""
+        if self.score is None:
+            return np.zeros(len(points))
+        mean, deviation = self.score.predict(points)
+        return np.log(deviation) + _log_h((mean - warped(best)) / deviation)
+
+    def believing(self, point: Array) -> "Belief":
+        """Return the belief after its own means at a point (d,) were taken for measurements."""
+        constraints = {name: surrogate.believing(point) for name, surrogate in self.constraints.items()}
+        return Belief(None if self.score is None else self.score.believing(point), constraints)
+
+
+def warped(score: npt.ArrayLike) -> Array:
+    """Return the square root of scores, with their sign.
+
+    A jump's range grows with the square of the take-off speed, which is what grows evenly with the parameters.
+    """
+    score = np.asarray(score, dtype=float)
+    return np.sign(score) * np.sqrt(np.abs(score))
+
+
+def unwarped(values: Array) -> Array:
+    """Return the scores whose square roots these are."""
+    return np.sign(values) * values**2
+
+
+def constraint_margins(rows: Sequence[Row]) -> dict[str, Array]:
+    """Return the margins (n,) of each constraint that refused a design; NaN where a row does not know it.
+
+    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that refuse most often.
+    """
+    refusals = Counter(reason for row in rows for reason in row.evaluation.reasons)
+    errors = {f.name for row in rows for f in row.evaluation.findings if f.severity == "error"}
+    ranked = sorted(errors & set(refusals), key=lambda name: (-refusals[name], name))[: MAX_CONSTRAINTS - 1]
+    margins = {name: np.array([_margin(row, name) for row in rows]) for name in ranked}
+    if refusals:
+        margins[VERDICT] = np.array([1.0 if row.evaluation.feasible else -1.0 for row in rows])
+    return margins
+
+
+def _margin(row: Row, name: str) -> float:
+    return min((f.margin for f in row.evaluation.findings if f.name == name), default=np.nan)
+
+
+def _scaled(margins: Array) -> Array:
+    """Return margins in units of their typical size, far ones compressed; the sign, which decides, is kept."""
+    size = float(np.median(np.abs(margins)))
+    return np.arcsinh(margins / (size if size > 0 else 1.0))
+
+
+def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:
+    from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
+
+    kernel = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * dimension, (0.05, 10.0), nu=2.5) + WhiteKernel(
+        1e-4, (1e-6, 1e-1)
+    )
+    return kernel if theta is None else kernel.clone_with_theta(np.array(theta))
+
+
+def _improve(objective: Callable[..., Any], start: Array, bounds: Array) -> tuple[Array, float]:
+    """Maximise the likelihood a little: the next fit starts where this one ends."""
+    found = minimize(
+        objective, start, method="L-BFGS-B", jac=True, bounds=list(map(tuple, bounds)), options={"maxiter": _FIT_STEPS}
+    )
+    return found.x, found.fun
+
+
+def _log_h(z: Array) -> Array:
+    """Return log(φ(z) + z·Φ(z)), exact far below the mean too (Ament et al., NeurIPS 2023, eq. 9)."""
+    z = np.asarray(z, dtype=float)
+    near = np.maximum(z, -1.0)
+    plain = np.exp(-0.5 * near**2) / np.sqrt(2 * np.pi) + near * np.exp(log_ndtr(near))
+    far = np.minimum(z, -1.0)
+    ratio = np.maximum(1.0 + far * np.sqrt(np.pi / 2) * erfcx(-far / np.sqrt(2)), 1e-300)
+    tail = np.log(ratio) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi)
+    # 1 + z·Φ/φ loses its digits below -1e3; there it is 1/z² to first order.
+    tail = np.where(far < -1e3, -2.0 * np.log(-far) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi), tail)
+    return np.where(z > -1.0, np.log(plain), tail)

@@ -1,0 +1,75 @@
+"""Rows of a study as a table: CSV for everybody, Parquet for many rows."""
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import write_text_atomically
+from jumpcad.search.ledger import Row
+
+
+def table(rows: Sequence[Row]) -> list[dict[str, Any]]:
+    """Return one flat record a row, all with the same columns; a figure that a row does not have is None."""
+    metrics = sorted({name for row in rows for name in row.evaluation.metrics})
+    margins = sorted({finding.name for row in rows for finding in row.evaluation.findings})
+    return [_record(row, metrics, margins) for row in rows]
+
+
+def write_table(rows: Sequence[Row], path: Path) -> None:
+    """Write rows to a new `.csv` or `.parquet` file.
+
+    Raises
+    ------
+    JumpcadError
+        If the file exists, ends otherwise, or cannot be written; for Parquet also if PyArrow is not installed.
+    """
+    if path.exists():
+        raise JumpcadError(f"{path}: exists already; choose another name or remove it first")
+    records = table(rows)
+    if path.suffix == ".csv":
+        stream = io.StringIO()
+        writer = csv.DictWriter(stream, list(records[0]) if records else ["phase"], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(records)
+        write_text_atomically(path, stream.getvalue())
+    elif path.suffix == ".parquet":
+        _write_parquet(records, path)
+    else:
+        raise JumpcadError(f"{path}: a table ends in .csv or .parquet")
+
+
+def _write_parquet(records: list[dict[str, Any]], path: Path) -> None:
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError:
+        raise JumpcadError("PyArrow is not installed: pip install 'jumpcad[parquet]', or export to .csv") from None
+    try:
+        parquet.write_table(pyarrow.Table.from_pylist(records), path)
+    except OSError as error:
+        raise JumpcadError(f"{path}: cannot be written: {error}") from None
+
+
+def _record(row: Row, metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
+    evaluation = row.evaluation
+    worst: dict[str, float] = {}
+    for finding in evaluation.findings:
+        worst[finding.name] = min(finding.margin, worst.get(finding.name, finding.margin))
+    return {
+        "phase": row.phase,
+        "step": row.step,
+        "place": row.place,
+        **row.design.model_dump(),
+        "verdict": evaluation.verdict,
+        "feasible": evaluation.feasible,
+        "reasons": " ".join(evaluation.reasons),
+        "score": row.score,
+        **{name: evaluation.metrics.get(name) for name in metrics},
+        **{f"margin_{name}": worst.get(name) for name in margins},
+        "detail": evaluation.detail,
+        "duration_s": row.duration_s,
+        "model": row.model,
+    }

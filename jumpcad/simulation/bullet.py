@@ -1,0 +1,247 @@
+"""The PyBullet back end: a persistent world in which one robot after another is released.
+
+What makes a run the same in any process and after any other robot: every parameter that outlives a robot is set anew
+for each, and the whole world is made anew every `RESET_EVERY` robots, which also returns the memory that removing a
+robot does not.
+"""
+
+import math
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Body, Joint, Robot
+from jumpcad.simulation.engines import import_pybullet
+from jumpcad.simulation.mechanics import Release, State, release_pose
+from jumpcad.simulation.settings import Settings, surface_friction
+
+RESET_EVERY = 500
+UNCLAMPED_RAD_S = 1e6
+"""Instead of Bullet's limit of 100 rad/s to joint velocities, which good designs reach."""
+LINKS = (MAIN_LEG, FOOT, FRONT_LINK)
+"""Bullet's numbers of the links: depth first, so the foot comes before the front link."""
+LEG, FOOT_LINK, FRONT = range(3)
+JOINTS = [LEG, FOOT_LINK, FRONT]
+BODY_ORDER = [0, 1, 3, 2]
+"""From Bullet's order (base, leg, foot, front link) to that of `BODY_NAMES`."""
+
+
+class BulletEngine:
+    """A PyBullet client of its own, without window, that runs one robot at a time.
+
+    A lock makes threads wait for each other; they lose nothing by it, because PyBullet holds the interpreter's lock.
+    """
+
+    def __init__(self) -> None:
+        self._bullet = import_pybullet()
+        self._lock = threading.Lock()
+        self._client = -1
+        self._robots = 0
+        self._ground = -1
+
+    @contextmanager
+    def world(self, robot: Robot, settings: Settings) -> Iterator["BulletWorld"]:
+        """Put a robot on the ground, ready for release, and take it away afterwards."""
+        with self._lock:
+            self._prepare(settings)
+            world = BulletWorld(self._bullet, self._client, self._ground, robot, settings)
+            try:
+                yield world
+            finally:
+                self._bullet.removeBody(world.robot_id, physicsClientId=self._client)
+
+    def _prepare(self, settings: Settings) -> None:
+        bullet = self._bullet
+        if not bullet.isConnected(self._client):
+            self._client = bullet.connect(bullet.DIRECT)
+            self._robots = 0
+        client = self._client
+        if self._robots % RESET_EVERY == 0:
+            bullet.resetSimulation(physicsClientId=client)
+            plane = bullet.createCollisionShape(bullet.GEOM_PLANE, physicsClientId=client)
+            self._ground = bullet.createMultiBody(0.0, plane, physicsClientId=client)
+        self._robots += 1
+        bullet.setGravity(0.0, 0.0, -settings.gravity_m_s2, physicsClientId=client)
+        bullet.setPhysicsEngineParameter(
+            fixedTimeStep=settings.dt_s,
+            numSolverIterations=settings.solver_iterations,
+            solverResidualThreshold=settings.solver_residual,
+            numSubSteps=0,
+            physicsClientId=client,
+        )
+        # Bullet multiplies the restitutions of both sides: with 1 for the ground, the robot's is that of the contact.
+        bullet.changeDynamics(
+            self._ground, -1, lateralFriction=settings.ground_friction, restitution=1.0, physicsClientId=client
+        )
+
+
+class BulletWorld:
+    """One robot on the ground; a `World` for `Run`."""
+
+    def __init__(self, bullet: Any, client: int, ground: int, robot: Robot, settings: Settings) -> None:
+        self._bullet, self._client, self._ground = bullet, client, ground
+        self._stiffness = robot.spring.stiffness_nm_per_rad
+        self._damping_dt = settings.joint_damping_nms_per_rad * settings.dt_s
+        self.joint_damping_j = 0.0
+        bodies = [robot.bodies[name] for name in (BODY, *LINKS)]
+        self._moments, self._axes = principal_axes(np.stack([body.inertia_kg_m2 for body in bodies]))
+        self._body_in_principal = self._axes[BODY_ORDER].transpose(0, 2, 1)
+        release = release_pose(robot)
+        self.robot_id = self._create(robot, bodies, release)
+        self._set_dynamics(settings, bodies)
+        for link, joint in enumerate(_joints(robot)):
+            bullet.resetJointState(self.robot_id, link, release.joint_rad[joint.name], physicsClientId=client)
+        self._close_loop(robot)
+
+    def advance(self, steps: int) -> float:
+        """Go on by a number of time steps with the springs' torque of each step's beginning."""
+        bullet, robot, client, stiffness = self._bullet, self.robot_id, self._client, self._stiffness
+        joint_states, set_motor, torque = bullet.getJointStates, bullet.setJointMotorControl2, bullet.TORQUE_CONTROL
+        step = bullet.stepSimulation
+        squares = 0.0
+        for _ in range(steps):
+            leg, foot, front = joint_states(robot, JOINTS, client)
+            squares += leg[1] * leg[1] + foot[1] * foot[1] + front[1] * front[1]
+            set_motor(robot, LEG, torque, force=-stiffness * leg[0], physicsClientId=client)
+            step(client)
+        self.joint_damping_j += self._damping_dt * squares
+        return float(leg[0])
+
+    def loaded(self) -> bool:
+        """Say whether the ground carries any of the robot (Bullet also lists contacts that are only near)."""
+        for contact in self._bullet.getContactPoints(self.robot_id, self._ground, physicsClientId=self._client):
+            if contact[9] > 0.0:
+                return True
+        return False
+
+    def state(self) -> State:
+        """Return where the bodies are and how they move.
+
+        Bullet's poses are of the principal axes; those of the links' frames, which it also gives, are single precision.
+        """
+        bullet, robot, client = self._bullet, self.robot_id, self._client
+        position, quaternion = bullet.getBasePositionAndOrientation(robot, client)
+        velocity, spin = bullet.getBaseVelocity(robot, client)
+        links = bullet.getLinkStates(
+            robot, JOINTS, computeLinkVelocity=1, computeForwardKinematics=1, physicsClientId=client
+        )
+        matrix = bullet.getMatrixFromQuaternion
+        rows = [
+            (*position, *velocity, *spin, *matrix(quaternion)),
+            *((*link[0], *link[6], *link[7], *matrix(link[1])) for link in links),
+        ]
+        values = np.array([rows[index] for index in BODY_ORDER])
+        rotation = values[:, 9:].reshape(-1, 3, 3) @ self._body_in_principal
+        return State(
+            values[:, 0:3], rotation, values[:, 3:6], values[:, 6:9], bullet.getJointState(robot, LEG, client)[0]
+        )
+
+    def _create(self, robot: Robot, bodies: list[Body], release: Release) -> int:
+        bullet, client = self._bullet, self._client
+        # A link without a visual gets one made from its collision shape, which costs more than the whole robot.
+        box = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=[0.001] * 3, physicsClientId=client)
+        orientations = Rotation.from_matrix(self._axes).as_quat().tolist()
+        positions = [body.com_m.tolist() for body in bodies]
+        shapes = [self._contact_shape(body) for body in bodies]
+        joints = _joints(robot)
+        return int(
+            bullet.createMultiBody(
+                bodies[0].mass_kg,
+                shapes[0],
+                box,
+                basePosition=release.body_position_m.tolist(),
+                baseOrientation=_about_y(release.body_pitch_rad),
+                baseInertialFramePosition=positions[0],
+                baseInertialFrameOrientation=orientations[0],
+                linkMasses=[body.mass_kg for body in bodies[1:]],
+                linkCollisionShapeIndices=shapes[1:],
+                linkVisualShapeIndices=[box] * len(LINKS),
+                linkPositions=[joint.origin_m.tolist() for joint in joints],
+                linkOrientations=[_about_y(joint.rest_angle_rad) for joint in joints],
+                linkInertialFramePositions=positions[1:],
+                linkInertialFrameOrientations=orientations[1:],
+                linkParentIndices=[0, 1, 0],
+                linkJointTypes=[bullet.JOINT_REVOLUTE] * len(LINKS),
+                linkJointAxis=[[0.0, 1.0, 0.0]] * len(LINKS),
+                physicsClientId=client,
+            )
+        )
+
+    def _contact_shape(self, body: Body) -> int:
+        """Return a compound of the body's contact spheres, or none."""
+        if not body.contacts:
+            return -1
+        bullet = self._bullet
+        return int(
+            bullet.createCollisionShapeArray(
+                shapeTypes=[bullet.GEOM_SPHERE] * len(body.contacts),
+                radii=[contact.radius_m for contact in body.contacts],
+                collisionFramePositions=[contact.centre_m.tolist() for contact in body.contacts],
+                physicsClientId=self._client,
+            )
+        )
+
+    def _set_dynamics(self, settings: Settings, bodies: list[Body]) -> None:
+        """Set inertia and friction of every link, then what Bullet would apply to the base if set with these."""
+        bullet, robot, client = self._bullet, self.robot_id, self._client
+        for link, (body, moments) in enumerate(zip(bodies, self._moments, strict=True), start=-1):
+            bullet.changeDynamics(
+                robot,
+                link,
+                localInertiaDiagonal=moments.tolist(),
+                lateralFriction=surface_friction(body, settings),
+                rollingFriction=settings.rolling_friction_m,
+                spinningFriction=settings.spinning_friction_m,
+                restitution=settings.restitution,
+                jointDamping=settings.joint_damping_nms_per_rad,
+                physicsClientId=client,
+            )
+        bullet.changeDynamics(
+            robot, -1, linearDamping=settings.drag_per_s, angularDamping=settings.drag_per_s, physicsClientId=client
+        )
+        bullet.changeDynamics(robot, -1, maxJointVelocity=UNCLAMPED_RAD_S, physicsClientId=client)
+        # Every joint is born with a motor that holds it.
+        bullet.setJointMotorControlArray(
+            robot,
+            JOINTS,
+            bullet.VELOCITY_CONTROL,
+            forces=[settings.joint_friction_nm] * len(JOINTS),
+            physicsClientId=client,
+        )
+
+    def _close_loop(self, robot: Robot) -> None:
+        """Tie front link and foot together; Bullet wants the points in their principal axes."""
+        front, foot = robot.bodies[FRONT_LINK], robot.bodies[FOOT]
+        points = {robot.loop.body_a: robot.loop.point_a_m, robot.loop.body_b: robot.loop.point_b_m}
+        front_axes, foot_axes = self._axes[1 + FRONT], self._axes[1 + FOOT_LINK]
+        self._bullet.createConstraint(
+            self.robot_id,
+            FRONT,
+            self.robot_id,
+            FOOT_LINK,
+            self._bullet.JOINT_POINT2POINT,
+            [0.0, 0.0, 0.0],
+            (front_axes.T @ (points[FRONT_LINK] - front.com_m)).tolist(),
+            (foot_axes.T @ (points[FOOT] - foot.com_m)).tolist(),
+            physicsClientId=self._client,
+        )
+
+
+def principal_axes(inertia_kg_m2: Array) -> tuple[Array, Array]:
+    """Return principal moments (n, 3) of tensors (n, 3, 3), and rotations (n, 3, 3) from principal axes to theirs."""
+    moments, axes = np.linalg.eigh(inertia_kg_m2)
+    axes[..., 0] *= np.sign(np.linalg.det(axes))[:, None]
+    return moments, axes
+
+
+def _joints(robot: Robot) -> list[Joint]:
+    """Return the joints in the order of Bullet's links."""
+    return [next(joint for joint in robot.joints if joint.child == name) for name in LINKS]
+
+
+def _about_y(angle_rad: float) -> list[float]:
+    return [0.0, math.sin(angle_rad / 2), 0.0, math.cos(angle_rad / 2)]

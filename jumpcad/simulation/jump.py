@@ -1,0 +1,104 @@
+"""What a simulation answers."""
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from jumpcad.findings import Finding
+from jumpcad.robot import Array
+
+
+@dataclass(frozen=True)
+class EnergyBudget:
+    """Where the springs' energy is at take-off (J).
+
+    `forward_j` and `upward_j` are the kinetic energy of the centre of mass, of which the jump is made; `internal_j` is
+    that of the bodies about it; `lift_j` is the height already gained; `spring_j` is still in the springs;
+    `joint_damping_j` is lost in the joints and `contact_j` in sliding, impact and the engine's numerics.
+    """
+
+    forward_j: float
+    upward_j: float
+    internal_j: float
+    lift_j: float
+    spring_j: float
+    joint_damping_j: float
+    contact_j: float
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Poses of all bodies over n moments, from release on.
+
+    `body_names` (b), `time_s` (n,), `position_m` (n, b, 3) and `quaternion_xyzw` (n, b, 4) of each body's *frame* in
+    the world (not of its centre of mass); `kinetic_j`, `potential_j` (above z = 0), `spring_j`, each (n,).
+    """
+
+    body_names: tuple[str, ...]
+    time_s: Array
+    position_m: Array
+    quaternion_xyzw: Array
+    kinetic_j: Array
+    potential_j: Array
+    spring_j: Array
+
+    def columns(self) -> dict[str, Array]:
+        """Return the whole trajectory as named columns (n,), for tables."""
+        table = {"time_s": self.time_s}
+        for index, name in enumerate(self.body_names):
+            table |= {f"{name}_{axis}_m": self.position_m[:, index, i] for i, axis in enumerate("xyz")}
+            table |= {f"{name}_q{axis}": self.quaternion_xyzw[:, index, i] for i, axis in enumerate("xyzw")}
+        return table | {"kinetic_j": self.kinetic_j, "potential_j": self.potential_j, "spring_j": self.spring_j}
+
+    def rows(self) -> Iterator[dict[str, float]]:
+        """Yield one plain dictionary a moment."""
+        columns = {name: values.tolist() for name, values in self.columns().items()}
+        for values in zip(*columns.values(), strict=True):
+            yield dict(zip(columns, values, strict=True))
+
+
+@dataclass(frozen=True)
+class PublishedQuantities:
+    """The published study's measures, of this run: not to be mistaken for those of the jump.
+
+    `base_distance_m` is where the body is at the first contact later than 0.5 s after release (tumbling included),
+    `base_height_m` the greatest absolute height of the body (standing height included).
+    """
+
+    base_distance_m: float | None
+    base_height_m: float
+
+
+@dataclass(frozen=True)
+class Jump:
+    """The answer of one simulation.
+
+    `verdict` is `jump`, `no_takeoff`, the reason of the gate's refusal (`loop`, `below_ground`, `tips`, `too_weak`), or
+    that of the audit's (`audit_energy`, `audit_loop`). What only a jump has is None under any other verdict; `fitness`
+    (ballistic range over the longest link) is then 0. `findings` holds the gate's and the audit's margins.
+    """
+
+    verdict: str
+    engine: str
+    mass_kg: float
+    spring_energy_j: float
+    fitness: float = 0.0
+    ballistic_range_m: float | None = None
+    com_rise_m: float | None = None
+    takeoff_energy_ratio: float | None = None
+    takeoff_speed_m_s: float | None = None
+    takeoff_angle_deg: float | None = None
+    takeoff_time_s: float | None = None
+    touchdown_distance_m: float | None = None
+    energy: EnergyBudget | None = None
+    published: PublishedQuantities | None = None
+    trajectory: Trajectory | None = None
+    findings: tuple[Finding, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON, without the trajectory."""
+        data = {name: value for name, value in vars(self).items() if name not in ("trajectory", "findings")}
+        data["energy"] = None if self.energy is None else asdict(self.energy)
+        data["published"] = None if self.published is None else asdict(self.published)
+        data["findings"] = [finding.to_dict() for finding in self.findings]
+        return data

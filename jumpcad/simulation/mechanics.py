@@ -1,0 +1,153 @@
+"""The mechanics of a simulated robot, the same whichever engine moves it: pose at release, energies, ballistics."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.linkage import Linkage
+from jumpcad.robot import BODY_NAMES, Array, Robot
+
+
+@dataclass(frozen=True)
+class Release:
+    """The robot before release: loop exactly closed, foot flat on the ground, ankle above the world's origin.
+
+    `joint_rad` holds the coordinate of every joint by name; the frame of `body` lies at `body_position_m` (3,), turned
+    about the world's y axis by `body_pitch_rad`.
+    """
+
+    joint_rad: dict[str, float]
+    body_position_m: Array
+    body_pitch_rad: float
+
+
+@dataclass(frozen=True)
+class State:
+    """Where the bodies are and how they move, in the world, in the order of `BODY_NAMES`.
+
+    `com_m` (4, 3), `rotation` (4, 3, 3) from body to world, `velocity_m_s` (4, 3) of the centres of mass,
+    `angular_rad_s` (4, 3), and the coordinate of the leg joint.
+    """
+
+    com_m: Array
+    rotation: Array
+    velocity_m_s: Array
+    angular_rad_s: Array
+    leg_rad: float
+
+
+@dataclass(frozen=True)
+class Energies:
+    """Mechanical energy (J): potential is that of height above z = 0."""
+
+    kinetic_j: float
+    potential_j: float
+    spring_j: float
+
+    @property
+    def total_j(self) -> float:
+        """Their sum (J)."""
+        return self.kinetic_j + self.potential_j + self.spring_j
+
+
+def release_pose(robot: Robot) -> Release:
+    """Return the pose of a robot with wound springs.
+
+    Raises
+    ------
+    CannotBuildError
+        If the loop does not close there.
+    """
+    pose = Linkage(robot.design).pose([-robot.spring.wind_rad])
+    pitch = -float(pose.foot_rad[0])
+    cos, sin = math.cos(pitch), math.sin(pitch)
+    x, z = pose.ankle_mm[0] / 1000.0
+    position = np.array([-cos * x - sin * z, 0.0, robot.foot_depth_m + sin * x - cos * z])
+    joints = {"leg": pose.leg_rad, "front": pose.front_rad, "ankle": pose.ankle_rad}
+    return Release({name: float(angle[0]) for name, angle in joints.items()}, position, pitch)
+
+
+class Mechanics:
+    """Energies, centre of mass and loop gap of one robot under one gravity, from its state."""
+
+    def __init__(self, robot: Robot, gravity_m_s2: float) -> None:
+        bodies = [robot.bodies[name] for name in BODY_NAMES]
+        self.mass_kg = np.array([body.mass_kg for body in bodies])
+        self.total_mass_kg = float(self.mass_kg.sum())
+        self.weight_n = self.total_mass_kg * gravity_m_s2
+        self.inertia_kg_m2 = np.stack([body.inertia_kg_m2 for body in bodies])
+        self.com_in_body_m = np.stack([body.com_m for body in bodies])
+        self.stiffness_nm_per_rad = robot.spring.stiffness_nm_per_rad
+        loop = robot.loop
+        self._ends = BODY_NAMES.index(loop.body_a), BODY_NAMES.index(loop.body_b)
+        self._arms_m = np.stack([loop.point_a_m, loop.point_b_m]) - self.com_in_body_m[list(self._ends)]
+
+    def centre_of_mass_m(self, state: State) -> Array:
+        """Return the robot's centre of mass (3,)."""
+        return self.mass_kg @ state.com_m / self.total_mass_kg
+
+    def velocity_m_s(self, state: State) -> Array:
+        """Return the velocity of the robot's centre of mass (3,)."""
+        return self.mass_kg @ state.velocity_m_s / self.total_mass_kg
+
+    def energies(self, state: State) -> Energies:
+        """Return the robot's mechanical energies."""
+        spin = np.einsum("bji,bj->bi", state.rotation, state.angular_rad_s)
+        linear = (self.mass_kg @ (state.velocity_m_s * state.velocity_m_s)).sum()
+        angular = np.einsum("bi,bij,bj->", spin, self.inertia_kg_m2, spin)
+        height = float(self.centre_of_mass_m(state)[2])
+        return Energies(
+            0.5 * float(linear + angular),
+            self.weight_n * height,
+            0.5 * self.stiffness_nm_per_rad * state.leg_rad**2,
+        )
+
+    def loop_gap_m(self, state: State) -> float:
+        """Return by how far the two sides of the loop have come apart."""
+        a, b = self._ends
+        here = state.com_m[a] + state.rotation[a] @ self._arms_m[0]
+        there = state.com_m[b] + state.rotation[b] @ self._arms_m[1]
+        return math.dist(here, there)
+
+    def frame_positions_m(self, state: State) -> Array:
+        """Return the origins (4, 3) of the bodies' frames."""
+        return state.com_m - np.einsum("bij,bj->bi", state.rotation, self.com_in_body_m)
+
+
+@dataclass(frozen=True)
+class Ballistics:
+    """The flight of a centre of mass from its place at release, through take-off, back to the height of release."""
+
+    range_m: float
+    rise_m: float
+    speed_m_s: float
+    angle_deg: float
+
+
+def ballistics(start_m: Array, takeoff_m: Array, velocity_m_s: Array, gravity_m_s2: float) -> Ballistics:
+    """Return the ballistic flight of a centre of mass.
+
+    Parameters
+    ----------
+    start_m, takeoff_m
+        Where the centre of mass is at release and at take-off, each (3,).
+    velocity_m_s
+        Its velocity (3,) at take-off, rising.
+
+    Notes
+    -----
+    The range runs along x from release to where the centre of mass falls through its height at release; the rise is
+    that of the apex above that height. A centre of mass that leaves lower than it started and too slowly never gets
+    back up there: it lands at its apex.
+    """
+    forward, up = float(velocity_m_s[0]), float(velocity_m_s[2])
+    lift = float(takeoff_m[2] - start_m[2])
+    rise = lift + up**2 / (2 * gravity_m_s2)
+    time = (up + math.sqrt(max(2 * gravity_m_s2 * rise, 0.0))) / gravity_m_s2
+    return Ballistics(
+        range_m=float(takeoff_m[0] - start_m[0]) + forward * time,
+        rise_m=rise,
+        speed_m_s=float(np.linalg.norm(velocity_m_s)),
+        angle_deg=math.degrees(math.atan2(up, forward)),
+    )

@@ -1,0 +1,222 @@
+"""One run: from release through take-off to the ballistic or the simulated flight, audited throughout.
+
+An engine moves a `World`; everything that is decided about the run is decided here, the same for all engines.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from jumpcad.findings import Finding
+from jumpcad.robot import BODY, BODY_NAMES, Array, Robot
+from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
+from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics
+from jumpcad.simulation.settings import Settings
+
+AUDIT_EVERY_S = 0.008
+AIRBORNE_S = 0.004
+"""Without normal force for this long, and rising: the robot has taken off."""
+TAKEOFF_WITHIN_S = 0.060
+"""A robot on the ground this long after the springs have passed zero does not jump."""
+PUBLISHED_CONTACT_AFTER_S = 0.5
+ENERGY_RATIO_LIMIT = 1.005
+"""Mechanical energy over that at release; the run starts at 1, and only what an engine adds can raise it."""
+LOOP_GAP_LIMIT_M = 0.0005
+BODY_INDEX = BODY_NAMES.index(BODY)
+
+
+class World(Protocol):
+    """One robot on the ground in an engine, released at time 0."""
+
+    joint_damping_j: float
+    """What the joints' damping has taken so far (J)."""
+
+    def advance(self, steps: int) -> float:
+        """Go on by a number of time steps, the springs acting in each.
+
+        Return the coordinate of the leg joint before the last of them, which costs nothing to know.
+        """
+
+    def loaded(self) -> bool:
+        """Say whether the ground carries any of the robot."""
+
+    def state(self) -> State:
+        """Return where the bodies are and how they move."""
+
+
+@dataclass(frozen=True)
+class Takeoff:
+    """The first moment without normal force, and the flight that follows from it."""
+
+    time_s: float
+    flight: Ballistics
+    energy: EnergyBudget
+    energy_ratio: float
+
+
+class Run:
+    """A run in progress; `go` carries it out, the other attributes hold its results."""
+
+    def __init__(self, world: World, robot: Robot, settings: Settings) -> None:
+        self.world, self.robot, self.settings = world, robot, settings
+        self.mechanics = Mechanics(robot, settings.gravity_m_s2)
+        self.steps = 0
+        self.takeoff: Takeoff | None = None
+        self.touchdown_distance_m: float | None = None
+        self.published: PublishedQuantities | None = None
+        self.start = world.state()
+        self.start_energy_j = self.mechanics.energies(self.start).total_j
+        self.worst_energy_ratio = 0.0
+        self.worst_gap_m = 0.0
+        self._audit_every = max(1, round(AUDIT_EVERY_S / settings.dt_s))
+        self._record_every = max(1, round(1 / (settings.trajectory_rate_hz * settings.dt_s)))
+        self._records: list[tuple[float, State]] = []
+
+    @property
+    def time_s(self) -> float:
+        """Time since release (s)."""
+        return self.steps * self.settings.dt_s
+
+    def go(self) -> None:
+        """Carry out the run as far as the settings ask."""
+        self._look(self.start, self.settings.trajectory)
+        self.takeoff = self._push_off()
+        settings = self.settings
+        if self.takeoff and self.sound and (settings.flight == "simulated" or settings.published_quantities):
+            self._fly()
+        self._look(self.world.state(), self.settings.trajectory)
+
+    @property
+    def sound(self) -> bool:
+        """Say whether the run has passed its audit so far."""
+        return self.worst_energy_ratio <= ENERGY_RATIO_LIMIT and self.worst_gap_m <= LOOP_GAP_LIMIT_M
+
+    def findings(self) -> tuple[Finding, Finding]:
+        """Return the audit's findings `audit_energy` and `audit_loop`."""
+        energy, gap = ENERGY_RATIO_LIMIT - self.worst_energy_ratio, 1000.0 * (LOOP_GAP_LIMIT_M - self.worst_gap_m)
+        remedy = "use a smaller dt_s or more solver_iterations; if that does not help, the design is at a dead point"
+        return (
+            Finding(
+                "audit_energy", "error" if energy < 0 else "info", energy, "",
+                f"mechanical energy reached {self.worst_energy_ratio:.4f} of the springs' energy; "
+                f"the limit is {ENERGY_RATIO_LIMIT}", remedy,
+            ),
+            Finding(
+                "audit_loop", "error" if gap < 0 else "info", gap, "mm",
+                f"the loop came apart by up to {1000 * self.worst_gap_m:.4f} mm; the limit is "
+                f"{1000 * LOOP_GAP_LIMIT_M:g} mm", remedy,
+            ),
+        )  # fmt: skip
+
+    def trajectory(self) -> Trajectory | None:
+        """Return what was recorded, or None."""
+        if not self._records:
+            return None
+        energies = [self.mechanics.energies(state) for _, state in self._records]
+        rotations = np.concatenate([state.rotation for _, state in self._records])
+        return Trajectory(
+            BODY_NAMES,
+            np.array([time for time, _ in self._records]),
+            np.stack([self.mechanics.frame_positions_m(state) for _, state in self._records]),
+            Rotation.from_matrix(rotations).as_quat().reshape(-1, len(BODY_NAMES), 4),
+            np.array([energy.kinetic_j for energy in energies]),
+            np.array([energy.potential_j for energy in energies]),
+            np.array([energy.spring_j for energy in energies]),
+        )
+
+    def _push_off(self) -> Takeoff | None:
+        """Go on until the robot has taken off; return None if it does not."""
+        world, settings = self.world, self.settings
+        half_wound = -self.robot.spring.wind_rad / 2
+        hold = max(1, round(AIRBORNE_S / settings.dt_s))
+        deadline = settings.max_time_s
+        leg_rad = -math.inf
+        airborne = 0
+        left: tuple[float, State, float] | None = None
+        while airborne < hold or self.mechanics.velocity_m_s(world.state())[2] <= 0:
+            # In the first half of the springs' travel nothing leaves the ground, and nobody needs to look for it.
+            leg_rad = self._advance(hold if leg_rad < half_wound else 1)
+            if leg_rad >= half_wound:
+                airborne = 0 if world.loaded() else airborne + 1
+                if airborne == 1:
+                    left = self.time_s, world.state(), world.joint_damping_j
+            if leg_rad >= 0:
+                deadline = min(deadline, self.time_s + TAKEOFF_WITHIN_S)
+            if self.time_s > deadline or not self.sound:
+                return None
+        return self._takeoff(*left) if left else None
+
+    def _fly(self) -> None:
+        """Go on to the first touchdown, and to the published study's last contact if asked for."""
+        world, settings = self.world, self.settings
+        distance: float | None = None
+        height = self._body_position_m(self.start)[2]
+        while self.time_s < settings.max_time_s and self.sound:
+            self._advance(1)
+            if settings.published_quantities:
+                height = max(height, self._body_position_m(world.state())[2])
+            if not world.loaded():
+                continue
+            here = float(self._body_position_m(world.state())[0] - self._body_position_m(self.start)[0])
+            if self.touchdown_distance_m is None:
+                self.touchdown_distance_m = here
+            if not settings.published_quantities:
+                break
+            if self.time_s > PUBLISHED_CONTACT_AFTER_S:
+                distance = here
+                break
+        if settings.published_quantities:
+            self.published = PublishedQuantities(distance, float(height))
+
+    def _advance(self, steps: int) -> float:
+        """Do as `World.advance`, but stop where the audit or the trajectory wants to look."""
+        goal = self.steps + steps
+        while True:
+            stop = min(goal, self.steps + self._audit_every - self.steps % self._audit_every)
+            if self.settings.trajectory:
+                stop = min(stop, self.steps + self._record_every - self.steps % self._record_every)
+            leg_rad = self.world.advance(stop - self.steps)
+            self.steps = stop
+            record = self.settings.trajectory and stop % self._record_every == 0
+            if record or stop % self._audit_every == 0:
+                self._look(self.world.state(), record)
+            if stop == goal:
+                return leg_rad
+
+    def _look(self, state: State, record: bool) -> None:
+        """Audit a state against the energy at release, counted as that of the springs, and record it if asked for.
+
+        A state that is not finite (a run that blew up) counts as infinitely bad.
+        """
+        gained_j = self.mechanics.energies(state).total_j - self.start_energy_j
+        ratio, gap_m = 1.0 + gained_j / self.robot.spring.energy_j, self.mechanics.loop_gap_m(state)
+        self.worst_energy_ratio = max(self.worst_energy_ratio, ratio if math.isfinite(ratio) else math.inf)
+        self.worst_gap_m = max(self.worst_gap_m, gap_m if math.isfinite(gap_m) else math.inf)
+        if record and (not self._records or self._records[-1][0] < self.time_s):
+            self._records.append((self.time_s, state))
+
+    def _takeoff(self, time_s: float, state: State, joint_damping_j: float) -> Takeoff:
+        """Return what the state in which the robot left the ground leads to."""
+        mechanics, mass = self.mechanics, self.mechanics.total_mass_kg
+        energies = mechanics.energies(state)
+        start, here = mechanics.centre_of_mass_m(self.start), mechanics.centre_of_mass_m(state)
+        velocity = mechanics.velocity_m_s(state)
+        forward, upward = 0.5 * mass * float(velocity[0]) ** 2, 0.5 * mass * float(velocity[2]) ** 2
+        left = energies.total_j - self.start_energy_j + self.robot.spring.energy_j
+        budget = EnergyBudget(
+            forward_j=forward,
+            upward_j=upward,
+            internal_j=energies.kinetic_j - forward - upward,
+            lift_j=mechanics.weight_n * float(here[2] - start[2]),
+            spring_j=energies.spring_j,
+            joint_damping_j=joint_damping_j,
+            contact_j=self.robot.spring.energy_j - left - joint_damping_j,
+        )
+        flight = ballistics(start, here, velocity, self.settings.gravity_m_s2)
+        return Takeoff(time_s, flight, budget, left / self.robot.spring.energy_j)
+
+    def _body_position_m(self, state: State) -> Array:
+        return self.mechanics.frame_positions_m(state)[BODY_INDEX]

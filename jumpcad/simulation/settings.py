@@ -1,0 +1,62 @@
+"""What a simulation is run with: time step, friction, damping, and what it shall record."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from jumpcad.files import Record, find_template
+from jumpcad.robot import Body
+
+NonNegative = Annotated[float, Field(ge=0)]
+
+
+class Settings(Record):
+    """Settings of a simulated jump; the defaults are those of `templates/settings/default.toml`.
+
+    The friction of a contact is the ground's coefficient times that of what touches it: 1.5 for the foot and 0.75 for
+    the body by default. Rolling and spinning friction are multiplied by the ground's coefficient in the same way.
+    """
+
+    dt_s: Annotated[float, Field(ge=1e-6, le=1 / 240, description="time step")] = 1 / 2000
+    solver_iterations: Annotated[int, Field(ge=1, le=10_000, description="at most, of each time step")] = 100
+    solver_residual: Annotated[
+        float, Field(ge=0, le=1e-2, description="PyBullet stops iterating when no constraint is off by more")
+    ] = 1e-5
+    gravity_m_s2: Annotated[float, Field(gt=0, le=100)] = 9.81
+    ground_friction: NonNegative = 1.5
+    foot_friction: NonNegative = 1.0
+    body_friction: NonNegative = 0.5
+    rolling_friction_m: NonNegative = 0.0
+    spinning_friction_m: NonNegative = 0.0
+    restitution: Annotated[float, Field(ge=0, le=1)] = 0.0
+    joint_damping_nms_per_rad: NonNegative = 0.001
+    joint_friction_nm: Annotated[float, Field(ge=0, description="dry friction of each joint (its motor)")] = 0.0
+    drag_per_s: Annotated[float, Field(ge=0, description="rate at which drag takes velocity")] = 0.0
+    flight: Annotated[
+        Literal["ballistic", "simulated"],
+        Field(description="after take-off: in closed form, or on to the first touchdown"),
+    ] = "ballistic"
+    max_time_s: Annotated[float, Field(gt=0, le=60, description="of simulated time, at which a run is given up")] = 3.0
+    trajectory: Annotated[bool, Field(description="record the poses and energies over time")] = False
+    trajectory_rate_hz: Annotated[float, Field(gt=0, description="poses a second at most")] = 500.0
+    published_quantities: Annotated[
+        bool, Field(description="go on to the first contact later than 0.5 s, as the published study did")
+    ] = False
+
+
+def surface_friction(body: Body, settings: Settings) -> float:
+    """Return the friction of a body's contacts, without the ground's factor."""
+    on_foot = any(contact.surface == "foot" for contact in body.contacts)
+    return settings.foot_friction if on_foot else settings.body_friction
+
+
+def load_settings(name_or_path: str | Path) -> Settings:
+    """Return the settings of a template (`default`, `screening`, `fine`, `published-table`) or of a TOML file.
+
+    Raises
+    ------
+    JumpcadError
+        If there is no such file, or a key is unknown or out of range.
+    """
+    return Settings.from_toml(find_template("settings", name_or_path))

@@ -1,0 +1,74 @@
+"""How a part lies on the printer's bed: along it, or askew where it is too long for that (mm)."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from jumpcad.errors import CannotBuildError
+
+Array = npt.NDArray[np.float64]
+
+ROUND_OFF_MM = 1e-6
+
+
+@dataclass(frozen=True)
+class Lie:
+    """A turn about z in whole degrees, and what is left of the bed at the tightest of its three sides (mm)."""
+
+    angle_deg: float
+    margin_mm: float
+
+
+def lie(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> Lie:
+    """Return how a part fits the bed: along it if it can, else askew; where it fits nowhere, how it nearly does.
+
+    Parameters
+    ----------
+    bounds_mm
+        Lower and upper corner of its bounding box, (2, 3).
+    outline
+        Gives points (n, 2) that span its convex hull seen from above; asked for only where the box does not fit.
+    bed_mm
+        Usable bed (x, y, z).
+    """
+    size, bed = bounds_mm[1] - bounds_mm[0], np.asarray(bed_mm)
+    along = Lie(0.0, float((bed - size).min())), Lie(90.0, float((bed - size[[1, 0, 2]]).min()))
+    best = max(along, key=lambda lie: lie.margin_mm)
+    if best.margin_mm >= -ROUND_OFF_MM:
+        return best
+    for found in _askew(outline(), float(size[2]), bed):
+        if found.margin_mm >= -ROUND_OFF_MM:
+            return found
+        best = max(best, found, key=lambda lie: lie.margin_mm)
+    return best
+
+
+def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> Lie:
+    """Return how a part lies on the bed.
+
+    Raises
+    ------
+    CannotBuildError
+        If it fits at no angle.
+    """
+    found = lie(bounds_mm, outline, bed_mm)
+    if found.margin_mm < -ROUND_OFF_MM:
+        size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
+        raise CannotBuildError(
+            f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle: "
+            "choose a larger printer in the workshop or a shorter carrying_link_mm"
+        )
+    return found
+
+
+def _askew(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[Lie]:
+    """Yield all lies between along the bed and across it."""
+    angles = np.arange(1.0, 90.0)
+    cos, sin = np.cos(np.radians(angles))[:, None], np.sin(np.radians(angles))[:, None]
+    x, y = outline_mm.T
+    sides = np.stack([np.ptp(cos * x - sin * y, axis=1), np.ptp(sin * x + cos * y, axis=1)], axis=-1)
+    margins = np.minimum((bed_mm[:2] - sides).min(axis=1), bed_mm[2] - height_mm)
+    for angle, margin in zip(angles.tolist(), margins.tolist(), strict=True):
+        yield Lie(angle, margin)

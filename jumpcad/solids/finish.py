@@ -1,0 +1,64 @@
+"""From a solid to the mesh that is written, and the proof that the written file is a part."""
+
+import io
+
+import numpy as np
+import numpy.typing as npt
+import trimesh
+from manifold3d import Manifold
+
+from jumpcad.errors import CannotBuildError
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+
+TOLERANCE_MM = 1e-3
+
+
+def finished(solid: Manifold) -> Manifold:
+    """Return the result of booleans in space without the slivers that would make its file leak."""
+    return solid.set_tolerance(TOLERANCE_MM).as_original().simplify(TOLERANCE_MM)
+
+
+def vertices_and_faces(solid: Manifold) -> tuple[Floats, Ints]:
+    """Return vertices (n, 3) in mm, at full precision, and triangles (m, 3) of a solid."""
+    mesh = solid.to_mesh64()
+    return np.array(mesh.vert_properties[:, :3]), np.asarray(mesh.tri_verts).astype(np.int64)
+
+
+def to_trimesh(solid: Manifold) -> trimesh.Trimesh:
+    """Return a solid as a mesh (mm), vertex by vertex as it is."""
+    vertices, faces = vertices_and_faces(solid)
+    return trimesh.Trimesh(vertices, faces, process=False)
+
+
+def faults(stl: bytes) -> list[str]:
+    """Return what keeps the re-read bytes of an STL file from being one printable part; empty if nothing does.
+
+    Corners are joined where their 32-bit coordinates are equal, as slicers do.
+    """
+    mesh = trimesh.load_mesh(io.BytesIO(stl), file_type="stl")
+    if len(mesh.faces) == 0:
+        return ["it is empty"]
+    found = []
+    if not mesh.is_watertight:
+        found.append("its surface has open or crowded edges")
+    elif not mesh.is_winding_consistent:
+        found.append("its surface is turned inside out in places")
+    elif not mesh.volume > 0:
+        found.append(f"its volume is {mesh.volume:g} mm³")
+    if (pieces := len(mesh.split(only_watertight=False))) != 1:
+        found.append(f"it is {pieces} pieces")
+    return found
+
+
+def require_part(name: str, stl: bytes) -> None:
+    """Refuse a file that is not one closed part.
+
+    Raises
+    ------
+    CannotBuildError
+        Naming the part and its faults.
+    """
+    if found := faults(stl):
+        raise CannotBuildError(f"part {name} cannot be printed: {', '.join(found)}: change the dimension that thins it")

@@ -1,0 +1,143 @@
+"""Integrals of 1, x, y, z and their products over regions and volumes: what mass properties are made of.
+
+Area moments are arrays (6,): ∫1, ∫x, ∫y, ∫x², ∫y², ∫xy in mm², mm³ and mm⁴.
+Volume moments are arrays (10,): ∫1, ∫x, ∫y, ∫z, ∫x², ∫y², ∫z², ∫xy, ∫yz, ∫zx in mm³, mm⁴ and mm⁵.
+Both add up, also with weights and signs.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+from manifold3d import CrossSection, Manifold
+
+from jumpcad.mass import MassProperties
+
+Array = npt.NDArray[np.float64]
+
+MM = 1e-3
+"""One millimetre in metres."""
+G_PER_CM3 = 1e-6
+"""One gram per cubic centimetre in kilograms per cubic millimetre."""
+
+
+def area_moments(region: CrossSection) -> Array:
+    """Return the area moments (6,) of a region by the polygon formulas (Green's theorem)."""
+    return np.asarray(areas_moments([region])[0])
+
+
+def areas_moments(regions: Sequence[CrossSection]) -> Array:
+    """Return the area moments (n, 6) of several regions, which is quicker than one after the other."""
+    (x0, y0), (x1, y1), ends = _sides(regions)
+    cross = (x0 * y1 - x1 * y0) / 24.0
+    products = [
+        12.0 * cross,
+        4.0 * (x0 + x1) * cross,
+        4.0 * (y0 + y1) * cross,
+        2.0 * (x0 * x0 + x0 * x1 + x1 * x1) * cross,
+        2.0 * (y0 * y0 + y0 * y1 + y1 * y1) * cross,
+        (x0 * (2.0 * y0 + y1) + x1 * (y0 + 2.0 * y1)) * cross,
+    ]
+    return _sums(products, ends)
+
+
+def border_moments(region: CrossSection) -> Array:
+    """Return ∮1, ∮x, ∮y, ∮x², ∮y², ∮xy (6,) along the border of a region: those of a strip, per width of the strip."""
+    return np.asarray(borders_moments([region])[0])
+
+
+def borders_moments(regions: Sequence[CrossSection]) -> Array:
+    """Return the moments (n, 6) along the borders of several regions, by Simpson's rule, exact along straight sides."""
+    (x0, y0), (x1, y1), ends = _sides(regions)
+    length = np.hypot(x1 - x0, y1 - y0)
+    part = length / 6.0
+    x, y = x0 + x1, y0 + y1
+    products = [
+        length,
+        3.0 * x * part,
+        3.0 * y * part,
+        (x0 * x0 + x1 * x1 + x * x) * part,
+        (y0 * y0 + y1 * y1 + y * y) * part,
+        (x0 * y0 + x1 * y1 + x * y) * part,
+    ]
+    return _sums(products, ends)
+
+
+def _sides(regions: Sequence[CrossSection]) -> tuple[Array, Array, npt.NDArray[np.int64]]:
+    """Return where the sides of all regions' polygons start and end, (2, m) each, and where each region's end (n,)."""
+    contours, ends = [], []
+    count = 0
+    for region in regions:
+        polygons = region.to_polygons()
+        contours += polygons
+        count += sum(map(len, polygons))
+        ends.append(count)
+    if not count:
+        return np.zeros((2, 0)), np.zeros((2, 0)), np.zeros(len(regions), dtype=np.int64)
+    start = np.concatenate(contours).T
+    last = np.cumsum([len(contour) for contour in contours]) - 1
+    end = np.empty_like(start)
+    end[:, :-1] = start[:, 1:]
+    end[:, last] = start[:, np.concatenate([[0], last[:-1] + 1])]
+    return start, end, np.array(ends)
+
+
+def _sums(products: list[Array], ends: npt.NDArray[np.int64]) -> Array:
+    """Return the sums (n, k) of k rows of products over the sides of n regions, which end at `ends` (n,)."""
+    starts = np.concatenate([[0], ends[:-1]])
+    some = starts < ends
+    sums = np.zeros((len(ends), len(products)))
+    if some.any():
+        sums[some] = np.add.reduceat(np.array(products), starts[some], axis=1).T
+    return sums
+
+
+def prism_moments(area: Array, z0_mm: npt.ArrayLike, z1_mm: npt.ArrayLike) -> Array:
+    """Return the volume moments (10,) of prisms over regions, all together.
+
+    Parameters
+    ----------
+    area
+        Area moments of the regions, (6,) or (n, 6).
+    z0_mm, z1_mm
+        Bottoms and tops of the prisms, one number or (n,).
+    """
+    a, sx, sy, sxx, syy, sxy = np.atleast_2d(area).T
+    z0, z1 = np.asarray(z0_mm, dtype=float), np.asarray(z1_mm, dtype=float)
+    height, lever, square = z1 - z0, (z1**2 - z0**2) / 2.0, (z1**3 - z0**3) / 3.0
+    columns = [
+        *(a * height, sx * height, sy * height, a * lever),
+        *(sxx * height, syy * height, a * square, sxy * height, sy * lever, sx * lever),
+    ]
+    return np.sum(columns, axis=1)
+
+
+def mesh_moments(solid: Manifold) -> Array:
+    """Return the volume moments (10,) of a closed mesh: signed tetrahedra from the origin to each triangle."""
+    mesh = solid.to_mesh64()
+    corners = mesh.vert_properties[:, :3][mesh.tri_verts]
+    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
+    total = corners.sum(axis=1)
+    first = (volume[:, None] * total).sum(axis=0) / 4.0
+    # ∫ x_i x_j over a tetrahedron with one corner at the origin: V/20·(Σ_k p_ki·p_kj + Σ_k p_ki · Σ_k p_kj)
+    second = np.einsum("t,tki,tkj->ij", volume, corners, corners) + np.einsum("t,ti,tj->ij", volume, total, total)
+    xx, yy, zz = np.diag(second) / 20.0
+    return np.array([volume.sum(), *first, xx, yy, zz, second[0, 1] / 20.0, second[1, 2] / 20.0, second[2, 0] / 20.0])
+
+
+def point_moments(points_mm: Array, weights: Array) -> Array:
+    """Return the moments (10,) of weighted points (n, 3)."""
+    x, y, z = points_mm.T
+    products = (np.ones_like(x), x, y, z, x * x, y * y, z * z, x * y, y * z, z * x)
+    return np.array([float(weights @ product) for product in products])
+
+
+def mass_of(moments: Array, density_g_cm3: float) -> MassProperties:
+    """Return the mass properties (kg, m, about the centre of mass) of a volume with the given moments (10,)."""
+    volume, first = moments[0], moments[1:4]
+    xx, yy, zz, xy, yz, zx = moments[4:]
+    com = first / volume
+    second = np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]) - np.outer(com, first)
+    inertia = np.trace(second) * np.eye(3) - second
+    density = density_g_cm3 * G_PER_CM3
+    return MassProperties(float(density * volume), com * MM, density * inertia * MM**2)

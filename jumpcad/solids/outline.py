@@ -1,0 +1,149 @@
+"""Flat regions that parts are extruded from, in mm.
+
+Every function returns a `manifold3d.CrossSection`, here called a `Region`: a set of polygons without overlaps.
+Circles are polygons of at least 64 sides. The corners of a disc lie on its circle, so it is never wider than its
+diameter; the sides of a hole touch its circle, so it is never narrower. What must slide through therefore does.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from manifold3d import CrossSection, FillRule, JoinType, OpType
+
+from jumpcad.errors import JumpcadError
+
+Region: TypeAlias = CrossSection
+Point: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
+
+MIN_FACETS = 64
+SAGITTA_MM = 0.005  # a polygon may leave its circle by this much: a tenth of what a printer resolves
+ORIGIN = (0.0, 0.0)
+
+
+def facets(diameter_mm: float) -> int:
+    """Return how many sides a circle gets: at least 64, a multiple of 8, and within `SAGITTA_MM` of the circle."""
+    return max(MIN_FACETS, 8 * math.ceil(math.pi / 8.0 / _half_step(diameter_mm)))
+
+
+def _half_step(diameter_mm: float) -> float:
+    """Return half the angle of a circle's longest side that stays within `SAGITTA_MM` of it (rad)."""
+    return math.acos(max(1.0 - 2.0 * SAGITTA_MM / diameter_mm, 0.0))
+
+
+def circle_points(diameter_mm: float, centre_mm: Point = ORIGIN, around: bool = False) -> npt.NDArray:
+    """Return the corners (n, 2) of a circle's polygon, counter-clockwise; `around` puts its sides on the circle."""
+    if not diameter_mm > 0:
+        raise JumpcadError(f"a circle's diameter of {diameter_mm:g} mm must be more than 0")
+    count = facets(diameter_mm)
+    radius = diameter_mm / 2.0 / (math.cos(math.pi / count) if around else 1.0)
+    return np.asarray(centre_mm, dtype=float) + radius * _unit_circle(count)
+
+
+@lru_cache(maxsize=64)
+def _unit_circle(count: int) -> npt.NDArray:
+    """Return the corners (count, 2) of a polygon in the unit circle, the first on +x, counter-clockwise."""
+    angles = np.arange(count) * (2.0 * math.pi / count)
+    corners = np.column_stack([np.cos(angles), np.sin(angles)])
+    corners.setflags(write=False)
+    return corners
+
+
+def disc(diameter_mm: float, centre_mm: Point = ORIGIN) -> Region:
+    """Return a disc that is nowhere wider than its diameter."""
+    return CrossSection([circle_points(diameter_mm, centre_mm)])
+
+
+def hole(diameter_mm: float, centre_mm: Point = ORIGIN) -> Region:
+    """Return a round hole, to be subtracted, whose smallest width is its diameter."""
+    return CrossSection([circle_points(diameter_mm, centre_mm, around=True)])
+
+
+def ring(outer_mm: float, inner_mm: float, centre_mm: Point = ORIGIN) -> Region:
+    """Return a disc with a hole, given both diameters."""
+    return disc(outer_mm, centre_mm) - hole(inner_mm, centre_mm)
+
+
+def d_bore(diameter_mm: float, across_flat_mm: float, centre_mm: Point = ORIGIN) -> Region:
+    """Return the hole for a D-shaft, to be subtracted; the flat faces +x, `across_flat_mm` from the far side."""
+    depth = diameter_mm - across_flat_mm
+    if not 0 < depth < diameter_mm / 2:
+        raise JumpcadError(f"a D-bore of {diameter_mm:g} mm cannot be {across_flat_mm:g} mm across its flat")
+    cut = rectangle((diameter_mm, 2.0 * diameter_mm)).translate((across_flat_mm, 0.0))
+    return (hole(diameter_mm) - cut).translate(tuple(centre_mm))
+
+
+def polygon(*contours_mm: npt.ArrayLike) -> Region:
+    """Return the region of one or more closed contours (n, 2) in any direction; contours inside others are holes."""
+    return CrossSection([np.asarray(contour, dtype=float) for contour in contours_mm], FillRule.EvenOdd)
+
+
+def rectangle(size_mm: Sequence[float], centre_mm: Point = ORIGIN, corner_radius_mm: float = 0.0) -> Region:
+    """Return a rectangle along the axes about its centre, with rounded corners if asked for."""
+    width, height = size_mm
+    if corner_radius_mm <= 0:
+        return CrossSection.square((width, height), center=True).translate(tuple(centre_mm))
+    across, along = width / 2.0 - corner_radius_mm, height / 2.0 - corner_radius_mm
+    if across < 0.0 or along < 0.0:
+        raise JumpcadError(f"corners of {corner_radius_mm:g} mm radius do not fit {width:g} x {height:g} mm")
+    circle = circle_points(2.0 * corner_radius_mm)
+    quarter = len(circle) // 4
+    corners = [(across, along), (-across, along), (-across, -along), (across, -along)]
+    arcs = [
+        corner + np.roll(circle, -quarter * number, axis=0)[: quarter + 1]
+        for number, corner in enumerate(np.asarray(centre_mm, dtype=float) + corners)
+    ]
+    return CrossSection([np.concatenate(arcs)])
+
+
+def tapered_bar(start_mm: Point, end_mm: Point, start_width_mm: float, end_width_mm: float) -> Region:
+    """Return the hull of two discs: a bar with round ends that may differ in width."""
+    return hull([disc(start_width_mm, start_mm), disc(end_width_mm, end_mm)])
+
+
+def stadium(start_mm: Point, end_mm: Point, width_mm: float) -> Region:
+    """Return a bar with round ends of one width between two centres."""
+    return tapered_bar(start_mm, end_mm, width_mm, width_mm)
+
+
+def strips(starts_mm: npt.ArrayLike, ends_mm: npt.ArrayLike, width_mm: float) -> Region:
+    """Return bars with square ends between points (2,) or (n, 2), all of one width, as one region."""
+    start, end = (np.atleast_2d(np.asarray(points, dtype=float)) for points in (starts_mm, ends_mm))
+    along = (end - start) / np.linalg.norm(end - start, axis=1, keepdims=True)
+    across = width_mm / 2.0 * np.stack([-along[:, 1], along[:, 0]], axis=-1)
+    corners = np.stack([start - across, end - across, end + across, start + across], axis=1)
+    return CrossSection(list(corners), FillRule.NonZero)
+
+
+def hull(regions: Iterable[Region]) -> Region:
+    """Return the convex hull of several regions."""
+    return CrossSection.batch_hull(list(regions))
+
+
+def union(regions: Iterable[Region]) -> Region:
+    """Return everything that lies in at least one of the regions."""
+    return CrossSection.batch_boolean(list(regions), OpType.Add)
+
+
+def grown(region: Region, distance_mm: float) -> Region:
+    """Return the region with every edge moved outwards (inwards if negative); outer corners become round.
+
+    Edges and round corners may be off by `SAGITTA_MM`: circles that others must fit are drawn after this.
+    """
+    if distance_mm == 0.0:
+        return region
+    segments = 4 * math.ceil(math.pi / 4.0 / _half_step(2.0 * abs(distance_mm)))
+    return region.simplify(SAGITTA_MM).offset(distance_mm, JoinType.Round, 2.0, segments).simplify(1e-4)
+
+
+def rounded(region: Region, radius_mm: float) -> Region:
+    """Return the region with its convex corners rounded; what is narrower than two radii disappears."""
+    return grown(grown(region, -radius_mm), radius_mm)
+
+
+def filleted(region: Region, radius_mm: float) -> Region:
+    """Return the region with its inner corners filled to a radius; holes narrower than two radii close."""
+    return grown(grown(region, radius_mm), -radius_mm)

@@ -1,0 +1,285 @@
+"""`Stack`: a part as slabs over flat regions, in printing orientation, z up from the bed, in mm.
+
+Nearly every printed part is of this kind. A stack is an exact description: its solid, its mass properties, its layers
+and what it shares with another stack all follow from the polygons, without a mesh.
+"""
+
+import functools
+import itertools
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from manifold3d import CrossSection, JoinType, Manifold, Mesh64, OpType
+
+from jumpcad.errors import JumpcadError
+from jumpcad.mass import MassProperties
+from jumpcad.solids.moments import areas_moments, mass_of, prism_moments
+from jumpcad.solids.outline import Region
+from jumpcad.solids.skin import skin
+
+Array = npt.NDArray[np.float64]
+
+Z_DIGITS = 4  # heights are rounded to this many decimals of a mm: faces meant to meet do, in 32-bit floats too
+SLIVER_MM = 0.01
+SMALLEST_AREA_MM2 = 1e-6  # what clipping leaves where two regions only touch
+NOTHING: Region = CrossSection()
+
+
+@dataclass(frozen=True)
+class Slab:
+    """A region extruded from `z0_mm` to `z1_mm`."""
+
+    z0_mm: float
+    z1_mm: float
+    region: Region
+
+    @property
+    def height_mm(self) -> float:
+        """Thickness of the slab (mm)."""
+        return self.z1_mm - self.z0_mm
+
+
+SlabLike = Slab | tuple[float, float, Region]
+
+
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """Slabs in ascending order whose z intervals do not overlap; make one with `Stack.of`.
+
+    A stack equals itself alone, as its regions do, so that what is known of it can be kept by it.
+    """
+
+    slabs: tuple[Slab, ...]
+
+    @classmethod
+    def of(cls, slabs: Iterable[SlabLike]) -> "Stack":
+        """Return the union of slabs (z0, z1, region) that may overlap in every way."""
+        return _arranged(slabs, ())
+
+    def plus(self, slabs: "Iterable[SlabLike] | Stack") -> "Stack":
+        """Return the union of this stack and more slabs."""
+        return _arranged((*self.slabs, *_listed(slabs)), ())
+
+    def minus(self, slabs: "Iterable[SlabLike] | Stack") -> "Stack":
+        """Return this stack without slabs (z0, z1, region), such as bores, pockets and engravings."""
+        return _arranged(self.slabs, _listed(slabs))
+
+    def through(self, *holes: Region) -> "Stack":
+        """Return this stack with holes from bottom to top."""
+        return self.minus([(self.z0_mm, self.z1_mm, hole) for hole in holes])
+
+    def moved(self, x_mm: float = 0.0, y_mm: float = 0.0, z_mm: float = 0.0) -> "Stack":
+        """Return the stack moved by a distance."""
+        return self._mapped(lambda region: region.translate((x_mm, y_mm)), lambda z: z + z_mm)
+
+    def rotated(self, angle_deg: float) -> "Stack":
+        """Return the stack turned counter-clockwise about z through the origin."""
+        return self._mapped(lambda region: region.rotate(angle_deg))
+
+    def mirrored(self) -> "Stack":
+        """Return the other hand: y becomes -y."""
+        return self._mapped(lambda region: region.mirror((0.0, 1.0)))
+
+    def flipped(self) -> "Stack":
+        """Return the stack turned over about x and put back on the heights that it came from: y -> -y, top -> bottom.
+
+        The hand stays the same: this is the part lying on its other side.
+        """
+        total = self.z0_mm + self.z1_mm
+        return self._mapped(lambda region: region.mirror((0.0, 1.0)), lambda z: total - z)
+
+    def chamfered(self, depth_mm: float, layer_mm: float, first_layer_mm: float | None = None) -> "Stack":
+        """Return the stack with the edges of its bottom face chamfered at 45° against a spreading first layer.
+
+        The chamfer is built as the printer makes it: one step a layer, each as wide as the slope is in the middle of
+        that layer. The slab at the bottom must be thicker than the chamfer is deep.
+
+        Parameters
+        ----------
+        depth_mm
+            Width of the chamfer on the bed, and its height.
+        layer_mm, first_layer_mm
+            Heights of the layers; the first is like the others unless given.
+        """
+        bottom = self.slabs[0]
+        if bottom.height_mm < depth_mm:
+            raise JumpcadError(f"a bottom slab of {bottom.height_mm:g} mm is too thin for a chamfer of {depth_mm:g} mm")
+        steps, z, height = [], 0.0, first_layer_mm or layer_mm
+        while (inset := depth_mm - z - height / 2.0) > 1e-9:
+            top = min(z + height, bottom.height_mm)
+            region = bottom.region.offset(-inset, JoinType.Miter)
+            if not region.is_empty():
+                steps.append(Slab(_z(bottom.z0_mm + z), _z(bottom.z0_mm + top), region))
+            z, height = top, layer_mm
+        rest = Slab(_z(bottom.z0_mm + z), bottom.z1_mm, bottom.region)
+        upper = (rest, *self.slabs[1:]) if rest.height_mm > 1e-9 else self.slabs[1:]
+        return Stack((*steps, *upper))
+
+    @property
+    def z0_mm(self) -> float:
+        """Height of the bottom (mm)."""
+        return self.slabs[0].z0_mm
+
+    @property
+    def z1_mm(self) -> float:
+        """Height of the top (mm)."""
+        return self.slabs[-1].z1_mm
+
+    @functools.cached_property
+    def bounds_mm(self) -> Array:
+        """Lower and upper corner of the bounding box, (2, 3) in mm."""
+        flat = np.array([slab.region.bounds() for slab in self.slabs])
+        low, high = flat[:, :2].min(axis=0), flat[:, 2:].max(axis=0)
+        return np.array([[*low, self.z0_mm], [*high, self.z1_mm]])
+
+    @property
+    def outline_mm(self) -> Array:
+        """Points (n, 2) that span its convex hull seen from above."""
+        return np.concatenate([contour for slab in self.slabs for contour in slab.region.to_polygons()])
+
+    @functools.cached_property
+    def moments(self) -> Array:
+        """Volume moments (10,), see `jumpcad.solids.moments`; exact."""
+        areas = areas_moments([slab.region for slab in self.slabs])
+        return prism_moments(areas, [slab.z0_mm for slab in self.slabs], [slab.z1_mm for slab in self.slabs])
+
+    @property
+    def volume_mm3(self) -> float:
+        """Volume (mm³)."""
+        return float(self.moments[0])
+
+    def mass_properties(self, density_g_cm3: float) -> MassProperties:
+        """Return the mass properties of the stack made solid, in its own frame (kg, m)."""
+        return mass_of(self.moments, density_g_cm3)
+
+    def regions_at(self, heights_mm: npt.ArrayLike) -> list[Region]:
+        """Return the cross-sections at heights (n,), at the edge of two slabs the upper one's; `NOTHING` outside."""
+        heights = np.asarray(heights_mm, dtype=float)
+        numbers = np.searchsorted([slab.z0_mm for slab in self.slabs], heights, side="right") - 1
+        slabs = [self.slabs[number] if number >= 0 else None for number in numbers]
+        return [
+            slab.region if slab and height < slab.z1_mm else NOTHING
+            for slab, height in zip(slabs, heights.tolist(), strict=True)
+        ]
+
+    def footprint(self) -> Region:
+        """Return the outline seen from above."""
+        return CrossSection.batch_boolean([slab.region for slab in self.slabs], OpType.Add)
+
+    def solid(self) -> Manifold:
+        """Return the stack as one closed solid whose corners 32-bit floats hold exactly (on a grid of 1 µm)."""
+        heights = [(slab.z0_mm, slab.z1_mm) for slab in self.slabs]
+        clean = {id(slab.region): _without_slivers(slab.region).to_polygons() for slab in self.slabs}
+        vertices, faces = skin(heights, [clean[id(slab.region)] for slab in self.slabs])
+        return Manifold(Mesh64(vertices, faces.astype(np.uint64)))
+
+    def _mapped(self, change: Callable[[Region], Region], change_z: Callable[[float], float] = lambda z: z) -> "Stack":
+        """Return the stack with every region and height changed; regions that were one object stay one object."""
+        regions = {id(slab.region): slab.region for slab in self.slabs}
+        changed = {key: change(region) for key, region in regions.items()}
+        slabs = []
+        for slab in self.slabs:
+            low, high = sorted((_z(change_z(slab.z0_mm)), _z(change_z(slab.z1_mm))))
+            slabs.append(Slab(low, high, changed[id(slab.region)]))
+        return Stack(tuple(sorted(slabs, key=lambda slab: slab.z0_mm)))
+
+
+def overlap_volume_mm3(a: Stack, T_world_a: Array, b: Stack, T_world_b: Array) -> float:
+    """Return the volume that two placed stacks share, exactly.
+
+    Parameters
+    ----------
+    a, b
+        The stacks, each in its own frame (mm).
+    T_world_a, T_world_b
+        Their poses (4, 4), lengths in mm; the two extrusion axes must be parallel (either way round).
+
+    Raises
+    ------
+    ValueError
+        If the extrusion axes are not parallel.
+    """
+    T_a_b = np.linalg.inv(T_world_a) @ T_world_b
+    turn, shift = T_a_b[:3, :3], T_a_b[:3, 3]
+    if abs(abs(turn[2, 2]) - 1.0) > 1e-9:
+        raise ValueError("the extrusion axes of the two stacks are not parallel")
+    flat = np.column_stack([turn[:2, :2], shift[:2]])
+    placed: dict[int, Region] = {}
+    total = 0.0
+    for slab_b in b.slabs:
+        low, high = sorted(turn[2, 2] * z + shift[2] for z in (slab_b.z0_mm, slab_b.z1_mm))
+        for slab_a in a.slabs:
+            height = min(high, slab_a.z1_mm) - max(low, slab_a.z0_mm)
+            if height <= 10.0**-Z_DIGITS:
+                continue
+            region_b = placed.get(id(slab_b.region))
+            if region_b is None:
+                region_b = placed[id(slab_b.region)] = slab_b.region.transform(flat)
+            if _apart(slab_a.region, region_b):
+                continue
+            area = (slab_a.region ^ region_b).area()
+            if area > SMALLEST_AREA_MM2:
+                total += area * height
+    return total
+
+
+def _apart(a: Region, b: Region) -> bool:
+    """Tell whether two bounding boxes do not meet."""
+    ax0, ay0, ax1, ay1 = a.bounds()
+    bx0, by0, bx1, by1 = b.bounds()
+    return bool(ax1 <= bx0 or bx1 <= ax0 or ay1 <= by0 or by1 <= ay0)
+
+
+def _listed(slabs: Iterable[SlabLike] | Stack) -> tuple[SlabLike, ...]:
+    return slabs.slabs if isinstance(slabs, Stack) else tuple(slabs)
+
+
+def _z(height_mm: float) -> float:
+    return round(float(height_mm), Z_DIGITS)
+
+
+def _without_slivers(region: Region) -> Region:
+    """Return the region with gaps and walls narrower than two `SLIVER_MM` closed and removed.
+
+    They come from outlines that nearly coincide; in a file their sides would touch along a line.
+    """
+    closed = region.offset(SLIVER_MM, JoinType.Miter).offset(-2.0 * SLIVER_MM, JoinType.Miter)
+    return closed.offset(SLIVER_MM, JoinType.Miter)
+
+
+def _clean(slabs: Iterable[SlabLike]) -> list[Slab]:
+    """Return slabs with rounded heights; empty ones are dropped."""
+    tuples = [(s.z0_mm, s.z1_mm, s.region) if isinstance(s, Slab) else s for s in slabs]
+    return [Slab(_z(z0), _z(z1), region) for z0, z1, region in tuples if _z(z0) < _z(z1) and not region.is_empty()]
+
+
+def _arranged(added: Iterable[SlabLike], removed: Iterable[SlabLike]) -> Stack:
+    """Return disjoint slabs that cover what is added but not removed.
+
+    Heights between which the same slabs are present share one region object.
+    """
+    plus, minus = _clean(added), _clean(removed)
+    levels = sorted({z for slab in (*plus, *minus) for z in (slab.z0_mm, slab.z1_mm)})
+    known: dict[tuple[frozenset[int], frozenset[int]], Region] = {}
+    slabs: list[Slab] = []
+    for z0, z1 in itertools.pairwise(levels):
+        solid = [slab.region for slab in plus if slab.z0_mm <= z0 and slab.z1_mm >= z1]
+        void = [slab.region for slab in minus if slab.z0_mm <= z0 and slab.z1_mm >= z1]
+        if not solid:
+            continue
+        key = (frozenset(map(id, solid)), frozenset(map(id, void)))
+        if key not in known:
+            region = solid[0] if len(solid) == 1 else CrossSection.batch_boolean(solid, OpType.Add)
+            known[key] = CrossSection.batch_boolean([region, *void], OpType.Subtract) if void else region
+        region = known[key]
+        if region.area() <= SMALLEST_AREA_MM2:
+            continue
+        if slabs and slabs[-1].region is region and slabs[-1].z1_mm == z0:
+            slabs[-1] = Slab(slabs[-1].z0_mm, z1, region)
+        else:
+            slabs.append(Slab(z0, z1, region))
+    if not slabs:
+        raise JumpcadError("nothing is left of a part: its slabs are empty or wholly cut away")
+    return Stack(tuple(slabs))

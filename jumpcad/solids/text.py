@@ -1,0 +1,47 @@
+"""Letters as regions, for engraving."""
+
+from functools import lru_cache
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from manifold3d import CrossSection, FillRule
+from matplotlib.ft2font import FT2Font, LoadFlags
+from matplotlib.path import Path as Curve
+
+from jumpcad.errors import JumpcadError
+from jumpcad.solids.outline import SAGITTA_MM, Region
+
+FONT = "DejaVuSans-Bold.ttf"  # shipped with the plotting library, so the same letters everywhere
+TRACED_AT = 100.0  # size at which letters are traced: large enough for smooth curves, small enough for few corners
+
+
+@lru_cache(maxsize=256)
+def text(label: str, height_mm: float) -> Region:
+    """Return a line of text whose capitals have a height, from the origin along +x, standing on y = 0.
+
+    Raises
+    ------
+    JumpcadError
+        If the height is not positive or the label has nothing to draw.
+    """
+    font = FT2Font(str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / FONT))
+    font.set_size(TRACED_AT, 72)
+    contours, x = [], 0.0
+    for letter in label:
+        advance, polygons = _letter(font, letter)
+        contours += [polygon + np.array([x, 0.0]) for polygon in polygons]
+        x += advance
+    if not contours or not height_mm > 0:
+        raise JumpcadError(f"text {label!r} of height {height_mm:g} mm cannot be engraved: give letters and a height")
+    capital = max(float(polygon[:, 1].max()) for polygon in _letter(font, "H")[1])
+    letters = CrossSection(contours, FillRule.NonZero).scale((height_mm / capital, height_mm / capital))
+    return letters.simplify(SAGITTA_MM)
+
+
+def _letter(font: FT2Font, letter: str) -> tuple[float, list]:
+    """Return how far a letter moves the pen, and its closed contours (n, 2)."""
+    glyph = font.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
+    vertices, codes = font.get_path()
+    polygons = Curve(vertices, codes).to_polygons() if len(vertices) else []
+    return glyph.linearHoriAdvance / 65536.0, polygons

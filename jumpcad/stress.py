@@ -1,0 +1,140 @@
+"""Textbook stresses of bars, eyes and pins (N, mm, MPa), for sizing and checking alike.
+
+Sources: Shigley, Mechanical Engineering Design, 3-10 (bending), 3-12 (torsion), 4-12 (columns), 8-12 (joints loaded in
+shear); Roark, Formulas for Stress and Strain, ch. 8 (beams) and table A.1 (sections).
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from jumpcad.workshop import Process
+
+Array = npt.NDArray[np.float64]
+
+VON_MISES = math.sqrt(3.0)
+"""Tension that is as bad as a shear stress of 1 (distortion energy)."""
+INFILL_ALONG = 0.5
+"""Share of an infill's lines that run along a bar (a grid's: half)."""
+STATIONS = 17
+"""Places along a bar at which it is looked at."""
+
+
+@dataclass(frozen=True)
+class Skin:
+    """What a printed bar is made of besides infill: walls at its sides, layers below and above (mm).
+
+    `core_share` is what the infill bears, as a share of solid material.
+    """
+
+    walls_mm: float
+    layers_mm: float
+    core_share: float
+
+    @classmethod
+    def of(cls, process: Process) -> "Skin":
+        """Return the skin that a process prints."""
+        return cls(
+            process.perimeters * process.line_width_mm,
+            0.5 * (process.top_layers + process.bottom_layers) * process.layer_height_mm,
+            process.infill if process.infill == 1.0 else INFILL_ALONG * process.infill,
+        )
+
+
+SOLID = Skin(0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Bar:
+    """Rectangular sections of a printed bar, solid in its skin and infilled within; scalars or arrays (n,) of mm.
+
+    `height_mm` lies in the plane of bending. A bar that prints lying has its walls at the ends of its height, one that
+    prints `upright` its layers.
+    """
+
+    width_mm: float | Array
+    height_mm: float | Array
+    skin: Skin = SOLID
+    upright: bool = False
+
+    @property
+    def area_mm2(self) -> float | Array:
+        """Area that bears."""
+        width, height = self._core
+        return self.width_mm * self.height_mm - (1.0 - self.skin.core_share) * width * height
+
+    @property
+    def second_moment_mm4(self) -> float | Array:
+        """Second moment of area, b·h³/12 less what the core lacks."""
+        width, height = self._core
+        return (self.width_mm * self.height_mm**3 - (1.0 - self.skin.core_share) * width * height**3) / 12.0
+
+    @property
+    def _core(self) -> tuple[float | Array, float | Array]:
+        walls, layers = 2.0 * self.skin.walls_mm, 2.0 * self.skin.layers_mm
+        across, along = (walls, layers) if self.upright else (layers, walls)
+        return np.maximum(self.width_mm - across, 0.0), np.maximum(self.height_mm - along, 0.0)
+
+    def stress_mpa(self, moment_nmm: float | Array, axial_n: float | Array = 0.0) -> float | Array:
+        """Return the largest stress under bending and a force along the bar, M·h/(2·I) + F/A."""
+        bending = moment_nmm * self.height_mm / (2.0 * self.second_moment_mm4)
+        return bending + np.abs(axial_n) / self.area_mm2
+
+
+def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, skin: Skin, upright: bool = False) -> float:
+    """Return the least height of a bar that bears a bending moment.
+
+    The solid bar's height, the root of 6·M/(b·stress), is the first guess; what the core lacks is then made up for.
+    """
+    height = math.sqrt(6.0 * moment_nmm / (width_mm * stress_mpa))
+    for _ in range(20):
+        height *= math.sqrt(float(Bar(width_mm, height, skin, upright).stress_mpa(moment_nmm)) / stress_mpa)
+    return height
+
+
+def tapered_stress_mpa(bar: Bar, moment_nmm: float, axial_n: float = 0.0) -> float:
+    """Return the largest stress of a cantilever whose moment falls evenly from its root to nothing at its tip.
+
+    `bar` holds the sections (n,) at even distances from root to tip.
+    """
+    share = np.linspace(1.0, 0.0, len(np.atleast_1d(bar.height_mm)))
+    return float(np.max(bar.stress_mpa(moment_nmm * share, axial_n)))
+
+
+def tapered_energy_nmm(bar: Bar, moment_nmm: float, length_mm: float, modulus_mpa: float) -> float:
+    """Return the bending energy of such a cantilever, the integral of M²/(2·E·I) (N·mm)."""
+    share = np.linspace(1.0, 0.0, len(np.atleast_1d(bar.height_mm)))
+    density = (moment_nmm * share) ** 2 / (2.0 * modulus_mpa * bar.second_moment_mm4)
+    return float(np.trapezoid(density, dx=length_mm / (len(share) - 1)))
+
+
+def bored_stress_mpa(moment_nmm: float, width_mm: float, height_mm: float, bore_mm: float) -> float:
+    """Return the bending stress of a bar at a cross bore in its middle, 6·M·H/(b·(H³ - d³))."""
+    return 6.0 * moment_nmm * height_mm / (width_mm * (height_mm**3 - bore_mm**3))
+
+
+def eye_stress_mpa(force_n: float, thickness_mm: float, outer_mm: float, bore_mm: float) -> float:
+    """Return the worse of an eye's bearing pressure and its tear-out beside the pin, as the tension that it equals.
+
+    The tension across the same ligaments is less than the tear-out by the square root of 3.
+    """
+    bearing = force_n / (bore_mm * thickness_mm)
+    tear_out = VON_MISES * force_n / ((outer_mm - bore_mm) * thickness_mm)
+    return max(bearing, tear_out)
+
+
+def pin_stress_mpa(moment_nmm: float, diameter_mm: float) -> float:
+    """Return the bending stress of a round pin, 32·M/(pi·d³)."""
+    return 32.0 * moment_nmm / (math.pi * diameter_mm**3)
+
+
+def tube_shear_mpa(torque_nmm: float, outer_mm: float, bore_mm: float) -> float:
+    """Return the shear stress at the outside of a tube under torsion, 16·T·D/(pi·(D⁴ - d⁴))."""
+    return 16.0 * torque_nmm * outer_mm / (math.pi * (outer_mm**4 - bore_mm**4))
+
+
+def buckling_load_n(bar: Bar, length_mm: float, modulus_mpa: float) -> float:
+    """Return Euler's load of a bar with a hinge at either end, pi²·E·I/l²."""
+    return float(math.pi**2 * modulus_mpa * bar.second_moment_mm4 / length_mm**2)

@@ -1,0 +1,263 @@
+"""`Workshop`: where and of what a robot is made. Printer, process, materials, fits, bought parts, safety, masses.
+
+A workshop file gives any subset; what it leaves out comes from its `base` (the shipped `default` unless named).
+`printer = "mini"` takes a shipped printer whole; the names under `[roles]` choose materials, shipped or the file's own.
+"""
+
+import itertools
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import (
+    Contradiction,
+    Record,
+    Section,
+    did_you_mean,
+    find_template,
+    read_toml,
+    template_names,
+    to_toml,
+)
+
+Positive = Annotated[float, Field(gt=0, le=1e4)]
+Share = Annotated[float, Field(gt=0, le=1)]
+Fit = Annotated[float, Field(ge=-0.5, le=1)]
+Role = Literal["links", "body", "gears"]
+
+MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
+DEFAULT = "default"
+
+
+class Printer(Section):
+    """A machine: usable bed (x, y, z) and nozzle."""
+
+    name: str
+    bed_mm: Annotated[tuple[Positive, Positive, Positive], Field(strict=False)]
+    nozzle_mm: Annotated[float, Field(ge=0.1, le=2)]
+    source: str = ""
+
+
+class Process(Section):
+    """How the printer is told to print; the printed mass follows from these."""
+
+    layer_height_mm: Annotated[float, Field(ge=0.03, le=1.5)]
+    first_layer_mm: Annotated[float, Field(ge=0.03, le=1.5)]
+    line_width_mm: Annotated[float, Field(ge=0.1, le=4)]
+    perimeters: Annotated[int, Field(ge=1, le=20)]
+    top_layers: Annotated[int, Field(ge=0, le=50)]
+    bottom_layers: Annotated[int, Field(ge=0, le=50)]
+    infill: Annotated[float, Field(ge=0, le=1)]
+    infill_pattern: Literal["grid", "rectilinear", "gyroid", "triangles", "cubic", "honeycomb"]
+    solid_below_area_mm2: Annotated[float, Field(ge=0)]
+    part_spacing_mm: Annotated[float, Field(ge=0, le=50)]
+
+
+class Material(Section):
+    """What is printed; strengths along the layers and between them."""
+
+    density_g_cm3: Annotated[float, Field(ge=0.3, le=10)]
+    strength_in_plane_mpa: Positive
+    strength_interlayer_mpa: Positive
+    modulus_mpa: Annotated[float, Field(gt=0, le=1e6)]
+    source: str = ""
+
+
+class Roles(Section):
+    """Which material a kind of part is printed in."""
+
+    links: str
+    body: str
+    gears: str
+
+
+class Fits(Section):
+    """Every tolerance offset, as modelled. Fits are added per side; diameters of screw holes are complete."""
+
+    press_mm: Fit
+    sliding_mm: Fit
+    loose_mm: Fit
+    hole_allowance_diameter_mm: Fit
+    backlash_circumferential_mm: Annotated[float, Field(ge=0, le=1)]
+    m2_tap_mm: Positive
+    m2_clearance_mm: Positive
+    m3_tap_mm: Positive
+    m3_insert_mm: Positive
+    m3_clearance_mm: Positive
+    wall_min_mm: Positive
+    wall_mm: Positive
+    pin_min_mm: Positive
+    hole_min_mm: Positive
+    first_layer_chamfer_mm: Annotated[float, Field(ge=0, le=2)]
+    overhang_deg: Annotated[float, Field(ge=0, le=80)]
+    bridge_mm: Positive
+
+
+class BoughtParts(Section):
+    """Names in the hardware catalogue; an empty list of motors allows every one, an empty `leg_bearing` means none."""
+
+    motors: Annotated[tuple[str, ...], Field(strict=False)]
+    leg_bearing: str
+    roller: str
+    battery: str
+    controller: str
+    driver: str
+    axle_mm: Positive
+
+
+class BodyPlates(Section):
+    """The two plates of the body."""
+
+    plate_mm: Annotated[float, Field(ge=1, le=10)]
+
+
+class Safety(Section):
+    """How far the parts are kept from what they could just bear."""
+
+    strength_factor: Annotated[float, Field(ge=1, le=20)]
+    motor_stall_share: Share
+    motor_torque_max_nm: Positive
+    gear_efficiency: Share
+    spring_stress_share: Share
+    landing_stop_mm: Positive
+    leg_flex_share: Share
+    steel_yield_mpa: Positive
+    steel_factor: Annotated[float, Field(ge=1, le=20)]
+
+
+class Masses(Section):
+    """Where printed masses come from; a weighed mass (g, by part) overrides the model."""
+
+    model: Literal["printed", "solid"]
+    weighed_g: dict[str, Positive]
+
+
+class Workshop(Record):
+    """Everything that a robot depends on beside its eight numbers."""
+
+    printer: Printer
+    process: Process
+    roles: Roles
+    materials: dict[str, Material]
+    fits: Fits
+    bought: BoughtParts
+    body: BodyPlates
+    safety: Safety
+    mass: Masses
+
+    def material_name(self, role: Role) -> str:
+        """Return the name of the material that a kind of part is printed in."""
+        return str(getattr(self.roles, role))
+
+    def material(self, role: Role) -> Material:
+        """Return the material that a kind of part is printed in."""
+        return self.materials[self.material_name(role)]
+
+    def to_toml(self) -> str:
+        """Return the workshop as a complete TOML document that reads back the same."""
+        return to_toml(self.model_dump())
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield the values that do not go together."""
+        printer, process, fits = self.printer, self.process, self.fits
+        thickest = round(MAX_LAYER_PER_NOZZLE * printer.nozzle_mm, 6)
+        for key in ("layer_height_mm", "first_layer_mm"):
+            height = getattr(process, key)
+            if height > thickest:
+                yield ("process", key), height, f"must be at most {thickest:g}, 0.8 of the nozzle: lower it"
+        widths = (round(0.8 * printer.nozzle_mm, 6), round(2.0 * printer.nozzle_mm, 6))
+        if not widths[0] <= process.line_width_mm <= widths[1]:
+            reason = f"a nozzle of {printer.nozzle_mm:g} mm lays lines of {widths[0]:g}…{widths[1]:g} mm"
+            yield ("process", "line_width_mm"), process.line_width_mm, reason
+        elif process.line_width_mm <= max(process.layer_height_mm, process.first_layer_mm):
+            yield ("process", "line_width_mm"), process.line_width_mm, "must be more than the layer height"
+        lines = round(2.0 * process.line_width_mm, 6)
+        if fits.wall_mm < lines:
+            reason = f"must be at least {lines:g}, two lines of process.line_width_mm: raise it"
+            yield ("fits", "wall_mm"), fits.wall_mm, reason
+        if fits.wall_min_mm > fits.wall_mm:
+            yield ("fits", "wall_min_mm"), fits.wall_min_mm, f"must be at most fits.wall_mm = {fits.wall_mm:g}"
+        if 2.0 * fits.first_layer_chamfer_mm >= fits.wall_mm:
+            reason = f"leaves nothing of a wall of {fits.wall_mm:g}: must be less than {fits.wall_mm / 2.0:g}"
+            yield ("fits", "first_layer_chamfer_mm"), fits.first_layer_chamfer_mm, reason
+        yield from _not_ascending(fits, ("press_mm", "sliding_mm", "loose_mm"))
+        yield from _not_ascending(fits, ("m2_tap_mm", "m2_clearance_mm"))
+        yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
+        for role, name in self.roles.model_dump().items():
+            if name not in self.materials:
+                yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
+
+
+def load_workshop(name_or_path: str | Path = DEFAULT) -> Workshop:
+    """Return the workshop of a template (`default`) or of a TOML file, with everything that it builds on.
+
+    Raises
+    ------
+    JumpcadError
+        If a file is missing, or a key is unknown, out of range, or contradicts another.
+    """
+    path = find_template("workshops", name_or_path)
+    data, text = _assembled(path, ())
+    return Workshop.from_data(data, source=str(path), text=text)
+
+
+def _assembled(path: Path, above: tuple[Path, ...]) -> tuple[dict[str, Any], str]:
+    """Return the data of a workshop file on top of its base, and the text of the file itself."""
+    data, text = read_toml(path)
+    whole: dict[str, Any] = {}
+    if "base" in data or path != find_template("workshops", DEFAULT):
+        base = data.pop("base", DEFAULT)
+        if not isinstance(base, str):
+            raise JumpcadError(f"{path}: base = {base!r}: must be the name of a workshop or a path")
+        beside = path.parent / base
+        base_path = beside if base.endswith(".toml") and beside.is_file() else find_template("workshops", base)
+        if base_path.resolve() in (path.resolve(), *above):
+            raise JumpcadError(f"{path}: base = {base!r}: leads back to a file that builds on it")
+        whole, _ = _assembled(base_path, (path.resolve(), *above))
+    if isinstance(data.get("printer"), str):
+        whole["printer"] = read_toml(find_template("printers", data.pop("printer")))[0]
+    own = set(data["materials"]) if isinstance(data.get("materials"), dict) else set()
+    whole = _merged(whole, data)
+    if isinstance(whole.get("roles"), dict) and isinstance(whole.setdefault("materials", {}), dict):
+        used = [name for name in whole["roles"].values() if isinstance(name, str)]
+        if unused := sorted(own - set(used)):
+            raise JumpcadError(
+                f"{path}: materials.{unused[0]}: no role uses it; the roles use {', '.join(sorted(set(used)))}"
+                f"{did_you_mean(unused[0], used)}"
+            )
+        whole["materials"] = {name: _material(path, name, whole["materials"].get(name)) for name in sorted(set(used))}
+    return whole, text
+
+
+def _material(path: Path, name: str, own: Any) -> Any:
+    """Return the data of a material: the shipped one, if there is one of that name, under the file's own figures."""
+    known = template_names("materials")
+    if name.lower() in known:
+        shipped = read_toml(find_template("materials", name.lower()))[0]
+        return _merged(shipped, own) if isinstance(own, dict) else shipped if own is None else own
+    if own is None:
+        raise JumpcadError(
+            f"{path}: roles: {name!r} is neither a table under [materials] nor one of {', '.join(known)}"
+            f"{did_you_mean(name.lower(), known)}"
+        )
+    return own
+
+
+def _merged(base: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
+    """Return nested data with the values of `over` in place of those of `base`."""
+    merged = dict(base)
+    for key, value in over.items():
+        both = isinstance(value, dict) and isinstance(merged.get(key), dict)
+        merged[key] = _merged(merged[key], value) if both else value
+    return merged
+
+
+def _not_ascending(fits: Fits, keys: tuple[str, ...]) -> Iterator[Contradiction]:
+    """Yield the fits that are tighter than the one before them."""
+    for tight, wide in itertools.pairwise(keys):
+        if getattr(fits, wide) < getattr(fits, tight):
+            limit = f"must be at least fits.{tight} = {getattr(fits, tight):g}, the tighter fit"
+            yield ("fits", wide), getattr(fits, wide), limit

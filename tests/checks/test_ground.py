@@ -1,0 +1,76 @@
+"""Clearances against solids that are placed and measured; both checks seen to fire."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from manifold3d import Manifold
+
+from jumpcad.checks.ground import foot_findings, ground_findings
+from jumpcad.checks.interference import Moment, components, pose_of
+from jumpcad.linkage import Linkage
+from jumpcad.robot import FOOT, FRONT_LINK, MAIN_LEG, Robot
+
+
+def lowest_above_ground_mm(robot: Robot, leg_rad: float, without: tuple[str, ...] = (FOOT,)) -> float:
+    """Return the height of the lowest corner of any solid above the ground, but those of some bodies."""
+    assert robot.plan is not None
+    linkage = Linkage(robot.design)
+    pose = linkage.pose([leg_rad])
+    lowest = np.inf
+    for piece in components(robot):
+        if piece.body in without:
+            continue
+        placed: Manifold = piece.solid.transform(pose_of(piece, robot.plan, linkage, Moment("", leg_rad, 0.0))[:3])
+        corners = np.asarray(placed.to_mesh64().vert_properties)[:, [0, 2]]
+        tilt = float(pose.foot_rad[0])  # of the foot below the body's x axis
+        height = (corners - pose.ankle_mm[0]) @ np.array([np.sin(tilt), np.cos(tilt)])
+        lowest = min(lowest, float(height.min()))
+    return lowest + 1000.0 * robot.foot_depth_m
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_ground_clearance_is_below_every_solid(strongest: Robot, share: float) -> None:
+    (finding,) = ground_findings(strongest)
+    measured = lowest_above_ground_mm(strongest, -share * strongest.design.compression_rad)
+    assert finding.severity == "info"
+    assert finding.margin + 0.5 <= measured + 1e-3
+    assert finding.margin + 0.5 == pytest.approx(measured, abs=0.05)  # the legs' ends, in every pose
+
+
+def test_the_body_is_measured_where_it_is_lowest(strongest: Robot) -> None:
+    assert strongest.plan is not None
+    legless = replace(strongest.plan, sections=replace(strongest.plan.sections, eye_radius_mm=-1000.0))
+    (finding,) = ground_findings(replace(strongest, plan=legless))
+    measured = lowest_above_ground_mm(strongest, -strongest.design.compression_rad, (FOOT, MAIN_LEG, FRONT_LINK))
+    assert "the body" in finding.message
+    assert measured - 1.0 < finding.margin + 0.5 <= measured + 1e-3
+
+
+def test_ground_clearance_fires_on_a_shallow_foot(kenan: Robot) -> None:
+    assert kenan.plan is not None
+    shallow = replace(kenan.plan, sections=replace(kenan.plan.sections, foot_depth_mm=4.5))
+    (finding,) = ground_findings(replace(kenan, plan=shallow))
+    assert finding.severity == "error"
+    assert finding.margin == pytest.approx(4.5 - 4.2 - 0.5)
+
+
+def test_ground_clearance_fires_on_a_body_that_hangs_down(kenan: Robot) -> None:
+    assert kenan.plan is not None
+    (finding,) = ground_findings(replace(kenan, plan=replace(kenan.plan, cam_axis_mm=np.array([-40.0, -90.0]))))
+    assert finding.severity == "error"
+    assert "the body" in finding.message
+
+
+def test_foot_clearance_fires_on_a_battery_that_sinks(kenan: Robot) -> None:
+    (silent,) = foot_findings(kenan)
+    assert silent.severity == "info"
+    hardware = []
+    for item in kenan.hardware:
+        pose = item.T_body_part.copy()
+        if item.name == "battery":
+            pose[2, 3] -= 80.0
+        hardware.append(replace(item, T_body_part=pose))
+    (finding,) = foot_findings(replace(kenan, hardware=tuple(hardware)))
+    assert finding.severity == "error"
+    assert "battery" in finding.message

@@ -1,0 +1,116 @@
+"""Printability on parts that are drawn to violate one limit each, and on a robot that violates none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from jumpcad.checks.printability import bed_findings, printability_findings
+from jumpcad.findings import Finding, errors
+from jumpcad.mass import MassProperties
+from jumpcad.parts.part import Drawing, Part, Placement
+from jumpcad.robot import BODY, Robot
+from jumpcad.solids.blocks import Bar, Blocks
+from jumpcad.solids.outline import Region, disc, hole, rectangle
+from jumpcad.solids.stack import Stack
+from jumpcad.workshop import load_workshop
+
+Slabs = list[tuple[float, float, Region]]
+
+BLOCK = rectangle((30.0, 20.0))
+
+
+def robot_of(kenan: Robot, shape: Stack | Blocks) -> Robot:
+    drawing = Drawing("piece", "body", shape, (Placement(BODY, np.eye(4)),))
+    return replace(kenan, parts=(Part(drawing, "PLA", MassProperties.box(0.01, (0.03, 0.02, 0.01)), "solid"),))
+
+
+def found(kenan: Robot, shape: Stack | Blocks) -> dict[str, Finding]:
+    return {finding.name: finding for finding in printability_findings(robot_of(kenan, shape))}
+
+
+def test_silent_on_kenan_and_on_the_strongest(kenan: Robot, strongest: Robot) -> None:
+    assert not errors(printability_findings(kenan))
+    assert not errors(printability_findings(strongest))
+    assert not errors([*bed_findings(kenan), *bed_findings(strongest)])
+
+
+@pytest.mark.parametrize(
+    ("name", "slabs", "margin"),
+    [
+        # 0.8 mm are the least wall, 1.6 mm the least hole, 3 mm the least column, 10 mm the longest bridge
+        ("walls", [(0.0, 5.0, rectangle((30.0, 0.5)))], 0.5 - 0.8),
+        ("walls", [(0.0, 5.0, BLOCK - hole(19.0))], 0.5 - 0.8),
+        ("holes", [(0.0, 5.0, BLOCK - hole(1.2))], 1.2 - 1.6),
+        ("pins", [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(2.0))], 2.0 - 3.0),
+        # a ledge of 5 mm beyond a column; two lines of 0.45 mm hold
+        ("overhangs", [(0.0, 4.0, rectangle((10.0, 20.0))), (4.0, 6.0, rectangle((20.0, 20.0)))], 0.9 - 5.0),
+        # a mushroom is held in its middle alone
+        ("overhangs", [(0.0, 4.0, disc(20.0)), (4.0, 6.0, disc(30.0))], 0.9 - 5.0),
+        ("bridges", [(0.0, 5.0, BLOCK - rectangle((14.0, 30.0))), (5.0, 6.0, BLOCK)], 10.0 - 14.0),
+        ("bridges", [(0.0, 5.0, BLOCK - hole(13.0)), (5.0, 6.0, BLOCK)], 10.0 - 13.0),
+    ],
+)
+def test_fires_alone_with_its_margin(kenan: Robot, name: str, slabs: Slabs, margin: float) -> None:
+    findings = found(kenan, Stack.of(slabs))
+    assert [finding.name for finding in errors(findings.values())] == [name]
+    assert findings[name].margin == pytest.approx(margin, abs=0.08)
+    assert "piece" in findings[name].message
+
+
+@pytest.mark.parametrize(
+    "slabs",
+    [
+        [(0.0, 5.0, rectangle((30.0, 1.2)))],
+        [(0.0, 5.0, BLOCK - hole(2.4))],
+        [(0.0, 2.0, BLOCK), (2.0, 12.0, disc(4.0))],
+        [(0.0, 5.0, BLOCK - rectangle((8.0, 30.0))), (5.0, 6.0, BLOCK)],
+    ],
+)
+def test_silent_on_what_prints(kenan: Robot, slabs: Slabs) -> None:
+    assert not errors(found(kenan, Stack.of(slabs)).values())
+
+
+def test_steps_of_45_degrees_are_no_overhang_and_steeper_ones_are(kenan: Robot) -> None:
+    def steps(out_mm: float) -> Stack:
+        return Stack.of([(0.2 * step, 0.2 * step + 0.2, disc(10.0 + 2.0 * out_mm * step)) for step in range(10)])
+
+    assert found(kenan, steps(0.2))["overhangs"].margin == pytest.approx(0.9)
+    assert found(kenan, steps(0.3))["overhangs"].margin == pytest.approx(0.9 - 0.3, abs=0.05)
+    assert found(kenan, steps(1.0))["overhangs"].margin == pytest.approx(0.9 - 1.0, abs=0.05)
+
+
+def test_solids_that_are_no_stacks(kenan: Robot) -> None:
+    block = Bar(rectangle((30.0, 10.0), (15.0, 5.0)), ((0.0, 20.0),))
+    tunnel = Bar(rectangle((14.0, 4.0), (15.0, 4.0)), ((-5.0, 35.0),))
+    assert [finding.name for finding in errors(found(kenan, Blocks((block,), (tunnel,))).values())] == ["bridges"]
+    roof = Bar(rectangle((30.0, 10.0), (15.0, 5.0)).rotate(-30.0), ((0.0, 20.0),))
+    names = [finding.name for finding in errors(found(kenan, Blocks((block, roof))).values())]
+    assert "overhangs" in names
+    assert not errors(found(kenan, Blocks((block,))).values())
+
+
+def test_two_pieces_are_no_part(kenan: Robot) -> None:
+    two = Stack.of([(0.0, 5.0, rectangle((10.0, 10.0)) + rectangle((10.0, 10.0), (20.0, 0.0)))])
+    findings = found(kenan, two)
+    assert [finding.name for finding in errors(findings.values())] == ["solid"]
+    assert "2 pieces" in findings["solid"].message
+
+
+@pytest.mark.parametrize(
+    ("size", "margin"), [((179.0, 100.0, 5.0), 1.0), ((100.0, 185.0, 5.0), -5.0), ((20.0, 20.0, 200.0), -20.0)]
+)
+def test_bed(kenan: Robot, size: tuple[float, float, float], margin: float) -> None:
+    # Prusa MINI: 180 x 180 x 180 mm
+    mini = load_workshop("fine")
+    assert mini.printer.bed_mm == (180.0, 180.0, 180.0)
+    robot = replace(robot_of(kenan, Stack.of([(0.0, size[2], rectangle(size[:2]))])), workshop=mini)
+    (finding,) = bed_findings(robot)
+    assert finding.margin == pytest.approx(margin)
+    assert finding.severity == ("info" if margin >= 0 else "error")
+
+
+def test_bed_either_way_round(kenan: Robot) -> None:
+    # MK4: 250 x 210 mm; 240 mm fit along x alone
+    (finding,) = bed_findings(robot_of(kenan, Stack.of([(0.0, 5.0, rectangle((100.0, 240.0)))])))
+    assert finding.margin == pytest.approx(10.0)

@@ -1,0 +1,221 @@
+"""`jumpcad slice`: with PrusaSlicer itself, and with programs that pretend to be it and misbehave."""
+
+import json
+import shutil
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from support.commands import Run
+
+from jumpcad.exporters.bundle import export
+from jumpcad.robot import Robot
+from jumpcad.sliced_bundle import slice_bundle
+from jumpcad.slicing import slicer_program
+from jumpcad.solids.layers import mass_properties
+from jumpcad.workshop import load_workshop
+
+needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
+
+OBEDIENT = """
+import sys
+arguments = sys.argv[1:]
+if "--help" in arguments:
+    sys.exit(print("PrusaSlicer-2.9.1+fake based on Slic3r"))
+value = lambda option: arguments[arguments.index(option) + 1]
+settings = dict(line.rstrip("\\n").split(" = ", 1) for line in open(value("--load")) if " = " in line)
+settings |= {"estimated printing time (normal mode)": "1h 2m 30s"}
+TAMPER
+with open(value("--output"), "w") as gcode:
+    gcode.write("M83\\n;HEIGHT:0.2\\n;TYPE:Perimeter\\nG1 X0 Y0\\nG1 X10 Y0 E100\\n")
+    gcode.writelines(f"; {key} = {value}\\n" for key, value in settings.items())
+"""
+
+
+@pytest.fixture(scope="module")
+def bundle(small_robot: Robot, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A bundle with a link of PETG, four collars of PETG and a plate of PLA."""
+    parts = tuple(part for part in small_robot.parts if part.name in ("body_plate_left", "front_link", "collar"))
+    robot = replace(small_robot, parts=parts, workshop=load_workshop("default"))
+    return export(robot, tmp_path_factory.mktemp("bundles") / "frog", pictures=False).folder
+
+
+@pytest.fixture
+def pretend(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
+    """Put a Python program in the slicer's place."""
+
+    def install(program: str) -> None:
+        folder = tmp_path / "programs"
+        folder.mkdir()
+        (folder / "prusa-slicer").write_text(f"#!{sys.executable}\n{program}")
+        (folder / "prusa-slicer").chmod(0o755)
+        monkeypatch.setenv("PATH", str(folder))
+
+    return install
+
+
+@needs_slicer
+def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(run: Run, bundle: Path, tmp_path: Path) -> None:
+    code, out, err = run("slice", str(bundle), "--write-masses", "weighed.toml", "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    assert found["ignored"] == {}
+    parts = {part["name"]: part for part in found["parts"]}
+    assert set(parts) == {"body_plate_left", "front_link", "collar"}
+    assert all(abs(part["difference"]) < 0.06 for part in parts.values())
+    for plate in found["plates"]:  # sliced as a whole: the same plastic; small parts need not cool while others print
+        on_it = [part for part in parts.values() if part["material"] == plate["material"]]
+        assert plate["grams"] == pytest.approx(sum(part["quantity"] * part["grams"] for part in on_it), rel=0.005)
+        assert plate["time_s"] > 0.95 * max(part["time_s"] for part in on_it)
+        assert plate["time_s"] < 1.05 * sum(part["quantity"] * part["time_s"] for part in on_it)
+    assert [plate["material"] for plate in found["plates"]] == ["PETG", "PLA"]
+
+    before, after = load_workshop(bundle / "workshop.toml"), load_workshop(tmp_path / "weighed.toml")
+    assert after.mass.weighed_g == {name: pytest.approx(part["grams"], abs=6e-4) for name, part in parts.items()}
+    assert after.model_copy(update={"mass": before.mass}) == before
+
+
+def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
+    bundle: Path, small_robot: Robot, pretend: Callable[[str], None]
+) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    found = slice_bundle(bundle)
+    parts = {part.name: part for part in small_robot.parts}
+    for part in found.parts:
+        density = found.workshop.materials[part.material].density_g_cm3
+        shape, printer = parts[part.name].drawing.shape, found.workshop.printer
+        drawn = mass_properties(shape, density, found.workshop.process, printer.nozzle_mm).mass_kg
+        assert part.modelled_grams == pytest.approx(1000.0 * drawn, rel=2e-3)
+
+
+def test_grams_and_times_are_told_in_tables(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    code, out, err = run("slice", str(bundle))
+    assert (code, err) == (0, "")
+    # 100 mm of filament of 1.75 mm are 0.24053 cm³
+    petg, pla = (f"{0.24053 * density:.2f}" for density in (1.27, 1.24))
+    rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line}
+    assert rows["collar"][:3] == ["4", "PETG", petg]
+    assert rows["collar"][-2:] == ["1:02", "h"]
+    assert rows["plate-1-PLA"] == ["PLA", pla, "1:02", "h"]
+    assert rows["all"] == ["0.60", "2:05", "h"]
+    assert rows["slicer"] == ["PrusaSlicer", "2.9.1"]
+    assert rows["settings"] == ["all", "taken", "over"]
+
+
+def test_settings_that_were_not_taken_over_are_named(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", "del settings['infill_extrusion_width']; settings['perimeters'] = '2'"))
+    code, out, _ = run("slice", str(bundle))
+    assert code == 0
+    assert "ignored   perimeters = 3: the slicer used 2" in out
+    assert "ignored   infill_extrusion_width = 0.45: the slicer used nothing" in out
+    assert "all taken over" not in out
+
+
+def test_another_workshop_prints_the_same_parts(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", "assert settings['fill_density'] == '5%', settings"))
+    Path("thin.toml").write_text("[process]\ninfill = 0.05\n")
+    code, _, err = run("slice", str(bundle), "--workshop", "thin.toml")
+    assert (code, err) == (0, "")
+    code, _, err = run("slice", str(bundle), "--workshop", "light")
+    assert (code, err) == (
+        2,
+        "jumpcad: the bundle has parts of PETG, but the workshop only PLA: build it with that\n",
+    )
+
+
+@pytest.mark.parametrize(
+    ("program", "exit_code", "complaint"),
+    [
+        (None, 2, "prusa-slicer is not installed: install PrusaSlicer"),
+        ("print('PrusaSlicer-1.42.0 based on Slic3r')", 2, "prusa-slicer is of version 1.42.0, whose settings"),
+        ("print('PrusaSlicer-3.0.0-alpha1')", 2, "prusa-slicer is of version 3.0.0-alpha1, whose settings"),
+        ("print('Cura 5')", 2, "prusa-slicer does not say that it is PrusaSlicer"),
+        (
+            OBEDIENT.replace("TAMPER", "import os; os.abort()"),
+            2,
+            "prusa-slicer crashed on body_plate_left.stl with exit code -6: it said nothing",
+        ),
+        (
+            OBEDIENT.replace("TAMPER", "sys.exit(print('out of memory') or 137)"),
+            2,
+            "prusa-slicer crashed on body_plate_left.stl with exit code 137: out of memory",
+        ),
+        (
+            OBEDIENT.replace("TAMPER", "sys.exit('Object too large')"),
+            1,
+            "prusa-slicer refused body_plate_left.stl: Object too large",
+        ),
+        (OBEDIENT.replace("TAMPER", "sys.exit()"), 2, "crashed on body_plate_left.stl with exit code 0"),
+        (OBEDIENT.replace("TAMPER", "settings.clear()"), 2, "wrote G-code without its usual remarks"),
+        (
+            OBEDIENT.replace("TAMPER", "").replace("E100", ""),
+            1,
+            "body_plate_left.stl: the slicer found nothing to print",
+        ),
+    ],
+    ids=["missing", "older", "newer", "other", "abort", "killed", "refused", "silent", "remarks", "nothing"],
+)
+def test_a_slicer_that_fails_is_one_line(
+    run: Run,
+    bundle: Path,
+    pretend: Callable[[str], None],
+    monkeypatch: pytest.MonkeyPatch,
+    program: str | None,
+    exit_code: int,
+    complaint: str,
+) -> None:
+    if program is None:
+        monkeypatch.setenv("PATH", "")
+    else:
+        pretend(program)
+    code, out, err = run("slice", str(bundle), "--write-masses", "weighed.toml")
+    assert (code, out) == (exit_code, "")
+    assert err.startswith("jumpcad: ")
+    assert complaint in err
+    assert err.count("\n") == 1
+    assert not Path("weighed.toml").exists()
+
+
+def test_a_program_that_cannot_be_run_is_one_line(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend("")
+    program = Path(slicer_program() or "")
+    program.write_bytes(b"\x7fELF is not all it takes")
+    code, _, err = run("slice", str(bundle))
+    assert code == 2
+    assert "cannot be run: Exec format error" in err
+    assert err.count("\n") == 1
+
+
+def test_changed_and_missing_files_are_named(run: Run, bundle: Path, tmp_path: Path) -> None:
+    broken = tmp_path / "broken"
+    shutil.copytree(bundle, broken)
+    (broken / "stl" / "collar.stl").unlink()
+    (broken / "workshop.toml").write_text("")
+    code, out, err = run("slice", "broken")
+    assert (code, out) == (2, "")
+    assert "stl/collar.stl: missing" in err
+    assert "workshop.toml: changed" in err
+    assert err.count("\n") == 1
+
+
+def test_what_is_no_bundle_of_parts_is_refused(run: Run, small_robot: Robot, tmp_path: Path) -> None:
+    export(replace(small_robot, parts=()), tmp_path / "bare", pictures=False)
+    assert run("slice", "bare") == (2, "", "jumpcad: bare: has no printed parts to slice\n")
+    code, _, err = run("slice", "nowhere")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "nowhere/manifest.json: No such file" in err
+
+
+@pytest.mark.parametrize(
+    ("file", "complaint"),
+    [("mine.toml", "exists already"), ("mine.txt", "must end in .toml"), ("no/mine.toml", "there is no folder no")],
+)
+def test_masses_replace_nothing(run: Run, bundle: Path, file: str, complaint: str) -> None:
+    Path("mine.toml").write_text("years of weighing")
+    code, out, err = run("slice", str(bundle), "--write-masses", file)
+    assert (code, out) == (2, "")
+    assert complaint in err
+    assert Path("mine.toml").read_text() == "years of weighing"

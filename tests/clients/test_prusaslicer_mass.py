@@ -1,0 +1,131 @@
+"""The printed-mass model against what PrusaSlicer extrudes: grams, and inertia integrated from its G-code.
+
+Each part of a robot is sliced at three infills, about 0.8 s each; that is most of this file's time.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.assembly import build
+from jumpcad.design import load_design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.exporters.stl import write_stl
+from jumpcad.slicing import slice_part, slicer_program, slicer_settings
+from jumpcad.solids.blocks import Bar, Blocks, Finger
+from jumpcad.solids.finish import to_trimesh
+from jumpcad.solids.layers import mass_properties
+from jumpcad.solids.moments import mass_of
+from jumpcad.solids.outline import disc, hole, polygon, rectangle, tapered_bar
+from jumpcad.solids.stack import Stack
+from jumpcad.workshop import load_workshop
+
+needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
+
+WORKSHOP = load_workshop("default")
+MATERIAL = WORKSHOP.material("links")
+
+
+def plate():
+    places = [(x, y) for x in (-35, 10, 55) for y in (-15, 25)]
+    stack = Stack.of([(0, 3, rectangle((110, 60), (10, 5), 8)), (0, 6, disc(10, (-35, -15)))])
+    return stack.through(*(hole(3.4, at) for at in places), hole(14, (-15, 5)), rectangle((12, 20), (10, 5), 2))
+
+
+def link():
+    stack = Stack.of([(0, 6, tapered_bar((0, 0), (100, 0), 11, 7)), (0, 9, disc(14)), (0, 6, disc(10, (100, 0)))])
+    return stack.through(hole(3.4), hole(3.4, (100, 0))).minus([(5, 9, hole(10))]).chamfered(0.35, 0.2)
+
+
+def gear():
+    angles = 2.0 * math.pi * (np.arange(30)[:, None] + np.array([0.0, 0.3, 0.4, 0.6, 0.7])) / 30.0
+    radii = np.array([13.7, 13.9, 16.2, 16.2, 13.9])
+    teeth = polygon(np.column_stack([(radii * np.cos(angles)).ravel(), (radii * np.sin(angles)).ravel()]))
+    turns = 2.0 * math.pi * np.arange(5) / 5.0
+    windows = [(0, 5, hole(4, (8.5 * math.cos(turn), 8.5 * math.sin(turn)))) for turn in turns]
+    return Stack.of([(0, 5, teeth), (0, 9, disc(10))]).through(hole(3.2)).minus(windows).chamfered(0.35, 0.2)
+
+
+def foot():
+    side = rectangle((90, 5), (40, 2.5)) + disc(10, (0, 5)) + disc(10, (83, 5)) - hole(3.2, (83, 5)) - hole(3.2, (0, 5))
+    rails = Bar(side, ((5.0, 9.0), (-9.0, -5.0)))
+    toes = [Finger(np.array([0.0, 9.0 * s]), 8.0, 9.0, np.array([-70.0, 60.0 * s]), 6.0, 4.0) for s in (1, -1)]
+    web = Bar(rectangle((10, 5), (15, 2.5)), ((-7.0, 7.0),))
+    return Blocks((rails, *toes, web))
+
+
+PARTS = {"plate": plate, "link": link, "gear": gear, "foot": foot}
+
+
+def written(shape, folder):
+    path = folder / "part.stl"
+    path.write_bytes(to_trimesh(shape.solid()).export(file_type="stl"))
+    return path
+
+
+def require_agreement(shape, stl, infill, material):
+    process = WORKSHOP.process.model_copy(update={"infill": infill})
+    sliced = slice_part(stl, WORKSHOP.printer, process, material)
+    assert sliced.ignored == {}
+    assert sliced.grams == pytest.approx(float(sliced.toolpath.remarks["filament used [g]"]), abs=0.006)
+    assert sliced.time_s > 30.0
+    model = mass_properties(shape, material.density_g_cm3, process, WORKSHOP.printer.nozzle_mm)
+    assert 1000.0 * model.mass_kg == pytest.approx(sliced.grams, rel=0.06)
+    extruded = mass_of(sliced.toolpath.moments(), material.density_g_cm3)
+    np.testing.assert_allclose(np.diag(model.inertia_kg_m2), np.diag(extruded.inertia_kg_m2), rtol=0.05)
+    assert model.com_m[2] == pytest.approx(extruded.com_m[2], abs=1e-4)
+
+
+@needs_slicer
+@pytest.mark.parametrize("name", PARTS)
+def test_mass_within_six_and_inertia_within_five_percent(name, tmp_path):
+    shape = PARTS[name]()
+    require_agreement(shape, written(shape, tmp_path), 0.4, MATERIAL)
+
+
+@needs_slicer
+@pytest.mark.parametrize("infill", [0.15, 0.4, 1.0])
+def test_every_part_of_a_robot_agrees(infill, tmp_path):
+    robot = build(load_design("kenan-2.0"), WORKSHOP)
+    assert len(robot.parts) > 8
+    for part in robot.parts:
+        stl = tmp_path / f"{part.name}.stl"
+        stl.write_bytes(write_stl(part.mesh))
+        require_agreement(part.drawing.shape, stl, infill, WORKSHOP.materials[part.material])
+
+
+@needs_slicer
+def test_a_hole_keeps_its_diameter_in_the_toolpath(tmp_path):
+    block = Stack.of([(0, 2, rectangle((30, 30)))]).through(hole(8.2))
+    toolpath = slice_part(written(block, tmp_path), WORKSHOP.printer, WORKSHOP.process, MATERIAL).toolpath
+    outer = np.array([kind == "External perimeter" for kind in toolpath.kinds])
+    centre = np.array(WORKSHOP.printer.bed_mm[:2]) / 2.0
+    middles = ((toolpath.starts_mm + toolpath.ends_mm) / 2.0)[outer, :2] - centre
+    around_hole = np.hypot(*middles.T)[np.hypot(*middles.T) < 8.0]
+    radius = np.median(around_hole) - WORKSHOP.process.line_width_mm / 2.0
+    assert radius == pytest.approx(4.1, abs=0.05)
+
+
+@needs_slicer
+def test_settings_that_the_slicer_does_not_know_are_reported(tmp_path, monkeypatch):
+    def with_a_typo(*workshop):
+        return slicer_settings(*workshop) | {"perimeterz": "9"}
+
+    monkeypatch.setattr("jumpcad.slicing.slicer_settings", with_a_typo)
+    path = written(Stack.of([(0, 2, disc(12))]), tmp_path)
+    assert slice_part(path, WORKSHOP.printer, WORKSHOP.process, MATERIAL).ignored == {"perimeterz": ("9", "nothing")}
+
+
+@needs_slicer
+def test_a_file_that_is_no_part_is_refused_in_the_slicers_words(tmp_path):
+    path = tmp_path / "empty.stl"
+    path.write_bytes(b"")
+    with pytest.raises(CannotBuildError, match=r"prusa-slicer refused empty\.stl: "):
+        slice_part(path, WORKSHOP.printer, WORKSHOP.process, MATERIAL)
+
+
+def test_a_missing_slicer_is_named(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(JumpcadError, match="prusa-slicer is not installed: install PrusaSlicer"):
+        slice_part(tmp_path / "part.stl", WORKSHOP.printer, WORKSHOP.process, MATERIAL)

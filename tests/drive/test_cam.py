@@ -1,0 +1,175 @@
+"""The cam against mechanics: virtual work, the roller rolled around the finished polygon, and its drop."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.drive.cam import CamGeometry, CamLaw
+from jumpcad.drive.cam_limits import CamLimits
+from jumpcad.drive.cam_search import synthesise_cam
+from jumpcad.errors import CannotBuildError
+
+LIMITS = CamLimits()
+
+
+def law(compression_deg, stiffness):
+    return CamLaw(math.radians(compression_deg), stiffness, LIMITS.lift_rad, LIMITS.ramp_rad)
+
+
+def synthesised(compression_deg, stiffness, limits=LIMITS):
+    return synthesise_cam(law(compression_deg, stiffness), limits)
+
+
+def distance_to_polygon(points, polygon):
+    """Distances (n,) of points to a closed polygon; negative inside."""
+    start, edge = polygon, np.roll(polygon, -1, axis=0) - polygon
+    offset = points[:, None] - start
+    along = np.clip((offset * edge).sum(-1) / (edge**2).sum(-1), 0, 1)
+    distance = np.hypot(*np.moveaxis(offset - along[..., None] * edge, -1, 0)).min(axis=1)
+    angles = np.arctan2(-offset[..., 1], -offset[..., 0])
+    turns = np.diff(np.concatenate([angles, angles[:, :1]], axis=1), axis=1)
+    winding = np.round(((turns + math.pi) % (2 * math.pi) - math.pi).sum(axis=1) / (2 * math.pi))
+    return np.where(winding != 0, -distance, distance)
+
+
+def cam_cases():
+    cases = [(2, 0.5), (12, 1.7), (40.7, 0.527), (52.9, 1.69), (58, 1.0), (60, 0.6)]
+    return [pytest.param(*case, id=f"{case[0]}deg") for case in cases]
+
+
+def test_the_law_stores_the_springs_energy_at_constant_torque():
+    a_law = law(52.9, 1.69)
+    cam = np.linspace(0, a_law.lift_rad, 20001)
+    torque = a_law.torque_nm(cam)
+    assert np.trapezoid(torque, cam) == pytest.approx(0.5 * 1.69 * math.radians(52.9) ** 2, rel=1e-6)
+    energy = 0.5 * 1.69 * a_law.wind_rad(cam) ** 2
+    assert np.gradient(energy, cam)[1:-1] == pytest.approx(torque[1:-1], abs=2e-5)
+    assert torque[cam > a_law.ramp_rad] == pytest.approx(torque[-1])
+
+
+def test_the_ramp_costs_little_torque():
+    # Without a ramp, constant torque is energy over lift. The design note says 4.6 %, of a lift of 340°.
+    a_law = CamLaw(math.radians(53), 1.0, math.radians(340), math.radians(30))
+    assert a_law.peak_torque_nm / (a_law.energy_j / a_law.lift_rad) == pytest.approx(340 / 325, abs=1e-3)
+
+
+def test_the_layout_of_the_design_note_has_its_pitch_radii():
+    a_law = law(53, 1.0)
+    axis = np.array([-14.0, 30.0])
+    direction = math.atan2(axis[1], axis[0])
+    geometry = CamGeometry(
+        a_law, 24.0, float(np.hypot(*axis)), direction, math.radians(120) - direction, 3.5, 0.4, 0.05
+    )
+    radii = np.hypot(*geometry.pitch_mm(np.linspace(0, a_law.lift_rad, 100)).T)
+    assert radii.min() == pytest.approx(9.4, abs=0.1)
+    assert radii.max() == pytest.approx(28.8, abs=0.1)
+
+
+@pytest.mark.parametrize(("compression_deg", "stiffness"), cam_cases())
+def test_contact_force_and_spring_do_the_same_work(compression_deg, stiffness):
+    """The force that holds the spring, along the numerical normal of the profile, turns the cam by dE/dphi."""
+    cam = synthesised(compression_deg, stiffness)
+    phi = np.linspace(1e-4, LIMITS.lift_rad - 1e-4, 300)
+    phi = phi[np.abs(phi - LIMITS.ramp_rad) > 1e-3]
+    step = 1e-5
+    tangent = cam.geometry.contact_mm(phi + step) - cam.geometry.contact_mm(phi - step)
+    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
+    outward = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1)
+    cos, sin = np.cos(phi), np.sin(phi)
+    normal = np.stack([cos * outward[:, 0] + sin * outward[:, 1], cos * outward[:, 1] - sin * outward[:, 0]], axis=1)
+    contact = cam.geometry.in_body(cam.geometry.contact_mm(phi), phi)
+    per_newton_on_leg = (contact[:, 0] * normal[:, 1] - contact[:, 1] * normal[:, 0]) / 1000
+    force = stiffness * cam.wind_rad(phi) / per_newton_on_leg
+    arm = contact - cam.cam_axis_mm
+    # The cam turns clockwise; the reaction of the leg on it is counter-clockwise.
+    torque = force * (arm[:, 0] * -normal[:, 1] - arm[:, 1] * -normal[:, 0]) / 1000
+    assert (force > 0).all()
+    assert force.max() == pytest.approx(cam.peak_contact_n, rel=0.01)
+    energy = 0.5 * stiffness * cam.wind_rad(np.stack([phi - step, phi + step])) ** 2
+    assert torque == pytest.approx((energy[1] - energy[0]) / (2 * step), rel=1e-6)
+    angle = np.arccos(np.clip(per_newton_on_leg * 1000 / cam.lever_length_mm, -1, 1))
+    assert angle.max() <= math.radians(45) + 1e-9
+    assert angle.max() == pytest.approx(cam.max_pressure_angle_rad, abs=0.02)
+
+
+@pytest.mark.parametrize(("compression_deg", "stiffness"), cam_cases())
+def test_the_roller_rolls_on_the_polygon_through_lift_and_release(compression_deg, stiffness):
+    cam = synthesised(compression_deg, stiffness)
+    phi = np.linspace(0, 2 * math.pi, 720, endpoint=False)
+    wind = cam.wind_rad(phi)
+    gap = distance_to_polygon(cam.geometry.in_cam(cam.geometry.roller_mm(wind), phi), cam.profile_mm)
+    gap -= cam.roller_radius_mm
+    assert gap.min() > -0.02
+    touching = phi <= LIMITS.lift_rad
+    assert np.abs(gap[touching]).max() < 0.02
+    over_tip = (phi > LIMITS.lift_rad) & (wind > 0)
+    assert np.abs(gap[over_tip]).max() < 0.02
+    assert wind[touching][-1] == pytest.approx(math.radians(compression_deg), rel=0.01)
+    assert (wind[phi > cam.free_rad] == 0).all()
+
+
+@pytest.mark.parametrize(("compression_deg", "stiffness"), cam_cases())
+def test_the_falling_leg_clears_the_cam_at_every_cam_angle_of_the_drop(compression_deg, stiffness):
+    cam = synthesised(compression_deg, stiffness)
+    wind = np.linspace(0, math.radians(compression_deg), 60)
+    for phi in np.linspace(cam.free_rad, 2 * math.pi, 12):
+        roller = cam.geometry.in_cam(cam.geometry.roller_mm(wind), np.full(wind.shape, phi))
+        assert distance_to_polygon(roller, cam.profile_mm).min() > cam.roller_radius_mm - 1e-3
+    past = np.linspace(-LIMITS.overshoot_rad, math.radians(compression_deg), 80)
+    gaps = []
+    for phi in np.linspace(cam.free_rad, cam.free_rad + LIMITS.reserve_rad, 5):
+        roller = cam.geometry.in_cam(cam.geometry.roller_mm(past), np.full(past.shape, phi))
+        gaps.append(distance_to_polygon(roller, cam.profile_mm).min() - cam.roller_radius_mm)
+    assert min(gaps) > LIMITS.clearance_mm - 0.02
+    assert gaps[0] == pytest.approx(LIMITS.clearance_mm, abs=0.02)
+
+
+@pytest.mark.parametrize(("compression_deg", "stiffness"), cam_cases())
+def test_the_cam_keeps_clear_of_hub_axle_and_ground_line(compression_deg, stiffness):
+    cam = synthesised(compression_deg, stiffness)
+    hub = np.zeros((1, 2))
+    for phi in np.linspace(0, 2 * math.pi, 145):
+        polygon = cam.geometry.in_body(cam.profile_mm, np.full(len(cam.profile_mm), phi))
+        assert distance_to_polygon(hub, polygon)[0] >= LIMITS.hub_radius_mm + LIMITS.clearance_mm - 1e-6
+        assert polygon[:, 1].min() >= LIMITS.lowest_mm - 1e-6
+    assert np.hypot(*cam.cam_axis_mm) - cam.lever_length_mm >= LIMITS.gap_min_mm - 1e-6
+    radii = np.hypot(*cam.profile_mm.T)
+    assert radii.min() >= LIMITS.core_radius_mm - 1e-6
+    assert radii.max() == pytest.approx(cam.outer_radius_mm)
+    assert all(finding.margin > -1e-6 for finding in cam.findings)
+
+
+def test_contact_pressure_is_hertz_for_a_cylinder_on_a_flat():
+    # Handbook (Young, Roark's Formulas, 14.1): p = 0.591·sqrt(F·E1·E2/(b·D·(E1+E2))) with nu = 0.3 for both; the
+    # general form against a rigid cylinder is sqrt(F·E/(pi·b·R·(1-nu²))). A large lever makes a nearly flat profile.
+    limits = CamLimits(cam_width_mm=6.0, modulus_mpa=2000.0, poisson=0.3)
+    cam = synthesised(40, 1.0, limits)
+    phi = np.linspace(0.01, LIMITS.lift_rad, 4000)
+    d1 = np.gradient(cam.geometry.pitch_mm(phi), phi, axis=0)
+    d2 = np.gradient(d1, phi, axis=0)
+    curvature = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / np.hypot(*d1.T) ** 3
+    late, rr = phi > LIMITS.ramp_rad + 0.02, limits.roller_radius_mm
+    flat = (1 / rr + curvature / (1 - rr * curvature))[late]
+    normal = cam.geometry.normal(phi)
+    roller = cam.geometry.roller_mm(cam.wind_rad(phi))
+    arm = roller[:, 0] * normal[:, 1] - roller[:, 1] * normal[:, 0]
+    force = (1000 * 1.0 * cam.wind_rad(phi) / arm)[late]
+    pressure = np.sqrt(force * 2000.0 / (1 - 0.3**2) * flat / (math.pi * 6.0))
+    assert pressure[:-5].max() == pytest.approx(cam.contact_pressure_mpa, rel=0.02)
+
+
+def test_a_wider_clearance_never_makes_a_smaller_cam():
+    sizes = [synthesised(50, 0.6, CamLimits(clearance_mm=gap)).outer_radius_mm for gap in (0.2, 0.5, 0.8)]
+    assert sizes == sorted(sizes)
+    assert sizes[0] < sizes[-1]
+
+
+def test_what_no_cam_can_do_is_refused_with_what_to_change():
+    with pytest.raises(CannotBuildError, match=r"no cam winds the leg by 75\.0° .*short.*compression_ratio"):
+        synthesised(75, 1.7)
+
+
+def test_the_same_inputs_give_the_same_cam():
+    first, second = synthesised(45, 1.0), synthesised(45, 1.0)
+    assert first.profile_mm.tobytes() == second.profile_mm.tobytes()

@@ -1,0 +1,119 @@
+"""The whole drive over the search's box: it always ends in a drive within its limits or in a named refusal."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.design import SEARCH_BOUNDS, Design, load_design
+from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, synthesise
+from jumpcad.errors import CannotBuildError
+
+LIMITS = DriveLimits()
+
+
+def random_designs(count, seed):
+    rng = np.random.default_rng(seed)
+    bounds = list(SEARCH_BOUNDS.values())
+    lower, upper = np.array([b.lower for b in bounds]), np.array([b.upper for b in bounds])
+    designs = []
+    while len(designs) < count:
+        design = Design.from_vector(list(lower + (upper - lower) * rng.random(len(bounds))))
+        if design.assembly_margin_mm > 0:
+            designs.append(design)
+    return designs
+
+
+def check(design, drive):
+    """The parts agree with the design and with each other."""
+    assert all(finding.margin > -1e-6 for finding in drive.findings)
+    spring, cam, train = drive.spring, drive.cam, drive.train
+    assert 2 * spring.stiffness_nm_per_rad == pytest.approx(design.stiffness_nm_per_rad)
+    assert cam.law.wind_rad(cam.law.lift_rad) == pytest.approx(design.compression_rad)
+    assert cam.law.energy_j == pytest.approx(design.spring_energy_j)
+    axis = math.hypot(*cam.cam_axis_mm)
+    assert axis - cam.outer_radius_mm - spring.outer_diameter_mm / 2 >= LIMITS.cam.clearance_mm - 1e-6
+    assert axis - train.stages[-1].wheel.tip_radius_mm >= LIMITS.hub_axle_radius_mm + LIMITS.gap_mm - 1e-6
+    assert train.electrical_j * train.efficiency > design.spring_energy_j
+    turned = train.motor.no_load_rpm * math.pi / 30 / train.ratio * LIMITS.fall_s
+    assert turned <= LIMITS.cam.reserve_rad + 1e-9
+
+
+def test_the_searched_box_is_drivable_nearly_everywhere():
+    refused = []
+    for design in random_designs(200, seed=3):
+        try:
+            check(design, synthesise(design, LIMITS))
+        except CannotBuildError:
+            refused.append(math.degrees(design.compression_rad))
+    assert len(refused) <= 10
+    assert all(compression_deg > 55 for compression_deg in refused)
+
+
+def test_what_cannot_be_driven_is_refused_with_a_parameter_to_change():
+    design = load_design("best-bo").model_copy(update={"compression_ratio": 0.98, "rest_angle_deg": 88.0})
+    with pytest.raises(CannotBuildError, match=r"(compression_ratio|stiffness_nmm_per_deg)"):
+        synthesise(design, LIMITS)
+    flat = load_design("kenan-2.0").model_copy(update={"c_coef": 0.3, "d_coef": 0.6, "rest_angle_deg": 40.0})
+    with pytest.raises(CannotBuildError, match=r"wound by -3\.9\d°, less than 0\.5°: raise compression_ratio"):
+        synthesise(flat, LIMITS)
+    with pytest.raises(CannotBuildError, match=r"no lever from 56\.\d mm .* to 45 mm"):
+        synthesise(load_design("kenan-2.0"), dataclasses.replace(LIMITS, cam=CamLimits(hub_radius_mm=50.5)))
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
+def test_the_published_designs_have_a_drive(name):
+    design = load_design(name)
+    check(design, synthesise(design, LIMITS))
+
+
+def test_the_cam_gives_way_to_a_thick_spring():
+    limits = dataclasses.replace(LIMITS, spring=SpringLimits(mandrel_min_mm=14.0, outer_max_mm=30.0))
+    drive = synthesise(load_design("best-bo"), limits)
+    radius = drive.spring.outer_diameter_mm / 2
+    assert radius > 8
+    gap = math.hypot(*drive.cam.cam_axis_mm) - drive.cam.outer_radius_mm - radius
+    assert gap == pytest.approx(LIMITS.cam.clearance_mm, abs=0.01)
+
+
+def test_a_fast_motor_is_geared_down_for_the_leg_to_fall_in_time():
+    drive = synthesise(load_design("kenan-2.0"), dataclasses.replace(LIMITS, motors=("n20-75",)))
+    needed = 180 * math.pi / 30 * LIMITS.fall_s / LIMITS.cam.reserve_rad
+    assert drive.train.ratio >= needed
+    check(load_design("kenan-2.0"), drive)
+
+
+def test_torque_at_the_cam_is_what_the_design_note_says():
+    # Energy over lift without a ramp: 22 mN·m for 0.133 J, 121 mN·m for 0.72 J; the ramp and the drop add to it.
+    for name, plain in (("kenan-2.0", 0.022), ("best-bo", 0.121)):
+        cam = synthesise(load_design(name), LIMITS).cam
+        assert 1.0 < cam.peak_torque_nm / plain < 1.2
+
+
+def test_a_stronger_spring_never_needs_less_torque():
+    weak, strong = (
+        synthesise(load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": k}), LIMITS)
+        for k in (8.0, 16.0)
+    )
+    assert strong.cam.peak_torque_nm == pytest.approx(2 * weak.cam.peak_torque_nm)
+    assert strong.spring.wire_mm >= weak.spring.wire_mm
+    assert strong.train.ratio >= weak.train.ratio
+
+
+def test_limits_reach_the_parts_that_they_are_for():
+    wide = dataclasses.replace(LIMITS, cam=CamLimits(core_radius_mm=8.0), motors=("n20-250",))
+    drive = synthesise(load_design("kenan-2.0"), wide)
+    assert drive.cam.core_radius_mm >= 8.0 - 1e-6
+    assert drive.train.motor.name == "n20-250"
+    gentle = dataclasses.replace(LIMITS, cam=CamLimits(roller_load_n=60.0))
+    assert synthesise(load_design("best-bo"), LIMITS).cam.peak_contact_n > 100
+    assert synthesise(load_design("best-bo"), gentle).cam.peak_contact_n <= 60.0 + 1e-6
+
+
+def test_the_same_design_gives_the_same_drive():
+    design = load_design("best-bo")
+    first, second = synthesise(design, LIMITS), synthesise(design, LIMITS)
+    assert first.cam.profile_mm.tobytes() == second.cam.profile_mm.tobytes()
+    assert first.spring == second.spring
+    assert first.train == second.train

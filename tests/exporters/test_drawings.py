@@ -1,0 +1,104 @@
+"""DXF and GLB read back by independent readers."""
+
+import io
+
+import ezdxf
+import numpy as np
+import pytest
+import trimesh
+
+from jumpcad.assembly import build
+from jumpcad.design import load_design
+from jumpcad.exporters.dxf import MILLIMETRES, sheet, write_dxf, write_dxfs
+from jumpcad.exporters.glb import write_glb
+from jumpcad.exporters.poses import body_poses
+from jumpcad.exporters.shapes import shapes
+from jumpcad.parts.body_plate import TEXT_HEIGHT_MM
+from jumpcad.robot import Robot
+from jumpcad.solids.outline import disc, hole, rectangle
+from jumpcad.solids.text import text
+
+
+def read(text: str) -> ezdxf.document.Drawing:
+    document = ezdxf.read(io.StringIO(text))
+    assert document.audit().errors == []
+    return document
+
+
+def enclosed_mm2(document: ezdxf.document.Drawing, layer: str) -> float:
+    """Return the area of a layer's outlines less that of its holes, by the shoelace formula."""
+    total = 0.0
+    for line in document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]'):
+        assert line.closed
+        x, y = np.array([point[:2] for point in line.get_points()]).T
+        total += 0.5 * float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+    return total
+
+
+def test_a_plate_with_a_hole_is_cut_and_engraved_in_millimetres() -> None:
+    plate = rectangle((40.0, 20.0)) - hole(10.0)
+    document = read(write_dxf(plate, disc(2.0, (15.0, 0.0))))
+    assert document.units == MILLIMETRES
+    assert enclosed_mm2(document, "CUT") == pytest.approx(800.0 - np.pi * 25.0, rel=0.001)
+    assert enclosed_mm2(document, "ENGRAVE") == pytest.approx(np.pi, rel=0.005)
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return build(load_design("kenan-2.0"), name="kenan-2.0")
+
+
+def test_plates_are_drawn_with_their_axle_holes_and_their_names(robot: Robot) -> None:
+    files = write_dxfs(robot)
+    assert set(files) == {"body_plate_left", "body_plate_right"}
+    assert robot.plan is not None
+    for drawn in files.values():
+        document = read(drawn)
+        centres = []
+        for line in document.modelspace().query('LWPOLYLINE[layer=="CUT"]'):
+            points = np.array([point[:2] for point in line.get_points()])
+            centres.append((points.min(axis=0) + points.max(axis=0)) / 2.0)
+        for first, second in (("leg", "front"), ("leg", "cam"), ("cam", "front")):
+            apart = np.linalg.norm(robot.plan.axles[first] - robot.plan.axles[second])
+            gaps = np.linalg.norm(np.array(centres)[:, None] - np.array(centres)[None], axis=2)
+            assert np.abs(gaps - apart).min() < 0.01
+        assert enclosed_mm2(document, "ENGRAVE") > 10.0
+    assert files == write_dxfs(robot)
+
+
+@pytest.mark.parametrize(("side", "label"), [("left", "L"), ("right", "R")])
+def test_the_name_reads_from_the_outside(robot: Robot, side: str, label: str) -> None:
+    """The engraving covers the letters of the label, not their mirror image."""
+    assert robot.plan is not None
+    low, high = getattr(robot.plan.lateral, f"{side}_plate")
+    part = next(part for part in robot.parts if part.name == f"body_plate_{side}")
+    _, engraved = sheet(part, high - low)
+    x0, y0, x1, y1 = engraved.bounds()
+    letters = text(f"{robot.name} {label}", TEXT_HEIGHT_MM)
+    shared = []
+    for wanted in (letters, letters.mirror((1.0, 0.0))):
+        a0, b0, a1, b1 = wanted.bounds()
+        moved = wanted.translate(((x0 + x1 - a0 - a1) / 2.0, (y0 + y1 - b0 - b1) / 2.0))
+        shared.append((moved ^ engraved).area() / engraved.area())
+    assert shared[0] > 0.8 > shared[1]
+
+
+def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(robot: Robot) -> None:
+    glb = write_glb(robot)
+    scene = trimesh.load_scene(io.BytesIO(glb), file_type="glb")
+    things = shapes(robot)
+    parents = scene.graph.transforms.parents
+    assert {thing.name: parents[thing.name] for thing in things} == {
+        thing.name: f"{thing.body}_frame" for thing in things
+    }
+    poses, points = body_poses(robot), []
+    for thing in things:
+        pose = poses[thing.body] @ thing.T_body_mesh
+        points.append(thing.mesh.vertices / 1000.0 @ pose[:3, :3].T + pose[:3, 3])
+        x, y, z = pose[:3, 3]
+        assert np.allclose(scene.graph.get(thing.name)[0][:3, 3], [x, z, -y], atol=1e-6)
+        colour = scene.geometry[thing.mesh_name].visual.material.baseColorFactor[:3] / 255.0
+        assert np.allclose(colour, thing.colour, atol=0.5 / 255)
+    low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
+    assert np.allclose(scene.bounds, [[low[0], low[2], -high[1]], [high[0], high[2], -low[1]]], atol=1e-6)
+    assert glb == write_glb(robot)

@@ -1,0 +1,118 @@
+"""STEP files read back: volume, box, faces, one valid solid."""
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from jumpcad.assembly import build
+from jumpcad.design import load_design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.exporters import step
+from jumpcad.exporters.bundle import export
+from jumpcad.exporters.manifest import verify
+from jumpcad.parts.part import Drawing
+from jumpcad.robot import Robot
+from jumpcad.solids.blocks import Blocks, Finger
+from jumpcad.solids.outline import disc, hole, rectangle
+from jumpcad.solids.stack import Stack
+
+needs_step = pytest.mark.skipif(not step.is_installed(), reason="build123d is not installed (the extra `step`)")
+
+PLATE = Stack.of([(0, 3, rectangle((40, 30), (5, 0)) - hole(3.4, (-8, 6)))]).plus([(0, 9, disc(12, (12, 2)))])
+
+
+def drawn(shape: Stack | Blocks, name: str = "plate") -> Drawing:
+    return Drawing(name, "body", shape, ())
+
+
+def read(data: bytes, folder: Path):
+    """Return the one solid of a STEP file."""
+    from build123d import import_step
+
+    (folder / "part.step").write_bytes(data)
+    (solid,) = import_step(folder / "part.step").solids()
+    assert solid.is_valid
+    return solid
+
+
+@needs_step
+def test_outlines_become_planes_and_true_cylinders(tmp_path: Path) -> None:
+    solid = read(step.write_step(drawn(PLATE)), tmp_path)
+    volume = 3.0 * (40.0 * 30.0 - math.pi * 1.7**2) + 6.0 * math.pi * 6.0**2
+    assert solid.volume == pytest.approx(volume, rel=1e-5)
+    kinds = sorted(face.geom_type.name for face in solid.faces())
+    assert kinds == ["CYLINDER"] * 2 + ["PLANE"] * 7
+    radii = sorted(face.radius for face in solid.faces() if face.geom_type.name == "CYLINDER")
+    assert radii == pytest.approx([1.7, 6.0], abs=1e-4)
+    box = solid.bounding_box()
+    assert [*box.min, *box.max] == pytest.approx([-15.0, -15.0, 0.0, 25.0, 15.0, 9.0], abs=1e-4)
+
+
+@needs_step
+def test_a_part_that_is_no_stack_keeps_its_facets(tmp_path: Path) -> None:
+    toe = drawn(Blocks((Finger(np.array([0.0, 8.0]), 7.0, 7.5, np.array([-70.0, 60.0]), 5.0, 4.5),)), "toe")
+    solid = read(step.write_step(toe), tmp_path)
+    assert solid.volume == pytest.approx(toe.mesh.volume, rel=1e-6)
+    assert {face.geom_type.name for face in solid.faces()} == {"PLANE"}
+    assert len(solid.faces()) < len(toe.mesh.faces)
+
+
+@needs_step
+def test_parts_of_a_bundle_keep_volume_and_box(small_robot: Robot, tmp_path: Path) -> None:
+    bundle = export(small_robot, tmp_path / "b", pictures=False, step=True)
+    assert verify(bundle.folder) == []
+    for part in small_robot.parts:
+        text = (bundle.folder / "step" / f"{part.name}.step").read_bytes()
+        assert f"PRODUCT('{part.name}'".encode() in text
+        solid = read(text, tmp_path)
+        assert solid.volume == pytest.approx(part.mesh.volume, rel=5e-3)  # circles are rounder than polygons
+        box = solid.bounding_box()
+        np.testing.assert_allclose([[*box.min], [*box.max]], part.mesh.bounds, atol=5e-3)
+
+
+@needs_step
+def test_engraved_plates_close(tmp_path: Path) -> None:
+    """The letters' many small faces are the hardest."""
+    robot = build(load_design("kenan-2.0"), name="kenan-2.0")
+    (part,) = (part for part in robot.parts if part.name == "body_plate_left")
+    solid = read(step.write_step(part.drawing), tmp_path)
+    assert solid.volume == pytest.approx(part.mesh.volume, rel=1e-3)
+    assert len(solid.faces()) < len(part.mesh.faces) / 4
+
+
+@needs_step
+def test_the_same_bytes_in_another_process(tmp_path: Path) -> None:
+    here = step.write_step(drawn(PLATE))
+    code = (
+        "import sys; from pathlib import Path; from jumpcad.exporters.step import write_step\n"
+        "from test_step import PLATE, drawn\n"
+        "write_step(drawn(PLATE, 'other')); Path(sys.argv[1]).write_bytes(write_step(drawn(PLATE)))"
+    )
+    subprocess.run(
+        [sys.executable, "-c", f"import sys; sys.path[:0] = {[str(Path(__file__).parent), *sys.path]!r}\n{code}",
+         str(tmp_path / "there.step")],
+        check=True,
+    )  # fmt: skip
+    assert (tmp_path / "there.step").read_bytes() == here == step.write_step(drawn(PLATE))
+
+
+@needs_step
+def test_faces_that_do_not_close_are_refused() -> None:
+    apart = Stack.of([(0, 3, rectangle((5, 5)) + rectangle((5, 5), (20, 0)))])
+    with pytest.raises(CannotBuildError, match="part plate is no valid solid as STEP: build without --step"):
+        step.write_step(drawn(apart))
+
+
+def test_a_missing_library_is_named_before_anything_is_written(
+    small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(step, "find_spec", lambda name: None)
+    with pytest.raises(
+        JumpcadError, match=r'STEP needs build123d, which is not installed: pip install "jumpcad\[step\]"'
+    ):
+        export(small_robot, tmp_path / "b", pictures=False, step=True)
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,95 @@
+"""The URDF says what the robot is: read back, and loaded and simulated by PyBullet itself, it is the same robot."""
+
+import json
+import math
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.loaded import loaded_range_m
+
+from jumpcad.capsule import capsule_robot
+from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.robot import BODY_NAMES, Robot
+from jumpcad.simulation import simulate
+from jumpcad.simulation.from_urdf import robot_from_urdf
+
+TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
+
+
+def write(robot: Robot, folder: Path) -> Path:
+    path = folder / f"{robot.name}.urdf"
+    path.write_text(write_urdf(robot), encoding="utf-8")
+    path.with_suffix(".loop.json").write_text(write_loop(robot), encoding="utf-8")
+    return path
+
+
+def test_read_back_is_the_same_robot(small_robot: Robot, tmp_path: Path) -> None:
+    again = robot_from_urdf(write(small_robot, tmp_path))
+    assert again.design == small_robot.design
+    assert again.spring == small_robot.spring
+    assert again.foot_depth_m == small_robot.foot_depth_m
+    for name in BODY_NAMES:
+        body, same = small_robot.bodies[name], again.bodies[name]
+        assert same.mass_kg == body.mass_kg
+        assert np.array_equal(same.com_m, body.com_m)
+        assert np.allclose(same.inertia_kg_m2, body.inertia_kg_m2, rtol=1e-12, atol=1e-18)
+        for contact, twin in zip(body.contacts, same.contacts, strict=True):
+            assert (twin.name, twin.radius_m, twin.surface) == (contact.name, contact.radius_m, contact.surface)
+            assert np.array_equal(twin.centre_m, contact.centre_m)
+    for joint in small_robot.joints:
+        twin = again.joint(joint.name)
+        assert twin.rest_angle_rad == pytest.approx(joint.rest_angle_rad, abs=1e-15)
+        assert np.array_equal(twin.origin_m, joint.origin_m)
+        assert (twin.parent, twin.child, twin.lower_rad, twin.upper_rad, twin.effort_nm, twin.velocity_rad_s) == (
+            joint.parent, joint.child, joint.lower_rad, joint.upper_rad, joint.effort_nm, joint.velocity_rad_s,
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_pybullet_loads_and_simulates_the_file_like_the_robot_in_memory(name: str, tmp_path: Path) -> None:
+    robot = capsule_robot(load_design(name))
+    assert loaded_range_m(write(robot, tmp_path)) == pytest.approx(simulate(robot).ballistic_range_m, rel=1e-9)
+
+
+def test_a_lopsided_robot_of_parts_too(small_robot: Robot, tmp_path: Path) -> None:
+    assert np.abs(small_robot.bodies["body"].inertia_kg_m2[0, 2]) > 1e-9
+    urdf = write(small_robot, tmp_path)
+    tree = ET.parse(urdf)
+    for link in tree.iter("link"):  # what is seen does not move, and its files are not written here
+        for visual in link.findall("visual"):
+            link.remove(visual)
+    tree.write(urdf)
+    here = simulate(small_robot).ballistic_range_m
+    assert loaded_range_m(urdf) == pytest.approx(here, rel=1e-9)
+    assert simulate(robot_from_urdf(urdf)).ballistic_range_m == pytest.approx(here, rel=1e-12)
+
+
+def test_loop_file_closes_the_loop(small_robot: Robot) -> None:
+    """Both ends of the loop, carried to the world by the file's own release pose, are one point."""
+    data = json.loads(write_loop(small_robot))
+    poses = {"body": np.eye(4)}
+    for joint in small_robot.joints:
+        turn = np.eye(4)
+        angle = joint.rest_angle_rad + data["release"]["joint_rad"][joint.name]
+        turn[:3, :3] = [[math.cos(angle), 0, math.sin(angle)], [0, 1, 0], [-math.sin(angle), 0, math.cos(angle)]]
+        turn[:3, 3] = joint.origin_m
+        poses[joint.child] = poses[joint.parent] @ turn
+    ends = [(poses[data["loop"][f"body_{side}"]] @ [*data["loop"][f"point_{side}_m"], 1.0])[:3] for side in ("a", "b")]
+    assert np.linalg.norm(ends[0] - ends[1]) < 1e-12
+
+
+def test_missing_or_foreign_files_are_refused_in_one_line(small_robot: Robot, tmp_path: Path) -> None:
+    with pytest.raises(JumpcadError, match=r"nothing\.urdf: no such file"):
+        robot_from_urdf(tmp_path / "nothing.urdf")
+    urdf = write(small_robot, tmp_path)
+    urdf.with_suffix(".loop.json").write_text("{}")
+    with pytest.raises(JumpcadError, match="not a robot that jumpcad build wrote"):
+        robot_from_urdf(urdf)
+    urdf.write_text("<robot name='x'><link")
+    with pytest.raises(JumpcadError, match="not a robot that jumpcad build wrote") as error:
+        robot_from_urdf(urdf)
+    assert "\n" not in str(error.value)

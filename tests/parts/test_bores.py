@@ -1,0 +1,169 @@
+"""Every bore measured on the meshes: the largest circle in a section is the nominal diameter plus the fit."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+import shapely.ops
+from support.built import LONG_TOES, built, cut, geared, hole_centres, inscribed_diameter, part, placed
+
+from jumpcad.robot import Robot
+from jumpcad.solids.finish import to_trimesh
+
+PRESS, SLIDING, LOOSE = 0.10, 0.20, 0.30
+"""Per side, in the default workshop."""
+TOLERANCE_MM = 0.003
+AXLE, MR63_OUTER, N20_SHAFT, N20_FLAT = 3.0, 6.0, 3.0, 2.5
+
+RUNNING, PRESSED = AXLE + 2 * SLIDING, AXLE + 2 * PRESS
+
+
+@pytest.fixture(scope="module")
+def kenan() -> Robot:
+    return built("kenan-2.0")
+
+
+def measured(robot: Robot, name: str, y: float, centre: np.ndarray, copy: int = 0) -> float:
+    return inscribed_diameter(cut(placed(robot, name, copy), y), centre)
+
+
+def test_main_leg(kenan: Robot) -> None:
+    d, cam = kenan.design, kenan.plan.drive.cam
+    angle = cam.lever_start_rad + math.radians(d.rest_angle_deg)
+    lever = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
+    expected = {(0.0, 0.0): MR63_OUTER + 2 * PRESS, (d.l2_mm, 0.0): RUNNING, tuple(lever): 3.4}
+    for y in (2.5, -1.0):
+        for centre, diameter in expected.items():
+            assert measured(kenan, "main_leg", y, np.array(centre)) == pytest.approx(diameter, abs=TOLERANCE_MM)
+        assert measured(kenan, "main_leg", y, np.array([kenan.plan.leg_pin_mm, 0.0])) == pytest.approx(
+            PRESSED, abs=TOLERANCE_MM
+        )
+    holes = hole_centres(cut(placed(kenan, "main_leg"), 2.5))
+    assert len(holes) == 4
+
+
+def test_front_link(kenan: Robot) -> None:
+    holes = hole_centres(cut(placed(kenan, "front_link"), 0.5))
+    assert sorted(holes) == [pytest.approx((0.0, 0.0), abs=1e-3), pytest.approx((kenan.design.l3_mm, 0.0), abs=1e-3)]
+    for x in (0.0, kenan.design.l3_mm):
+        found = measured(kenan, "front_link", 0.5, np.array([x, 0.0]))
+        assert found == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_foot_holds_its_pins(kenan: Robot, side: float) -> None:
+    y = side * (kenan.plan.lateral.lug_left[0] + 2.0)
+    for x in (0.0, kenan.design.l4_mm):
+        assert measured(kenan, "foot", y, np.array([x, 0.0])) == pytest.approx(PRESSED, abs=TOLERANCE_MM)
+
+
+@pytest.mark.parametrize("name", ["body_plate_left", "body_plate_right"])
+def test_plates(kenan: Robot, name: str) -> None:
+    plan = kenan.plan
+    y = sum(plan.lateral.left_plate if name.endswith("left") else plan.lateral.right_plate) / 2.0
+    expected = [(place, RUNNING) for place in plan.axles.values()]
+    expected += [(place, 3.4) for place in plan.standoffs_mm]
+    expected.append((plan.spring_pin_mm, PRESSED))
+    if name.endswith("left"):
+        expected.append((plan.motor_mm, N20_SHAFT + 2 * LOOSE))
+    for place, diameter in expected:
+        assert measured(kenan, name, y, place) == pytest.approx(diameter, abs=TOLERANCE_MM)
+
+
+def test_motor_seat(kenan: Robot) -> None:
+    """The N20's gearbox is 10 by 12 mm; it slides into its socket, and M2 screws cut their thread beside it."""
+    plan = kenan.plan
+    segments = cut(placed(kenan, "body_plate_right"), plan.lateral.motor[1] - 2.0)
+    assert inscribed_diameter(segments, plan.motor_mm) == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)
+    across = np.array([-math.sin(plan.motor_angle_rad), math.cos(plan.motor_angle_rad)])
+    inner = inscribed_diameter(segments, plan.motor_mm + 1.0 * across)
+    assert inner == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)  # 1 mm along the long side: no corner yet
+    ears = [centre for centre, width in hole_centres(segments).items() if width < 5.0]
+    assert len(ears) == 2
+    cap = cut(placed(kenan, "motor_cap"), plan.lateral.motor_cap[0] + 0.4)
+    for ear in ears:
+        assert inscribed_diameter(segments, np.array(ear)) == pytest.approx(1.6, abs=TOLERANCE_MM)
+        assert inscribed_diameter(cap, np.array(ear)) == pytest.approx(2.4, abs=TOLERANCE_MM)
+
+
+def test_cam_and_gears(kenan: Robot) -> None:
+    plan, lateral = kenan.plan, kenan.plan.lateral
+    y = sum(lateral.gears[0]) / 2.0
+    assert measured(kenan, "cam", sum(lateral.cam) / 2.0, plan.cam_axis_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+    assert measured(kenan, "cam", y, plan.cam_axis_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+    key = measured(kenan, "cam_gear", y, plan.cam_axis_mm)
+    boss = placed(kenan, "cam").slice_plane([0.0, y, 0.0], [0.0, 1.0, 0.0])
+    offsets = (boss.vertices[:, [0, 2]] - plan.cam_axis_mm) @ np.array([0.0, 1.0])
+    across_flats = np.ptp(offsets)
+    assert key - across_flats == pytest.approx(2 * PRESS, abs=2 * TOLERANCE_MM)
+
+
+@pytest.mark.parametrize("which", ["kenan-2.0", "two pairs"])
+def test_pinion_fits_the_d_shaft(which: str) -> None:
+    """Flat to flat with the motor's shaft, whose flat is the side of its section nearest to its axis."""
+    robot = geared() if which == "two pairs" else built(which)
+    plan, y = robot.plan, sum(robot.plan.lateral.gears[-1]) / 2.0
+    shaft = next(item for item in robot.hardware if item.name == "motor_shaft")
+    sides = cut(to_trimesh(shaft.solid).apply_transform(shaft.T_body_part), y) - plan.motor_mm
+    lines = shapely.multilinestrings(list(shapely.linestrings(sides)))
+    nearest = np.array(shapely.ops.nearest_points(lines, shapely.Point(0.0, 0.0))[0].coords[0])
+    assert np.hypot(*nearest) == pytest.approx(N20_FLAT - N20_SHAFT / 2, abs=1e-3)
+    along = nearest / np.hypot(*nearest)
+    segments = cut(placed(robot, "motor_pinion"), y)
+    bore = [points for points in (segments - plan.motor_mm).reshape(-1, 2) if np.hypot(*points) < 2.0]
+    offsets = np.array(bore) @ along
+    assert offsets.max() == pytest.approx(N20_FLAT - N20_SHAFT / 2 + PRESS, abs=0.005)
+    assert np.ptp(offsets) == pytest.approx(N20_FLAT + 2 * PRESS, abs=0.005)
+    across = np.array(bore) @ np.array([-along[1], along[0]])
+    assert np.ptp(across) == pytest.approx(N20_SHAFT + 2 * PRESS, abs=0.005)
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_bushings_turn_on_the_axle_and_fill_the_wound_spring(kenan: Robot, side: str) -> None:
+    lateral, spring = kenan.plan.lateral, kenan.plan.drive.spring
+    coil = lateral.spring_left if side == "left" else lateral.spring_right
+    segments = cut(placed(kenan, f"spring_bushing_{side}"), sum(coil) / 2.0)
+    centred = segments.reshape(-1, 2) - kenan.plan.hub_mm
+    assert inscribed_diameter(segments, kenan.plan.hub_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+    outside = 2.0 * np.hypot(*centred.T).max()
+    mean = spring.outer_diameter_mm - spring.wire_mm
+    turns_wound = kenan.design.compression_rad / (2 * math.pi)
+    inside_wound = mean * spring.turns / (spring.turns + turns_wound) - spring.wire_mm  # Shigley 10-12
+    assert outside < inside_wound
+    assert outside == pytest.approx(inside_wound - 0.3, abs=0.01)
+
+
+def test_spacers_and_collars(kenan: Robot) -> None:
+    for name in ("front_spacer_left", "front_spacer_right", "cam_spacer_right"):
+        mesh = part(kenan, name).mesh
+        segments = cut(mesh.copy().apply_transform([[1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]), 1.03)
+        assert inscribed_diameter(segments, np.zeros(2)) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+    outside = kenan.plan.lateral.left_plate[1] + 2.0
+    assert part(kenan, "collar").quantity == 2 * len(kenan.plan.axles)
+    assert measured(kenan, "collar", outside, kenan.plan.hub_mm) == pytest.approx(PRESSED, abs=TOLERANCE_MM)
+
+
+def test_idler_turns_on_its_axle() -> None:
+    robot = geared()
+    y = sum(robot.plan.lateral.gears[-1]) / 2.0
+    assert measured(robot, "idler", y, robot.plan.idler_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+
+
+def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:
+    robot = built(LONG_TOES)
+    toe = part(robot, "toe_left")
+    T_toe_foot = np.linalg.inv(toe.placements[0].T_body_part)
+    foot = placed(robot, "foot").apply_transform(T_toe_foot)
+    middle = toe.mesh.vertices[:, 1].min() + 3.5
+    # screws lie across the toe, 16 and 30 mm from the root, at half of the joint's height
+    height = toe.mesh.slice_plane([20.0, 0, 0], [-1.0, 0, 0]).bounds[1, 2] / 2.0
+    for x in (16.0, 30.0):
+        assert inscribed_diameter(cut(toe.mesh, middle), np.array([x, height])) == pytest.approx(3.4, abs=TOLERANCE_MM)
+        assert inscribed_diameter(cut(foot, 0.01), np.array([x, height])) == pytest.approx(2.5, abs=TOLERANCE_MM)
+
+
+def test_finer_fits_make_smaller_bores() -> None:
+    robot = built("kenan-2.0", "fine")
+    found = measured(robot, "front_link", 0.5, np.array([0.0, 0.0]))
+    assert found == pytest.approx(AXLE + 2 * 0.14, abs=TOLERANCE_MM)

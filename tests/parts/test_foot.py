@@ -1,0 +1,102 @@
+"""The foot and its toes, measured on their meshes: where pins and toe tips are, flat on the ground, in one or three."""
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+from support.built import LONG_TOES, built, cut, hole_centres, part, placed
+
+from jumpcad.robot import FOOT, Robot
+
+ONE_PIECE = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
+TIP_RADIUS_MM = 2.5
+
+
+def toes_of(robot: Robot, sign: float) -> trimesh.Trimesh:
+    if robot.plan.toes_apart:
+        return placed(robot, "toe_left" if sign > 0 else "toe_right")
+    return placed(robot, "foot").slice_plane([0, sign * 0.5, 0], [0, sign, 0])
+
+
+@pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
+def test_pins_are_one_link_apart(name: str) -> None:
+    robot = built(name)
+    y = robot.plan.lateral.lug_left[0] + 1.0
+    holes = hole_centres(cut(placed(robot, "foot"), y))
+    # the roof above a lying hole makes its box higher than wide, but leaves its middle where it is along x
+    assert sorted(x for x, _ in holes)[0] == pytest.approx(0.0, abs=2e-3)
+    assert sorted(x for x, _ in holes)[-1] == pytest.approx(robot.design.l4_mm, abs=2e-3)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
+def test_toe_tips_are_where_the_design_says(name: str, sign: float) -> None:
+    """A tip's disc is the farthest that the foot reaches in several directions; together they give its middle."""
+    robot = built(name)
+    angle = math.radians(robot.design.ground_link_angle_deg)
+    tip = robot.design.l5_mm * np.array([-math.cos(angle), sign * math.sin(angle)])
+    flat = toes_of(robot, sign).vertices[:, :2]
+    directions = np.array([[math.cos(a), math.sin(a)] for a in math.atan2(tip[1], tip[0]) + np.radians([-25, 0, 25])])
+    reach = (flat @ directions.T).max(axis=0) - TIP_RADIUS_MM
+    middle, *_ = np.linalg.lstsq(directions, reach, rcond=None)
+    np.testing.assert_allclose(middle, tip, atol=0.02)
+
+
+@pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
+def test_foot_is_flat_on_the_ground_from_nose_to_tips(name: str) -> None:
+    robot = built(name)
+    ground = -robot.plan.sections.foot_depth_mm
+    names = [part.name for part in robot.parts if part.placements[0].body == FOOT]
+    lying = np.concatenate([
+        mesh.triangles[(np.abs(mesh.triangles[:, :, 2] - ground) < 1e-6).all(axis=1)].reshape(-1, 3)
+        for mesh in (placed(robot, name) for name in names)
+    ])  # fmt: skip
+    assert min(placed(robot, name).bounds[0, 2] for name in names) == pytest.approx(ground, abs=1e-6)
+    assert lying[:, 0].max() > robot.design.l4_mm
+    tip_x = -robot.design.l5_mm * math.cos(math.radians(robot.design.ground_link_angle_deg))
+    assert lying[:, 0].min() == pytest.approx(tip_x - TIP_RADIUS_MM, abs=2 * TIP_RADIUS_MM)
+    assert robot.foot_depth_m == pytest.approx(-ground / 1000.0)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
+def test_contact_spheres_touch_the_ground_inside_the_parts(name: str) -> None:
+    robot = built(name)
+    meshes = {sign: toes_of(robot, sign) for sign in (1.0, -1.0)}
+    for sphere in robot.bodies[FOOT].contacts:
+        x, y, z = 1000.0 * sphere.centre_m
+        assert z - 1000.0 * sphere.radius_m == pytest.approx(-1000.0 * robot.foot_depth_m, abs=1e-9)
+        if "toe" in sphere.name:
+            mesh = meshes[float(np.sign(y))]
+            assert np.abs(mesh.vertices[:, :2] - [x, y]).sum(axis=1).min() < 2.0 * TIP_RADIUS_MM
+
+
+def test_toes_are_apart_only_where_the_bed_asks_for_it() -> None:
+    assert [part.name for part in built("kenan-2.0").parts if "toe" in part.name] == []
+    assert [part.name for part in built(LONG_TOES).parts if "toe" in part.name] == ["toe_left", "toe_right"]
+    # 163 x 125 mm fits a bed of 180 mm
+    assert not built("kenan-2.0", "fine").plan.toes_apart
+
+
+def test_toes_apart_are_mirror_images() -> None:
+    robot = built(LONG_TOES)
+    left, right = (placed(robot, name) for name in ("toe_left", "toe_right"))
+    assert left.volume == pytest.approx(right.volume, rel=1e-5)
+    np.testing.assert_allclose(left.center_mass * [1, -1, 1], right.center_mass, atol=2e-3)
+    signs = np.array([[1, -1, 1], [-1, 1, -1], [1, -1, 1]])
+    np.testing.assert_allclose(left.moment_inertia * signs, right.moment_inertia, rtol=1e-3, atol=100.0)
+
+
+def test_toe_and_stub_lie_face_to_face_along_the_joint() -> None:
+    """Between 16 and 30 mm from the root they overlap at full height, a sliding fit apart."""
+    robot = built(LONG_TOES)
+    toe = part(robot, "toe_left")
+    whole = placed(robot, "foot").apply_transform(np.linalg.inv(toe.placements[0].T_body_part))
+    stub = whole.slice_plane([0, -30, 0], [0, 1, 0])
+    for x in (16.0, 23.0, 30.0):
+        of_toe, of_stub = (
+            mesh.slice_plane([x - 0.1, 0, 0], [1, 0, 0]).slice_plane([x + 0.1, 0, 0], [-1, 0, 0]).bounds
+            for mesh in (toe.mesh, stub)
+        )
+        assert of_toe[1, 2] == pytest.approx(of_stub[1, 2], abs=1e-3)
+        assert of_stub[0, 1] - of_toe[1, 1] == pytest.approx(0.2, abs=5e-3)

@@ -1,0 +1,234 @@
+"""Gears and cam measured on the placed meshes: caliper, pins, a turn through a pitch, and the roller on the cam."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import shapely
+from scipy.optimize import brentq
+from shapely import affinity
+from support.built import built, cut, geared, hole_centres, in_body, placed, region
+
+from jumpcad.robot import MAIN_LEG, Robot
+
+ALPHA = math.radians(20)
+BACKLASH_MM = 0.15
+ROLLER_RADIUS_MM = 5.0
+"""A 623 bearing's outer ring."""
+
+
+def involute(angle: float) -> float:
+    return math.tan(angle) - angle
+
+
+def robots() -> dict[str, Robot]:
+    return {"one pair": built("kenan-2.0"), "two pairs": geared()}
+
+
+GEARS = [
+    ("one pair", "motor_pinion"), ("one pair", "cam_gear"),
+    ("two pairs", "motor_pinion"), ("two pairs", "cam_gear"), ("two pairs", "idler wheel"),
+    ("two pairs", "idler pinion"),
+]  # fmt: skip
+
+
+class Measured:
+    """One toothed wheel of a robot: its section about its own axis, as a polygon, and what it ought to be."""
+
+    def __init__(self, robot: Robot, name: str) -> None:
+        stages, lateral, plan = robot.plan.drive.train.stages, robot.plan.lateral, robot.plan
+        first, last = stages[0], stages[-1]
+        self.spec, y, self.axis = {
+            "motor_pinion": (first.pinion, lateral.gears[-1], plan.motor_mm),
+            "cam_gear": (last.wheel, lateral.gears[0], plan.cam_axis_mm),
+            "idler wheel": (first.wheel, lateral.gears[-1], plan.idler_mm),
+            "idler pinion": (last.pinion, lateral.gears[0], plan.idler_mm),
+        }[name]
+        mesh = placed(robot, name.split()[0])
+        area = region(cut(mesh, sum(y) / 2.0) - self.axis)
+        self.outline = shapely.Polygon(area.exterior)
+        self.points = np.array(area.exterior.coords)[:-1]
+        around = np.linspace(-math.pi, math.pi, 200 * self.teeth, endpoint=False)
+        angles, radii = np.arctan2(*self.points.T[::-1]), np.hypot(*self.points.T)
+        radius = np.interp(around, np.sort(angles), radii[np.argsort(angles)], period=2 * math.pi)
+        self.phase = float(np.angle((radius * np.exp(1j * self.teeth * around)).sum())) / self.teeth
+
+    @property
+    def teeth(self) -> int:
+        return self.spec.teeth
+
+    def upright(self) -> np.ndarray:
+        """Return the outline's points turned so that a tooth's middle lies on +x."""
+        cos, sin = math.cos(self.phase), math.sin(self.phase)
+        return self.points @ np.array([[cos, -sin], [sin, cos]])
+
+    def caliper_mm(self, teeth: int) -> float:
+        """Return what parallel jaws over some teeth read; the jaws are at right angles to their middle's direction."""
+        points, pitch = self.upright(), 2 * math.pi / self.teeth
+        middle = (teeth - 1) * pitch / 2
+        across = np.array([-math.sin(middle), math.cos(middle)])
+        points = points[np.hypot(*points.T) > self.spec.form_radius_mm]  # jaws touch flanks, not fillets
+        angles = np.arctan2(*points.T[::-1])
+
+        def of_tooth(number: int) -> np.ndarray:
+            away = (angles - number * pitch + math.pi) % (2 * math.pi) - math.pi
+            return points[np.abs(away) < 0.45 * pitch] @ across
+
+        return float(of_tooth(teeth - 1).max() - of_tooth(0).min())
+
+    def over_pins_mm(self, pin: float) -> float:
+        """Return the size over two pins that lie in opposite gaps."""
+        spun = affinity.rotate(self.outline, -self.phase, origin=(0, 0), use_radians=True)
+        bisector = math.pi / self.teeth
+
+        def centre(angle: float) -> np.ndarray:
+            along = np.array([math.cos(angle), math.sin(angle)])
+            low, high = self.spec.pitch_radius_mm, self.spec.tip_radius_mm + pin
+            reach = brentq(lambda r: spun.exterior.distance(shapely.Point(r * along)) - pin / 2, low, high)
+            return reach * along
+
+        opposite = bisector + self.teeth // 2 * 2 * math.pi / self.teeth
+        return float(np.linalg.norm(centre(bisector) - centre(opposite))) + pin
+
+
+@pytest.fixture(scope="module", params=GEARS, ids=lambda pair: f"{pair[1]}, {pair[0]}")
+def wheel(request: pytest.FixtureRequest) -> Measured:
+    return Measured(robots()[request.param[0]], request.param[1])
+
+
+def span_teeth(wheel: Measured) -> int:
+    """Return over how many teeth a caliper touches near the pitch circle (handbooks: z·20°/180° + 0.5)."""
+    return max(2, round(wheel.teeth / 9 + 0.5 + wheel.spec.shift))
+
+
+def test_span_over_teeth_is_the_textbooks(wheel: Measured) -> None:
+    """DIN 3960 / ISO 21771: W = m·cos(a)·((k - 0.5)·pi + z·inv(a)) + 2·x·m·sin(a), less the backlash's share."""
+    k, m, x = span_teeth(wheel), wheel.spec.module_mm, wheel.spec.shift
+    span = m * math.cos(ALPHA) * ((k - 0.5) * math.pi + wheel.teeth * involute(ALPHA)) + 2 * x * m * math.sin(ALPHA)
+    assert wheel.caliper_mm(k) == pytest.approx(span - BACKLASH_MM / 2 * math.cos(ALPHA), abs=0.006)
+
+
+@pytest.mark.parametrize(
+    ("which", "name"), [("one pair", "cam_gear"), ("two pairs", "cam_gear"), ("two pairs", "idler wheel")]
+)
+def test_neighbouring_spans_differ_by_the_base_pitch(which: str, name: str) -> None:
+    """Of wheels with teeth enough for a caliper to reach their involutes over more than one number of teeth."""
+    wheel = Measured(robots()[which], name)
+    k = span_teeth(wheel)
+    base_pitch = math.pi * wheel.spec.module_mm * math.cos(ALPHA)
+    assert wheel.caliper_mm(k + 1) - wheel.caliper_mm(k) == pytest.approx(base_pitch, abs=0.01)
+
+
+def test_size_over_pins_is_the_textbooks(wheel: Measured) -> None:
+    """ISO 21771, 4.6: the pins' middles lie where inv(a_K) = inv(a) + d/d_b - half the gap's angle at the pitch."""
+    z, m, x = wheel.teeth, wheel.spec.module_mm, wheel.spec.shift
+    pin = 1.728 * m
+    thickness = m * (math.pi / 2 + 2 * x * math.tan(ALPHA)) - BACKLASH_MM / 2
+    base = m * z * math.cos(ALPHA)
+    value = involute(ALPHA) + pin / base - (math.pi * m - thickness) / (m * z)
+    angle = brentq(lambda a: involute(a) - value, 1e-3, 1.3)
+    odd = math.cos(math.pi / (2 * z)) if z % 2 else 1.0
+    assert wheel.over_pins_mm(pin) == pytest.approx(base / math.cos(angle) * odd + pin, abs=0.02)
+
+
+def test_number_of_teeth_is_that_of_the_ratio() -> None:
+    for robot in robots().values():
+        ratio = 1.0
+        names = (("motor_pinion", "cam_gear"),) if robot.plan.idler_mm is None else (
+            ("motor_pinion", "idler wheel"), ("idler pinion", "cam_gear"),
+        )  # fmt: skip
+        for pinion, gear in names:
+            counts = []
+            for name in (pinion, gear):
+                wheel = Measured(robot, name)
+                radii = np.hypot(*wheel.points.T)
+                level = (radii.max() + radii.min()) / 2
+                counts.append(np.count_nonzero((radii > level) & (np.roll(radii, 1) <= level)))
+            ratio *= counts[1] / counts[0]
+        assert ratio == pytest.approx(robot.plan.drive.train.ratio)
+
+
+@pytest.mark.parametrize(
+    ("which", "driver", "driven"),
+    [
+        ("one pair", "motor_pinion", "cam_gear"),
+        ("two pairs", "motor_pinion", "idler wheel"),
+        ("two pairs", "idler pinion", "cam_gear"),
+    ],
+)
+def test_a_pair_turns_through_a_pitch_free_within_its_backlash(which: str, driver: str, driven: str) -> None:
+    robot = robots()[which]
+    pinion, gear = Measured(robot, driver), Measured(robot, driven)
+    apart = float(np.linalg.norm(pinion.axis - gear.axis))
+    base = (pinion.teeth + gear.teeth) * gear.spec.module_mm * math.cos(ALPHA) / 2
+    pitch_radius = apart * pinion.teeth / (pinion.teeth + gear.teeth)
+    # the play along the working pitch circle, from that along the line of action
+    play = BACKLASH_MM * math.cos(ALPHA) / (base / apart)
+
+    def shared(turn: float, more: float) -> float:
+        placed_gear = affinity.translate(affinity.rotate(gear.outline, turn, (0, 0), True), *gear.axis)
+        spun = -turn * gear.teeth / pinion.teeth + more
+        placed_pinion = affinity.translate(affinity.rotate(pinion.outline, spun, (0, 0), True), *pinion.axis)
+        return float(placed_gear.intersection(placed_pinion).area)
+
+    for turn in np.linspace(0, 2 * math.pi / gear.teeth, 13):
+        free = 0.5 * play / pitch_radius
+        assert shared(turn, 0.0) == 0.0
+        assert shared(turn, 0.93 * free) < 1e-4
+        assert shared(turn, -0.93 * free) < 1e-4
+        assert shared(turn, 1.15 * free) > 0
+        assert shared(turn, -1.15 * free) > 0
+
+
+def roller_gap(robot: Robot) -> Callable[[float, float], float]:
+    """Return the distance of roller and cam at a cam angle and a winding angle, from meshes (mm)."""
+    plan = robot.plan
+    profile = region(cut(placed(robot, "cam"), sum(plan.lateral.cam) / 2.0) - plan.cam_axis_mm)
+    profile = shapely.Polygon(profile.exterior)
+    holes = hole_centres(cut(placed(robot, "main_leg"), 2.5))
+    roller = min((np.array(centre) for centre in holes), key=lambda centre: centre[0])
+
+    def gap(cam_rad: float, wind_rad: float) -> float:
+        # a positive turn about +y carries z to x: clockwise where x points right and z up
+        turned = affinity.rotate(profile, -cam_rad, (0, 0), use_radians=True)
+        centre = shapely.Point(in_body(robot, MAIN_LEG, wind_rad, roller) - plan.cam_axis_mm)
+        outside = turned.exterior.distance(centre)
+        return (-outside if turned.contains(centre) else outside) - ROLLER_RADIUS_MM
+
+    return gap
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_roller_touches_the_cam_at_every_winding_angle(name: str) -> None:
+    robot = built(name)
+    gap = roller_gap(robot)
+    cam, wound = robot.plan.drive.cam, robot.design.compression_rad
+    for turn in np.linspace(0.0, cam.law.lift_rad, 40):
+        assert gap(turn, float(cam.wind_rad(turn))) == pytest.approx(0.0, abs=0.01)
+    assert float(cam.wind_rad(cam.law.lift_rad)) == pytest.approx(wound, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_rolling_on_the_cam_winds_with_constant_torque(name: str) -> None:
+    """Wound until the roller touches, the springs' energy grows evenly with the cam's turn after the ramp."""
+    robot = built(name)
+    gap = roller_gap(robot)
+    law, wound = robot.plan.drive.cam.law, robot.design.compression_rad
+    turns = np.linspace(law.ramp_rad * 1.2, law.lift_rad * 0.99, 25)
+    winds = np.array([brentq(lambda w, t=t: gap(t, w), 0.02 * wound, 1.05 * wound) for t in turns])
+    energy = 0.5 * robot.spring.stiffness_nm_per_rad * winds**2
+    slope, start = np.polyfit(turns, energy, 1)
+    np.testing.assert_allclose(energy, slope * turns + start, atol=2e-3 * robot.spring.energy_j)
+    # all of the springs' energy is put in over the lift, the ramp counting half
+    assert slope == pytest.approx(robot.spring.energy_j / (law.lift_rad - law.ramp_rad / 2), rel=3e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_roller_falls_free_of_the_cam(name: str) -> None:
+    robot = built(name)
+    gap = roller_gap(robot)
+    cam, wound = robot.plan.drive.cam, robot.design.compression_rad
+    start = float(cam.wind_rad(cam.free_rad - 1e-9))
+    for wind in np.linspace(min(start, wound), -math.radians(4.9), 30):
+        assert gap(cam.free_rad, float(wind)) > 0.3

@@ -1,0 +1,43 @@
+"""Scores and verdicts."""
+
+import pytest
+
+from jumpcad.errors import JumpcadError
+from jumpcad.findings import Finding
+from jumpcad.search.objective import Evaluation, find_objective
+
+JUMP = {"fitness": 9.0, "ballistic_range_m": 0.9, "com_rise_m": 0.3, "spring_energy_j": 0.6, "electrical_energy_j": 2.0}
+
+
+def finding(name, severity, margin):
+    return Finding(name, severity, margin, "mm", "", "")
+
+
+@pytest.mark.parametrize(
+    ("name", "score"),
+    [("fitness", 9.0), ("range", 0.9), ("rise", 0.3), ("range-per-joule", 1.5), ("jumps-per-joule", 0.5)],
+)
+def test_scores_of_a_jump(name, score):
+    assert find_objective(name).score(Evaluation("jump", JUMP)) == pytest.approx(score)
+
+
+def test_a_refused_design_has_no_score():
+    assert find_objective("fitness").score(Evaluation("tips")) is None
+    broken = Evaluation("jump", JUMP, (finding("leg_stress", "error", -3.0), finding("bed", "warning", -1.0)))
+    assert find_objective("fitness").score(broken) is None
+    assert broken.reasons == ("leg_stress",)
+    assert Evaluation("no_takeoff").reasons == ("no_takeoff",)
+
+
+def test_warnings_do_not_forbid():
+    assert Evaluation("jump", JUMP, (finding("bed", "warning", -1.0),)).feasible
+
+
+def test_an_objective_that_the_model_cannot_give_is_named():
+    with pytest.raises(JumpcadError, match="jumps-per-joule needs electrical_energy_j"):
+        find_objective("jumps-per-joule").score(Evaluation("jump", {"fitness": 1.0}))
+
+
+def test_unknown_objective():
+    with pytest.raises(JumpcadError, match="did you mean fitness"):
+        find_objective("fitnes")

@@ -1,0 +1,133 @@
+"""Workers die, hang and run out of memory; the run goes on."""
+
+import os
+import subprocess
+import sys
+import textwrap
+import time
+
+import numpy as np
+import pytest
+from support.hills import Hill, Trap
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search.objective import QUARANTINED
+from jumpcad.search.pool import dask_pool, local_pool
+from jumpcad.search.space import Space
+
+SPACE = Space.parse(fix=["c_coef=1", "d_coef=0.8"])
+DESIGNS = [SPACE.to_design(point) for point in SPACE.spread(24, np.random.default_rng(3))]
+TRAPPED = {index for index, design in enumerate(DESIGNS) if design.rest_angle_deg > 60.0}
+
+
+def evaluate(pool, model, designs=DESIGNS):
+    """Return the evaluations by place, and what the pool noted."""
+    notes = []
+    pool.notice = notes.append
+    with pool:
+        outcomes = {outcome.index: outcome.evaluation for outcome in pool.evaluate(model, designs)}
+    return [outcomes[index] for index in range(len(designs))], notes
+
+
+@pytest.mark.parametrize("workers", [0, 1, 2])
+def test_results_do_not_depend_on_who_computes_them(workers):
+    found, notes = evaluate(local_pool(workers), Hill())
+    assert found == [Hill()(design) for design in DESIGNS]
+    assert notes == []
+
+
+@pytest.mark.parametrize(
+    ("way", "limit_s", "reason"),
+    [
+        ("kill", 60.0, "SIGKILL (killed, perhaps because memory ran out)"),
+        ("memory", 60.0, "MemoryError: no room for a mesh"),
+        ("bug", 60.0, "ZeroDivisionError: a bug"),
+    ],
+)
+def test_designs_that_fail_twice_are_quarantined_and_named(way, limit_s, reason):
+    assert 2 < len(TRAPPED) < 8
+    found, notes = evaluate(local_pool(2, limit_s), Trap(way=way))
+    for index, (design, evaluation) in enumerate(zip(DESIGNS, found, strict=True)):
+        if index in TRAPPED:
+            assert evaluation.verdict == QUARANTINED
+            assert reason in evaluation.detail
+        else:
+            assert evaluation == Hill()(design)
+    assert sum("quarantined" in note for note in notes) == len(TRAPPED)
+
+
+def test_a_hang_is_ended_at_its_limit():
+    start = time.perf_counter()
+    designs = [design for index, design in enumerate(DESIGNS) if index not in TRAPPED][:8]
+    designs.insert(3, DESIGNS[min(TRAPPED)])
+    found, _ = evaluate(local_pool(2, limit_s=0.5), Trap(way="hang"), designs)
+    assert found[3].verdict == QUARANTINED
+    assert "past its limit of 0.5 s" in found[3].detail
+    assert all(evaluation.verdict != QUARANTINED for index, evaluation in enumerate(found) if index != 3)
+    assert time.perf_counter() - start < 30.0
+
+
+def test_what_fails_once_is_repeated(tmp_path):
+    found, notes = evaluate(local_pool(2), Trap(way="kill", once=tmp_path / "died"))
+    assert found == [Hill()(design) for design in DESIGNS]
+    assert notes
+    assert not any("quarantined" in note for note in notes)
+
+
+def test_an_error_of_the_request_ends_the_run():
+    class Missing(Hill):
+        def __call__(self, design):
+            raise JumpcadError("PyBullet is not installed")
+
+    with pytest.raises(JumpcadError, match="not installed"):
+        evaluate(local_pool(1), Missing())
+
+
+def test_workers_end_with_a_killed_parent(tmp_path):
+    code = textwrap.dedent(f"""
+        import os, signal, sys
+        sys.path[:0] = [{os.path.dirname(__file__)!r}, {os.path.dirname(os.path.dirname(__file__))!r}]
+        from test_pool import DESIGNS, Hill, local_pool
+        pool = local_pool(2)
+        list(pool.evaluate(Hill(), DESIGNS))
+        print(*[process.pid for process in pool._executor._processes.values()], flush=True)
+        os.kill(os.getpid(), signal.SIGKILL)
+    """)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    workers = [int(pid) for pid in done.stdout.split()]
+    assert len(workers) == 2
+    deadline = time.perf_counter() + 20.0
+    while any(_alive(pid) for pid in workers) and time.perf_counter() < deadline:
+        time.sleep(0.1)
+    assert not any(_alive(pid) for pid in workers)
+
+
+def _alive(pid):
+    try:
+        with open(f"/proc/{pid}/stat") as stream:
+            return stream.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def test_dask_loses_nothing_when_a_worker_is_killed(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=str(tmp_path)
+    ) as cluster:
+        found, _ = evaluate(dask_pool(cluster.scheduler_address), Trap(way="kill", once=tmp_path / "died"))
+        assert (tmp_path / "died").exists()
+        assert found == [Hill()(design) for design in DESIGNS]
+
+
+def test_dask_that_does_not_answer(monkeypatch):
+    monkeypatch.setattr("jumpcad.search.pool.ANSWER_S", 0.5)
+    pytest.importorskip("distributed")
+    with pytest.raises(JumpcadError, match="no Dask scheduler answers at"):
+        dask_pool("tcp://127.0.0.1:1")
+
+
+@pytest.mark.parametrize(("workers", "limit_s", "message"), [(-1, 1.0, "workers = -1"), (1, 0.0, "limit = 0 s")])
+def test_wrong_pools(workers, limit_s, message):
+    with pytest.raises(JumpcadError, match=message):
+        local_pool(workers, limit_s)

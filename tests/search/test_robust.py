@@ -1,0 +1,119 @@
+"""The final pick: neighbours count."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from support.hills import SMALL, Hill
+
+from jumpcad.design import PARAMETERS, load_design
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.robust import active_bounds, best_apart, rank_candidates, varied_lengths, varied_parameters
+
+
+@dataclass(frozen=True)
+class Spiked(Hill):
+    """A plateau of height 5 with a needle of height 9 that is 0.2 % of its parameter wide."""
+
+    def __call__(self, design):
+        needle = abs(design.rest_angle_deg - 60.0) < 0.06
+        return Evaluation("jump", {"fitness": 9.0 if needle else 5.0 - 0.01 * abs(design.rest_angle_deg - 40.0)})
+
+
+@dataclass(frozen=True)
+class Needles(Hill):
+    """A plateau of height 5 at small rest angles; elsewhere 9, but for exact values of the stiffness only."""
+
+    def __call__(self, design):
+        if design.rest_angle_deg < 35.0:
+            return Evaluation("jump", {"fitness": 5.0})
+        return (
+            Evaluation("jump", {"fitness": 9.0})
+            if design.stiffness_nmm_per_deg % 1.0 == 0
+            and (design.rest_angle_deg == 45.0 and design.carrying_link_mm == 100.0)
+            else Evaluation("loop")
+        )
+
+
+def test_a_plateau_beats_a_needle(campaign):
+    one = campaign(model=Spiked())
+    centre = SMALL.to_design([0.5, 0.5, 0.5])
+    one.evaluate([centre.model_copy(update={"rest_angle_deg": angle}) for angle in (60.0, 40.0, 30.0)], "bo", 0)
+    ranked = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)
+    assert [candidate.row.score for candidate in ranked] == [5.0, 4.9, 9.0]
+    assert ranked[-1].parameters_score < 5.0
+    assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
+
+
+def test_the_search_for_a_robust_one_goes_beyond_ten_needles(campaign):
+    one = campaign(model=Needles())
+    centre = SMALL.to_design([0.5, 0.5, 0.5])
+    needles = [centre.model_copy(update={"stiffness_nmm_per_deg": 6.0 + number}) for number in range(12)]
+    plateau = centre.model_copy(update={"rest_angle_deg": 30.0})
+    one.evaluate([*needles, plateau], "bo", 0)
+    ranked = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)
+    assert len(ranked) == 13
+    assert ranked[0].row.design == plateau
+
+
+def test_refused_neighbours_count_nothing_and_are_named(campaign):
+    one = campaign()
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
+    one.evaluate([edge], "bo", 0)
+    (candidate,) = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)
+    assert candidate.parameters_score == 0.0
+    assert candidate.print_score > 0.0
+    assert candidate.refusals["loop"] == pytest.approx(8, abs=1)  # half of the 16 parameters go up
+
+
+def test_the_best_differ_from_one_another(campaign):
+    one = campaign()
+    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5 + shift]) for shift in (0.0, 0.001, 0.05, 0.2)], "bo", 0)
+    assert len(best_apart(SMALL, one.rows, 10)) == 3
+
+
+def test_variation_stays_within_its_limits():
+    design = load_design("kenan-2.0")
+    vector = np.array(design.to_vector())
+    changes = np.array([d.to_vector() for d in varied_parameters(design, np.random.default_rng(0))]) / vector - 1.0
+    assert np.abs(changes).max() <= 0.01 + 1e-12
+    assert (changes.max(axis=0) > 0.008).all()
+    assert (changes.min(axis=0) < -0.008).all()
+    for varied in varied_lengths(design, 0.3, np.random.default_rng(0)):
+        for name in ("l2_mm", "l3_mm", "l4_mm", "l5_mm"):
+            assert abs(getattr(varied, name) - getattr(design, name)) <= 0.3 + 1e-9
+        assert varied.to_vector()[4:] == design.to_vector()[4:]
+
+
+def test_variation_keeps_to_what_a_design_can_be():
+    flat = load_design("kenan-2.0").model_copy(update={"rest_angle_deg": 90.0})
+    assert max(d.rest_angle_deg for d in varied_parameters(flat, np.random.default_rng(0))) == 90.0
+
+
+@dataclass(frozen=True)
+class Slope(Hill):
+    """Fitness grows by 2 over a range of the stiffness and falls by 3 over one of the rest angle."""
+
+    def __call__(self, design):
+        if design.compression_ratio > 0.8:
+            return Evaluation("loop")
+        unit = dict(zip(PARAMETERS, design.to_vector(), strict=True))
+        fitness = (
+            20.0 + 2.0 * (unit["stiffness_nmm_per_deg"] - 5.0) / 25.0 - 3.0 * (unit["rest_angle_deg"] - 20.0) / 50.0
+        )
+        return Evaluation("jump", {"fitness": fitness})
+
+
+def test_active_bounds_and_their_worth(campaign):
+    one = campaign(model=Slope())
+    names = [parameter.name for parameter in SMALL.free]
+    assert names == ["compression_ratio", "rest_angle_deg", "stiffness_nmm_per_deg"]
+    (row,) = one.evaluate([SMALL.to_design([1.0, 0.0, 1.0])], "bo", 0)
+    found = {bound.name: bound for bound in active_bounds(one, row, 1)}
+    assert set(found) == set(names)
+    assert found["stiffness_nmm_per_deg"].worth == pytest.approx(0.05 * 2.0)
+    assert found["stiffness_nmm_per_deg"].beyond == pytest.approx(31.25)
+    assert found["rest_angle_deg"].worth == pytest.approx(0.05 * 3.0)
+    assert found["rest_angle_deg"].side == "lower"
+    assert found["compression_ratio"].worth is None
+    assert found["compression_ratio"].reason == "loop"

@@ -1,0 +1,114 @@
+"""The searched part of the design space."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.search.space import Space, physical_limits
+
+
+def test_default_space_is_the_published_box():
+    space = Space.default()
+    low, high = space.to_design(np.zeros(8)), space.to_design(np.ones(8))
+    assert low.to_vector() == [100, 0.8, 0.5, 0.6, 0.1, 20, 5, 10]
+    assert high.to_vector() == [200, 1.2, 0.9, 1.4, 0.8, 70, 30, 80]
+    assert space.size == np.inf
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.lists(st.floats(0, 1), min_size=8, max_size=8))
+def test_unit_cube_and_designs_correspond(unit):
+    space = Space.default()
+    assert space.to_unit(space.to_design(unit)) == pytest.approx(unit, abs=1e-12)
+
+
+def test_fixed_rebounded_and_chosen_parameters():
+    space = Space.parse(
+        fix=["rest_angle_deg=88.2"], bound=["carrying_link_mm=80:120"], choose=["stiffness_nmm_per_deg=20,9.2,12"]
+    )
+    assert space.dimension == 7
+    assert "rest_angle_deg" not in [parameter.name for parameter in space.free]
+    designs = [space.to_design(point) for point in space.spread(64, np.random.default_rng(1))]
+    assert {design.rest_angle_deg for design in designs} == {88.2}
+    assert {design.stiffness_nmm_per_deg for design in designs} == {9.2, 12.0, 20.0}
+    lengths = [design.carrying_link_mm for design in designs]
+    assert 80 <= min(lengths) < 85
+    assert 115 < max(lengths) <= 120
+
+
+def test_choices_snap_to_the_nearest():
+    space = Space.parse(choose=["stiffness_nmm_per_deg=10,12,20"], around=load_design("best-bo"), only=["d_coef"])
+    space = Space.parse(choose=["stiffness_nmm_per_deg=10,12,20"])
+    column = [parameter.name for parameter in space.free].index("stiffness_nmm_per_deg")
+    points = np.full((3, 8), 0.5)
+    points[:, column] = [0.05, 0.55, 0.9]  # 10.5, 15.5 and 19 N·mm/deg
+    assert [space.to_design(p).stiffness_nmm_per_deg for p in space.snap(points)] == [10.0, 12.0, 20.0]
+    assert Space.parse(fix=[f"{n}={SEARCH_BOUNDS[n].lower}" for n in PARAMETERS if n != "stiffness_nmm_per_deg"],
+                       choose=["stiffness_nmm_per_deg=10,12,20"]).size == 3  # fmt: skip
+
+
+def test_near_a_design_and_only_some_parameters():
+    centre = load_design("best-ga")
+    near = Space.parse(around=centre, within_percent=10)
+    assert near.contains(centre)
+    for parameter in near.free:
+        full = SEARCH_BOUNDS[parameter.name]
+        assert parameter.width <= 0.2 * (full.upper - full.lower) + 1e-9
+    two = Space.parse(around=centre, only=["rest_angle_deg", "e_coef"])
+    assert {parameter.name for parameter in two.free} == {"rest_angle_deg", "e_coef"}
+    assert two.to_design([0.5, 0.5]).carrying_link_mm == centre.carrying_link_mm
+
+
+def test_contains_knows_ranges_fixed_values_and_choices():
+    space = Space.parse(fix=["c_coef=1"], choose=["stiffness_nmm_per_deg=9.2,20"])
+    design = space.to_design(np.full(7, 0.3))
+    assert space.contains(design)
+    for change in ({"c_coef": 1.01}, {"stiffness_nmm_per_deg": 10.0}, {"carrying_link_mm": 201.0}):
+        assert not space.contains(design.model_copy(update=change))
+
+
+def test_a_space_survives_its_record():
+    space = Space.parse(fix=["c_coef=1"], choose=["stiffness_nmm_per_deg=9.2,20"], bound=["d_coef=0.6:0.7"])
+    assert Space.from_record(space.describe()) == space
+
+
+def test_spread_points_fill_the_cube_evenly():
+    points = Space.default().spread(256, np.random.default_rng(0))
+    counts = np.array([np.histogram(column, bins=16, range=(0, 1))[0] for column in points.T])
+    assert (counts == 16).all()  # a scrambled Sobol net puts the same number into each sixteenth of each axis
+
+
+def test_physical_limits_are_those_of_a_design():
+    assert physical_limits("rest_angle_deg") == (5.0, 90.0)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"fix": ["carrying_lnk_mm=100"]}, "did you mean carrying_link_mm"),
+        ({"fix": ["zzz=100"]}, "the parameters are carrying_link_mm"),
+        ({"fix": ["c_coef"]}, "NAME=VALUE"),
+        ({"fix": ["c_coef=one"]}, "'one' is not a number"),
+        ({"fix": ["rest_angle_deg=95"]}, r"rest_angle_deg = 95 is outside 5…90"),
+        ({"fix": ["c_coef=nan"]}, "c_coef = nan is outside"),
+        ({"bound": ["c_coef=1.1:0.9"]}, "empty range"),
+        ({"bound": ["c_coef=1:1"]}, "empty range"),
+        ({"bound": ["c_coef=1"]}, "NAME=LO:HI"),
+        ({"choose": ["c_coef=1,,2"]}, "'' is not a number"),
+        ({"fix": ["c_coef=1"], "bound": ["c_coef=0.9:1.1"]}, "given twice"),
+        ({"only": ["c_coef"]}, "around which design"),
+        ({"fix": [f"{name}={limits.lower}" for name, limits in SEARCH_BOUNDS.items()]}, "nothing is left to search"),
+    ],
+)
+def test_wrong_spaces_are_refused_in_one_line(options, message):
+    with pytest.raises(JumpcadError, match=message) as caught:
+        Space.parse(**options)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_share_of_the_range_must_be_one():
+    with pytest.raises(JumpcadError, match="outside 0…100"):
+        Space.parse(around=load_design("best-bo"), within_percent=0)

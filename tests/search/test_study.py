@@ -1,0 +1,178 @@
+"""Whole studies: the same rows, whoever computes them and whatever interrupts them."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from support.hills import SMALL, Hill
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search.ledger import Ledger
+from jumpcad.search.pool import local_pool
+from jumpcad.search.space import Space
+from jumpcad.search.study import Request, plan_stages, run_study
+
+REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4)
+SCRIPT = Path(__file__).parents[1] / "support" / "study_script.py"
+
+
+def contents(path):
+    """Return all rows of a study but for how long they took."""
+    with Ledger.read(path) as ledger:
+        return [replace(row, duration_s=0.0) for row in ledger.rows()]
+
+
+def run(request, path=None, workers=0):
+    with local_pool(workers) as pool:
+        return run_study(request, path, pool)
+
+
+def start(path, method, evaluations, workers, pause):
+    command = [sys.executable, str(SCRIPT), str(path), method, str(evaluations), str(workers), str(pause)]
+    return subprocess.Popen(command, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
+
+
+@pytest.mark.parametrize("method", ["ga+bo", "pareto", "nsga2"])
+def test_same_rows_for_any_number_of_workers(tmp_path, method):
+    request = replace(REQUEST, method=method, batch=3, evaluations=26)
+    for workers in (0, 2):
+        run(request, tmp_path / f"{workers}.db", workers)
+    assert contents(tmp_path / "0.db") == contents(tmp_path / "2.db")
+
+
+@pytest.mark.parametrize(("method", "evaluations", "workers"), [("ga", 150, 2), ("ga+bo", 40, 1)])
+def test_killed_at_random_moments_it_ends_with_the_rows_of_an_uninterrupted_run(tmp_path, method, evaluations, workers):
+    moments = random.Random(11)
+    killed = 0
+    while killed < 3:
+        process = start(tmp_path / "killed.db", method, evaluations, workers, 0.03)
+        deadline = time.monotonic() + moments.uniform(0.3, 6.0)
+        while process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        if process.poll() is not None:
+            break
+        process.kill()
+        assert process.wait() == -signal.SIGKILL
+        killed += 1
+    assert start(tmp_path / "killed.db", method, evaluations, workers, 0.0).wait() == 0
+    run(replace(REQUEST, method=method, evaluations=evaluations), tmp_path / "whole.db")
+    assert killed > 0
+    assert contents(tmp_path / "killed.db") == contents(tmp_path / "whole.db")
+
+
+def test_a_finished_study_is_not_computed_again(tmp_path):
+    log = tmp_path / "log"
+    request = replace(REQUEST, model=Hill(log), method="ga")
+    first = run(request, tmp_path / "s.db")
+    count = len(log.read_text().splitlines())
+    again = run(request, tmp_path / "s.db")
+    assert len(log.read_text().splitlines()) == count
+    assert again.best == first.best
+    assert again.candidates == first.candidates
+
+
+@pytest.mark.parametrize("method", ["ga", "bo", "ga+bo", "pareto"])
+def test_a_larger_budget_lengthens_a_study(tmp_path, method):
+    request = replace(REQUEST, method=method, evaluations=24)
+    run(request, tmp_path / "s.db")
+    before = contents(tmp_path / "s.db")
+    result = run(replace(request, evaluations=32), tmp_path / "s.db")
+    assert len(result.rows) == 32
+    after = contents(tmp_path / "s.db")
+    assert all(row in after for row in before)
+    with pytest.raises(JumpcadError, match="planned for 32 evaluations, not 24"):
+        run(request, tmp_path / "s.db")
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"seed": 5}, "seed: 4 there, 5 here"),
+        ({"method": "bo"}, 'method: "ga" there, "bo" here'),
+        ({"space": Space.default()}, "space.carrying_link_mm"),
+        ({"model": Hill(name="other")}, 'model.name: "hill" there, "other" here'),
+        ({"objective": "range"}, "objective"),
+    ],
+)
+def test_a_study_of_another_request_is_refused(tmp_path, change, message):
+    request = replace(REQUEST, method="ga", evaluations=5)
+    run(request, tmp_path / "s.db")
+    before = contents(tmp_path / "s.db")
+    with pytest.raises(JumpcadError, match=message):
+        run(replace(request, **change), tmp_path / "s.db")
+    assert contents(tmp_path / "s.db") == before
+
+
+def test_a_study_of_another_version_is_refused(tmp_path):
+    class Newer(Hill):
+        def versions(self):
+            return {"hill": "2"}
+
+    request = replace(REQUEST, method="ga", evaluations=5)
+    run(request, tmp_path / "s.db")
+    with pytest.raises(JumpcadError, match=r'versions\.hill: "1" there, "2" here'):
+        run(replace(request, model=Newer()), tmp_path / "s.db")
+
+
+def test_genetic_then_bayesian_ends_on_the_top():
+    result = run(replace(REQUEST, evaluations=60))
+    assert [row.phase for row in result.rows] == ["ga"] * 30 + ["bo"] * 30
+    assert result.best.score > 9.99
+    assert len(result.candidates) > 1
+    assert result.winner == result.candidates[0].row
+    assert result.bounds == []
+
+
+def test_everything_refused_has_no_best():
+    space = Space.parse(fix=["compression_ratio=0.75"])
+    result = run(Request(space, Hill(), method="ga", evaluations=12))
+    assert result.best is None
+    assert result.winner is None
+    assert result.candidates == []
+
+
+def test_a_prior_study_of_the_same_model_is_learned_from(tmp_path):
+    run(replace(REQUEST, method="ga", evaluations=120), tmp_path / "old.db")
+    learned = run(replace(REQUEST, method="bo", evaluations=6, prior=tmp_path / "old.db"))
+    assert learned.best.score > 9.9
+    with pytest.raises(JumpcadError, match="another model"):
+        run(replace(REQUEST, model=Hill(name="other"), prior=tmp_path / "old.db"))
+
+
+@pytest.mark.parametrize(
+    ("method", "evaluations", "split"),
+    [
+        ("ga+bo", 250, [200, 50]),
+        ("ga+bo", 60, [30, 30]),
+        ("ga+bo", 1000, [900, 100]),
+        ("ga", 7, [7]),
+        ("ga+bo", 1, [1, 0]),
+    ],
+)
+def test_split_of_the_budget(method, evaluations, split):
+    stages = plan_stages(replace(REQUEST, method=method, evaluations=evaluations))
+    assert [stage.evaluations for stage in stages] == split
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
+        ({"batch": 0}, "batch = 0"),
+        ({"seed": -1}, "seed = -1"),
+        ({"seed": 2**32}, "less than 2"),
+        ({"method": "gaa"}, "did you mean ga"),
+        ({"objective": "height"}, "not one of the objectives"),
+        ({"preset": "fast"}, "not one of the presets"),
+        ({"prior": Path("none.db")}, "no such study file"),
+    ],
+)
+def test_wrong_requests(change, message):
+    with pytest.raises(JumpcadError, match=message):
+        run(replace(REQUEST, **change))

@@ -1,0 +1,123 @@
+"""Gaussian processes against scikit-learn's own predictions, improvement against numerical integration."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.stats import norm
+from sklearn.gaussian_process import GaussianProcessRegressor
+from support.hills import SMALL, Hill
+
+from jumpcad.findings import Finding
+from jumpcad.search.ledger import Row
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.surrogate import VERDICT, Belief, Surrogate, _kernel, constraint_margins, unwarped, warped
+
+
+@pytest.fixture
+def data():
+    generator = np.random.default_rng(0)
+    x = generator.random((40, 3))
+    return x, np.sin(4 * x[:, 0]) + x[:, 1] ** 2
+
+
+def test_predictions_are_those_of_scikit_learn(data):
+    x, y = data
+    ours = Surrogate(x, y)
+    theirs = GaussianProcessRegressor(_kernel(3, ours.theta), alpha=1e-8, normalize_y=True, optimizer=None).fit(x, y)
+    points = np.random.default_rng(1).random((50, 3))
+    mean, deviation = theirs.predict(points, return_std=True)
+    our_mean, our_deviation = ours.predict(points)
+    assert our_mean == pytest.approx(mean, abs=1e-9)
+    noise = theirs.kernel_.k2.noise_level * y.std() ** 2
+    assert our_deviation**2 + noise == pytest.approx(deviation**2, abs=1e-9)
+
+
+def test_fitting_finds_the_axis_that_does_not_matter(data):
+    lengths = np.exp(Surrogate(*data).theta[1:4])
+    assert lengths[2] > 5.0 > lengths[0]
+
+
+def test_a_believer_does_not_change_the_mean(data):
+    before = Surrogate(*data)
+    point = np.array([0.5, 0.5, 0.5])
+    after = before.believing(point)
+    assert after.predict(point[None])[0] == pytest.approx(before.predict(point[None])[0], abs=1e-3)
+    assert after.predict(point[None])[1] < 0.3 * before.predict(point[None])[1]
+
+
+def rows_of(count, model=None):
+    points = SMALL.spread(count, np.random.default_rng(0))
+    found = []
+    for place, point in enumerate(points):
+        design = SMALL.to_design(point)
+        evaluation = (model or Hill())(design)
+        score = evaluation.metrics.get("fitness") if evaluation.feasible else None
+        found.append(Row("bo", 0, place, design, evaluation, score, "m", 0.0))
+    return found
+
+
+def test_expected_improvement_is_the_integral_over_the_belief():
+    belief = Belief.from_rows(SMALL, rows_of(24), {}, None)
+    points = SMALL.spread(8, np.random.default_rng(5))
+    mean, deviation = belief.score.predict(points)
+    for best in (1.0, 8.0, 12.0):
+        found = np.exp(belief.log_improvement(points, best))
+        for value, m, s in zip(found, mean, deviation, strict=True):
+            target = float(warped(best))
+            integral = quad(
+                lambda y, m=m, s=s, target=target: (y - target) * norm.pdf(y, m, s), target, max(target, m) + 12 * s
+            )[0]
+            assert value == pytest.approx(integral, rel=1e-4, abs=1e-14)
+
+
+def test_improvement_keeps_its_slope_far_below_the_best():
+    belief = Belief.from_rows(SMALL, rows_of(24), {}, None)
+    points = SMALL.spread(8, np.random.default_rng(5))
+    far = [belief.log_improvement(points, best) for best in (1e2, 1e4, 1e6, 1e8)]
+    assert np.isfinite(far).all()
+    assert (np.diff(far, axis=0) < 0).all()
+
+
+def test_probability_of_feasibility_learns_the_border():
+    belief = Belief.from_rows(SMALL, rows_of(64), {}, None)
+    border = [parameter.name for parameter in SMALL.free].index("compression_ratio")
+    points = SMALL.spread(256, np.random.default_rng(7))
+    ratio = 0.1 + 0.7 * points[:, border]
+    probability = np.exp(belief.log_feasible(points))
+    assert probability[ratio < 0.65].min() > 0.9
+    assert probability[ratio > 0.75].max() < 0.1
+
+
+def test_margins_of_constraints_that_refuse():
+    rows = rows_of(40)
+    margins = constraint_margins(rows)
+    assert set(margins) == {"loop", VERDICT}
+    assert margins["loop"] == pytest.approx([0.7 - row.design.compression_ratio for row in rows])
+    assert set(margins[VERDICT]) == {1.0, -1.0}
+    assert constraint_margins([row for row in rows if row.score is not None]) == {}
+
+
+def test_a_margin_that_an_early_refusal_leaves_unknown_is_left_out():
+    def two_gates(design):
+        if design.rest_angle_deg < 40.0:
+            return Evaluation("below_ground", {}, (Finding("below_ground", "error", -1.0, "mm", "", ""),))
+        return Hill()(design)
+
+    rows = rows_of(40, two_gates)
+    margins = constraint_margins(rows)
+    flat = np.array([row.design.rest_angle_deg < 40.0 for row in rows])
+    assert (np.isnan(margins["loop"]) == flat).all()
+    Belief.from_rows(SMALL, rows, {}, None)
+
+
+def test_nothing_feasible_yet_leaves_feasibility_to_decide():
+    rows = [row for row in rows_of(64) if row.score is None]
+    belief = Belief.from_rows(SMALL, rows, {}, None)
+    assert belief.score is None
+    assert (belief.log_improvement(np.full((2, 3), 0.5), 0.0) == 0.0).all()
+
+
+def test_warping_is_undone():
+    scores = np.array([-4.0, 0.0, 2.25, 11.8])
+    assert warped(scores) == pytest.approx([-2.0, 0.0, 1.5, 11.8**0.5])
+    assert unwarped(warped(scores)) == pytest.approx(scores)

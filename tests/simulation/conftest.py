@@ -1,0 +1,47 @@
+"""The reference flights, and robots to try things on."""
+
+import csv
+from pathlib import Path
+
+import pytest
+from support.flights import Flight, make_lopsided
+
+from jumpcad.capsule import capsule_robot
+from jumpcad.design import PARAMETERS, Design, load_design
+from jumpcad.robot import Robot
+
+TABLE = Path(__file__).parents[1] / "data" / "reference_flights.csv"
+
+
+@pytest.fixture(scope="session")
+def flights() -> list[Flight]:
+    """All reference flights."""
+    with TABLE.open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    return [
+        Flight(
+            row["name"],
+            row["verdict"],
+            capsule_robot(Design.from_vector([float(row[name]) for name in PARAMETERS])),
+            {name: float(text) for name, text in row.items() if name not in ("name", "verdict") and text},
+        )
+        for row in rows
+    ]
+
+
+@pytest.fixture(scope="session")
+def jumping(flights: list[Flight]) -> list[Flight]:
+    """Those of the reference flights that jump."""
+    return [flight for flight in flights if flight.verdict == "jump"]
+
+
+@pytest.fixture(scope="session")
+def kenan() -> Robot:
+    """The capsule robot of the second prototype."""
+    return capsule_robot(load_design("kenan-2.0"))
+
+
+@pytest.fixture(scope="session")
+def lopsided(kenan: Robot) -> Robot:
+    """A robot whose bodies have no symmetry: centres of mass off every axis, tensors turned out of their frames."""
+    return make_lopsided(kenan)

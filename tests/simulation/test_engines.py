@@ -1,0 +1,150 @@
+"""Both engines hold the robot that they were given, and move it as mechanics says."""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.flights import Flight
+
+from jumpcad.capsule import capsule_robot
+from jumpcad.errors import JumpcadError
+from jumpcad.robot import BODY, BODY_NAMES, Robot
+from jumpcad.simulation import Settings, _engine, simulate
+from jumpcad.simulation.bullet import LINKS
+from jumpcad.simulation.engines import default_engine
+from jumpcad.simulation.mechanics import Mechanics
+from jumpcad.simulation.mujoco import model_spec
+
+ENGINES = ["pybullet", "mujoco"]
+FINE = Settings(dt_s=1 / 16000, solver_iterations=200)
+"""Both engines are of first order in the step: conservation holds to that order."""
+
+
+def test_pybullet_has_the_robots_inertia(lopsided: Robot) -> None:
+    """Masses, centres and tensors read back from PyBullet (createMultiBody alone takes them from the colliders)."""
+    bullet = pytest.importorskip("pybullet")
+    with _engine("pybullet").world(lopsided, Settings()) as world:
+        for link, name in enumerate((BODY, *LINKS), start=-1):
+            info = bullet.getDynamicsInfo(world.robot_id, link, physicsClientId=world._client)
+            axes = np.array(bullet.getMatrixFromQuaternion(info[4])).reshape(3, 3)
+            body = lopsided.bodies[name]
+            assert info[0] == pytest.approx(body.mass_kg, rel=1e-12)
+            np.testing.assert_allclose(info[3], body.com_m, rtol=1e-9)
+            np.testing.assert_allclose(axes @ np.diag(info[2]) @ axes.T, body.inertia_kg_m2, rtol=1e-9, atol=1e-15)
+
+
+def test_mujoco_has_the_robots_inertia(lopsided: Robot) -> None:
+    mujoco = pytest.importorskip("mujoco")
+    model = model_spec(mujoco, lopsided, Settings()).compile()
+    for name in BODY_NAMES:
+        compiled, body, axes = model.body(name), lopsided.bodies[name], np.zeros(9)
+        mujoco.mju_quat2Mat(axes, compiled.iquat)
+        tensor = axes.reshape(3, 3) @ np.diag(compiled.inertia) @ axes.reshape(3, 3).T
+        assert compiled.mass[0] == pytest.approx(body.mass_kg, rel=1e-12)
+        np.testing.assert_allclose(compiled.ipos, body.com_m, rtol=1e-12)
+        np.testing.assert_allclose(tensor, body.inertia_kg_m2, rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_flight_keeps_momentum_and_follows_the_parabola(kenan: Robot, engine: str) -> None:
+    """Once in the air, with springs, damping and loop at work inside: v_x is kept and v_z falls by g·t."""
+    pytest.importorskip(engine)
+    mechanics = Mechanics(kenan, 9.81)
+    with _engine(engine).world(kenan, FINE) as world:
+        world.advance(round(0.070 / FINE.dt_s))
+        before = world.state()
+        world.advance(round(0.020 / FINE.dt_s))
+        assert not world.loaded()
+        after = world.state()
+    change = mechanics.velocity_m_s(after) - mechanics.velocity_m_s(before)
+    np.testing.assert_allclose(change, [0.0, 0.0, -9.81 * 0.020], atol=2e-4)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_frictionless_ground_gives_no_forward_push(kenan: Robot, engine: str) -> None:
+    """Without horizontal forces the centre of mass goes straight up."""
+    pytest.importorskip(engine)
+    ice = FINE.model_copy(update={"ground_friction": 0.0})
+    with _engine(engine).world(kenan, ice) as world:
+        world.advance(round(0.050 / FINE.dt_s))
+        velocity = Mechanics(kenan, 9.81).velocity_m_s(world.state())
+    assert np.abs(velocity[:2]).max() < 3e-4 < 0.5 < velocity[2]
+
+
+def test_without_damping_the_springs_energy_is_all_there(kenan: Robot) -> None:
+    """No damping, no friction: nothing to lose, but for the engine's error at a fine step."""
+    jump = simulate(kenan, FINE.model_copy(update={"joint_damping_nms_per_rad": 0.0, "ground_friction": 0.0}))
+    assert jump.energy is not None
+    assert jump.energy.joint_damping_j == 0.0
+    assert abs(jump.energy.contact_j) < 0.002 * jump.spring_energy_j
+
+
+def test_energy_budget_adds_up_to_the_springs_energy(jumping: list[Flight]) -> None:
+    for flight in jumping:
+        jump = simulate(flight.robot)
+        assert jump.energy is not None
+        budget = vars(jump.energy)
+        assert sum(budget.values()) == pytest.approx(jump.spring_energy_j, rel=1e-9)
+        kept = sum(budget.values()) - jump.energy.joint_damping_j - jump.energy.contact_j
+        assert kept / jump.spring_energy_j == pytest.approx(jump.takeoff_energy_ratio, rel=1e-9)
+        speed = (2 * (jump.energy.forward_j + jump.energy.upward_j) / jump.mass_kg) ** 0.5
+        assert speed == pytest.approx(jump.takeoff_speed_m_s, rel=1e-4)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_dry_friction_in_the_joints_costs_energy(kenan: Robot, engine: str) -> None:
+    """Three joints with dry friction take its torque times the angles that they turn, about δ each."""
+    pytest.importorskip(engine)
+    torque = 0.005
+    undamped = Settings(joint_damping_nms_per_rad=0.0)
+    free = simulate(kenan, undamped, engine)
+    stiff = simulate(kenan, undamped.model_copy(update={"joint_friction_nm": torque}), engine)
+    assert free.takeoff_energy_ratio is not None
+    assert stiff.takeoff_energy_ratio is not None
+    lost = (free.takeoff_energy_ratio - stiff.takeoff_energy_ratio) * kenan.spring.energy_j
+    assert lost == pytest.approx(3 * torque * kenan.spring.wind_rad, rel=0.25)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_froude_similarity(kenan: Robot, engine: str) -> None:
+    """Four times as long, 4³ the mass, 4⁴ the stiffness, √4 the time: the same jump, four times as large."""
+    pytest.importorskip(engine)
+    scale = 4.0
+    large = capsule_robot(kenan.design.model_copy(update={"carrying_link_mm": scale * kenan.design.carrying_link_mm}))
+    bodies = {
+        name: replace(large.bodies[name], mass_kg=body.mass_kg * scale**3, inertia_kg_m2=body.inertia_kg_m2 * scale**5)
+        for name, body in kenan.bodies.items()
+    }
+    stiffness = kenan.spring.stiffness_nm_per_rad * scale**4
+    large = replace(large, bodies=bodies, spring=replace(large.spring, stiffness_nm_per_rad=stiffness))
+    small_jump, large_jump = (
+        simulate(robot, Settings(dt_s=dt, solver_iterations=200, joint_damping_nms_per_rad=0.0), engine)
+        for robot, dt in ((kenan, 1 / 8000), (large, 2 / 8000))
+    )
+    assert large_jump.fitness == pytest.approx(small_jump.fitness, rel=2e-3)
+
+
+@pytest.mark.parametrize("key", ["restitution", "drag_per_s"])
+def test_mujoco_refuses_what_it_does_not_have(kenan: Robot, key: str) -> None:
+    pytest.importorskip("mujoco")
+    with pytest.raises(JumpcadError, match=f"{key} = 0.5.*pybullet"):
+        simulate(kenan, Settings(**{key: 0.5}), "mujoco")
+
+
+def test_unknown_engine(kenan: Robot) -> None:
+    with pytest.raises(JumpcadError, match=r"'mujico' is not an engine.*did you mean mujoco"):
+        simulate(kenan, engine="mujico")
+
+
+def test_a_missing_engine_is_said_with_the_way_out(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    _engine.cache_clear()
+    monkeypatch.setitem(sys.modules, "pybullet", None)
+    with pytest.raises(JumpcadError, match=r"pip install \"pybullet==3\.2\.7\".*--engine mujoco works"):
+        simulate(kenan)
+    assert default_engine() == "mujoco"
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    with pytest.raises(JumpcadError, match="pip install"):
+        simulate(kenan, engine="mujoco")
+    with pytest.raises(JumpcadError, match="no physics engine is installed"):
+        default_engine()

@@ -1,0 +1,125 @@
+"""Poses, energies and ballistics against independent facts."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+from support.flights import Flight
+
+from jumpcad.robot import BODY, BODY_NAMES, FOOT, Array, Robot
+from jumpcad.simulation import _engine
+from jumpcad.simulation.bullet import principal_axes
+from jumpcad.simulation.mechanics import Mechanics, State, ballistics, release_pose
+from jumpcad.simulation.settings import Settings
+
+
+def frames(robot: Robot) -> dict[str, Array]:
+    """Chain the joints' transforms from the body's frame at release; each (4, 4)."""
+    release = release_pose(robot)
+
+    def placed(angle: float, position: Array) -> Array:
+        transform = np.eye(4)
+        transform[:3, :3] = Rotation.from_euler("y", angle).as_matrix()
+        transform[:3, 3] = position
+        return transform
+
+    poses = {BODY: placed(release.body_pitch_rad, release.body_position_m)}
+    for joint in robot.joints:
+        turn = joint.rest_angle_rad + release.joint_rad[joint.name]
+        poses[joint.child] = poses[joint.parent] @ placed(turn, joint.origin_m)
+    return poses
+
+
+def test_release_closes_the_loop_with_a_flat_foot_on_the_ground(jumping: list[Flight]) -> None:
+    for flight in jumping:
+        robot = flight.robot
+        poses, loop = frames(robot), robot.loop
+        a = poses[loop.body_a] @ np.append(loop.point_a_m, 1)
+        b = poses[loop.body_b] @ np.append(loop.point_b_m, 1)
+        np.testing.assert_allclose(a, b, atol=1e-12)
+        np.testing.assert_allclose(poses[FOOT][:3, :3], np.eye(3), atol=1e-12)
+        np.testing.assert_allclose(poses[FOOT][:3, 3], [0, 0, robot.foot_depth_m], atol=1e-12)
+
+
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
+def test_engine_puts_every_body_where_the_joints_say(lopsided: Robot, engine: str) -> None:
+    pytest.importorskip(engine)
+    poses = frames(lopsided)
+    with _engine(engine).world(lopsided, Settings()) as world:
+        state = world.state()
+    mechanics = Mechanics(lopsided, 9.81)
+    for name, origin, rotation in zip(BODY_NAMES, mechanics.frame_positions_m(state), state.rotation, strict=True):
+        np.testing.assert_allclose(rotation, poses[name][:3, :3], atol=1e-9)
+        np.testing.assert_allclose(origin, poses[name][:3, 3], atol=1e-9)
+    assert mechanics.loop_gap_m(state) < 1e-9
+
+
+def test_energy_of_a_known_motion(lopsided: Robot) -> None:
+    """A robot that moves and turns as one rigid body has the energy of its total mass and total inertia."""
+    rng = np.random.default_rng(4)
+    rotation = Rotation.random(4, rng=rng).as_matrix()
+    com = rng.normal(size=(4, 3))
+    spin, drift = np.array([1.0, -2.0, 3.0]), np.array([0.4, 0.5, -0.6])
+    state = State(com, rotation, drift + np.cross(spin, com), np.tile(spin, (4, 1)), -0.2)
+    total = 0.0
+    for name, turn, place in zip(BODY_NAMES, rotation, com, strict=True):
+        body = lopsided.bodies[name]
+        moments, axes = np.linalg.eigh(body.inertia_kg_m2)
+        about_axes = (turn @ axes).T @ spin
+        total += 0.5 * float(moments @ about_axes**2)
+        total += 0.5 * body.mass_kg * float(np.sum((drift + np.cross(spin, place)) ** 2))
+    energies = Mechanics(lopsided, 9.81).energies(state)
+    assert energies.kinetic_j == pytest.approx(total, rel=1e-12)
+    height = sum(lopsided.bodies[name].mass_kg * place[2] for name, place in zip(BODY_NAMES, com, strict=True))
+    assert energies.potential_j == pytest.approx(9.81 * height, rel=1e-12)
+    assert energies.spring_j == pytest.approx(0.5 * lopsided.spring.stiffness_nm_per_rad * 0.04, rel=1e-12)
+
+
+def test_ballistics_against_integration() -> None:
+    """The flight integrated numerically until it falls through its height at release."""
+    start, takeoff, velocity, gravity = (
+        np.array([0.1, 0, 0.05]),
+        np.array([0.13, 0, 0.08]),
+        np.array([1.4, 0, 2.1]),
+        9.81,
+    )
+
+    def landed(_: float, y: Array) -> float:
+        return float(y[1] - start[2])
+
+    landed.terminal, landed.direction = True, -1  # type: ignore[attr-defined]
+    path = solve_ivp(
+        lambda _, y: [y[2], y[3], 0.0, -gravity], (0, 5), [takeoff[0], takeoff[2], velocity[0], velocity[2]],
+        events=landed, rtol=1e-10, atol=1e-12, max_step=0.01, dense_output=True,
+    )  # fmt: skip
+    flight = ballistics(start, takeoff, velocity, gravity)
+    assert flight.range_m == pytest.approx(path.y_events[0][0][0] - start[0], rel=1e-8)
+    heights = path.sol(np.linspace(0, path.t[-1], 100_001))[1]
+    assert flight.rise_m == pytest.approx(heights.max() - start[2], rel=1e-8)
+    assert flight.angle_deg == pytest.approx(math.degrees(math.atan(1.5)))
+
+
+def test_ballistics_from_level_ground_is_the_textbook_range() -> None:
+    """v²·sin(2θ)/g."""
+    speed, angle = 3.0, math.radians(40)
+    velocity = speed * np.array([math.cos(angle), 0.0, math.sin(angle)])
+    flight = ballistics(np.zeros(3), np.zeros(3), velocity, 9.81)
+    assert flight.range_m == pytest.approx(speed**2 * math.sin(2 * angle) / 9.81)
+
+
+def test_principal_axes_are_proper_and_give_the_tensor_back(lopsided: Robot) -> None:
+    tensors = np.stack([body.inertia_kg_m2 for body in lopsided.bodies.values()])
+    moments, axes = principal_axes(tensors)
+    np.testing.assert_allclose(np.linalg.det(axes), 1.0)
+    again = np.einsum("nij,nj,nkj->nik", axes, moments, axes)
+    np.testing.assert_allclose(again, tensors, rtol=1e-9, atol=1e-18)
+
+
+def test_loop_gap_is_the_distance_of_its_ends(kenan: Robot) -> None:
+    with _engine("pybullet").world(kenan, Settings()) as world:
+        state = world.state()
+    moved = replace(state, com_m=state.com_m + np.outer([name == FOOT for name in BODY_NAMES], [3e-3, 0, 4e-3]))
+    assert Mechanics(kenan, 9.81).loop_gap_m(moved) == pytest.approx(5e-3, rel=1e-6)

@@ -1,0 +1,57 @@
+"""Faults that a written mesh can have, each made on purpose."""
+
+import numpy as np
+import pytest
+import trimesh
+from manifold3d import Manifold, OpType
+
+from jumpcad.errors import CannotBuildError
+from jumpcad.solids.finish import faults, finished, require_part, to_trimesh
+from jumpcad.solids.outline import disc, hole, rectangle
+
+
+def stl(mesh):
+    return trimesh.exchange.stl.export_stl(mesh)
+
+
+def test_a_box_is_a_part():
+    assert faults(stl(trimesh.creation.box((1, 2, 3)))) == []
+
+
+def test_a_missing_triangle_is_found():
+    mesh = trimesh.creation.box((1, 2, 3))
+    mesh.faces = mesh.faces[1:]
+    assert faults(stl(mesh)) == ["its surface has open or crowded edges"]
+
+
+def test_a_part_inside_out_is_found():
+    mesh = trimesh.creation.box((1, 1, 1))
+    mesh.faces = mesh.faces[:, ::-1]
+    assert faults(stl(mesh)) == ["its volume is -1 mm³"]
+
+
+def test_two_pieces_are_found_even_when_they_overlap():
+    two = trimesh.util.concatenate([trimesh.creation.box((2, 2, 2)), trimesh.creation.icosphere(radius=0.5)])
+    assert faults(stl(two)) == ["it is 2 pieces"]
+    with pytest.raises(CannotBuildError, match="part toe cannot be printed: it is 2 pieces"):
+        require_part("toe", stl(two))
+
+
+def test_boxes_that_touch_along_an_edge_are_found():
+    boxes = [Manifold.cube((1, 1, 1)), Manifold.cube((1, 1, 1)).translate((1, 1, 0))]
+    assert faults(stl(to_trimesh(Manifold.batch_boolean(boxes, OpType.Add)))) != []
+
+
+def test_stacks_in_two_directions_finish_as_one_part():
+    side = rectangle((60.0, 8.0), (25.0, 4.0)) - hole(3.2, (40.0, 4.0))
+    rails = [side.extrude(3.0).rotate((90.0, 0.0, 0.0)).translate((0.0, y, 0.0)) for y in (8.0, -5.0)]
+    toe = Manifold.batch_hull([disc(8.0).extrude(8.0), disc(5.0, (-50.0, 30.0)).extrude(4.0)])
+    web = rectangle((10.0, 14.0)).extrude(4.0)
+    solid = finished(Manifold.batch_boolean([*rails, toe, web], OpType.Add))
+    assert faults(stl(to_trimesh(solid))) == []
+
+
+def test_meshes_keep_full_precision():
+    solid = Manifold.cube((1.0 / 3.0, 1.0, 1.0))
+    assert to_trimesh(solid).vertices[:, 0].max() == 1.0 / 3.0
+    assert to_trimesh(solid).vertices.dtype == np.float64

@@ -1,0 +1,79 @@
+"""Flat outlines against plane geometry."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.errors import JumpcadError
+from jumpcad.solids import outline
+
+
+def reach(region, centre=(0.0, 0.0)):
+    """Return the distances of a single outline's corners and of its sides' middles from a centre."""
+    (points,) = region.to_polygons()
+    middles = (points + np.roll(points, -1, axis=0)) / 2.0
+    return tuple(np.hypot(*(p - np.array(centre)).T) for p in (points, middles))
+
+
+@pytest.mark.parametrize("diameter", [0.5, 3.0, 22.0, 180.0])
+def test_discs_are_never_wider_and_holes_never_narrower_than_nominal(diameter):
+    corners, _ = reach(outline.disc(diameter, (3.0, -2.0)), (3.0, -2.0))
+    assert corners.max() == pytest.approx(diameter / 2.0, abs=1e-6)
+    corners, middles = reach(outline.hole(diameter, (3.0, -2.0)), (3.0, -2.0))
+    assert middles.min() == pytest.approx(diameter / 2.0, abs=1e-6)
+    assert corners.max() - diameter / 2.0 <= 1.01 * outline.SAGITTA_MM
+    assert len(corners) >= 64
+
+
+def test_a_stadium_has_the_area_of_a_rectangle_and_a_circle():
+    region = outline.stadium((1.0, 1.0), (31.0, 41.0), 8.0)
+    assert region.area() == pytest.approx(50.0 * 8.0 + math.pi * 16.0, rel=2e-3)
+
+
+def test_a_tapered_bar_touches_both_discs_with_tangents():
+    # belt around two pulleys: area = sum of sectors and of the two trapezia between the tangent points
+    big, small, length = 6.0, 3.0, 40.0
+    lean = math.asin((big - small) / length)
+    area = (math.pi / 2 + lean) * big**2 + (math.pi / 2 - lean) * small**2 + length * math.cos(lean) * (big + small)
+    region = outline.tapered_bar((0.0, 0.0), (length, 0.0), 2 * big, 2 * small)
+    assert region.area() == pytest.approx(area, rel=2e-3)
+
+
+def test_a_d_bore_is_flat_on_one_side():
+    region = outline.d_bore(3.0, 2.5, (10.0, 0.0))
+    x0, y0, x1, y1 = region.bounds()
+    assert (x1 - 10.0) == pytest.approx(1.0, abs=1e-6)
+    assert (10.0 - x0, y1, -y0) == pytest.approx((1.5, 1.5, 1.5), abs=2e-3)
+    angle = 2.0 * math.acos(1.0 / 1.5)
+    assert region.area() == pytest.approx(math.pi * 1.5**2 - 1.5**2 / 2 * (angle - math.sin(angle)), rel=2e-3)
+
+
+def test_rounded_corners_cost_a_square_less_a_circle():
+    sharp, soft = outline.rectangle((20.0, 10.0)), outline.rectangle((20.0, 10.0), (5.0, 5.0), 2.0)
+    assert sharp.area() == pytest.approx(200.0)
+    assert soft.area() == pytest.approx(200.0 - (4.0 - math.pi) * 4.0, rel=1e-3)
+    assert outline.rounded(sharp, 2.0).area() == pytest.approx(soft.area(), abs=0.05)
+    assert soft.bounds() == pytest.approx((-5.0, 0.0, 15.0, 10.0), abs=1e-6)
+
+
+def test_a_fillet_fills_an_inner_corner():
+    corner = outline.rectangle((20.0, 20.0)) - outline.rectangle((20.0, 20.0), (10.0, 10.0))
+    assert outline.filleted(corner, 3.0).area() - corner.area() == pytest.approx((1 - math.pi / 4) * 9.0, rel=0.02)
+
+
+def test_contours_inside_others_are_holes_whatever_their_direction():
+    square = np.array([[0, 0], [10, 0], [10, 10], [0, 10]])
+    assert outline.polygon(square, 2 + square[::-1] / 5.0).area() == pytest.approx(96.0)
+    assert outline.polygon(square[::-1], 2 + square / 5.0).area() == pytest.approx(96.0)
+
+
+def test_a_ring_has_both_diameters():
+    assert outline.ring(10.0, 6.0).area() == pytest.approx(math.pi * 16.0, rel=5e-3)
+
+
+def test_impossible_sizes_are_refused():
+    with pytest.raises(JumpcadError, match="diameter of 0 mm must be more than 0"):
+        outline.disc(0.0)
+    with pytest.raises(JumpcadError, match=r"D-bore of 3 mm cannot be 3\.2 mm"):
+        outline.d_bore(3.0, 3.2)

@@ -1,0 +1,59 @@
+"""Bundles for independent programs, and what those must read in them."""
+
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from jumpcad.exporters.manifest import Bundle
+from jumpcad.exporters.poses import body_poses
+from jumpcad.exporters.shapes import shapes
+from jumpcad.robot import Robot
+
+
+@dataclass(frozen=True)
+class Case:
+    """A robot and its bundle; `com_m` (3,) and `extents_m` (2, 3) are those of the robot standing at rest."""
+
+    robot: Robot
+    bundle: Bundle
+
+    @property
+    def com_m(self) -> np.ndarray:
+        poses = body_poses(self.robot)
+        moment = sum(body.mass_kg * (poses[name] @ [*body.com_m, 1.0])[:3] for name, body in self.robot.bodies.items())
+        return moment / self.robot.mass_kg
+
+    @property
+    def extents_m(self) -> np.ndarray:
+        poses, points = body_poses(self.robot), []
+        for shape in shapes(self.robot):
+            pose = poses[shape.body] @ shape.T_body_mesh
+            points.append(shape.mesh.vertices / 1000.0 @ pose[:3, :3].T + pose[:3, 3])
+        everything = np.concatenate(points)
+        return np.stack([everything.min(axis=0), everything.max(axis=0)])
+
+    @property
+    def sdf(self) -> Path:
+        return self.bundle.folder / "sdf" / f"{self.robot.name}.sdf"
+
+    @property
+    def mjcf(self) -> Path:
+        return self.bundle.folder / "mjcf" / f"{self.robot.name}.xml"
+
+
+def run(*command: str | Path) -> str:
+    """Return what a program prints; skip if it is not installed, fail if it fails."""
+    if shutil.which(str(command[0])) is None:
+        pytest.skip(f"{command[0]} is not installed")
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+def same_tensor(read: np.ndarray, written: np.ndarray, rel: float = 1e-9) -> bool:
+    """Compare two inertia tensors (3, 3), relative to their largest moment."""
+    return bool(np.abs(read - written).max() <= rel * np.abs(written).max())

@@ -1,0 +1,47 @@
+"""Robots that PyBullet itself loads from URDF files, stepped by the evaluator."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from jumpcad.simulation.bullet import BODY_ORDER, BulletEngine, BulletWorld
+from jumpcad.simulation.from_urdf import robot_from_urdf
+from jumpcad.simulation.run import Run
+from jumpcad.simulation.settings import Settings
+
+
+class LoadedWorld(BulletWorld):
+    """The evaluator's world with a robot that PyBullet made from a URDF file; inertial frames are PyBullet's own."""
+
+    urdf: Path
+
+    def _create(self, robot, bodies, release):  # type: ignore[no-untyped-def]
+        bullet, client = self._bullet, self._client
+        bullet.setPhysicsEngineParameter(enableFileCaching=0, physicsClientId=client)
+        half = release.body_pitch_rad / 2
+        body = bullet.loadURDF(
+            str(self.urdf),
+            release.body_position_m.tolist(),
+            [0.0, math.sin(half), 0.0, math.cos(half)],
+            flags=bullet.URDF_USE_INERTIA_FROM_FILE,
+            physicsClientId=client,
+        )
+        info = [bullet.getDynamicsInfo(body, link, physicsClientId=client) for link in range(-1, 3)]
+        self._moments = np.array([link[2] for link in info])
+        self._axes = Rotation.from_quat([link[4] for link in info]).as_matrix()
+        self._body_in_principal = self._axes[BODY_ORDER].transpose(0, 2, 1)
+        return body
+
+
+def loaded_range_m(urdf: Path) -> float:
+    """Return the ballistic range of a robot that PyBullet loads; the robot itself serves masses for the measuring."""
+    engine, settings, robot = BulletEngine(), Settings(), robot_from_urdf(urdf)
+    world_class = type("World", (LoadedWorld,), {"urdf": urdf})
+    with engine._lock:
+        engine._prepare(settings)
+        run = Run(world_class(engine._bullet, engine._client, engine._ground, robot, settings), robot, settings)
+        run.go()
+    assert run.takeoff is not None
+    return run.takeoff.flight.range_m

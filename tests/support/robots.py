@@ -1,0 +1,80 @@
+"""Robots for the tests of several rooms."""
+
+from collections import defaultdict
+from dataclasses import replace
+
+from jumpcad.capsule import capsule_robot
+from jumpcad.design import load_design
+from jumpcad.mass import combined
+from jumpcad.parts.bought import bought, in_metres
+from jumpcad.parts.part import Drawing, Part, Placement, laid, lying_on_left, lying_on_right
+from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Robot
+from jumpcad.solids.outline import disc, hole, rectangle, stadium, union
+from jumpcad.solids.stack import Stack
+
+DENSITY_G_CM3 = 1.24
+
+
+def make_small_robot(name: str = "kenan-2.0") -> Robot:
+    """Return a robot of a few printed and bought parts, lopsided on purpose; its bodies follow from its parts."""
+    design = load_design(name)
+    capsules = capsule_robot(design)
+    l1, l2, l3, l4 = design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm
+
+    def bar(length: float) -> tuple[float, float, object]:
+        return (-3.0, 3.0, stadium((0.0, 0.0), (length, 0.0), 9.0) - union([hole(3.2), hole(3.2, (length, 0.0))]))
+
+    plate = rectangle((l1 + 14.0, 26.0), (0.0, 8.0), 3.0) - union([hole(3.2, (x, 0.0)) for x in (-l1 / 2, l1 / 2)])
+    drawings = []
+    for title, role, body, slabs, face in (
+        ("body_plate_left", "body", BODY, [(18.0, 21.0, plate)], "left"),
+        (
+            "body_plate_right",
+            "body",
+            BODY,
+            [(-21.0, -18.0, plate), (-18.4, -9.0, rectangle((14, 16), (5, 12)))],
+            "right",
+        ),
+        ("main_leg", "links", MAIN_LEG, [bar(l2), (2.9, 6.0, disc(8.0))], "left"),
+        ("front_link", "links", FRONT_LINK, [bar(l3)], "left"),
+        (
+            "foot",
+            "links",
+            FOOT,
+            [bar(l4), (-8.0, -3.1, disc(12.0, (-9.0, 2.0))), (-3.2, 3.2, disc(12.0, (-9.0, 2.0)))],
+            "left",
+        ),
+    ):
+        stack, pose = laid(slabs, face)
+        drawings.append(Drawing(title, role, stack, (Placement(body, pose),)))
+    collar = Stack.of([(0.0, 3.0, disc(7.2) - hole(3.1))])
+    places = tuple(
+        Placement(BODY, pose) for x in (-l1 / 2, l1 / 2) for pose in (lying_on_right(21.5, x), lying_on_left(-21.5, x))
+    )
+    drawings.append(Drawing("collar", "gears", collar, places))
+    parts = tuple(
+        Part(drawing, {"links": "PETG", "body": "PLA", "gears": "PETG"}[drawing.role],
+             drawing.shape.mass_properties(DENSITY_G_CM3), "solid")
+        for drawing in drawings
+    )  # fmt: skip
+    hardware = (
+        *(
+            bought(f"{end}_axle", "steel rod 3 x 49.0 mm", BODY, 2.7, [(-24.5, 24.5, disc(3.0, (x, 0.0)))])
+            for end, x in (("leg", -l1 / 2), ("front", l1 / 2))
+        ),
+        bought("battery", "battery 2S 150 mAh", BODY, 14.0, [(-8.0, 10.0, rectangle((38, 12), (3, 24)))]),
+        bought("ankle_pin", "steel rod 3 x 14.0 mm", FOOT, 0.8, [(-7.0, 7.0, disc(3.0))]),
+        bought("roller", "bearing 623", MAIN_LEG, 1.6, [(6.0, 10.0, disc(10.0, (12.0, 1.0)) - hole(3.0, (12.0, 1.0)))]),
+    )
+    pieces = defaultdict(list)
+    for part in parts:
+        for place in part.placements:
+            pieces[place.body].append(part.mass.placed(in_metres(place.T_body_part)))
+    for item in hardware:
+        pieces[item.body].append(item.mass)
+    bodies = {}
+    for title, items in pieces.items():
+        whole = combined(items)
+        contacts = capsules.bodies[title].contacts
+        bodies[title] = Body(title, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
+    return replace(capsules, name=name, bodies=bodies, parts=parts, hardware=hardware)

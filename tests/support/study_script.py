@@ -1,0 +1,14 @@
+"""Run a study of a slow hill: the process that tests kill. Arguments: file, method, evaluations, workers, pause (s)."""
+
+import sys
+from pathlib import Path
+
+from jumpcad.search.pool import local_pool
+from jumpcad.search.study import Request, run_study
+from support.hills import SMALL, Hill
+
+if __name__ == "__main__":
+    file, method, evaluations, workers, pause = sys.argv[1:]
+    request = Request(SMALL, Hill(pause_s=float(pause)), method=method, evaluations=int(evaluations), seed=4)
+    with local_pool(int(workers)) as pool:
+        run_study(request, Path(file), pool)

@@ -1,0 +1,155 @@
+"""TOML files that users edit: what is wrong is named by file, line, key, value and limit."""
+
+import os
+import tomllib
+from pathlib import Path
+from typing import Annotated
+
+import pytest
+from pydantic import Field
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import (
+    Record,
+    Section,
+    did_you_mean,
+    find_template,
+    read_toml,
+    template_names,
+    templates_folder,
+    to_toml,
+    write_text_atomically,
+)
+
+
+class Bed(Section):
+    """A nested section."""
+
+    width_mm: Annotated[float, Field(gt=0, le=400)]
+
+
+class Printer(Record):
+    """A small file."""
+
+    name: str
+    nozzle_mm: Annotated[float, Field(ge=0.1, lt=2)] = 0.4
+    bed: Bed
+
+
+def complaint(tmp_path: Path, text: str) -> str:
+    """The error of a file without the folder."""
+    file = tmp_path / "p.toml"
+    file.write_text(text)
+    with pytest.raises(JumpcadError) as caught:
+        Printer.from_toml(file)
+    assert "\n" not in str(caught.value)
+    return str(caught.value).replace(f"{tmp_path}{os.sep}", "")
+
+
+def test_good_file(tmp_path: Path) -> None:
+    file = tmp_path / "p.toml"
+    file.write_text('name = "MK4"\n[bed]\nwidth_mm = 250\n')
+    assert Printer.from_toml(file) == Printer(name="MK4", bed=Bed(width_mm=250.0))
+
+
+def test_value_out_of_range_is_named_with_its_line(tmp_path: Path) -> None:
+    text = 'name = "MK4"\n# a comment\nnozzle_mm = 3.5\n[bed]\nwidth_mm = 250\n'
+    assert complaint(tmp_path, text) == "p.toml:3: nozzle_mm = 3.5: must be less than 2"
+
+
+def test_nested_value_is_named_with_its_section_and_line(tmp_path: Path) -> None:
+    text = 'name = "MK4"\n\n[bed]\nwidth_mm = 9000\n'
+    assert complaint(tmp_path, text) == "p.toml:4: bed.width_mm = 9000: must be at most 400"
+
+
+def test_misspelt_key_is_recognised(tmp_path: Path) -> None:
+    text = 'name = "MK4"\nnozle_mm = 0.4\n[bed]\nwidth_mm = 250\nwidht_mm = 2\n'
+    assert complaint(tmp_path, text) == (
+        "p.toml:5: bed.widht_mm: unknown key (did you mean width_mm?); "
+        "p.toml:2: nozle_mm: unknown key (did you mean nozzle_mm?)"
+    )
+
+
+def test_all_bad_keys_at_once(tmp_path: Path) -> None:
+    text = "name = 3\nnozzle_mm = nan\n"
+    assert complaint(tmp_path, text) == (
+        "p.toml:1: name = 3: must be a valid string; p.toml:2: nozzle_mm = nan: must be a finite number; "
+        "p.toml: bed: missing"
+    )
+
+
+def test_long_values_are_shortened(tmp_path: Path) -> None:
+    assert len(complaint(tmp_path, f'name = "MK4"\nnozzle_mm = "{"x" * 5000}"\n')) < 200
+
+
+def test_broken_toml_is_named_with_its_place(tmp_path: Path) -> None:
+    assert complaint(tmp_path, 'name = "MK4"\nnozzle_mm = \n').startswith(
+        "p.toml: not valid TOML: Invalid value (at line 2"
+    )
+
+
+def test_file_that_is_not_text(tmp_path: Path) -> None:
+    file = tmp_path / "p.toml"
+    file.write_bytes(b"name = '\xff\xfe'")
+    with pytest.raises(JumpcadError, match="not a text file in UTF-8"):
+        read_toml(file)
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("none.toml", "no such file"),
+        (".", "is a folder"),
+        ("file.toml/inside.toml", "Not a directory"),
+        ("x" * 300 + ".toml", "too long"),
+    ],
+    ids=["missing", "folder", "file as folder", "too long a name"],
+)
+def test_files_that_cannot_be_read(tmp_path: Path, name: str, reason: str) -> None:
+    (tmp_path / "file.toml").write_text("")
+    with pytest.raises(JumpcadError, match=reason):
+        read_toml(tmp_path / name)
+
+
+def test_python_callers_get_the_same_words_without_a_file() -> None:
+    with pytest.raises(JumpcadError, match=r"^nozzle_mm = 0\.01: must be at least 0\.1$"):
+        Printer(name="x", nozzle_mm=0.01, bed=Bed(width_mm=1.0))
+
+
+def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path) -> None:
+    assert {"best-bo", "best-ga", "kenan-1.0", "kenan-2.0"} <= set(template_names("robots"))
+    assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
+    assert find_template("robots", tmp_path / "mine.toml") == tmp_path / "mine.toml"
+    for wrong in ("kenan-3.0", "x" * 300):
+        with pytest.raises(JumpcadError, match="neither a TOML file nor one of the robots best-bo"):
+            find_template("robots", wrong)
+
+
+def test_hint_only_where_something_is_near() -> None:
+    assert did_you_mean("kenan2", ["kenan-2.0", "best-bo"]) == " (did you mean kenan-2.0?)"
+    assert did_you_mean("zzz", ["kenan-2.0", "best-bo"]) == ""
+
+
+def test_toml_reads_back() -> None:
+    data = {"a": 0.1 + 0.2, "b": {"c": [1, 2], "d": 'quote " and\nline'}}
+    assert tomllib.loads(to_toml(data)) == data
+
+
+def test_failed_write_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "p.toml"
+    write_text_atomically(file, "old\n")
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(JumpcadError, match="cannot be written: No space left"):
+        write_text_atomically(file, "new\n")
+    assert file.read_text() == "old\n"
+    assert os.listdir(tmp_path) == ["p.toml"]
+
+
+def test_written_file_can_be_read_by_others(tmp_path: Path) -> None:
+    write_text_atomically(tmp_path / "p.toml", "é\n")
+    assert (tmp_path / "p.toml").stat().st_mode & 0o777 == 0o644
+    assert (tmp_path / "p.toml").read_bytes() == "é\n".encode()

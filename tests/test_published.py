@@ -1,0 +1,79 @@
+"""The published simulation: parity with the study's own results."""
+
+import csv
+import sys
+from pathlib import Path
+
+import pytest
+
+from jumpcad import published
+from jumpcad.design import PARAMETERS, Design, load_design
+from jumpcad.errors import CannotBuildError, JumpcadError
+
+with (Path(__file__).parent / "data/reference_jumps.csv").open(encoding="utf-8") as stream:
+    ROWS = {row["name"]: row for row in csv.DictReader(stream)}
+CHAOTIC = ("artefact-a", "artefact-b")
+
+
+def design_of(name: str) -> Design:
+    return Design.from_vector([float(ROWS[name][parameter]) for parameter in PARAMETERS])
+
+
+@pytest.mark.parametrize("name", [name for name in ROWS if name not in CHAOTIC])
+def test_reference_jumps_are_met_to_the_last_printed_digit(name: str) -> None:
+    jump, row = published.simulate(design_of(name)), ROWS[name]
+    assert jump.distance_m == pytest.approx(float(row["distance_m"]), abs=1e-6)
+    assert jump.base_height_m == pytest.approx(float(row["base_height_m"]), abs=1e-6)
+    assert jump.energy_j == pytest.approx(float(row["energy_j"]), abs=1e-6)
+
+
+@pytest.mark.parametrize("name", CHAOTIC)
+def test_artefacts_are_chaotic(name: str) -> None:
+    design = design_of(name)
+    nearby = design.model_copy(update={"carrying_link_mm": design.carrying_link_mm * (1 + 1e-9)})
+    moved = published.simulate(nearby).distance_m - published.simulate(design).distance_m
+    assert abs(moved) > 0.01
+
+
+def test_the_same_bits_whatever_ran_before() -> None:
+    pybullet = pytest.importorskip("pybullet")
+    design = load_design("kenan-2.0")
+    first = published.simulate(design)
+    client = pybullet.connect(pybullet.DIRECT)
+    try:  # a value that Bullet keeps for the whole process
+        pybullet.setPhysicsEngineParameter(contactBreakingThreshold=0.001, physicsClientId=client)
+        published.simulate(load_design("best-ga"))
+        again = published.simulate(design)
+    finally:
+        pybullet.disconnect(client)
+    assert again == first
+
+
+def test_its_client_is_closed_even_after_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    pybullet = pytest.importorskip("pybullet")
+
+    def broken(**_: int) -> None:
+        raise RuntimeError("out of order")
+
+    def connected() -> list[int]:
+        return [client for client in range(1024) if pybullet.isConnected(client)]
+
+    before = connected()
+    published.simulate(load_design("kenan-2.0"))
+    monkeypatch.setattr(pybullet, "stepSimulation", broken)
+    with pytest.raises(RuntimeError, match="out of order"):
+        published.simulate(load_design("kenan-2.0"))
+    assert connected() == before
+
+
+def test_impossible_design_is_refused_before_the_engine() -> None:
+    design = load_design("kenan-2.0").model_copy(update={"c_coef": 3.0})
+    with pytest.raises(CannotBuildError, match="no assembled pose"):
+        published.simulate(design)
+
+
+def test_missing_pybullet_is_one_line_that_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pybullet", None)
+    with pytest.raises(JumpcadError, match=r'pip install "pybullet==3\.2\.7".*no other engine') as caught:
+        published.simulate(load_design("kenan-2.0"))
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,126 @@
+"""Workshops: what a file may leave out, what it may not say, and how it is told."""
+
+from dataclasses import FrozenInstanceError
+
+import pytest
+from pydantic import ValidationError
+
+import jumpcad
+from jumpcad.errors import JumpcadError
+from jumpcad.files import template_names
+from jumpcad.workshop import Workshop, load_workshop
+
+
+@pytest.fixture
+def written(tmp_path):
+    def write(text, name="my.toml"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize("name", template_names("workshops"))
+def test_a_written_workshop_reads_back_the_same(name, written):
+    workshop = load_workshop(name)
+    path = written(workshop.to_toml())
+    assert load_workshop(path) == workshop
+    assert load_workshop(path).to_toml() == workshop.to_toml()
+
+
+@pytest.mark.parametrize("name", template_names("printers"))
+def test_every_shipped_printer_can_be_chosen(name, written):
+    fine = 'base = "fine"\n' if name.endswith("0.25") else ""
+    assert load_workshop(written(f'{fine}printer = "{name}"')).printer.bed_mm[0] >= 180.0
+
+
+def test_published_sizes_of_beds_and_densities():
+    assert load_workshop("default").printer.bed_mm == (250.0, 210.0, 220.0)
+    assert load_workshop("default").material("links").density_g_cm3 == 1.27
+    assert load_workshop("default").material("body").density_g_cm3 == 1.24
+    assert load_workshop("fine").printer.bed_mm == (180.0, 180.0, 180.0)
+
+
+def test_a_file_overrides_any_subset(written):
+    base = load_workshop("default")
+    workshop = load_workshop(written("[fits]\nloose_mm = 0.35\n[materials.PETG]\ndensity_g_cm3 = 1.23\n"))
+    assert workshop.fits == base.fits.model_copy(update={"loose_mm": 0.35})
+    assert workshop.material("links") == base.material("links").model_copy(update={"density_g_cm3": 1.23})
+    assert workshop.process == base.process
+
+
+def test_files_build_on_each_other_by_relative_path(written):
+    written("[fits]\nloose_mm = 0.4\n", "below.toml")
+    assert load_workshop(written('base = "below.toml"\n[fits]\nsliding_mm = 0.25\n')).fits.loose_mm == 0.4
+
+
+def test_a_printer_may_be_changed_in_part(written):
+    printer = load_workshop(written("[printer]\nbed_mm = [100, 100, 100]\n")).printer
+    assert (printer.bed_mm, printer.nozzle_mm) == ((100.0, 100.0, 100.0), 0.4)
+
+
+def test_materials_of_ones_own_and_weighed_parts(written):
+    text = """
+    [roles]
+    links = "ABS"
+    [materials.ABS]
+    density_g_cm3 = 1.04
+    strength_in_plane_mpa = 35.0
+    strength_interlayer_mpa = 15.0
+    modulus_mpa = 1900.0
+    [mass.weighed_g]
+    foot = 11.2
+    """
+    workshop = load_workshop(written(text))
+    assert sorted(workshop.materials) == ["ABS", "PETG", "PLA"]
+    assert (workshop.material_name("links"), workshop.mass.weighed_g) == ("ABS", {"foot": 11.2})
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[printer]\nnozzle_mm = 0", r"my.toml:2: printer.nozzle_mm = 0: must be at least 0.1"),
+        (
+            "[process]\nlayer_height_mm = 0.35",
+            r"my.toml:2: process.layer_height_mm = 0.35: must be at most 0.32",
+        ),
+        ("[process]\nline_width_mm = 0.2", r"nozzle of 0.4 mm lays lines of 0.32…0.8 mm"),
+        ("[process]\ninfill = nan", r"process.infill = nan: must be a finite number"),
+        ("[fits]\nwall_mm = 0.85", r"fits.wall_mm = 0.85: must be at least 0.9, two lines"),
+        ("[fits]\npress_mm = -0.6", r"fits.press_mm = -0.6: must be at least -0.5"),
+        ("[fits]\nsliding_mm = 0.05", r"fits.sliding_mm = 0.05: must be at least fits.press_mm = 0.1"),
+        ("[fits]\nm3_tap_mm = 3.5", r"fits.m3_clearance_mm = 3.4: must be at least fits.m3_tap_mm = 3.5"),
+        ("[fits]\nfirst_layer_chamfer_mm = 0.7", r"leaves nothing of a wall of 1.2: must be less than 0.6"),
+        ("[fits]\nlose_mm = 0.4", r"fits.lose_mm: unknown key \(did you mean loose_mm\?\)"),
+        ('[roles]\nlinks = "PA12"', r"materials.PA12.strength_in_plane_mpa: missing"),
+        (
+            '[roles]\nlinks = "pettg"',
+            r"'pettg' is neither a table under \[materials\] nor one of .*did you mean petg\?",
+        ),
+        ("[materials.PTEG]\nmodulus_mpa = 1.0", r"materials.PTEG: no role uses it.*did you mean PETG\?"),
+        ('printer = "mk5"', r"'mk5' is neither a TOML file nor one of the printers .*did you mean mk4\?"),
+        ('base = "my.toml"', r"leads back to a file that builds on it"),
+        ("base = 3", r"base = 3: must be the name of a workshop or a path"),
+        ("process = 3", r"process = 3: must be"),
+        ("[mass.weighed_g]\nfoot = -1", r"weighed_g.foot = -1: must be more than 0"),
+        ('[mass]\nmodel = "guess"', r"mass.model = 'guess': must be 'printed' or 'solid'"),
+    ],
+)
+def test_nonsense_is_refused_in_one_line(text, message, written):
+    with pytest.raises(JumpcadError, match=message) as caught:
+        load_workshop(written(text))
+    assert "\n" not in str(caught.value)
+    assert caught.value.exit_code == 2
+
+
+def test_an_unknown_workshop_is_refused_with_the_known_ones():
+    with pytest.raises(JumpcadError, match="one of the workshops default, fine, light"):
+        load_workshop("kitchen")
+
+
+def test_a_workshop_cannot_be_changed():
+    workshop = jumpcad.load_workshop()
+    assert isinstance(workshop, Workshop)
+    with pytest.raises((ValidationError, FrozenInstanceError)):
+        workshop.fits.loose_mm = 1.0
