@@ -57,12 +57,13 @@ class Process(Section):
 
 
 class Material(Section):
-    """What is printed; strengths along the layers and between them."""
+    """What is printed; strengths along the layers and between them, and its price where one is entered."""
 
     density_g_cm3: Annotated[float, Field(ge=0.3, le=10)]
     strength_in_plane_mpa: Positive
     strength_interlayer_mpa: Positive
     modulus_mpa: Annotated[float, Field(gt=0, le=1e6)]
+    price_eur_per_kg: Positive | None = None
     source: str = ""
 
 
@@ -136,7 +137,10 @@ class Masses(Section):
 
 
 class Workshop(Record):
-    """Everything that a robot depends on beside its eight numbers."""
+    """Everything that a robot depends on beside its eight numbers.
+
+    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials.
+    """
 
     printer: Printer
     process: Process
@@ -147,6 +151,7 @@ class Workshop(Record):
     body: BodyPlates
     safety: Safety
     mass: Masses
+    prices_eur: dict[str, Positive]
 
     def material_name(self, role: Role) -> str:
         """Return the name of the material that a kind of part is printed in."""
@@ -158,7 +163,7 @@ class Workshop(Record):
 
     def to_toml(self) -> str:
         """Return the workshop as a complete TOML document that reads back the same."""
-        return to_toml(self.model_dump())
+        return to_toml(self.model_dump(exclude_none=True))
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield the values that do not go together."""
