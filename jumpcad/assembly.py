@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits, synthesise
+from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.gate import geometry_findings
 from jumpcad.hardware import Bearing, load_catalogue
+from jumpcad.hub import allowed_n, bearing_load_n, first_guess, hub_bearings, hub_width_mm, wound_forces_n
 from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import CLEAR_MM, SPACER_RADIUS_MM, Electronics, Plan, make_plan
 from jumpcad.mass import MassProperties, combined
@@ -63,15 +64,39 @@ def plan_of(design: Design, workshop: Workshop) -> tuple[Plan, Bores]:
     """Return the plan of a design in a workshop, and the bores of its parts."""
     catalogue = load_catalogue()
     chosen = workshop.bought
-    bores = Bores.of(workshop)
-    sizes = sections(design, workshop)
     roller = catalogue.bearings[chosen.roller]
-    drive = synthesise(design, _drive_limits(workshop, sizes, roller))
+    bores, sizes, drive = _hub_and_drive(design, workshop, roller)
     electronics = Electronics(
         catalogue.batteries[chosen.battery], catalogue.boards[chosen.controller], catalogue.boards[chosen.driver]
     )
     plan = make_plan(design, sizes, drive, electronics, workshop.body.plate_mm, roller.width_mm, chosen.axle_mm)
+    plan = replace(plan, hub_bearing=bores.bearing)
     return replace(plan, toes_apart=not foot.in_one_piece(plan, workshop.printer.bed_mm)), bores
+
+
+def _hub_and_drive(design: Design, workshop: Workshop, roller: Bearing) -> tuple[Bores, Sections, Drive]:
+    """Return the bores, sections and drive with the lightest hub bearing that bears what they put on it.
+
+    Where none does, it is the strongest, of which `jumpcad.checks` then warns.
+    """
+    bearings = hub_bearings(workshop)
+    number, drive, limits = first_guess(bearings, design, workshop), None, None
+    while True:
+        bearing = bearings[number]
+        bores, sizes = Bores.of(workshop, bearing), sections(design, workshop, hub_width_mm(bearing))
+        wanted = _drive_limits(workshop, sizes, roller, bores)
+        if drive is None or wanted != limits:
+            drive, limits = synthesise(design, wanted), wanted
+        forces = wound_forces_n(design, drive)
+        enough = [
+            other is None
+            or bearing_load_n(forces, sizes.thickness_mm, roller.width_mm, other) <= allowed_n(other, workshop)
+            for other in bearings
+        ]
+        stronger = next((index for index in range(number, len(bearings)) if enough[index]), len(bearings) - 1)
+        if stronger == number:
+            return bores, sizes, drive
+        number = stronger
 
 
 def drawings(plan: Plan, bores: Bores, name: str) -> list[Drawing]:
@@ -160,12 +185,12 @@ def _contacts(plan: Plan) -> dict[str, tuple[ContactSphere, ...]]:
     }
 
 
-def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing) -> DriveLimits:
+def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, bores: Bores) -> DriveLimits:
     """Return what the drive must respect in this workshop, beside a main leg of this size."""
     fits, safety, process = workshop.fits, workshop.safety, workshop.process
     gears = workshop.material("gears")
     axle_radius = workshop.bought.axle_mm / 2.0 + fits.sliding_mm
-    hub_radius = max(Bores.of(workshop).hub_radius_mm, sizes.leg_root_mm / 2.0)
+    hub_radius = max(bores.hub_radius_mm, sizes.leg_root_mm / 2.0)
     lever_eye = max(links.LEVER_EYE_RADIUS_MM, sizes.lever_root_mm / 2.0)
     return DriveLimits(
         spring=SpringLimits(

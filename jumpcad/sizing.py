@@ -67,15 +67,15 @@ class Sections:
         )
 
 
-def sections(design: Design, workshop: Workshop) -> Sections:
-    """Size the links of a design in a workshop."""
+def sections(design: Design, workshop: Workshop, hub_width_mm: float = 0.0) -> Sections:
+    """Size the links of a design in a workshop, with a hub of at least a width."""
     fits, safety, material = workshop.fits, workshop.safety, workshop.material("links")
     skin = Skin.of(workshop.process)
     allowable = material.strength_in_plane_mpa / safety.strength_factor
     eye = workshop.bought.axle_mm / 2.0 + 0.3 + 2.0 * fits.wall_mm
     lug, toe_width = 4.0, 7.0
     torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
-    thickness = 6.0 if torque < 900.0 else 8.0
+    thickness = max(6.0 if torque < 900.0 else 8.0, hub_width_mm)
     root = max(HEIGHT_MIN_MM + 2.0, height_for_mm(torque, thickness, allowable, skin))
     leg_root = _stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share)
     leg_tip = _leg_tip_mm(leg_root)

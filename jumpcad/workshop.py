@@ -98,7 +98,10 @@ class Fits(Section):
 
 
 class BoughtParts(Section):
-    """Names in the hardware catalogue; an empty list of motors allows every one, an empty `leg_bearing` means none."""
+    """Names in the hardware catalogue; an empty list of motors allows every one.
+
+    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none.
+    """
 
     motors: Annotated[tuple[str, ...], Field(strict=False)]
     leg_bearing: str
@@ -127,6 +130,7 @@ class Safety(Section):
     leg_flex_share: Share
     steel_yield_mpa: Positive
     steel_factor: Annotated[float, Field(ge=1, le=20)]
+    bearing_factor: Annotated[float, Field(ge=0.4, le=20)]
 
 
 class Masses(Section):
