@@ -31,7 +31,6 @@ from jumpcad.loads import (
 from jumpcad.parts.bores import Bores
 from jumpcad.parts.links import LEVER_EYE_RADIUS_MM
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
-from jumpcad.parts.train import KEY_ACROSS_FLATS_MM
 from jumpcad.robot import BODY, Array, Robot
 from jumpcad.sizing import leg_flex_share
 from jumpcad.stress import (
@@ -273,9 +272,10 @@ def _seats(case: _Case) -> Iterator[Finding]:
     gears = case.workshop.material("gears")
     torque = 1000.0 * case.plan.drive.cam.peak_torque_nm
     bore = case.bores.running(case.plan.axle_mm)
-    stress = VON_MISES * tube_shear_mpa(torque, KEY_ACROSS_FLATS_MM, bore)
+    stress = VON_MISES * tube_shear_mpa(torque, case.plan.sections.key_mm, bore)
     allowable = gears.strength_interlayer_mpa / safety.strength_factor
-    yield _stress("cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, WEAKER)
+    remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
+    yield _stress("cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, remedy)
 
 
 def leg_axle_moment_nmm(arms_n: tuple[Array, Array], cam_n: Array, span_mm: float, coil_mm: float) -> float:
