@@ -110,7 +110,7 @@ def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
     spacing = line_spacing_mm(process.line_width_mm, process.layer_height_mm)
     void = (process.line_width_mm - spacing) / 2.0
     outlines = _each(lambda section: section.simplify(OUTLINE_TOLERANCE_MM), sections)
-    cores = _each(lambda outline: outline.offset(-process.perimeters * spacing - void, JoinType.Miter), outlines)
+    cores = _each(lambda outline: _core(outline, process.perimeters * spacing + void, spacing), outlines)
     sparse, solid = _filling(outlines, cores, process)
     hollow = 1.0 - process.infill
     bridged = _bridged(solid, sparse, thread_layers)
@@ -141,6 +141,19 @@ def _each(change: Callable[..., T], *regions: Sequence[Region]) -> list[T]:
     cases = list(zip(*regions, strict=True))
     known = {case: change(*case) for case in dict.fromkeys(cases)}
     return [known[case] for case in cases]
+
+
+def _core(outline: Region, walls_mm: float, spacing_mm: float) -> Region:
+    """Return what is inside the perimeters; nothing where that is all narrower than a line, as they widen to fill it.
+
+    So does PrusaSlicer (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
+    """
+    core = outline.offset(-walls_mm, JoinType.Miter)
+    if core.is_empty():
+        return NOTHING
+    border = sum(float(np.hypot(*(ring - np.roll(ring, 1, axis=0)).T).sum()) for ring in core.to_polygons())
+    narrow = 2.0 * core.area() < spacing_mm * border and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
+    return NOTHING if narrow else core
 
 
 def _table(measure: Callable[[Sequence[Region]], Array], *regions: Sequence[Region]) -> Array:
