@@ -18,6 +18,7 @@ from jumpcad.exporters.guide import write_guide
 from jumpcad.exporters.manifest import Bundle
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.plates import packed
+from jumpcad.exporters.report import write_report
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.shapes import shapes
 from jumpcad.exporters.step import require_step, write_step
@@ -85,9 +86,10 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     yield "bom.csv", write_bom(bill_of_materials(robot))
     drawn = pictures and bool(robot.parts) and find_spec("pybullet") is not None
     yield "assembly.md", write_guide(robot, drawn)
-    if drawn:
-        for picture, png in (stills(robot) | step_pictures(robot)).items():
-            yield f"pictures/{picture}.png", png
+    seen = stills(robot) if drawn else {}
+    yield "report.html", write_report(robot, seen)
+    for picture, png in (seen | (step_pictures(robot) if drawn else {})).items():
+        yield f"pictures/{picture}.png", png
 
 
 def _facts(robot: Robot) -> dict[str, Any]:
