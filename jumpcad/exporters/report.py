@@ -78,7 +78,7 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
 
 
 def _limits(robot: Robot) -> Iterator[str]:
-    """Yield the quick checks, the violated and the narrowest first."""
+    """Yield the quick checks, the violated ones first."""
     findings = [*geometry_findings(robot.design), *statics_findings(robot), *constraint_findings(robot)]
     order = ("error", "warning", "info")
     found = sorted(findings, key=lambda finding: order.index(finding.severity))
