@@ -35,6 +35,14 @@ def plans() -> dict[str, Plan]:
         design = Design.from_vector(rng.uniform(lower, upper).tolist())
         if not errors(geometry_findings(design)):
             found[f"random {number}"] = plan_of(design, workshop)[0]
+    for name in NAMES:  # so that there is something to step aside for
+        carried, drive = found[name].electronics, found[name].drive
+        long = carried.battery.model_copy(update={"length_mm": found[name].design.l1_mm + 30.0})
+        tall = drive.train.motor.model_copy(update={"width_mm": 30.0, "height_mm": 30.0})
+        near = replace(drive.train, motor=tall, stages=(replace(drive.train.stages[0], centre_distance_mm=50.0),))
+        found[f"{name} with a long battery and a thick motor"] = plan_again(
+            found[name], electronics=replace(carried, battery=long), drive=replace(drive, train=near)
+        )
     return found
 
 
