@@ -5,6 +5,7 @@ tips, which bends toes and rails. Heights follow from the printing material's in
 with the formulas by which `checks.strength` judges the finished robot.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,14 +77,14 @@ def sections(design: Design, workshop: Workshop) -> Sections:
     lug, toe_width = 4.0, 7.0
     torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
     thickness = 6.0 if torque < 900.0 else 8.0
-    root = max(HEIGHT_MIN_MM + 2.0, height_for_mm(torque, thickness, allowable, skin))
-    leg_root = _stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share)
+    root = max(HEIGHT_MIN_MM + 2.0, _in_hundredths(height_for_mm(torque, thickness, allowable, skin)))
+    leg_root = _in_hundredths(_stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share))
     leg_tip = _leg_tip_mm(leg_root)
     depth = max(eye, leg_tip / 2.0) + 1.0
     toes = RESERVE * float(push_off(design, TYPICAL_BODY, depth).toes_n.max())
     toe = height_for_mm(toe_moment_nmm(design, toes), toe_width, allowable, skin, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, skin, upright=True)
-    toe_root, rail_root = max(TOE_MIN_MM, toe), max(RAIL_MIN_MM, rail)
+    toe_root, rail_root = max(TOE_MIN_MM, _in_hundredths(toe)), max(RAIL_MIN_MM, _in_hundredths(rail))
     return Sections(
         thickness_mm=thickness,
         leg_root_mm=leg_root,
@@ -122,6 +123,11 @@ def _stiff_mm(
             break
         root_mm *= 1.01 * (share / share_max) ** (1.0 / 3.0)
     return root_mm
+
+
+def _in_hundredths(height_mm: float) -> float:
+    """Return a height rounded up to 0.01 mm: the last digits of the loads differ between processors."""
+    return math.ceil(height_mm * 100.0 - 1e-6) / 100.0
 
 
 def _leg_tip_mm(root_mm: float) -> float:

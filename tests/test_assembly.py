@@ -2,7 +2,6 @@
 
 import hashlib
 import math
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import LONG_TOES, body_in_plane, built, design, geared
+from support.elsewhere import environment
 
 from jumpcad.assembly import build
 from jumpcad.design import Design, load_design
@@ -146,7 +146,7 @@ def test_everything_bought_is_between_or_beside_the_plates(name: str) -> None:
             assert y.max() < high + 4.0, item.name
 
 
-def test_the_same_inputs_give_the_same_files_in_another_process() -> None:
+def test_the_same_inputs_give_the_same_files_on_another_machine() -> None:
     code = (
         "import hashlib, jumpcad; from jumpcad.exporters.stl import write_stl;"
         "robot = jumpcad.build(jumpcad.load_design('best-bo'), jumpcad.load_workshop(), 'best-bo');"
@@ -155,7 +155,7 @@ def test_the_same_inputs_give_the_same_files_in_another_process() -> None:
     there = subprocess.run(
         [sys.executable, "-c", code],
         check=True, capture_output=True, text=True, cwd=Path(__file__).parents[1],
-        env={**os.environ, "PYTHONHASHSEED": "11"},
+        env=environment(),
     ).stdout.splitlines()  # fmt: skip
     here = [
         f"{part.name} {hashlib.sha256(write_stl(part.mesh)).hexdigest()} {part.mass_kg}"

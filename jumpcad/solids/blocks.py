@@ -163,7 +163,8 @@ class Turned:
 
     def _moved(self, points_mm: Array) -> Array:
         cos, sin = math.cos(self.angle_rad), math.sin(self.angle_rad)
-        return np.asarray(points_mm @ np.array([[cos, sin], [-sin, cos]]) + self.place_mm)
+        x, y = points_mm.T
+        return np.column_stack([cos * x - sin * y, sin * x + cos * y]) + self.place_mm
 
 
 @dataclass(frozen=True, eq=False)

@@ -129,7 +129,7 @@ def point_moments(points_mm: Array, weights: Array) -> Array:
     """Return the moments (10,) of weighted points (n, 3)."""
     x, y, z = points_mm.T
     products = (np.ones_like(x), x, y, z, x * x, y * y, z * z, x * y, y * z, z * x)
-    return np.array([float(weights @ product) for product in products])
+    return np.array([float((weights * product).sum()) for product in products])
 
 
 def mass_of(moments: Array, density_g_cm3: float) -> MassProperties:
