@@ -38,8 +38,8 @@ BRIDGE_GAP_MM = 0.05
 
 ALIKE_LAYERS = 5
 """So many layers at most that change little by little are taken together."""
-ALIKE = 0.06
-"""Nor may they change by more than this share of the largest cross-section."""
+ALIKE = 0.1
+"""Nor may the bends of what changes add up to more than this share of the largest cross-section."""
 JUMP = 0.01
 """A change by a larger share of it, beyond twice the changes below and above, is a jump."""
 
@@ -129,7 +129,7 @@ def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
     which = np.array([number[outline] for outline in outlines])
     areas, borders = areas_and_borders(list(number))
     jumps = _jumps(which, areas[which, 0])
-    runs = _runs(which, areas[which, 0], jumps, process)
+    runs = _runs(areas[which], jumps, process)
     middles = [run.middle for run in runs]
 
     spacing = line_spacing_mm(process.line_width_mm, process.layer_height_mm)
@@ -170,25 +170,31 @@ def _jumps(which: Numbers, area_mm2: Array) -> list[int]:
     return [int(index) + 1 for index in np.flatnonzero(changed[1:-1] & (beside_steady | large))]
 
 
-def _runs(which: Numbers, area_mm2: Array, jumps: Sequence[int], process: Process) -> list[Run]:
+def _runs(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
     """Return runs of layers that are alike and have the same jumps among what makes them bottoms and tops.
 
-    Where layers change little by little, a run ends before it, or what makes it bottom or top, has changed too much;
-    its length is odd, so that its middle layer is what all are on average.
+    Where area and polar moment change from layer to layer, they change steadily within a run, and so does what makes
+    its layers bottoms and tops; its length is odd. Its middle layer is then what all are on average.
+
+    Parameters
+    ----------
+    area
+        Area moments of all layers, (n, 6).
     """
-    count, below, above = len(which), process.bottom_layers, process.top_layers
+    count, below, above = len(area), process.bottom_layers, process.top_layers
     cuts = {jump + step for jump in jumps for step in (-above, 0, below)} | {below, count - above}
-    change = np.concatenate([np.zeros(below), np.abs(np.diff(area_mm2, prepend=area_mm2[0])), np.zeros(above)])
-    seen = change[:count] + change[below : below + count] + change[below + above :]
-    drift = np.cumsum(seen) / area_mm2.max()
+    sizes = np.stack([area[:, 0], area[:, 3] + area[:, 4]])
+    steps = np.diff(sizes, prepend=sizes[:, :1], append=sizes[:, -1:])
+    steps[:, list(jumps)] = 0.0
+    bends = (np.abs(np.diff(steps)) / sizes.max(axis=1, keepdims=True)).max(axis=0)
+    bends = np.pad(bends, (below, above))
+    bent = np.cumsum(bends[:count] + bends[below : below + count] + bends[below + above :])
     runs = []
     for first, end in itertools.pairwise(sorted({0, count, *(cut for cut in cuts if 0 < cut < count)})):
-        if (which[first:end] == which[first]).all():
-            runs.append(Run(first, end))
-            continue
         while first < end:
-            alike = int(np.searchsorted(drift[first:end], drift[first] + ALIKE, side="right"))
-            length = min(ALIKE_LAYERS, alike - (alike + 1) % 2)
+            length = int(np.searchsorted(bent[first:end], bent[first] + ALIKE, side="right"))
+            if bent[first] < bent[first + length - 1]:
+                length = min(ALIKE_LAYERS, length - (length + 1) % 2)
             runs.append(Run(first, first + length))
             first += length
     return runs
