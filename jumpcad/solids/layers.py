@@ -173,7 +173,7 @@ def _jumps(which: Numbers, area_mm2: Array) -> list[int]:
 def _runs(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
     """Return runs of layers that are alike and have the same jumps among what makes them bottoms and tops.
 
-    Where area and polar moment change from layer to layer, they change steadily within a run, and so does what makes
+    Where area and polar moment about the centre change from layer to layer, they change steadily within a run, and so does what makes
     its layers bottoms and tops; its length is odd. Its middle layer is then what all are on average.
 
     Parameters
@@ -183,7 +183,8 @@ def _runs(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
     """
     count, below, above = len(area), process.bottom_layers, process.top_layers
     cuts = {jump + step for jump in jumps for step in (-above, 0, below)} | {below, count - above}
-    sizes = np.stack([area[:, 0], area[:, 3] + area[:, 4]])
+    a, x, y, xx, yy, _ = area.T
+    sizes = np.stack([a, xx + yy - (x * x + y * y) / np.maximum(a, SMALLEST_AREA_MM2)])
     steps = np.diff(sizes, prepend=sizes[:, :1], append=sizes[:, -1:])
     steps[:, list(jumps)] = 0.0
     bends = (np.abs(np.diff(steps)) / sizes.max(axis=1, keepdims=True)).max(axis=0)

@@ -113,7 +113,7 @@ def test_layers_that_change_little_by_little_are_as_if_each_were_taken_by_itself
     together = mass_properties(shape, 1.0, PROCESS, 0.4)
     monkeypatch.setattr(layers, "ALIKE_LAYERS", 1)
     apart = mass_properties(Turned(shape, 0.0), 1.0, PROCESS, 0.4)
-    assert together.mass_kg == pytest.approx(apart.mass_kg, rel=3e-3)
+    assert together.mass_kg == pytest.approx(apart.mass_kg, rel=6e-3)
     assert np.diag(together.inertia_kg_m2) == pytest.approx(np.diag(apart.inertia_kg_m2), rel=1e-2)
 
 
