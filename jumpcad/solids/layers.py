@@ -173,8 +173,8 @@ def _jumps(which: Numbers, area_mm2: Array) -> list[int]:
 def _runs(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
     """Return runs of layers that are alike and have the same jumps among what makes them bottoms and tops.
 
-    Where area and polar moment about the centre change from layer to layer, they change steadily within a run, and so does what makes
-    its layers bottoms and tops; its length is odd. Its middle layer is then what all are on average.
+    Where area and polar moment about the centre change from layer to layer, they change steadily within a run, and so
+    does what makes its layers bottoms and tops; its length is odd. Its middle layer is then what all are on average.
 
     Parameters
     ----------
