@@ -191,6 +191,11 @@ class Ledger:
         # A commit need not wait for the disk: the file stays whole, and only a power cut can take the last batches.
         self._connection.execute("PRAGMA synchronous = NORMAL")
         difference = _difference(self.identity, json.loads(json.dumps(identity)))
+        if difference.startswith("versions."):
+            raise JumpcadError(
+                f"{self.path}: was made by another program ({difference}), whose rows do not mix with this one's; "
+                f"go on with that program, or name another file (--from {self.path} learns from this one)"
+            )
         if difference:
             raise JumpcadError(
                 f"{self.path}: holds another study ({difference}); repeat its own request or name another file"

@@ -104,7 +104,7 @@ class Pool:
         JumpcadError
             If the model itself cannot work, whatever the design.
         """
-        sent = cloudpickle.dumps(model)  # once a batch; executors would do it once a task
+        sent = cloudpickle.dumps((model, model.versions()))  # once a batch; executors would do it once a task
         suspects: dict[int, str] = {}
         waiting = deque(self._tasks(len(designs)))
         running: dict[Future[Any], list[int]] = {}
@@ -132,15 +132,15 @@ class Pool:
             start += size
         return tasks
 
-    def _submit(self, model: bytes, designs: list[Design]) -> Future[Any]:
+    def _submit(self, sent: bytes, designs: list[Design]) -> Future[Any]:
         if self._executor is None:
             self._executor = self._open()
         try:
-            return self._executor.submit(_evaluate_task, model, designs, self._limit_s)
+            return self._executor.submit(_evaluate_task, sent, designs, self._limit_s)
         except BrokenExecutor:
             self.close()
             self._executor = self._open()
-            return self._executor.submit(_evaluate_task, model, designs, self._limit_s)
+            return self._executor.submit(_evaluate_task, sent, designs, self._limit_s)
 
     def _collect(self, future: Future[Any], task: list[int], suspects: dict[int, str]) -> Iterator[Outcome]:
         try:
@@ -241,9 +241,21 @@ def _end_with_parent(parent: int) -> None:
 
 
 @lru_cache(maxsize=1)
-def _unpacked(model: bytes) -> Model:
-    """Return a model that arrived pickled; the same one for all tasks of a search."""
-    return cloudpickle.loads(model)
+def _unpacked(sent: bytes) -> Model:
+    """Return a model that arrived pickled; the same one for all tasks of a search.
+
+    Raises
+    ------
+    JumpcadError
+        If this machine would compute something else than the one that asks.
+    """
+    model, asked = cloudpickle.loads(sent)
+    for name, version in model.versions().items():
+        if version != asked[name]:
+            raise JumpcadError(
+                f"a worker has {name} {version}, not {asked[name]}: install there what is installed here"
+            )
+    return model
 
 
 def _evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> bytes:
