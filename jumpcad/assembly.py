@@ -259,5 +259,5 @@ def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, bores: B
         ),
         motors=workshop.bought.motors,
         gap_mm=CLEAR_MM,
-        hub_axle_radius_mm=SPACER_RADIUS_MM,
+        axle_radius_mm=SPACER_RADIUS_MM,
     )

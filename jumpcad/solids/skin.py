@@ -203,7 +203,10 @@ def _loops(points: Ints, starts: Ints, ends: Ints) -> list[Ints]:
         following[start].append(end)
     loops = []
     while following:
-        first = min(following, key=lambda point: len(following[point]))
+        single = (point for point, choices in following.items() if len(choices) == 1)
+        first = next(single, None)
+        if first is None:
+            first = min(following, key=lambda point: len(following[point]))
         loop = [first]
         while True:
             here = loop[-1]
