@@ -194,8 +194,8 @@ CASES: dict[str, tuple[Design, Workshop, str]] = {
         r"wound by 0\.09°, less than 0\.5°: raise compression_ratio",
     ),
     "no room": (
-        load_design("best-ga"), changed(bought={"motors": ("n20-150",)}),
-        r"^no room for the idler and the motor beside the cam: raise d_coef or carrying_link_mm \(a longer body\)",
+        load_design("best-ga").model_copy(update={"compression_ratio": 0.85, "stiffness_nmm_per_deg": 40.0}), changed(),
+        r"^no room for the spring pin: 0\.1 mm too little beside the main leg: lower stiffness_nmm_per_deg",
     ),
     "weak motor": (
         load_design("best-bo"), changed(bought={"motors": ("n20-30",)}, safety={"motor_stall_share": 0.03}),
