@@ -6,12 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from jumpcad.checks.strength import strength_findings
 from jumpcad.design import Design
-from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits, synthesise
+from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.gate import geometry_findings
 from jumpcad.hardware import Bearing, load_catalogue
+from jumpcad.hub import allowed_n, bearing_load_n, first_guess, hub_bearings, hub_width_mm, wound_forces_n
 from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import CLEAR_MM, SPACER_RADIUS_MM, Electronics, Plan, make_plan
 from jumpcad.mass import MassProperties, combined
@@ -20,13 +22,34 @@ from jumpcad.parts.bores import Bores
 from jumpcad.parts.bought import Bought, in_metres
 from jumpcad.parts.part import Drawing, Part
 from jumpcad.robot import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Robot, Surface, five_bar
-from jumpcad.sizing import Sections, sections
+from jumpcad.sizing import Growth, Sections, sections
 from jumpcad.solids.layers import mass_properties
 from jumpcad.workshop import Workshop, load_workshop
+
+GROWTH_ROUNDS = 10
+FOLLOWS = {
+    "leg_strength": "leg",
+    "leg_flex": "leg",
+    "hub_strength": "leg",
+    "lever_strength": "lever",
+    "front_link_strength": "front",
+    "front_link_buckling": "front",
+    "eye_strength": "thickness",
+    "foot_lug_strength": "lug",
+    "toe_strength": "toe",
+    "toe_landing": "toe",
+    "toe_joint_strength": "toe",
+    "rail_strength": "rail",
+    "plate_seat": "plate",
+    "cam_key_strength": "key",
+}
+"""What grows when a check fails: a factor of `Growth`."""
 
 
 def build(design: Design, workshop: Workshop | None = None, name: str = "robot") -> Robot:
     """Build the printed robot of a design in a workshop; its name, if it has one, is engraved on its plates.
+
+    Sections grow until the strength checks pass, or until there is no room for more.
 
     Raises
     ------
@@ -37,7 +60,23 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     refused = errors(geometry_findings(design))
     if refused:
         raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")
-    plan, bores = plan_of(design, workshop)
+    growth = Growth()
+    robot = _assembled(design, workshop, name, growth)
+    for _ in range(GROWTH_ROUNDS):
+        weak = {FOLLOWS[finding.name] for finding in errors(strength_findings(robot)) if finding.name in FOLLOWS}
+        if not weak:
+            break
+        growth = growth.more(weak)
+        try:
+            robot = _assembled(design, workshop, name, growth)
+        except CannotBuildError:  # no room for more: the checks say what stays too weak
+            break
+    return robot
+
+
+def _assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
+    """Return the robot of a design with its sections grown by factors."""
+    plan, bores = plan_of(design, workshop, growth)
     drawn = drawings(plan, bores, name)
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
@@ -59,19 +98,47 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     )
 
 
-def plan_of(design: Design, workshop: Workshop) -> tuple[Plan, Bores]:
+def plan_of(design: Design, workshop: Workshop, growth: Growth | None = None) -> tuple[Plan, Bores]:
     """Return the plan of a design in a workshop, and the bores of its parts."""
+    growth = growth or Growth()
     catalogue = load_catalogue()
     chosen = workshop.bought
-    bores = Bores.of(workshop)
-    sizes = sections(design, workshop)
     roller = catalogue.bearings[chosen.roller]
-    drive = synthesise(design, _drive_limits(workshop, sizes, roller))
+    bores, sizes, drive = _hub_and_drive(design, workshop, roller, growth)
     electronics = Electronics(
         catalogue.batteries[chosen.battery], catalogue.boards[chosen.controller], catalogue.boards[chosen.driver]
     )
-    plan = make_plan(design, sizes, drive, electronics, workshop.body.plate_mm, roller.width_mm, chosen.axle_mm)
+    plate = growth.plate * workshop.body.plate_mm
+    plan = make_plan(design, sizes, drive, electronics, plate, roller.width_mm, chosen.axle_mm)
+    plan = replace(plan, hub_bearing=bores.bearing)
     return replace(plan, toes_apart=not foot.in_one_piece(plan, workshop.printer.bed_mm)), bores
+
+
+def _hub_and_drive(
+    design: Design, workshop: Workshop, roller: Bearing, growth: Growth
+) -> tuple[Bores, Sections, Drive]:
+    """Return the bores, sections and drive with the lightest hub bearing that bears what they put on it.
+
+    Where none does, it is the strongest, of which `jumpcad.checks` then warns.
+    """
+    bearings = hub_bearings(workshop)
+    number, drive, limits = first_guess(bearings, design, workshop), None, None
+    while True:
+        bearing = bearings[number]
+        bores, sizes = Bores.of(workshop, bearing), sections(design, workshop, hub_width_mm(bearing), growth)
+        wanted = _drive_limits(workshop, sizes, roller, bores)
+        if drive is None or wanted != limits:
+            drive, limits = synthesise(design, wanted), wanted
+        forces = wound_forces_n(design, drive)
+        enough = [
+            other is None
+            or bearing_load_n(forces, sizes.thickness_mm, roller.width_mm, other) <= allowed_n(other, workshop)
+            for other in bearings
+        ]
+        stronger = next((index for index in range(number, len(bearings)) if enough[index]), len(bearings) - 1)
+        if stronger == number:
+            return bores, sizes, drive
+        number = stronger
 
 
 def drawings(plan: Plan, bores: Bores, name: str) -> list[Drawing]:
@@ -160,12 +227,12 @@ def _contacts(plan: Plan) -> dict[str, tuple[ContactSphere, ...]]:
     }
 
 
-def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing) -> DriveLimits:
+def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, bores: Bores) -> DriveLimits:
     """Return what the drive must respect in this workshop, beside a main leg of this size."""
     fits, safety, process = workshop.fits, workshop.safety, workshop.process
     gears = workshop.material("gears")
     axle_radius = workshop.bought.axle_mm / 2.0 + fits.sliding_mm
-    hub_radius = max(Bores.of(workshop).hub_radius_mm, sizes.leg_root_mm / 2.0)
+    hub_radius = max(bores.hub_radius_mm, sizes.leg_root_mm / 2.0)
     lever_eye = max(links.LEVER_EYE_RADIUS_MM, sizes.lever_root_mm / 2.0)
     return DriveLimits(
         spring=SpringLimits(
@@ -178,7 +245,7 @@ def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing) -> Drive
             cam_width_mm=roller.width_mm,
             roller_load_n=roller.static_load_n,
             gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
-            core_radius_mm=train.KEY_ACROSS_FLATS_MM / math.sqrt(3.0) + fits.wall_min_mm,
+            core_radius_mm=sizes.key_mm / math.sqrt(3.0) + fits.wall_min_mm,
             modulus_mpa=gears.modulus_mpa,
         ),
         train=TrainLimits(
@@ -188,6 +255,7 @@ def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing) -> Drive
             backlash_circumferential_mm=fits.backlash_circumferential_mm,
             stress_mpa=gears.strength_in_plane_mpa / safety.strength_factor,
             tip_min_mm=process.line_width_mm,
+            cam_gear_root_min_mm=(sizes.key_mm + 2.0 * fits.press_mm) / math.sqrt(3.0) + fits.wall_mm,
         ),
         motors=workshop.bought.motors,
         gap_mm=CLEAR_MM,

@@ -24,8 +24,7 @@ from pydantic import Field
 from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, Section
-from jumpcad.parts.bores import Bores
-from jumpcad.parts.coupon import PEGS_MM, ladders
+from jumpcad.parts.coupon import PEGS_MM, coupon_bores, ladders
 from jumpcad.workshop import Workshop
 
 LEAST_PLAY_MM = 0.05
@@ -137,7 +136,7 @@ def _given(values: Iterable[float | None]) -> list[float]:
 
 def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
     """Yield what a workshop's coupon cannot have said."""
-    steps = ladders(Bores.of(workshop))
+    steps = ladders(coupon_bores(workshop))
     for name, tried in readings.gauge.items():
         if name not in workshop.materials:
             yield f"gauge.{name}: the workshop prints in {', '.join(workshop.materials)}"

@@ -2,10 +2,12 @@
 
 The largest loads act at release: the springs' torque k·δ bends main leg and lever, and the ground pushes on the toe
 tips, which bends toes and rails. Heights follow from the printing material's in-plane strength over the safety factor,
-with the formulas by which `checks.strength` judges the finished robot.
+with the formulas by which `checks.strength` judges the finished robot. What it still finds too weak then grows.
 """
 
-from dataclasses import dataclass
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +24,8 @@ HEIGHT_MIN_MM = 6.0
 LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 """Height at the tip over that at the root. With half or more, moment over section falls from the root on."""
 TOE_TIP_WIDTH_MM = 5.0
+KEY_MM = 7.0
+GROWTH_STEP = 1.1
 RAIL_MIN_MM, TOE_MIN_MM, TOE_TIP_MIN_MM = 3.2, 3.2, 2.4
 
 
@@ -30,7 +34,8 @@ class Sections:
     """Outer dimensions of legs and foot (mm).
 
     `thickness_mm` is across the robot (y); heights are in the plane of motion. `foot_depth_mm` is the distance from
-    the line of ankle and front eye down to the ground. `lug_thickness_mm` is that of lugs and rails.
+    the line of ankle and front eye down to the ground. `lug_thickness_mm` is that of lugs and rails, `key_mm` the
+    distance across the flats of the hexagon that turns the cam.
     """
 
     thickness_mm: float
@@ -46,6 +51,7 @@ class Sections:
     toe_width_mm: float
     toe_root_mm: float
     toe_tip_mm: float
+    key_mm: float
 
     def leg(self, skin: Skin) -> Bar:
         """Return the main leg's sections from hub to ankle."""
@@ -67,29 +73,50 @@ class Sections:
         )
 
 
-def sections(design: Design, workshop: Workshop) -> Sections:
-    """Size the links of a design in a workshop."""
+@dataclass(frozen=True)
+class Growth:
+    """Factors on what sizing alone would choose, for what the built robot's checks found too weak."""
+
+    leg: float = 1.0
+    lever: float = 1.0
+    front: float = 1.0
+    thickness: float = 1.0
+    lug: float = 1.0
+    toe: float = 1.0
+    rail: float = 1.0
+    plate: float = 1.0
+    key: float = 1.0
+
+    def more(self, weak: Iterable[str]) -> "Growth":
+        """Return one step more for what is weak."""
+        return replace(self, **{what: GROWTH_STEP * getattr(self, what) for what in weak})
+
+
+def sections(design: Design, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
+    """Size the links of a design in a workshop, with a hub of at least a width."""
     fits, safety, material = workshop.fits, workshop.safety, workshop.material("links")
     skin = Skin.of(workshop.process)
     allowable = material.strength_in_plane_mpa / safety.strength_factor
     eye = workshop.bought.axle_mm / 2.0 + 0.3 + 2.0 * fits.wall_mm
-    lug, toe_width = 4.0, 7.0
+    lug, toe_width = growth.lug * 4.0, 7.0
     torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
-    thickness = 6.0 if torque < 900.0 else 8.0
+    thickness = growth.thickness * max(6.0 if torque < 900.0 else 8.0, hub_width_mm)
     root = max(HEIGHT_MIN_MM + 2.0, height_for_mm(torque, thickness, allowable, skin))
-    leg_root = _stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share)
+    stiff = _stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share)
+    leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
     depth = max(eye, leg_tip / 2.0) + 1.0
     toes = RESERVE * float(push_off(design, TYPICAL_BODY, depth).toes_n.max())
     toe = height_for_mm(toe_moment_nmm(design, toes), toe_width, allowable, skin, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, skin, upright=True)
-    toe_root, rail_root = max(TOE_MIN_MM, toe), max(RAIL_MIN_MM, rail)
+    toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
+    rail_root = _in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
     return Sections(
         thickness_mm=thickness,
         leg_root_mm=leg_root,
         leg_tip_mm=leg_tip,
-        front_mm=HEIGHT_MIN_MM,
-        lever_root_mm=root,
+        front_mm=growth.front * HEIGHT_MIN_MM,
+        lever_root_mm=_in_hundredths(growth.lever * root),
         eye_radius_mm=eye,
         lug_thickness_mm=lug,
         foot_depth_mm=depth,
@@ -98,6 +125,7 @@ def sections(design: Design, workshop: Workshop) -> Sections:
         toe_width_mm=toe_width,
         toe_root_mm=toe_root,
         toe_tip_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
+        key_mm=growth.key * KEY_MM,
     )
 
 
@@ -122,6 +150,11 @@ def _stiff_mm(
             break
         root_mm *= 1.01 * (share / share_max) ** (1.0 / 3.0)
     return root_mm
+
+
+def _in_hundredths(height_mm: float) -> float:
+    """Return a height rounded up to 0.01 mm: the last digits of the loads differ between processors."""
+    return math.ceil(height_mm * 100.0 - 1e-6) / 100.0
 
 
 def _leg_tip_mm(root_mm: float) -> float:

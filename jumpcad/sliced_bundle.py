@@ -11,11 +11,15 @@ import trimesh
 from manifold3d import Manifold, Mesh64
 
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.exporters.bom import Plate, bill_of_facts, write_bom
+from jumpcad.exporters.folder import change_files
+from jumpcad.exporters.guide import with_bill
 from jumpcad.exporters.manifest import Bundle, open_bundle, verify
 from jumpcad.slicing import Sliced, slice_part, slice_plate, slicer_version
 from jumpcad.solids.layers import mass_properties
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
+from jumpcad.solids.stack import Section
 from jumpcad.workshop import Material, Workshop, load_workshop
 
 Array = npt.NDArray[np.float64]
@@ -58,11 +62,14 @@ class SlicedPlate:
 class SlicedBundle:
     """What PrusaSlicer says of a bundle printed in a workshop.
 
+    `billed` tells whether the times belong into the bundle's bill of materials: it has one and is its own workshop's.
     `ignored` maps each setting that the slicer did not take over to what was asked for and what it used.
     """
 
+    bundle: Bundle
     version: str
     workshop: Workshop
+    billed: bool
     parts: tuple[SlicedPart, ...]
     plates: tuple[SlicedPlate, ...]
     ignored: dict[str, tuple[str, str]]
@@ -104,7 +111,8 @@ def slice_bundle(
     if not printed or "workshop.toml" not in bundle.files:
         raise JumpcadError(f"{folder}: has no printed parts to slice")
     version = slicer_version()
-    workshop = workshop or load_workshop(bundle.folder / "workshop.toml")
+    built_in = load_workshop(bundle.folder / "workshop.toml")
+    workshop = workshop or built_in
     _require_materials((line["material"] for line in printed), workshop)
     ignored: dict[str, tuple[str, str]] = {}
     parts, plates = [], []
@@ -122,7 +130,26 @@ def slice_bundle(
         sliced = slice_plate(path, workshop.printer, workshop.process, workshop.materials[material_name])
         ignored |= sliced.ignored
         plates.append(SlicedPlate(name, material_name, _some(path, sliced), sliced.time_s))
-    return SlicedBundle(version, workshop, tuple(parts), tuple(plates), ignored)
+    billed = workshop == built_in and "bom.csv" in bundle.files
+    return SlicedBundle(bundle, version, workshop, billed, tuple(parts), tuple(plates), ignored)
+
+
+def write_times(found: SlicedBundle) -> Bundle:
+    """Write the printing times into a bundle's bill of materials and guide, and return the bundle as it is then.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder cannot be written.
+    """
+    bundle = found.bundle
+    bill = bill_of_facts(bundle.manifest["masses"], found.workshop).sliced(
+        {part.name: part.time_s for part in found.parts},
+        [Plate(plate.name, plate.material, plate.time_s) for plate in found.plates],
+    )
+    guide = (bundle.folder / "assembly.md").read_text(encoding="utf-8")
+    changes = {"bom.csv": write_bom(bill), "assembly.md": with_bill(guide, bill)}
+    return change_files(bundle, changes, {"PrusaSlicer": found.version})
 
 
 def _plates(bundle: Bundle) -> Iterator[tuple[Path, str, str]]:
@@ -170,11 +197,11 @@ class _Scan:
         """Volume moments (10,)."""
         return mesh_moments(self._solid)
 
-    def regions_at(self, heights_mm: Array) -> list[Region]:
+    def sections_at(self, heights_mm: Array) -> list[Section]:
         """Return the cross-sections at heights (n,); neighbours that do not differ are one object."""
         regions: list[Region] = []
         for height in heights_mm:
             region = self._solid.slice(float(height)).simplify(STRAIGHT_MM)
             same = regions and (region - regions[-1]).area() + (regions[-1] - region).area() < SMALLEST_MM2
             regions.append(regions[-1] if same else region)
-        return regions
+        return [Section(region) for region in regions]

@@ -57,12 +57,13 @@ class Process(Section):
 
 
 class Material(Section):
-    """What is printed; strengths along the layers and between them."""
+    """What is printed; strengths along the layers and between them, and its price where one is entered."""
 
     density_g_cm3: Annotated[float, Field(ge=0.3, le=10)]
     strength_in_plane_mpa: Positive
     strength_interlayer_mpa: Positive
     modulus_mpa: Annotated[float, Field(gt=0, le=1e6)]
+    price_eur_per_kg: Positive | None = None
     source: str = ""
 
 
@@ -97,7 +98,10 @@ class Fits(Section):
 
 
 class BoughtParts(Section):
-    """Names in the hardware catalogue; an empty list of motors allows every one, an empty `leg_bearing` means none."""
+    """Names in the hardware catalogue; an empty list of motors allows every one.
+
+    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none.
+    """
 
     motors: Annotated[tuple[str, ...], Field(strict=False)]
     leg_bearing: str
@@ -126,6 +130,7 @@ class Safety(Section):
     leg_flex_share: Share
     steel_yield_mpa: Positive
     steel_factor: Annotated[float, Field(ge=1, le=20)]
+    bearing_factor: Annotated[float, Field(ge=0.4, le=20)]
 
 
 class Masses(Section):
@@ -136,7 +141,10 @@ class Masses(Section):
 
 
 class Workshop(Record):
-    """Everything that a robot depends on beside its eight numbers."""
+    """Everything that a robot depends on beside its eight numbers.
+
+    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials.
+    """
 
     printer: Printer
     process: Process
@@ -147,6 +155,7 @@ class Workshop(Record):
     body: BodyPlates
     safety: Safety
     mass: Masses
+    prices_eur: dict[str, Positive]
 
     def material_name(self, role: Role) -> str:
         """Return the name of the material that a kind of part is printed in."""
@@ -158,7 +167,7 @@ class Workshop(Record):
 
     def to_toml(self) -> str:
         """Return the workshop as a complete TOML document that reads back the same."""
-        return to_toml(self.model_dump())
+        return to_toml(self.model_dump(exclude_none=True))
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield the values that do not go together."""

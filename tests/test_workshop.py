@@ -104,6 +104,8 @@ def test_materials_of_ones_own_and_weighed_parts(written):
         ("base = 3", r"base = 3: must be the name of a workshop or a path"),
         ("process = 3", r"process = 3: must be"),
         ("[mass.weighed_g]\nfoot = -1", r"weighed_g.foot = -1: must be more than 0"),
+        ("[prices_eur]\nnut = 0", r"prices_eur.nut = 0: must be more than 0"),
+        ("[materials.PETG]\nprice_eur_per_kg = -20.0", r"PETG.price_eur_per_kg = -20.0: must be more than 0"),
         ('[mass]\nmodel = "guess"', r"mass.model = 'guess': must be 'printed' or 'solid'"),
     ],
 )

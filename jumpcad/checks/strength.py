@@ -15,10 +15,9 @@ from functools import cached_property
 import numpy as np
 
 from jumpcad.findings import Finding, limit
-from jumpcad.hardware import load_catalogue
+from jumpcad.hub import allowed_n, bearing_load_n, wound_forces_n
 from jumpcad.layout.lateral import ROLLER_WASHER_MM
 from jumpcad.layout.plan import Plan
-from jumpcad.linkage import direction
 from jumpcad.loads import (
     MovingMass,
     PushOff,
@@ -32,7 +31,6 @@ from jumpcad.loads import (
 from jumpcad.parts.bores import Bores
 from jumpcad.parts.links import LEVER_EYE_RADIUS_MM
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
-from jumpcad.parts.train import KEY_ACROSS_FLATS_MM
 from jumpcad.robot import BODY, Array, Robot
 from jumpcad.sizing import leg_flex_share
 from jumpcad.stress import (
@@ -73,6 +71,10 @@ class _Case:
         return Skin.of(self.workshop.process)
 
     @cached_property
+    def bores(self) -> Bores:
+        return Bores.of(self.workshop, self.plan.hub_bearing)
+
+    @cached_property
     def allowable_mpa(self) -> float:
         return self.workshop.material("links").strength_in_plane_mpa / self.workshop.safety.strength_factor
 
@@ -105,14 +107,10 @@ class _Case:
 
         In the body's frame, springs wound, roller at the end of the lift; both springs together.
         """
-        plan, design = self.plan, self.robot.design
-        strength = self.torque_nmm / plan.leg_pin_mm
-        along = direction(math.radians(design.rest_angle_deg) - design.compression_rad)
-        on_leg = strength * np.array([along[1], -along[0]])  # downwards: towards rest
+        plan = self.plan
+        on_leg, on_lever = wound_forces_n(self.robot.design, plan.drive)
         pin = (plan.spring_pin_mm - plan.hub_mm) / plan.leg_pin_mm
-        on_pin = strength * np.array([-pin[1], pin[0]])
-        lever = plan.drive.cam.lever_start_rad + design.compression_rad
-        on_lever = plan.drive.cam.peak_contact_n * np.array([-math.sin(lever), math.cos(lever)])
+        on_pin = self.torque_nmm / plan.leg_pin_mm * np.array([-pin[1], pin[0]])
         return (on_leg, on_pin), on_lever
 
 
@@ -136,7 +134,7 @@ def _leg(case: _Case) -> Iterator[Finding]:
     leg = sections.leg(case.skin)
     stress = tapered_stress_mpa(leg, torque, float(np.abs(case.forces.leg_axial_n).max()))
     yield _stress("leg_strength", "main leg in bending at release", stress, case.allowable_mpa, WEAKER)
-    bores = Bores.of(case.workshop)
+    bores = case.bores
     hub = max(2.0 * bores.hub_radius_mm, sections.leg_root_mm)
     stress = bored_stress_mpa(torque, sections.thickness_mm, hub, bores.hub_bore_mm)
     yield _stress(
@@ -174,7 +172,7 @@ def _front_link(case: _Case) -> Iterator[Finding]:
 
 def _eyes(case: _Case) -> Iterator[Finding]:
     """Yield those of the printed eyes: links along their layers, the foot's lugs across them."""
-    sections, bores = case.plan.sections, Bores.of(case.workshop)
+    sections, bores = case.plan.sections, case.bores
     force = max(case.ankle_n, case.front_n, case.landing_n)
     stress = eye_stress_mpa(
         force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, bores.running(case.plan.axle_mm)
@@ -214,7 +212,7 @@ def _toe_joint_mpa(case: _Case, tip_n: float) -> float:
     """
     inner, outer = SCREWS_MM
     force = tip_n * (case.plan.design.l5_mm - inner) / (outer - inner)
-    bores = Bores.of(case.workshop)
+    bores = case.bores
     height, width = joint_height_mm(case.plan, bores), case.plan.sections.toe_width_mm
     holes = (bores.fits.m3_tap_mm, bores.m3_clearance_mm)
     return max(eye_stress_mpa(force, width, height, bore) for bore in holes)
@@ -249,16 +247,17 @@ def _steel(case: _Case) -> Iterator[Finding]:
 
 def _bearings(case: _Case) -> Iterator[Finding]:
     """Yield that of the hub's bearings: an overload dents their races but does not stop the robot."""
-    if not case.workshop.bought.leg_bearing:
+    hub, cam = case.plan.hub_bearing, case.plan.lateral.cam
+    if hub is None:
         return
-    hub = load_catalogue().bearings[case.workshop.bought.leg_bearing]
-    arms, cam = case.wound_forces_n
-    seats = 2 if case.plan.sections.thickness_mm >= 2.0 * hub.width_mm else 1
-    force = float(np.linalg.norm(arms[0] + cam)) / seats
+    (arms, _), push = case.wound_forces_n
+    force = bearing_load_n((arms, push), case.plan.sections.thickness_mm, cam[1] - cam[0], hub)
+    allowed = allowed_n(hub, case.workshop)
     yield limit(
-        "hub_bearing_load", hub.static_load_n - force, "N",
-        f"each {hub.name} in the leg's hub bears {force:.0f} of {hub.static_load_n:.0f} N (static rating)",
-        'a stronger bought.leg_bearing, or none (leg_bearing = "")', "warning",
+        "hub_bearing_load", allowed - force, "N",
+        f"the {hub.name} at the cam's side of the leg's hub bears {force:.0f} of {allowed:.0f} N, its static rating "
+        f"over {case.workshop.safety.bearing_factor:g}",
+        'bought.leg_bearing = "any" for a stronger one, or "" for none', "warning",
     )  # fmt: skip
 
 
@@ -272,10 +271,11 @@ def _seats(case: _Case) -> Iterator[Finding]:
     yield _stress("plate_seat", "plates under axles and pins", stress, allowable, "raise body.plate_mm")
     gears = case.workshop.material("gears")
     torque = 1000.0 * case.plan.drive.cam.peak_torque_nm
-    bore = Bores.of(case.workshop).running(case.plan.axle_mm)
-    stress = VON_MISES * tube_shear_mpa(torque, KEY_ACROSS_FLATS_MM, bore)
+    bore = case.bores.running(case.plan.axle_mm)
+    stress = VON_MISES * tube_shear_mpa(torque, case.plan.sections.key_mm, bore)
     allowable = gears.strength_interlayer_mpa / safety.strength_factor
-    yield _stress("cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, WEAKER)
+    remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
+    yield _stress("cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, remedy)
 
 
 def leg_axle_moment_nmm(arms_n: tuple[Array, Array], cam_n: Array, span_mm: float, coil_mm: float) -> float:

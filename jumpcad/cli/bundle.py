@@ -122,6 +122,9 @@ def progress(doing: str) -> Iterator[None]:
 
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return what `build` says at its end."""
+    from jumpcad.checks.strength import strength_findings
+    from jumpcad.findings import errors
+
     assert robot.plan is not None
     train = robot.plan.drive.train
     energy = robot.spring.energy_j
@@ -139,6 +142,7 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
             "electrical_j": train.electrical_j,
             "efficiency": energy / train.electrical_j,
         },
+        "too_weak": [finding.to_dict() for finding in errors(strength_findings(robot))],
         "jump": printed.to_dict(),
         "capsule_jump": capsule.to_dict(),
     }
@@ -167,6 +171,8 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
     )
     if jump["takeoff_energy_ratio"] is not None:
         print(f"take-off       {100.0 * jump['takeoff_energy_ratio']:.1f} % of the springs' energy")
+    for finding in facts["too_weak"]:
+        print(f"too weak       {finding['message']}: {finding['remedy']}")
     print(f"printed robot  {_said(jump)}")
     print(f"as capsules    {_said(facts['capsule_jump'])}")
     print(f"written        {len(facts['files']) + 1} files in {facts['folder']}")

@@ -172,6 +172,7 @@ def _data(request: "Request", result: "Result", design_file: Path) -> dict[str, 
             for candidate in result.candidates
         ],
         "active_bounds": [asdict(bound) for bound in result.bounds],
+        "notes": result.notes,
     }
     if request.method in FRONTS:
         data["front"] = [row_data(row) for row in front(result.rows)]
@@ -185,6 +186,8 @@ def _print_result(request: "Request", result: "Result", design_file: Path) -> No
 
     refused = ", ".join(f"{name} {count}" for name, count in count_refusals(result.rows).items())
     print(f"{len(result.rows)} designs evaluated; refused: {refused or 'none'}")
+    for note in result.notes:
+        print(f"note: {note}")
     if result.best is None or result.winner is None:
         print("no design jumps: widen the bounds, raise --evaluations, or see the reasons above")
         return

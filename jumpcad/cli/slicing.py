@@ -33,11 +33,14 @@ def slice_command(
     ] = None,
     as_json: JsonFlag = False,
 ) -> None:
-    """Slice a bundle with PrusaSlicer: grams beside the mass model, printing times, settings that it ignored."""
+    """Slice a bundle with PrusaSlicer: grams beside the mass model, printing times, settings that it ignored.
+
+    The times go into the bundle's bill of materials and guide, unless another workshop prints it.
+    """
     from rich.console import Console
 
     from jumpcad.files import require_new_toml, write_text_atomically
-    from jumpcad.sliced_bundle import slice_bundle
+    from jumpcad.sliced_bundle import slice_bundle, write_times
     from jumpcad.workshop import load_workshop
 
     if write_masses is not None:
@@ -48,10 +51,14 @@ def slice_command(
     if write_masses is not None:
         require_new_toml(write_masses)  # once more: slicing takes a minute
         write_text_atomically(write_masses, found.weighed.to_toml())
+    if found.billed:
+        write_times(found)
     if as_json:
-        print_json(_facts(bundle, found) | {"workshop": write_masses and str(write_masses)})
+        print_json(_facts(bundle, found) | {"workshop": write_masses and str(write_masses), "written": found.billed})
         return
     _tell(found)
+    if found.billed:
+        print(f"written   the times, into bom.csv and assembly.md of {bundle}")
     if write_masses is not None:
         print(f"written   {write_masses}: try jumpcad build DESIGN --workshop {write_masses}")
 
@@ -69,6 +76,8 @@ def _facts(bundle: Path, found: "SlicedBundle") -> dict[str, Any]:
 
 
 def _tell(found: "SlicedBundle") -> None:
+    from jumpcad.exporters.guide import duration
+
     _print_table(
         ("part", "quantity", "material", "g each", "model g", "model", "time each"),
         [
@@ -107,9 +116,3 @@ def _print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     for row in rows:
         table.add_row(*row)
     Console(width=WIDE).print(table)
-
-
-def duration(seconds: float) -> str:
-    """Return a time in hours and minutes, rounded to whole minutes: `2:31 h`."""
-    hours, minutes = divmod(round(seconds / 60.0), 60)
-    return f"{hours}:{minutes:02d} h"

@@ -1,6 +1,7 @@
 """From a design to its drive: torsion springs, snail cam, gear train and motor, in plain numbers."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from jumpcad.design import Design
@@ -9,10 +10,10 @@ from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.drive.gears import Gear, GearPair
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
-from jumpcad.drive.train import GearTrain, TrainLimits, least_tip_mm, synthesise_train
+from jumpcad.drive.train import GearTrain, NoTrainError, TrainLimits, least_tip_mm, synthesise_train
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
-from jumpcad.hardware import Catalogue, load_catalogue
+from jumpcad.hardware import Catalogue, Motor, load_catalogue
 
 __all__ = [
     "Cam",
@@ -55,6 +56,8 @@ class DriveLimits:
     fall_s
         From release to the leg's swing past rest, during which the cam turns on (judgement: releases of this size take
         15 to 30 ms).
+    face_widths_mm
+        Of the gears, in the order tried: the next where the teeth are not strong enough, or find no room that are.
     more_gap_mm
         How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther axis makes
         room for a larger cam gear, and one pair of gears is lighter than two. What is too little for one is left out.
@@ -68,6 +71,7 @@ class DriveLimits:
     axle_radius_mm: float = 3.2
     motor_half_mm: float = 6.9
     fall_s: float = 0.03
+    face_widths_mm: tuple[float, ...] = (5.0, 6.5, 8.0)
     more_gap_mm: tuple[float, ...] = (0.0, 2.5, 5.0, 7.5, 10.0)
 
 
@@ -103,8 +107,21 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     spring = synthesise_spring(stiffness, compression, catalogue.wire, limits.spring)
     law = CamLaw(compression, stiffness, limits.cam.lift_rad, limits.cam.ramp_rad)
     motors = [catalogue.motors[name] for name in limits.motors or tuple(catalogue.motors)]
-    around = max(limits.cam.hub_radius_mm, spring.outer_diameter_mm / 2)
-    found: Drive | None = None
+    refusal: CannotBuildError | None = None
+    for width in limits.face_widths_mm:
+        beside = replace(limits, train=replace(limits.train, face_width_mm=width))
+        try:
+            return Drive(spring, *_cam_and_train(law, motors, spring.outer_diameter_mm, beside))
+        except NoTrainError as error:  # wider teeth bear more
+            refusal = error
+    assert refusal is not None
+    raise refusal
+
+
+def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits: DriveLimits) -> tuple[Cam, GearTrain]:
+    """Find cam and gears beside a spring's coil: one pair of gears where the cam's axis can make room for it."""
+    around = max(limits.cam.hub_radius_mm, coil_mm / 2)
+    found: tuple[Cam, GearTrain] | None = None
     refusal: CannotBuildError | None = None
     enough = 0.0
     for more in limits.more_gap_mm:
@@ -118,13 +135,13 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
             break
         beside = _train_limits(cam, limits)
         try:
-            drive = Drive(spring, cam, synthesise_train(law, motors, beside))
+            train = synthesise_train(law, motors, beside)
         except CannotBuildError as error:
             refusal = refusal or error
         else:
-            if len(drive.train.stages) == 1:
-                return drive
-            found = found or drive
+            if len(train.stages) == 1:
+                return cam, train
+            found = found or (cam, train)
         if found is not None:  # two pairs do it here; farther away only one pair would do better
             tip = least_tip_mm(law, motors, beside)
             enough = more + tip - beside.cam_gear_tip_max_mm if tip <= limits.train.cam_gear_tip_max_mm else math.inf

@@ -22,6 +22,11 @@ Array = npt.NDArray[np.float64]
 Pairs = npt.NDArray[np.void]
 """A table of gear pairs with named columns."""
 
+
+class NoTrainError(CannotBuildError):
+    """No motor and gears turn a cam within their limits."""
+
+
 _PINION_TEETH, _WHEEL_TEETH = range(12, 46), range(13, 91)
 
 
@@ -108,7 +113,7 @@ def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) 
 
     Raises
     ------
-    CannotBuildError
+    NoTrainError
         If no motor turns the cam with one or two pairs that fit.
     """
     if not motors:
@@ -120,12 +125,13 @@ def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) 
                 return train
     torque = law.peak_torque_nm / limits.cam_efficiency
     allowed = max(_allowed_nm(motor, limits) for motor in motors)
-    raise CannotBuildError(
+    raise NoTrainError(
         f"no motor turns the cam: it takes {1000 * torque:.0f} mN·m, the strongest allowed motor may give "
         f"{1000 * allowed:.0f} mN·m, and no one or two gear pairs make "
         f"{torque / allowed / limits.pair_efficiency:.1f}:1 at no more than {limits.cam_speed_max_rad_s:.1f} rad/s "
-        f"with a cam gear of at most {limits.cam_gear_tip_max_mm:.1f} mm radius and {limits.stress_mpa:g} MPa in the "
-        "teeth: lower stiffness_nmm_per_deg or compression_ratio, or allow a stronger motor"
+        f"with a cam gear of at most {limits.cam_gear_tip_max_mm:.1f} mm radius and {limits.stress_mpa:g} MPa in "
+        f"teeth {limits.face_width_mm:g} mm wide: lower stiffness_nmm_per_deg or compression_ratio, or allow a "
+        "stronger motor"
     )
 
 

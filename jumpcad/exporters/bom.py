@@ -1,18 +1,26 @@
-"""The bill of materials: every printed part, and every bought one down to each nut and washer."""
+"""The bill of materials: every printed part, and every bought one down to each nut and washer.
+
+Prices come from the workshop, printing times from a slicer; what nobody has told stays blank.
+"""
 
 import csv
 import io
 from collections import defaultdict
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 from jumpcad.robot import Robot
+from jumpcad.workshop import Workshop
 
-COLUMNS = ("kind", "item", "quantity", "material", "grams_each", "grams", "mass_from")
+COLUMNS = (
+    "kind", "item", "quantity", "material", "grams_each", "grams", "mass_from", "eur_each", "eur", "print_time_s",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Item:
-    """One line: `kind` is `printed` or `bought`, `mass_kg` that of one piece."""
+    """One line: `kind` is `printed` or `bought`; mass, price and printing time are those of one piece."""
 
     kind: str
     name: str
@@ -20,15 +28,68 @@ class Item:
     material: str
     mass_kg: float
     mass_source: str
+    price_eur: float | None = None
+    time_s: float | None = None
 
     @property
     def total_kg(self) -> float:
         """Mass of all pieces (kg)."""
         return self.quantity * self.mass_kg
 
+    @property
+    def total_eur(self) -> float | None:
+        """Price of all pieces."""
+        return None if self.price_eur is None else self.quantity * self.price_eur
 
-def bill_of_materials(robot: Robot) -> list[Item]:
-    """Return the printed parts, then the bought ones by article."""
+
+@dataclass(frozen=True)
+class Plate:
+    """A plate as it was sliced: its printing time (s)."""
+
+    name: str
+    material: str
+    time_s: float
+
+
+@dataclass(frozen=True)
+class Bill:
+    """All lines, printed parts first, and the plates where a slicer was asked."""
+
+    items: tuple[Item, ...]
+    plates: tuple[Plate, ...] = ()
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass of everything (kg)."""
+        return sum(item.total_kg for item in self.items)
+
+    @property
+    def time_s(self) -> float | None:
+        """Printing time of all plates."""
+        return sum(plate.time_s for plate in self.plates) if self.plates else None
+
+    @property
+    def cost_eur(self) -> float | None:
+        """What the lines whose prices are known cost together."""
+        known = [item.total_eur for item in self.items if item.total_eur is not None]
+        return sum(known) if known else None
+
+    @property
+    def known(self) -> str:
+        """How many lines have a price, in words."""
+        priced = sum(item.price_eur is not None for item in self.items)
+        return f"prices known of {priced} of {len(self.items)} lines"
+
+    def sliced(self, times_s: Mapping[str, float], plates: Iterable[Plate]) -> "Bill":
+        """Return the bill with the printing times of parts, by name, and of plates."""
+        items = (
+            replace(item, time_s=times_s.get(item.name)) if item.kind == "printed" else item for item in self.items
+        )
+        return Bill(tuple(items), tuple(plates))
+
+
+def bill_of_materials(robot: Robot) -> Bill:
+    """Return a robot's printed parts, then the bought ones by article, with the prices of its workshop."""
     printed = [
         Item("printed", part.name, part.quantity, part.material, part.mass_kg, part.mass_source) for part in robot.parts
     ]
@@ -40,15 +101,71 @@ def bill_of_materials(robot: Robot) -> list[Item]:
         quantity = sum(thing.units for thing in things)
         each = sum(thing.mass_kg for thing in things) / quantity
         bought.append(Item("bought", article, quantity, "", each, "catalogue"))
-    return printed + bought
+    return _priced([*printed, *bought], robot.workshop)
 
 
-def write_bom(robot: Robot) -> str:
-    """Return the bill of materials as CSV."""
+def mass_facts(bill: Bill) -> list[dict[str, Any]]:
+    """Return what a manifest keeps of a bill: masses and where they came from."""
+    return [
+        {
+            "kind": item.kind,
+            "name": item.name,
+            "quantity": item.quantity,
+            "material": item.material,
+            "mass_kg": item.mass_kg,
+            "source": item.mass_source,
+        }
+        for item in bill.items
+    ]
+
+
+def bill_of_facts(facts: Iterable[Mapping[str, Any]], workshop: Workshop) -> Bill:
+    """Return the bill that a manifest keeps the masses of, with the prices of a workshop."""
+    keys = ("kind", "name", "quantity", "material", "mass_kg", "source")
+    return _priced([Item(*(line[key] for key in keys)) for line in facts], workshop)
+
+
+def write_bom(bill: Bill) -> str:
+    """Return the bill of materials as CSV: the lines, plates that were sliced, and all together."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for item in bill_of_materials(robot):
-        each, total = (f"{1000.0 * mass:.3f}" for mass in (item.mass_kg, item.total_kg))
-        writer.writerow([item.kind, item.name, item.quantity, item.material, each, total, item.mass_source])
+    writer.writerows([COLUMNS, *_rows(bill)])
     return stream.getvalue()
+
+
+def _rows(bill: Bill) -> Iterator[Sequence[object]]:
+    for item in bill.items:
+        each, total = (f"{1000.0 * mass:.3f}" for mass in (item.mass_kg, item.total_kg))
+        prices = euros(item.price_eur, 3), euros(item.total_eur)
+        row = (item.kind, item.name, item.quantity, item.material, each, total, item.mass_source)
+        yield *row, *prices, _seconds(item.time_s)
+    for plate in bill.plates:
+        yield "plate", plate.name, 1, plate.material, "", "", "", "", "", _seconds(plate.time_s)
+    total = f"{1000.0 * bill.mass_kg:.3f}"
+    yield "total", bill.known, "", "", "", total, "", "", euros(bill.cost_eur), _seconds(bill.time_s)
+
+
+def euros(price: float | None, digits: int = 2) -> str:
+    """Return a price, or nothing where there is none."""
+    return "" if price is None else f"{price:.{digits}f}"
+
+
+def _seconds(time_s: float | None) -> str:
+    return "" if time_s is None else f"{time_s:.0f}"
+
+
+def _priced(items: Sequence[Item], workshop: Workshop | None) -> Bill:
+    """Return the bill of lines with a workshop's prices: of filament by mass, of articles by their names."""
+    return Bill(tuple(replace(item, price_eur=_price_eur(item, workshop)) for item in items))
+
+
+def _price_eur(item: Item, workshop: Workshop | None) -> float | None:
+    if workshop is None:
+        return None
+    if item.kind == "printed":
+        material = workshop.materials.get(item.material)
+        if material is None or material.price_eur_per_kg is None:
+            return None
+        return material.price_eur_per_kg * item.mass_kg
+    beginnings = [beginning for beginning in workshop.prices_eur if item.name.startswith(beginning)]
+    return workshop.prices_eur[max(beginnings, key=len)] if beginnings else None

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.bom import bill_of_materials, write_bom
+from jumpcad.exporters.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.exporters.dxf import write_dxfs
 from jumpcad.exporters.folder import write_folder
 from jumpcad.exporters.glb import write_glb
@@ -82,7 +82,7 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     yield f"{name}.glb", write_glb(robot)
     for outline, dxf in write_dxfs(robot).items():
         yield f"dxf/{outline}.dxf", dxf
-    yield "bom.csv", write_bom(robot)
+    yield "bom.csv", write_bom(bill_of_materials(robot))
     drawn = pictures and bool(robot.parts) and find_spec("pybullet") is not None
     yield "assembly.md", write_guide(robot, drawn)
     if drawn:
@@ -94,17 +94,7 @@ def _facts(robot: Robot) -> dict[str, Any]:
     """Return what the manifest says of the robot."""
     return {
         "mass_kg": robot.mass_kg,
-        "masses": [
-            {
-                "kind": item.kind,
-                "name": item.name,
-                "quantity": item.quantity,
-                "material": item.material,
-                "mass_kg": item.mass_kg,
-                "source": item.mass_source,
-            }
-            for item in bill_of_materials(robot)
-        ],
+        "masses": mass_facts(bill_of_materials(robot)),
         "bodies": {
             name: {
                 "mass_kg": body.mass_kg,

@@ -14,7 +14,7 @@ from jumpcad.exporters.stl import write_stl
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.files import templates_folder
 from jumpcad.parts.bores import Bores
-from jumpcad.parts.coupon import PEGS_MM, Piece, pieces
+from jumpcad.parts.coupon import PEGS_MM, Piece, coupon_bores, pieces
 from jumpcad.solids.finish import require_part
 from jumpcad.solids.layers import mass_properties
 from jumpcad.workshop import Workshop
@@ -35,7 +35,7 @@ def export_coupon(workshop: Workshop, folder: str | Path) -> Bundle:
     """
     if is_bundle(folder) and f"{READINGS}: changed" in verify(folder):
         raise JumpcadError(f"{folder}: {READINGS} has been filled in; choose another folder with -o or move it away")
-    bores = Bores.of(workshop)
+    bores = coupon_bores(workshop)
     made = pieces(bores, list(workshop.materials), workshop.material_name("gears"))
     masses = [
         {

@@ -48,14 +48,36 @@ def write_folder(
         "name": name,
         "versions": {"jumpcad": jumpcad.__version__} | {lib: importlib.metadata.version(lib) for lib in LIBRARIES},
         **facts,
-        "files": {path: hashlib.sha256(data).hexdigest() for path, data in sorted(files.items())},
     }
-    text = json.dumps(manifest, indent=2, allow_nan=False) + "\n"
+    return _put(target, manifest, files)
+
+
+def change_files(bundle: Bundle, contents: Mapping[str, str], versions: Mapping[str, str]) -> Bundle:
+    """Put other contents into files that a bundle has; the manifest then knows them and what wrote them.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder cannot be read or written.
+    """
+    target = bundle.folder.resolve()
     try:
-        _write(target, files | {MANIFEST: text.encode()})
+        files = {path: (target / path).read_bytes() for path in bundle.files}
+    except OSError as error:
+        raise JumpcadError(f"{target}: cannot be read: {error.strerror}") from None
+    manifest = {**bundle.manifest, "versions": {**bundle.manifest["versions"], **versions}}
+    return _put(target, manifest, files | {path: text.encode() for path, text in contents.items()})
+
+
+def _put(target: Path, manifest: Mapping[str, Any], files: Mapping[str, bytes]) -> Bundle:
+    """Write files with a manifest that knows their sha256."""
+    known = {**manifest, "files": {path: hashlib.sha256(data).hexdigest() for path, data in sorted(files.items())}}
+    text = json.dumps(known, indent=2, allow_nan=False) + "\n"
+    try:
+        _write(target, {**files, MANIFEST: text.encode()})
     except OSError as error:
         raise JumpcadError(f"{target}: cannot be written: {error.strerror}") from None
-    return Bundle(target, manifest)
+    return Bundle(target, known)
 
 
 def _require_free(target: Path) -> None:

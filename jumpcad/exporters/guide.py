@@ -1,14 +1,17 @@
 """assembly.md: what to print, what to buy, which springs to order, and how it goes together."""
 
 import math
+import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from jumpcad.exporters.bom import bill_of_materials
+from jumpcad.exporters.bom import Bill, Item, bill_of_materials, euros
 from jumpcad.exporters.shapes import Shape
 from jumpcad.exporters.steps import assembly_steps
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
+
+PRINT, BUY = "## Print", "## Buy"
 
 
 def write_guide(robot: Robot, pictures: bool = True) -> str:
@@ -17,21 +20,49 @@ def write_guide(robot: Robot, pictures: bool = True) -> str:
         f"# {robot.name}",
         "",
         f"{1000.0 * robot.mass_kg:.1f} g. Left and right are the robot's own, seen from above with the jump ahead.",
-        *_tables(robot),
+        *_tables(bill_of_materials(robot)),
         *_springs(robot),
         *_steps(robot, pictures),
     ]
     return "\n".join(lines) + "\n"
 
 
-def _tables(robot: Robot) -> Iterator[str]:
-    items = bill_of_materials(robot)
-    yield from ("", "## Print", "", "| part | copies | material | g each |", "|---|--:|---|--:|")
-    for item in (item for item in items if item.kind == "printed"):
-        yield f"| {item.name} | {item.quantity} | {item.material} | {1000.0 * item.mass_kg:.2f} |"
-    yield from ("", "## Buy", "", "| article | quantity | g each |", "|---|--:|--:|")
-    for item in (item for item in items if item.kind == "bought"):
-        yield f"| {item.name} | {item.quantity} | {1000.0 * item.mass_kg:.2f} |"
+def with_bill(guide: str, bill: Bill) -> str:
+    """Return a written guide with another bill in place of its own."""
+    tables = re.compile(rf"\n{PRINT}\n.*\n{BUY}\n.*?(?=\n\n## |\Z)", re.DOTALL)
+    return tables.sub(lambda _: "\n".join(_tables(bill)), guide, count=1)
+
+
+def duration(seconds: float) -> str:
+    """Return a time in hours and minutes, rounded to whole minutes: `2:31 h`."""
+    hours, minutes = divmod(round(seconds / 60.0), 60)
+    return f"{hours}:{minutes:02d} h"
+
+
+def _tables(bill: Bill) -> Iterator[str]:
+    """Yield the bill's lines; times and prices have columns where any is known."""
+    printed = [item for item in bill.items if item.kind == "printed"]
+    bought = [item for item in bill.items if item.kind == "bought"]
+    yield from ("", PRINT, "", *_table("part | copies | material | g each", printed, printed=True))
+    if bill.plates:
+        yield from ("", "| plate | material | time |", "|---|---|--:|")
+        yield from (f"| {plate.name} | {plate.material} | {duration(plate.time_s)} |" for plate in bill.plates)
+        yield f"| all | | {duration(bill.time_s or 0.0)} |"
+    yield from ("", BUY, "", *_table("article | quantity | g each", bought, printed=False))
+    cost = "" if bill.cost_eur is None else f", {euros(bill.cost_eur)} € together"
+    yield from ("", f"In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.")
+
+
+def _table(head: str, items: Sequence[Item], printed: bool) -> Iterator[str]:
+    timed = any(item.time_s is not None for item in items)
+    priced = any(item.price_eur is not None for item in items)
+    yield f"| {head} |{' time each |' * timed}{' € |' * priced}"
+    yield f"|---|--:|{'---|' * printed}--:|{'--:|' * timed}{'--:|' * priced}"
+    for item in items:
+        row = [item.name, str(item.quantity), *([item.material] * printed), f"{1000.0 * item.mass_kg:.2f}"]
+        row += [duration(item.time_s) if item.time_s is not None else ""] * timed
+        row += [euros(item.total_eur)] * priced
+        yield f"| {' | '.join(row)} |"
 
 
 def _springs(robot: Robot) -> Iterator[str]:

@@ -11,7 +11,7 @@ import numpy as np
 from jumpcad.design import Design
 from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
-from jumpcad.hardware import Battery, Board
+from jumpcad.hardware import Battery, Bearing, Board
 from jumpcad.layout.lateral import GAP_MM, Lateral, lateral_stack
 from jumpcad.layout.places import best_place, grid_candidates, ring_candidates
 from jumpcad.layout.room import EVERYWHERE, Array, Obstacle, bar, box_obstacle, clearance, disc
@@ -80,6 +80,7 @@ class Plan:
     leg_pin_mm: float
     tray_mm: Array
     standoffs_mm: tuple[Array, ...]
+    hub_bearing: Bearing | None = None
     toes_apart: bool = False
     """Whether the foot is too large for the bed with its toes, so that they are parts of their own."""
 

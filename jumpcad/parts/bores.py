@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Self
 
-from jumpcad.hardware import Bearing, load_catalogue
+from jumpcad.hardware import Bearing
 from jumpcad.solids.outline import Region, hole
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import Fits, Process, Workshop
@@ -19,11 +19,9 @@ class Bores:
     bearing: Bearing | None
 
     @classmethod
-    def of(cls, workshop: Workshop) -> Self:
-        """Return the bores of a workshop's fits, axles and bearings."""
-        chosen = workshop.bought
-        bearing = load_catalogue().bearings[chosen.leg_bearing] if chosen.leg_bearing else None
-        return cls(workshop.fits, workshop.process, chosen.axle_mm, bearing)
+    def of(cls, workshop: Workshop, bearing: Bearing | None) -> Self:
+        """Return the bores of a workshop's fits and axles, and of the hub's bearings."""
+        return cls(workshop.fits, workshop.process, workshop.bought.axle_mm, bearing)
 
     def press(self, diameter_mm: float) -> float:
         """Return the diameter of a hole that holds a shaft fast."""
@@ -58,8 +56,6 @@ class Bores:
             return [(y0_mm, y1_mm, hole(self.running(self.axle_mm)))]
         seat = hole(self.press(self.bearing.outer_mm))
         width = self.bearing.width_mm
-        if y1_mm - y0_mm < 2.0 * width + 0.8:
-            return [(y0_mm, y1_mm, seat)]
         shoulder = hole(self.bearing.outer_mm - 1.2)
         return [(y0_mm, y0_mm + width, seat), (y0_mm + width, y1_mm - width, shoulder), (y1_mm - width, y1_mm, seat)]
 

@@ -12,11 +12,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from jumpcad.drive.gears import Gear, GearPair, gear_pair
+from jumpcad.hub import hub_bearings
 from jumpcad.parts.bores import Bores
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.text import text
+from jumpcad.workshop import Workshop
 
 if TYPE_CHECKING:
     import trimesh
@@ -90,6 +92,11 @@ def pinion(backlash_mm: float) -> Gear:
 def engraved(offset_mm: float) -> str:
     """Return an offset as it is engraved: `.05`, `-.05`, `1.00`."""
     return f"{offset_mm:.2f}".replace("0.", ".", 1)
+
+
+def coupon_bores(workshop: Workshop) -> Bores:
+    """Return the bores that a workshop's coupon tries: with the lightest bearing that its hubs may have."""
+    return Bores.of(workshop, hub_bearings(workshop)[0])
 
 
 def pieces(bores: Bores, materials: Sequence[str], gear_material: str) -> list[Piece]:

@@ -88,8 +88,6 @@ def _leg_things(plan: Plan, bores: Bores, catalogue: Catalogue, chosen: BoughtPa
     low, high = lateral.leg
     if bores.bearing is not None:
         seats = [(low, low + bores.bearing.width_mm), (high - bores.bearing.width_mm, high)]
-        if high - low < 2.0 * bores.bearing.width_mm + 0.8:
-            seats = seats[:1]
         for number, seat in enumerate(seats, start=1):
             yield _bearing(f"hub_bearing_{number}", np.zeros(2), seat, bores.bearing)
     pin = np.array([plan.leg_pin_mm, 0.0])

@@ -17,7 +17,6 @@ from jumpcad.robot import BODY
 from jumpcad.solids.outline import Point, Region, d_bore, disc, hole, polygon, rectangle, rounded, union
 from jumpcad.solids.stack import Stack
 
-KEY_ACROSS_FLATS_MM = 7.0
 WEB_RIM_MM = 3.0
 """Material kept inside the root circle and around the hub of a gear with web holes."""
 WEB_HOLES = 6
@@ -29,7 +28,7 @@ def cam(plan: Plan, bores: Bores) -> Drawing:
     profile = polygon(plan.drive.cam.profile_mm).translate(centre)
     bore = hole(bores.running(plan.axle_mm), centre)
     y0, y1 = plan.lateral.cam
-    slabs = [(y0, y1, profile - bore), (y1, plan.lateral.gears[0][1], _hexagon(KEY_ACROSS_FLATS_MM, centre) - bore)]
+    slabs = [(y0, y1, profile - bore), (y1, plan.lateral.gears[0][1], _hexagon(plan.sections.key_mm, centre) - bore)]
     stack, pose = laid(slabs, "right")
     return Drawing("cam", "gears", bores.chamfered(stack), (Placement(BODY, pose),))
 
@@ -42,7 +41,7 @@ def gears(plan: Plan, bores: Bores) -> list[Drawing]:
     stages, motor = plan.drive.train.stages, plan.drive.train.motor
     cam_y, motor_y = plan.lateral.gears[0], plan.lateral.gears[-1]
     turns = gear_turns(plan)
-    key_mm = KEY_ACROSS_FLATS_MM + 2.0 * bores.fits.press_mm
+    key_mm = plan.sections.key_mm + 2.0 * bores.fits.press_mm
     shaft_mm = (bores.press(motor.shaft_mm), motor.shaft_flat_mm + 2.0 * bores.fits.press_mm)
     cam_gear = _cam_gear(stages[-1].wheel, key_mm, bores)
     pinion = _motor_pinion(stages[0].pinion, *shaft_mm, bores)

@@ -6,8 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from jumpcad.assembly import build
 from jumpcad.checks.strength import leg_axle_moment_nmm, strength_findings
+from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
+from jumpcad.hardware import load_catalogue
+from jumpcad.hub import bearing_load_n
 from jumpcad.robot import Robot
 
 
@@ -65,10 +69,49 @@ def test_each_fires_in_a_workshop_that_cannot_bear_it(
 
 
 def test_hub_bearings_warn_when_the_springs_overload_them(strongest: Robot) -> None:
-    # 118 N from the springs' arms and 77 N from the cam, against two MR63 of 75 N each
-    (finding,) = [found for found in strength_findings(strongest) if found.name == "hub_bearing_load"]
-    assert (finding.severity, finding.unit) == ("warning", "N")
-    assert -33.0 < finding.margin < 0.0
+    weak = changed(strongest, "bought", leg_bearing="MR63")
+    (finding,) = [found for found in strength_findings(build(weak.design, weak.workshop)) if "bearing" in found.name]
+    assert (finding.name, finding.severity, finding.unit) == ("hub_bearing_load", "warning", "N")
+    # an arm's force is torque over its radius; the roller's middle is 6.5 mm from the leg's, the bearings 5.5 mm apart
+    assert weak.plan is not None
+    arms = 1000.0 * weak.design.peak_spring_torque_nm / weak.plan.leg_pin_mm
+    cam = weak.plan.drive.cam.peak_contact_n
+    assert finding.margin == pytest.approx(75.0 / 0.5 - (arms / 2.0 + cam * (0.5 + 6.5 / 5.5)), rel=0.05)
+
+
+def test_the_hub_gets_the_lightest_bearings_that_bear_it(kenan: Robot, strongest: Robot) -> None:
+    names = [robot.plan.hub_bearing.name for robot in (kenan, strongest) if robot.plan and robot.plan.hub_bearing]
+    assert names == ["MR63", "683"]
+    for robot in (kenan, strongest):
+        assert sum(item.name.startswith("hub_bearing") for item in robot.hardware) == 2
+        assert margins(robot)["hub_bearing_load"] > 0.0
+
+
+def test_a_careful_workshop_gets_stronger_bearings_and_a_hub_as_wide(kenan: Robot) -> None:
+    careful = changed(kenan, "safety", bearing_factor=2.0)
+    robot = build(careful.design, careful.workshop)
+    assert robot.plan is not None
+    assert robot.plan.hub_bearing is not None
+    assert robot.plan.hub_bearing.name == "623"
+    assert robot.plan.sections.thickness_mm == pytest.approx(2 * 4.0 + 0.8)
+    assert margins(robot)["hub_bearing_load"] > 0.0
+    bare = changed(kenan, "bought", leg_bearing="")
+    assert "hub_bearing_load" not in margins(build(bare.design, bare.workshop))
+
+
+def test_bearings_that_do_not_go_on_the_axle_are_refused(kenan: Robot) -> None:
+    thick = changed(kenan, "bought", axle_mm=4.0)
+    with pytest.raises(JumpcadError, match=r"no such bearing has the bore of bought.axle_mm = 4: change one"):
+        build(thick.design, thick.workshop)
+
+
+def test_the_nearer_bearing_bears_more_than_the_cam_pushes() -> None:
+    """A lever beyond its two supports: F·(a + b)/a (Shigley, table A-9, overhanging load)."""
+    bearing = load_catalogue().bearings["MR63"]
+    push = (np.zeros(2), np.array([0.0, 10.0]))
+    apart, beside = 8.0 - 2.5, 4.0 + 0.5 + 2.0
+    assert bearing_load_n(push, 8.0, 4.0, bearing) == pytest.approx(10.0 * (apart / 2.0 + beside) / apart)
+    assert bearing_load_n(push[::-1], 8.0, 4.0, bearing) == pytest.approx(5.0)
 
 
 def test_leg_stress_by_hand(kenan: Robot) -> None:

@@ -1,5 +1,6 @@
 """`jumpcad slice`: with PrusaSlicer itself, and with programs that pretend to be it and misbehave."""
 
+import csv
 import json
 import shutil
 import sys
@@ -11,6 +12,7 @@ import pytest
 from support.commands import Run
 
 from jumpcad.exporters.bundle import export
+from jumpcad.exporters.manifest import open_bundle, verify
 from jumpcad.robot import Robot
 from jumpcad.sliced_bundle import slice_bundle
 from jumpcad.slicing import slicer_program
@@ -35,11 +37,17 @@ with open(value("--output"), "w") as gcode:
 
 
 @pytest.fixture(scope="module")
-def bundle(small_robot: Robot, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def built(small_robot: Robot, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A bundle with a link of PETG, four collars of PETG and a plate of PLA."""
     parts = tuple(part for part in small_robot.parts if part.name in ("body_plate_left", "front_link", "collar"))
     robot = replace(small_robot, parts=parts, workshop=load_workshop("default"))
     return export(robot, tmp_path_factory.mktemp("bundles") / "frog", pictures=False).folder
+
+
+@pytest.fixture
+def bundle(built: Path, tmp_path: Path) -> Path:
+    """A copy, since slicing writes times into it."""
+    return Path(shutil.copytree(built, tmp_path / "frog"))
 
 
 @pytest.fixture
@@ -105,6 +113,23 @@ def test_grams_and_times_are_told_in_tables(run: Run, bundle: Path, pretend: Cal
     assert rows["settings"] == ["all", "taken", "over"]
 
 
+def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    code, out, err = run("slice", "frog")
+    assert (code, err) == (0, "")
+    assert "written   the times, into bom.csv and assembly.md of frog" in out
+    lines = {line["item"]: line for line in csv.DictReader((bundle / "bom.csv").open())}
+    assert lines["collar"]["print_time_s"] == lines["plate-1-PLA"]["print_time_s"] == "3750"
+    assert {line["print_time_s"] for line in lines.values() if line["kind"] == "bought"} == {""}
+    assert [line["print_time_s"] for line in lines.values() if line["kind"] == "total"] == ["7500"]
+    assert "| collar | 4 | PETG | 0.12 | 1:02 h |" in (bundle / "assembly.md").read_text()
+    assert verify(bundle) == []
+    before, after = (open_bundle(folder).manifest for folder in (built, bundle))
+    changed = {path for path in after["files"] if after["files"][path] != before["files"][path]}
+    assert changed == {"bom.csv", "assembly.md"}
+    assert after["versions"] == before["versions"] | {"PrusaSlicer": "2.9.1"}
+
+
 def test_settings_that_were_not_taken_over_are_named(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
     pretend(OBEDIENT.replace("TAMPER", "del settings['infill_extrusion_width']; settings['perimeters'] = '2'"))
     code, out, _ = run("slice", str(bundle))
@@ -117,8 +142,11 @@ def test_settings_that_were_not_taken_over_are_named(run: Run, bundle: Path, pre
 def test_another_workshop_prints_the_same_parts(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
     pretend(OBEDIENT.replace("TAMPER", "assert settings['fill_density'] == '5%', settings"))
     Path("thin.toml").write_text("[process]\ninfill = 0.05\n")
-    code, _, err = run("slice", str(bundle), "--workshop", "thin.toml")
+    bill = (bundle / "bom.csv").read_bytes()
+    code, out, err = run("slice", str(bundle), "--workshop", "thin.toml")
     assert (code, err) == (0, "")
+    assert "written" not in out
+    assert (bundle / "bom.csv").read_bytes() == bill
     code, _, err = run("slice", str(bundle), "--workshop", "light")
     assert (code, err) == (
         2,

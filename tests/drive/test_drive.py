@@ -131,3 +131,21 @@ def test_the_same_design_gives_the_same_drive():
     assert first.cam.profile_mm.tobytes() == second.cam.profile_mm.tobytes()
     assert first.spring == second.spring
     assert first.train == second.train
+
+
+def test_gears_widen_where_their_teeth_are_too_weak():
+    """The Lewis stress falls as the face widens, so that a material of half the strength still turns the cam."""
+    design = load_design("best-bo")
+    trains = {
+        stress: synthesise(design, dataclasses.replace(LIMITS, train=TrainLimits(stress_mpa=stress))).train
+        for stress in (10.0, 2.5, 2.0)
+    }
+    assert [train.stages[0].face_width_mm for train in trains.values()] == sorted(LIMITS.face_widths_mm)
+    for stress, train in trains.items():
+        pinion = train.stages[0].pinion
+        # what the pair loses to friction does not bend its teeth
+        force = 2000.0 * LIMITS.train.pair_efficiency * train.motor_torque_nm / (pinion.module_mm * pinion.teeth)
+        lewis = force / (train.stages[0].face_width_mm * pinion.module_mm * pinion.lewis_factor)
+        assert lewis <= stress
+    with pytest.raises(CannotBuildError, match=r"1.5 MPa in teeth 8 mm wide: lower stiffness_nmm_per_deg"):
+        synthesise(design, dataclasses.replace(LIMITS, train=TrainLimits(stress_mpa=1.5)))

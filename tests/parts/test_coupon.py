@@ -12,8 +12,7 @@ from support.gearing import turning_play_deg
 
 from jumpcad.exporters.plates import packed
 from jumpcad.exporters.stl import write_stl
-from jumpcad.parts.bores import Bores
-from jumpcad.parts.coupon import Piece, ladders, pieces
+from jumpcad.parts.coupon import Piece, coupon_bores, ladders, pieces
 from jumpcad.solids.finish import faults
 from jumpcad.solids.text import text
 from jumpcad.workshop import Workshop, load_workshop
@@ -22,7 +21,7 @@ WORKSHOP = load_workshop("default")
 
 
 def coupon(workshop: Workshop) -> dict[str, Piece]:
-    made = pieces(Bores.of(workshop), list(workshop.materials), workshop.material_name("gears"))
+    made = pieces(coupon_bores(workshop), list(workshop.materials), workshop.material_name("gears"))
     return {piece.name: piece for piece in made}
 
 
@@ -117,13 +116,13 @@ def test_pinions_play_by_the_backlash_engraved_on_them() -> None:
 
 def test_ladders_reach_beyond_the_fits_on_both_sides() -> None:
     for workshop in (WORKSHOP, load_workshop("fine"), changed("fits", press_mm=-0.3, loose_mm=0.9)):
-        fits, steps = workshop.fits, ladders(Bores.of(workshop))
+        fits, steps = workshop.fits, ladders(coupon_bores(workshop))
         assert steps.axle_mm[1] < fits.press_mm
         assert steps.axle_mm[-2] > fits.loose_mm
         assert steps.bearing_mm[1] < fits.press_mm < steps.bearing_mm[-2]
         assert len(steps.axle_mm) <= 15
         assert np.ptp(np.diff(steps.axle_mm)) == pytest.approx(0.0, abs=1e-9)
-    tight = ladders(Bores.of(changed("fits", backlash_circumferential_mm=0.0)))
+    tight = ladders(coupon_bores(changed("fits", backlash_circumferential_mm=0.0)))
     assert tight.backlash_mm == (0.0, 0.05, 0.1)
 
 
