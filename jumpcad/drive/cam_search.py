@@ -75,6 +75,7 @@ class _Shapes:
 
     STEP = 1e-6
     ROUND_TO = np.array([1e-4, 1e-4, math.radians(1e-4)])
+    ROUNDING = 3e-4  # of a margin's scale: more than rounding costs, so that asking for it leads to another shape
 
     def __init__(self, law: CamLaw, limits: CamLimits) -> None:
         self.law, self.limits = law, limits
@@ -114,7 +115,8 @@ class _Shapes:
     def allow_for(self, shape: Array, margin: Array) -> None:
         """Ask for what coarse samples and rounding cost at a shape (3,) whose true margins are known."""
         hidden = self._at(np.log(shape))[2] + self.reserve - margin / SCALES
-        rounded_off = 2.0 * np.maximum(0.0, -margin / SCALES)
+        missing = -margin / SCALES
+        rounded_off = np.where(missing > 0, np.maximum(2.0 * missing, self.ROUNDING), 0.0)
         self.reserve = np.maximum(self.reserve, 1.05 * hidden + 1e-4) + rounded_off
 
     def _fits(self, logs: Array) -> bool:
