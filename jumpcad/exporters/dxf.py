@@ -53,6 +53,8 @@ def write_dxf(cut: Region, engraved: Region) -> str:
         for layer, colour, region in ((CUT, RED, cut), (ENGRAVE, BLUE, engraved)):
             document.layers.add(layer, color=colour)
             _outlines(document.modelspace(), layer, region)
+        for kind in sorted(document.entitydb.dxf_types_in_use()):  # ezdxf would take them as a set lists them
+            document.classes.add_class(kind)
         stream = io.StringIO()
         document.write(stream)
     return stream.getvalue()
