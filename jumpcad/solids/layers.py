@@ -150,9 +150,9 @@ def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
     insets = np.array([[layer.section.inset_mm] for layer in layers])
     z0, z1 = np.array([layer.z0_mm for layer in layers]), np.array([layer.z1_mm for layer in layers])
     first, last = [run.first for run in runs], [run.end - 1 for run in runs]
-    plastic = prism_moments(areas[which] - insets * borders[which], z0, z1)
-    plastic += prism_moments(inside, z0[first], z1[last])
-    return plastic + prism_moments(excess * area[2], z0[first], z1[first])
+    plastic = [areas[which] - insets * borders[which], inside, excess * area[2]]
+    bottoms, tops = [z0, z0[first], z0[first]], [z1, z1[last], z1[first]]
+    return prism_moments(*(np.concatenate(parts) for parts in (plastic, bottoms, tops)))
 
 
 def _jumps(which: Numbers, area_mm2: Array) -> list[int]:
@@ -183,15 +183,18 @@ def _runs(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
     """
     count, below, above = len(area), process.bottom_layers, process.top_layers
     cuts = {jump + step for jump in jumps for step in (-above, 0, below)} | {below, count - above}
+    ends = sorted({0, count, *(cut for cut in cuts if 0 < cut < count)})
     a, x, y, xx, yy, _ = area.T
     sizes = np.stack([a, xx + yy - (x * x + y * y) / np.maximum(a, SMALLEST_AREA_MM2)])
     steps = np.diff(sizes, prepend=sizes[:, :1], append=sizes[:, -1:])
     steps[:, list(jumps)] = 0.0
+    if not steps.any():
+        return list(itertools.starmap(Run, itertools.pairwise(ends)))
     bends = (np.abs(np.diff(steps)) / sizes.max(axis=1, keepdims=True)).max(axis=0)
     bends = np.pad(bends, (below, above))
     bent = np.cumsum(bends[:count] + bends[below : below + count] + bends[below + above :])
     runs = []
-    for first, end in itertools.pairwise(sorted({0, count, *(cut for cut in cuts if 0 < cut < count)})):
+    for first, end in itertools.pairwise(ends):
         while first < end:
             length = int(np.searchsorted(bent[first:end], bent[first] + ALIKE, side="right"))
             if bent[first] < bent[first + length - 1]:
