@@ -139,7 +139,7 @@ def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
     windows = [_window(middle, outlines, jumps, process) for middle in middles]
     filled = _each(lambda core, window: _filled(core, window, process.solid_below_area_mm2), cores, windows)
     solid, sparse = [pair[0] for pair in filled], [pair[1] for pair in filled]
-    bridged = _bridged(runs, solid, sparse, max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9)))
+    bridged = _bridged(runs, cores, solid, sparse, max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9)))
     hollow = 1.0 - process.infill
     thread = math.pi * nozzle_mm**2 / 4.0 / (nozzle_mm + BRIDGE_GAP_MM)
     excess = max(0.0, thread / process.layer_height_mm - 1.0) if hollow > 0.0 else 0.0
@@ -246,16 +246,19 @@ def _large(region: Region, area_mm2: float) -> Region:
     return region if len(large) == len(pieces) else CrossSection.compose(large)
 
 
-def _bridged(runs: Sequence[Run], solid: Sequence[Region], sparse: Sequence[Region], depth: int) -> list[Region]:
+def _bridged(
+    runs: Sequence[Run], cores: Sequence[Region], solid: Sequence[Region], sparse: Sequence[Region], depth: int
+) -> list[Region]:
     """Return what threads bridge in the first layer of every run: where it is solid over `depth` sparse layers."""
     below = [sparse[index] for index, run in enumerate(runs) for _ in range(run.first, run.end)]
 
     def over(index: int) -> Region:
         first = runs[index].first
-        regions = list(dict.fromkeys([solid[index], *below[max(first - depth, 0) : first]]))
-        if first < depth or NOTHING in regions:
+        beneath = dict.fromkeys(below[max(first - depth, 0) : first])
+        if first < depth or solid[index] is NOTHING or NOTHING in beneath:
             return NOTHING
-        return CrossSection.batch_boolean(regions, OpType.Intersect)
+        beneath.pop(cores[index], None)  # all that is solid lies within its own core
+        return CrossSection.batch_boolean([solid[index], *beneath], OpType.Intersect) if beneath else solid[index]
 
     return [over(index) for index in range(len(runs))]
 
