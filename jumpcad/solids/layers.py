@@ -9,8 +9,8 @@ as bridges, with round threads of the nozzle's diameter d, d + 0.05 mm apart.
 import itertools
 import math
 from collections.abc import Callable, Hashable, Sequence
-from functools import lru_cache
 from typing import Literal, NamedTuple, Protocol, TypeVar
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -79,11 +79,14 @@ class Run(NamedTuple):
         return (self.first + self.end) // 2
 
 
-@lru_cache(maxsize=128)
+_KNOWN: WeakKeyDictionary[Shape, dict[tuple[object, ...], MassProperties]] = WeakKeyDictionary()
+"""What is known of shapes, for as long as someone keeps them: gears and small parts serve many designs."""
+
+
 def mass_properties(
     shape: Shape, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
 ) -> MassProperties:
-    """Return mass, centre and inertia of one part in its printing frame (kg, m); of the last shapes it is remembered.
+    """Return mass, centre and inertia of one part in its printing frame (kg, m); found once for every shape.
 
     Parameters
     ----------
@@ -96,8 +99,11 @@ def mass_properties(
     model
         `solid` for volume times density, `printed` for the layer model.
     """
-    moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
-    return mass_of(moments, density_g_cm3)
+    known, case = _KNOWN.setdefault(shape, {}), (density_g_cm3, process, nozzle_mm, model)
+    if case not in known:
+        moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
+        known[case] = mass_of(moments, density_g_cm3)
+    return known[case]
 
 
 def line_spacing_mm(width_mm: float, height_mm: float) -> float:
@@ -135,7 +141,7 @@ def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
     spacing = line_spacing_mm(process.line_width_mm, process.layer_height_mm)
     void = (process.line_width_mm - spacing) / 2.0
     shell = process.perimeters * spacing + void
-    cores = _each(lambda outline: _core(outline, shell), [outlines[middle] for middle in middles])
+    cores = _each(lambda outline: _core(outline, shell, spacing), [outlines[middle] for middle in middles])
     windows = [_window(middle, outlines, jumps, process) for middle in middles]
     filled = _each(lambda core, window: _filled(core, window, process.solid_below_area_mm2), cores, windows)
     solid, sparse = [pair[0] for pair in filled], [pair[1] for pair in filled]
@@ -216,9 +222,17 @@ def _window(middle: int, outlines: Sequence[Region], jumps: Sequence[int], proce
     return tuple(dict.fromkeys(outlines[layer] for layer in sorted(layers) if outlines[layer] is not outlines[middle]))
 
 
-def _core(outline: Region, shell_mm: float) -> Region:
-    """Return what is inside the perimeters."""
-    return outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
+def _core(outline: Region, shell_mm: float, spacing_mm: float) -> Region:
+    """Return what is inside the perimeters; nothing where that is all narrower than a line, as they widen to fill it.
+
+    So does PrusaSlicer (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
+    """
+    core = outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
+    if core.is_empty():
+        return NOTHING
+    border = sum(float(np.hypot(*(ring - np.roll(ring, 1, axis=0)).T).sum()) for ring in core.to_polygons())
+    narrow = 2.0 * core.area() < spacing_mm * border and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
+    return NOTHING if narrow else core
 
 
 def _filled(core: Region, window: Sequence[Region], solid_below_mm2: float) -> tuple[Region, Region]:
