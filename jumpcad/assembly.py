@@ -10,6 +10,7 @@ from jumpcad.checks.strength import strength_findings
 from jumpcad.design import Design
 from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
 from jumpcad.errors import CannotBuildError
+from jumpcad.fatigue import spring_share
 from jumpcad.findings import errors
 from jumpcad.gate import geometry_findings
 from jumpcad.hardware import Bearing, load_catalogue
@@ -30,6 +31,7 @@ GROWTH_ROUNDS = 10
 FOLLOWS = {
     "leg_strength": "leg",
     "leg_flex": "leg",
+    "leg_sideways": "thickness",
     "hub_strength": "leg",
     "lever_strength": "lever",
     "front_link_strength": "front",
@@ -239,7 +241,7 @@ def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, bores: B
         spring=SpringLimits(
             mandrel_min_mm=2.0 * (axle_radius + fits.wall_min_mm),
             pin_radius_min_mm=hub_radius + CLEAR_MM + workshop.bought.axle_mm / math.sqrt(2.0),
-            stress_share=safety.spring_stress_share,
+            stress_share=min(safety.spring_stress_share, spring_share(safety.jumps)),
         ),
         cam=CamLimits(
             roller_radius_mm=roller.outer_mm / 2.0,

@@ -135,6 +135,12 @@ def tube_shear_mpa(torque_nmm: float, outer_mm: float, bore_mm: float) -> float:
     return 16.0 * torque_nmm * outer_mm / (math.pi * (outer_mm**4 - bore_mm**4))
 
 
+def bar_shear_mpa(torque_nmm: float | Array, width_mm: float | Array, height_mm: float | Array) -> float | Array:
+    """Return the largest shear stress of a rectangular bar under torsion, T/(b·c²)·(3 + 1.8·c/b) with b ≥ c."""
+    long, short = np.maximum(width_mm, height_mm), np.minimum(width_mm, height_mm)
+    return torque_nmm / (long * short**2) * (3.0 + 1.8 * short / long)
+
+
 def buckling_load_n(bar: Bar, length_mm: float, modulus_mpa: float) -> float:
     """Return Euler's load of a bar with a hinge at either end, pi²·E·I/l²."""
     return float(math.pi**2 * modulus_mpa * bar.second_moment_mm4 / length_mm**2)

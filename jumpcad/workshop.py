@@ -126,6 +126,7 @@ class Safety(Section):
     motor_torque_max_nm: Positive
     gear_efficiency: Share
     spring_stress_share: Share
+    jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Positive
     leg_flex_share: Share
     steel_yield_mpa: Positive

@@ -1,11 +1,11 @@
 """What can be wrong with a built robot, as findings with signed margins.
 
-Names by module: `strength` leg_strength, hub_strength, lever_strength, leg_flex, front_link_strength,
+Names by module: `strength` leg_strength, hub_strength, lever_strength, leg_flex, leg_sideways, front_link_strength,
 front_link_buckling, eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, rail_strength,
-leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength, roller_screw_strength, hub_bearing_load,
-plate_seat, cam_key_strength; `drive` spring_stress, cam_*, gear_*, motor_torque; `ground` ground_clearance,
-foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges, solid; `interference` interference;
-and those of `jumpcad.gate`: loop, below_ground, tips, too_weak.
+plate_seat, cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
+roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
+motor_torque; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
+solid; `interference` interference; and those of `jumpcad.gate`: loop, below_ground, tips, too_weak.
 """
 
 from jumpcad.checks.drive import drive_findings

@@ -62,6 +62,8 @@ class TorsionSpring:
         Of this one spring.
     stress_mpa, allowable_mpa
         Bending stress when wound, at the inner fibre, and its limit.
+    tensile_mpa
+        Tensile strength of the wire, at least.
     """
 
     wire_mm: float
@@ -74,6 +76,7 @@ class TorsionSpring:
     stiffness_nm_per_rad: float
     stress_mpa: float
     allowable_mpa: float
+    tensile_mpa: float
     mass_g: float
     findings: tuple[Finding, ...]
     hands: tuple[Literal["left"], Literal["right"]] = ("left", "right")
@@ -166,6 +169,7 @@ def _of_wire(
         stiffness_nm_per_rad=stiffness,
         stress_mpa=stress,
         allowable_mpa=allowable,
+        tensile_mpa=tensile_mpa,
         mass_g=wire.density_g_cm3 * volume / 1000,
         findings=(
             Finding(

@@ -24,7 +24,7 @@ from jumpcad.exporters.step import require_step, write_step
 from jumpcad.exporters.stl import write_stl
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import MESH_FOLDER, write_loop, write_urdf
-from jumpcad.pictures.stills import step_pictures, stills
+from jumpcad.pictures.stills import all_pictures
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import require_part
 
@@ -86,7 +86,7 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     drawn = pictures and bool(robot.parts) and find_spec("pybullet") is not None
     yield "assembly.md", write_guide(robot, drawn)
     if drawn:
-        for picture, png in (stills(robot) | step_pictures(robot)).items():
+        for picture, png in all_pictures(robot).items():
             yield f"pictures/{picture}.png", png
 
 

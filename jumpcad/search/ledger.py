@@ -24,9 +24,9 @@ APPLICATION_ID = 0x4A554D50
 FORMAT = 1
 PATIENCE_S = 5.0
 """How long a reader or writer waits for another one to finish."""
-PHASES = ("ga", "bo", "pareto", "nsga2", "sample", "sweep", "bounds", "robust")
-"""All phases, in the order in which a study goes through them; the last two look around the best."""
-SEARCH_PHASES = PHASES[:-2]
+PHASES = ("ga", "bo", "pareto", "nsga2", "sample", "sweep", "margin", "bounds", "robust")
+"""All phases, in the order in which a study goes through them; the last three look around the best."""
+SEARCH_PHASES = PHASES[:-3]
 
 _SCHEMA = f"""
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);

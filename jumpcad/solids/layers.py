@@ -9,8 +9,8 @@ as bridges, with round threads of the nozzle's diameter d, d + 0.05 mm apart.
 import itertools
 import math
 from collections.abc import Callable, Hashable, Sequence
-from functools import lru_cache
 from typing import Literal, NamedTuple, Protocol, TypeVar
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -79,11 +79,14 @@ class Run(NamedTuple):
         return (self.first + self.end) // 2
 
 
-@lru_cache(maxsize=128)
+_KNOWN: WeakKeyDictionary[Shape, dict[tuple[object, ...], MassProperties]] = WeakKeyDictionary()
+"""What is known of shapes, for as long as someone keeps them: gears and small parts serve many designs."""
+
+
 def mass_properties(
     shape: Shape, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
 ) -> MassProperties:
-    """Return mass, centre and inertia of one part in its printing frame (kg, m); of the last shapes it is remembered.
+    """Return mass, centre and inertia of one part in its printing frame (kg, m); found once for every shape.
 
     Parameters
     ----------
@@ -96,8 +99,11 @@ def mass_properties(
     model
         `solid` for volume times density, `printed` for the layer model.
     """
-    moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
-    return mass_of(moments, density_g_cm3)
+    known, case = _KNOWN.setdefault(shape, {}), (density_g_cm3, process, nozzle_mm, model)
+    if case not in known:
+        moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
+        known[case] = mass_of(moments, density_g_cm3)
+    return known[case]
 
 
 def line_spacing_mm(width_mm: float, height_mm: float) -> float:
@@ -135,11 +141,11 @@ def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
     spacing = line_spacing_mm(process.line_width_mm, process.layer_height_mm)
     void = (process.line_width_mm - spacing) / 2.0
     shell = process.perimeters * spacing + void
-    cores = _each(lambda outline: _core(outline, shell), [outlines[middle] for middle in middles])
+    cores = _each(lambda outline: _core(outline, shell, spacing), [outlines[middle] for middle in middles])
     windows = [_window(middle, outlines, jumps, process) for middle in middles]
     filled = _each(lambda core, window: _filled(core, window, process.solid_below_area_mm2), cores, windows)
     solid, sparse = [pair[0] for pair in filled], [pair[1] for pair in filled]
-    bridged = _bridged(runs, solid, sparse, max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9)))
+    bridged = _bridged(runs, cores, solid, sparse, max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9)))
     hollow = 1.0 - process.infill
     thread = math.pi * nozzle_mm**2 / 4.0 / (nozzle_mm + BRIDGE_GAP_MM)
     excess = max(0.0, thread / process.layer_height_mm - 1.0) if hollow > 0.0 else 0.0
@@ -150,9 +156,9 @@ def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
     insets = np.array([[layer.section.inset_mm] for layer in layers])
     z0, z1 = np.array([layer.z0_mm for layer in layers]), np.array([layer.z1_mm for layer in layers])
     first, last = [run.first for run in runs], [run.end - 1 for run in runs]
-    plastic = prism_moments(areas[which] - insets * borders[which], z0, z1)
-    plastic += prism_moments(inside, z0[first], z1[last])
-    return plastic + prism_moments(excess * area[2], z0[first], z1[first])
+    plastic = [areas[which] - insets * borders[which], inside, excess * area[2]]
+    bottoms, tops = [z0, z0[first], z0[first]], [z1, z1[last], z1[first]]
+    return prism_moments(*(np.concatenate(parts) for parts in (plastic, bottoms, tops)))
 
 
 def _jumps(which: Numbers, area_mm2: Array) -> list[int]:
@@ -183,15 +189,18 @@ def _runs(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
     """
     count, below, above = len(area), process.bottom_layers, process.top_layers
     cuts = {jump + step for jump in jumps for step in (-above, 0, below)} | {below, count - above}
+    ends = sorted({0, count, *(cut for cut in cuts if 0 < cut < count)})
     a, x, y, xx, yy, _ = area.T
     sizes = np.stack([a, xx + yy - (x * x + y * y) / np.maximum(a, SMALLEST_AREA_MM2)])
     steps = np.diff(sizes, prepend=sizes[:, :1], append=sizes[:, -1:])
     steps[:, list(jumps)] = 0.0
+    if not steps.any():
+        return list(itertools.starmap(Run, itertools.pairwise(ends)))
     bends = (np.abs(np.diff(steps)) / sizes.max(axis=1, keepdims=True)).max(axis=0)
     bends = np.pad(bends, (below, above))
     bent = np.cumsum(bends[:count] + bends[below : below + count] + bends[below + above :])
     runs = []
-    for first, end in itertools.pairwise(sorted({0, count, *(cut for cut in cuts if 0 < cut < count)})):
+    for first, end in itertools.pairwise(ends):
         while first < end:
             length = int(np.searchsorted(bent[first:end], bent[first] + ALIKE, side="right"))
             if bent[first] < bent[first + length - 1]:
@@ -213,9 +222,17 @@ def _window(middle: int, outlines: Sequence[Region], jumps: Sequence[int], proce
     return tuple(dict.fromkeys(outlines[layer] for layer in sorted(layers) if outlines[layer] is not outlines[middle]))
 
 
-def _core(outline: Region, shell_mm: float) -> Region:
-    """Return what is inside the perimeters."""
-    return outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
+def _core(outline: Region, shell_mm: float, spacing_mm: float) -> Region:
+    """Return what is inside the perimeters; nothing where that is all narrower than a line, as they widen to fill it.
+
+    So does PrusaSlicer (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
+    """
+    core = outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
+    if core.is_empty():
+        return NOTHING
+    border = sum(float(np.hypot(*(ring - np.roll(ring, 1, axis=0)).T).sum()) for ring in core.to_polygons())
+    narrow = 2.0 * core.area() < spacing_mm * border and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
+    return NOTHING if narrow else core
 
 
 def _filled(core: Region, window: Sequence[Region], solid_below_mm2: float) -> tuple[Region, Region]:
@@ -243,16 +260,19 @@ def _large(region: Region, area_mm2: float) -> Region:
     return region if len(large) == len(pieces) else CrossSection.compose(large)
 
 
-def _bridged(runs: Sequence[Run], solid: Sequence[Region], sparse: Sequence[Region], depth: int) -> list[Region]:
+def _bridged(
+    runs: Sequence[Run], cores: Sequence[Region], solid: Sequence[Region], sparse: Sequence[Region], depth: int
+) -> list[Region]:
     """Return what threads bridge in the first layer of every run: where it is solid over `depth` sparse layers."""
     below = [sparse[index] for index, run in enumerate(runs) for _ in range(run.first, run.end)]
 
     def over(index: int) -> Region:
         first = runs[index].first
-        regions = list(dict.fromkeys([solid[index], *below[max(first - depth, 0) : first]]))
-        if first < depth or NOTHING in regions:
+        beneath = dict.fromkeys(below[max(first - depth, 0) : first])
+        if first < depth or solid[index] is NOTHING or NOTHING in beneath:
             return NOTHING
-        return CrossSection.batch_boolean(regions, OpType.Intersect)
+        beneath.pop(cores[index], None)  # all that is solid lies within its own core
+        return CrossSection.batch_boolean([solid[index], *beneath], OpType.Intersect) if beneath else solid[index]
 
     return [over(index) for index in range(len(runs))]
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from jumpcad.assembly import build
-from jumpcad.checks.strength import leg_axle_moment_nmm, strength_findings
+from jumpcad.checks.case import Case, leg_axle_moment_nmm
+from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.hardware import load_catalogue
@@ -41,7 +42,7 @@ def test_silent_on_what_was_sized_for_it(kenan: Robot, strongest: Robot) -> None
 
 WEAK_LINKS = (
     "leg_strength", "hub_strength", "lever_strength", "front_link_strength", "eye_strength", "toe_strength",
-    "toe_landing", "rail_strength",
+    "toe_landing", "rail_strength", "leg_sideways",
 )  # fmt: skip
 
 
@@ -112,6 +113,30 @@ def test_the_nearer_bearing_bears_more_than_the_cam_pushes() -> None:
     apart, beside = 8.0 - 2.5, 4.0 + 0.5 + 2.0
     assert bearing_load_n(push, 8.0, 4.0, bearing) == pytest.approx(10.0 * (apart / 2.0 + beside) / apart)
     assert bearing_load_n(push[::-1], 8.0, 4.0, bearing) == pytest.approx(5.0)
+
+
+def test_what_lasts_too_few_jumps_warns(kenan: Robot, strongest: Robot) -> None:
+    lasting = changed(kenan, "safety", jumps=1e6)
+    (finding,) = [found for found in strength_findings(lasting) if found.severity == "warning"]
+    assert finding.name == "spring_fatigue"
+    assert "of 960 MPa for 1e+06 jumps; it lasts about 6" in finding.message  # half of 1920 MPa (EN 10270-1, 1.2 mm)
+    soft = changed(changed(strongest, "safety", jumps=1e6), "safety", steel_yield_mpa=900.0)
+    assert {"axle_fatigue"} <= {found.name for found in strength_findings(soft) if found.severity == "warning"}
+    built_for_it = build(lasting.design, lasting.workshop)
+    assert margins(built_for_it)["spring_fatigue"] > 0.0
+    assert built_for_it.plan is not None
+    assert built_for_it.plan.drive.spring.mass_g > kenan.plan.drive.spring.mass_g  # type: ignore[union-attr]
+
+
+def test_sideways_stress_by_hand(kenan: Robot) -> None:
+    """A solid leg that stands upright is a plain cantilever on its thin side, 6·M/(h·b²); worst where it is lowest."""
+    assert kenan.plan is not None
+    upright = kenan.design.model_copy(update={"rest_angle_deg": 90.0})
+    solid = changed(replace(kenan, design=upright), "process", infill=1.0)
+    case = Case(solid, kenan.plan, solid.workshop)  # type: ignore[arg-type]
+    aside = upright.l5_mm * math.sin(math.radians(upright.ground_link_angle_deg))
+    by_hand = 6.0 * case.toe_blow_n * aside / (kenan.plan.sections.leg_tip_mm * 6.0**2)
+    assert 15.0 - margins(solid)["leg_sideways"] == pytest.approx(by_hand)
 
 
 def test_leg_stress_by_hand(kenan: Robot) -> None:

@@ -1,6 +1,9 @@
 """DXF and GLB read back by independent readers."""
 
 import io
+import os
+import subprocess
+import sys
 
 import ezdxf
 import numpy as np
@@ -41,6 +44,18 @@ def test_a_plate_with_a_hole_is_cut_and_engraved_in_millimetres() -> None:
     assert document.units == MILLIMETRES
     assert enclosed_mm2(document, "CUT") == pytest.approx(800.0 - np.pi * 25.0, rel=0.001)
     assert enclosed_mm2(document, "ENGRAVE") == pytest.approx(np.pi, rel=0.005)
+
+
+def test_a_sheet_is_the_same_text_whatever_the_hashes_of_strings() -> None:
+    """Sets of strings are listed in an order that differs from process to process."""
+    program = (
+        "from jumpcad.exporters.dxf import write_dxf; from jumpcad.solids.outline import disc;"
+        "print(write_dxf(disc(9.0), disc(2.0)))"
+    )
+    seeds = [{**os.environ, "PYTHONHASHSEED": seed} for seed in "123456"]
+    texts = {subprocess.run([sys.executable, "-c", program], env=seed, capture_output=True).stdout for seed in seeds}
+    assert len(texts) == 1
+    assert b"LWPOLYLINE" in texts.pop()
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,77 @@
+"""Axles, pins, screws, bearings and springs: at the first jump, and after many (N, N·mm, mm, MPa)."""
+
+import math
+from collections.abc import Iterator
+
+from jumpcad.checks.case import Case, stress_finding
+from jumpcad.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
+from jumpcad.findings import Finding, limit
+from jumpcad.hub import allowed_n, bearing_load_n
+from jumpcad.layout.lateral import ROLLER_WASHER_MM
+from jumpcad.stress import pin_stress_mpa
+
+ROLLER_SCREW_CORE_MM = 2.39
+"""M3, ISO 724."""
+ROLLER_SCREW_YIELD_MPA = 640.0
+"""Property class 8.8, ISO 898-1."""
+
+
+def steel_findings(case: Case) -> Iterator[Finding]:
+    """Yield a finding for every way in which what is bought could break."""
+    yield from (*_pins(case), *_fatigue(case), *_bearings(case))
+
+
+def _pins(case: Case) -> Iterator[Finding]:
+    """Yield those of axles, pins and the roller's screw."""
+    plan, lateral = case.plan, case.plan.lateral
+    remedy = "raise bought.axle_mm with its bearings, or lower stiffness_nmm_per_deg or compression_ratio"
+    names = {
+        "leg_axle": "the leg's axle, wound",
+        "cam_axle": "the cam's axle, wound",
+        "spring_pin": "the pin that holds the springs' arms",
+        "foot_pin": "the foot's pins",
+    }
+    for name, stress in case.steel_stresses_mpa.items():
+        yield stress_finding(f"{name}_strength", names[name], stress, case.steel_mpa, remedy)
+    lever = ROLLER_WASHER_MM + (lateral.cam[1] - lateral.cam[0]) / 2.0
+    stress = pin_stress_mpa(plan.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
+    allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.steel_factor
+    yield stress_finding(
+        "roller_screw_strength", "the roller's screw, wound", stress, allowed, "a narrower bought.roller"
+    )
+
+
+def _fatigue(case: Case) -> Iterator[Finding]:
+    """Yield those of what a number of jumps breaks: springs, axles and pins. None of it breaks at the first one."""
+    safety, spring = case.workshop.safety, case.plan.drive.spring
+    lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
+    allowed = spring_share(safety.jumps) * spring.tensile_mpa
+    yield limit(
+        "spring_fatigue", allowed - spring.stress_mpa, "MPa",
+        f"the springs' wire bears {spring.stress_mpa:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps; it lasts "
+        f"{'without end' if math.isinf(lasts) else f'about {lasts:.0f}'}",
+        "lower stiffness_nmm_per_deg or compression_ratio", "warning",
+    )  # fmt: skip
+    name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1])
+    allowed = pin_limit_mpa(safety.steel_yield_mpa / YIELD_SHARE, safety.jumps)
+    yield limit(
+        "axle_fatigue", allowed - stress, "MPa",
+        f"the {name.replace('_', ' ')} bears {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
+        "raise bought.axle_mm with its bearings, or lower stiffness_nmm_per_deg or compression_ratio", "warning",
+    )  # fmt: skip
+
+
+def _bearings(case: Case) -> Iterator[Finding]:
+    """Yield that of the hub's bearings: an overload dents their races but does not stop the robot."""
+    hub, cam = case.plan.hub_bearing, case.plan.lateral.cam
+    if hub is None:
+        return
+    (arms, _), push = case.wound_forces_n
+    force = bearing_load_n((arms, push), case.plan.sections.thickness_mm, cam[1] - cam[0], hub)
+    allowed = allowed_n(hub, case.workshop)
+    yield limit(
+        "hub_bearing_load", allowed - force, "N",
+        f"the {hub.name} at the cam's side of the leg's hub bears {force:.0f} of {allowed:.0f} N, its static rating "
+        f"over {case.workshop.safety.bearing_factor:g}",
+        'bought.leg_bearing = "any" for a stronger one, or "" for none', "warning",
+    )  # fmt: skip
