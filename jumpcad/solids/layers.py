@@ -9,8 +9,8 @@ as bridges, with round threads of the nozzle's diameter d, d + 0.05 mm apart.
 import itertools
 import math
 from collections.abc import Callable, Hashable, Sequence
-from functools import lru_cache
 from typing import Literal, NamedTuple, Protocol, TypeVar
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -79,11 +79,14 @@ class Run(NamedTuple):
         return (self.first + self.end) // 2
 
 
-@lru_cache(maxsize=128)
+_KNOWN: WeakKeyDictionary[Shape, dict[tuple[object, ...], MassProperties]] = WeakKeyDictionary()
+"""What is known of shapes, for as long as someone keeps them: gears and small parts serve many designs."""
+
+
 def mass_properties(
     shape: Shape, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
 ) -> MassProperties:
-    """Return mass, centre and inertia of one part in its printing frame (kg, m); of the last shapes it is remembered.
+    """Return mass, centre and inertia of one part in its printing frame (kg, m); found once for every shape.
 
     Parameters
     ----------
@@ -96,8 +99,11 @@ def mass_properties(
     model
         `solid` for volume times density, `printed` for the layer model.
     """
-    moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
-    return mass_of(moments, density_g_cm3)
+    known, case = _KNOWN.setdefault(shape, {}), (density_g_cm3, process, nozzle_mm, model)
+    if case not in known:
+        moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
+        known[case] = mass_of(moments, density_g_cm3)
+    return known[case]
 
 
 def line_spacing_mm(width_mm: float, height_mm: float) -> float:

@@ -1,6 +1,8 @@
 """The printed mass against arithmetic on paper; against a slicer it is tested in tests/clients."""
 
+import gc
 import math
+import weakref
 
 import numpy as np
 import pytest
@@ -82,6 +84,16 @@ def test_layers_cover_the_part_from_the_bed_up():
     assert (found[0].z0_mm, found[0].z1_mm) == pytest.approx((1.0, 1.3))
     assert found[-1].z1_mm == pytest.approx(5.0, abs=0.1)
     assert len({layer.section.outline for layer in found}) == 1
+
+
+def test_what_is_known_of_a_shape_is_kept_as_long_as_the_shape():
+    shape = Stack.of([(0, 4, disc(12.0))])
+    assert mass_properties(shape, 1.0, PROCESS, 0.4) is mass_properties(shape, 1.0, PROCESS, 0.4)
+    assert grams(shape, infill=1.0) > grams(shape)
+    gone = weakref.ref(shape)
+    del shape
+    gc.collect()
+    assert gone() is None
 
 
 class Turned:
