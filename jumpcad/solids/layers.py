@@ -181,6 +181,7 @@ def _runs(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
 
     Where area and polar moment about the centre change from layer to layer, they change steadily within a run, and so
     does what makes its layers bottoms and tops; its length is odd. Its middle layer is then what all are on average.
+    It is no longer than tops are thick: what a run bridges begins where the run below ends.
 
     Parameters
     ----------
@@ -199,12 +200,13 @@ def _runs(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
     bends = (np.abs(np.diff(steps)) / sizes.max(axis=1, keepdims=True)).max(axis=0)
     bends = np.pad(bends, (below, above))
     bent = np.cumsum(bends[:count] + bends[below : below + count] + bends[below + above :])
+    longest = max(1, min(ALIKE_LAYERS, above - (above + 1) % 2))
     runs = []
     for first, end in itertools.pairwise(ends):
         while first < end:
             length = int(np.searchsorted(bent[first:end], bent[first] + ALIKE, side="right"))
             if bent[first] < bent[first + length - 1]:
-                length = min(ALIKE_LAYERS, length - (length + 1) % 2)
+                length = min(longest, length - (length + 1) % 2)
             runs.append(Run(first, first + length))
             first += length
     return runs

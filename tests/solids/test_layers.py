@@ -1,6 +1,8 @@
 """The printed mass against arithmetic on paper; against a slicer it is tested in tests/clients."""
 
+import gc
 import math
+import weakref
 
 import numpy as np
 import pytest
@@ -84,6 +86,16 @@ def test_layers_cover_the_part_from_the_bed_up():
     assert len({layer.section.outline for layer in found}) == 1
 
 
+def test_what_is_known_of_a_shape_is_kept_as_long_as_the_shape():
+    shape = Stack.of([(0, 4, disc(12.0))])
+    assert mass_properties(shape, 1.0, PROCESS, 0.4) is mass_properties(shape, 1.0, PROCESS, 0.4)
+    assert grams(shape, infill=1.0) > grams(shape)
+    gone = weakref.ref(shape)
+    del shape
+    gc.collect()
+    assert gone() is None
+
+
 class Turned:
     """A shape turned about z and moved."""
 
@@ -105,14 +117,16 @@ def test_a_part_weighs_the_same_however_it_lies_on_the_bed():
     assert masses == pytest.approx([masses[0]] * 4, rel=3e-4)
 
 
+@pytest.mark.parametrize("top_layers", [2, 5])
 @pytest.mark.parametrize("slope_mm", [0.3, 3.0, 9.0])
-def test_layers_that_change_little_by_little_are_as_if_each_were_taken_by_itself(slope_mm, monkeypatch):
+def test_layers_that_change_little_by_little_are_as_if_each_were_taken_by_itself(slope_mm, top_layers, monkeypatch):
+    process = PROCESS.model_copy(update={"top_layers": top_layers, "layer_height_mm": 0.1})
     toe = Finger(np.array([0.0, 8.0]), 7.0, 9.5, np.array([-70.0, 60.0]), 5.0, 9.5 - slope_mm)
     rail = tapered_bar((0.0, 5.0), (70.0, 4.0), 10.0, 7.0) - disc(3.2, (0.0, 5.0))
     shape = Blocks((toe, Bar(rail, ((5.0, 9.0),))))
-    together = mass_properties(shape, 1.0, PROCESS, 0.4)
+    together = mass_properties(shape, 1.0, process, 0.4)
     monkeypatch.setattr(layers, "ALIKE_LAYERS", 1)
-    apart = mass_properties(Turned(shape, 0.0), 1.0, PROCESS, 0.4)
+    apart = mass_properties(Turned(shape, 0.0), 1.0, process, 0.4)
     assert together.mass_kg == pytest.approx(apart.mass_kg, rel=6e-3)
     assert np.diag(together.inertia_kg_m2) == pytest.approx(np.diag(apart.inertia_kg_m2), rel=1e-2)
 
