@@ -18,13 +18,14 @@ from jumpcad.exporters.guide import write_guide
 from jumpcad.exporters.manifest import Bundle
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.plates import packed
+from jumpcad.exporters.report import write_report
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.shapes import shapes
 from jumpcad.exporters.step import require_step, write_step
 from jumpcad.exporters.stl import write_stl
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import MESH_FOLDER, write_loop, write_urdf
-from jumpcad.pictures.stills import all_pictures
+from jumpcad.pictures.stills import STILLS, all_pictures
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import require_part
 
@@ -85,9 +86,10 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     yield "bom.csv", write_bom(bill_of_materials(robot))
     drawn = pictures and bool(robot.parts) and find_spec("pybullet") is not None
     yield "assembly.md", write_guide(robot, drawn)
-    if drawn:
-        for picture, png in all_pictures(robot).items():
-            yield f"pictures/{picture}.png", png
+    seen = all_pictures(robot) if drawn else {}
+    yield "report.html", write_report(robot, {name: seen[name] for name in STILLS if name in seen})
+    for picture, png in seen.items():
+        yield f"pictures/{picture}.png", png
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 Drawn in the body frame and printed outside down, so that the motor's socket stands on the inside of the right one.
 """
 
+import itertools
 from functools import lru_cache
 
 import numpy as np
@@ -34,7 +35,10 @@ RIB_MM = 3.2
 EDGE_MM = 3.2
 POCKET_RADIUS_MM = 1.5
 ENGRAVING_MM = 0.5
-TEXT_HEIGHT_MM = 4.5
+TEXT_HEIGHTS_MM = (4.5, 3.5)
+TEXT_EDGE_MM = 0.8
+"""Around a label, at least: two lines of a nozzle."""
+TEXT_STEP_MM = 1.0
 TAB_MM = 10.0
 """Length along x of a tray's tab in its slot."""
 
@@ -149,14 +153,34 @@ def _drawing(
     label: str,
     face: Face,
 ) -> Drawing:
-    """Lay a plate outside down and engrave its label along the lower edge."""
+    """Lay a plate outside down and engrave its label where its face, the first slab, has room for it."""
     stack, pose = laid(slabs, face)
-    if label:
-        letters = text(label, TEXT_HEIGHT_MM).translate((0.0, -TEXT_HEIGHT_MM / 2.0))
-        # read from the left, x runs to the left
-        cut, _ = laid([(*engraved_y, letters.mirror((1.0, 0.0)) if face == "left" else letters)], face)
+    letters = _letters(label, slabs[0][2], mirrored=face == "left") if label else None
+    if letters is not None:
+        cut, _ = laid([(*engraved_y, letters)], face)
         stack = stack.minus(cut)
     return Drawing(name, "body", bores.chamfered(stack), (Placement(BODY, pose),))
+
+
+def _letters(label: str, face: Region, mirrored: bool) -> Region | None:
+    """Return a plate's label, or its last letter alone, at the place nearest to the pivots' line that has room for it.
+
+    Read from the left, x runs to the left. Where nothing fits there are no letters.
+    """
+    low_x, low_z, high_x, high_z = face.bounds()
+    x, z = np.meshgrid(np.arange(low_x, high_x, TEXT_STEP_MM), np.arange(low_z, high_z, TEXT_STEP_MM))
+    places = np.column_stack([x.ravel(), z.ravel()])
+    places = places[np.lexsort((np.abs(places[:, 0]), np.abs(places[:, 1])))]
+    for words, height in itertools.product((label, label[-1]), TEXT_HEIGHTS_MM):
+        letters = text(words, height)
+        letters = letters.translate(tuple(-_middle(letters)))
+        letters = letters.mirror((1.0, 0.0)) if mirrored else letters
+        low_x, low_z, high_x, high_z = letters.bounds()
+        box = rectangle((high_x - low_x + 2.0 * TEXT_EDGE_MM, high_z - low_z + 2.0 * TEXT_EDGE_MM))
+        for place in places:
+            if (box.translate(tuple(place)) - face).area() < 1e-6:
+                return letters.translate(tuple(place))
+    return None
 
 
 def _middle(region: Region) -> np.ndarray:

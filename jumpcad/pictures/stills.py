@@ -17,6 +17,7 @@ from jumpcad.pictures.studio import Studio, View, studio
 from jumpcad.robot import Robot
 from jumpcad.simulation.jump import Trajectory
 
+STILLS = ("rest", "compressed", "exploded")
 STILL_SIZE = (720, 540)
 JUMP_SIZE = (560, 350)
 JUMP_FRAMES = 36
@@ -88,13 +89,10 @@ def exploded(things: Sequence[Shape], poses: Sequence[Array]) -> list[Array]:
 
 def _stills(scene: Studio, robot: Robot, things: Sequence[Shape], size: tuple[int, int]) -> dict[str, bytes]:
     rest, wound = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
-    scenes = {
-        "rest": (rest, View()),
-        "compressed": (wound, View()),
-        "exploded": (exploded(things, rest), EXPLODED_VIEW),
-    }
+    scenes = ((rest, View()), (wound, View()), (exploded(things, rest), EXPLODED_VIEW))
     return {
-        name: _png(scene.picture(poses, size, view, _corners(things, poses))) for name, (poses, view) in scenes.items()
+        name: _png(scene.picture(poses, size, view, _corners(things, poses)))
+        for name, (poses, view) in zip(STILLS, scenes, strict=True)
     }
 
 

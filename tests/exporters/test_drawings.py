@@ -16,7 +16,7 @@ from jumpcad.exporters.dxf import MILLIMETRES, sheet, write_dxf, write_dxfs
 from jumpcad.exporters.glb import creased, write_glb
 from jumpcad.exporters.poses import body_poses
 from jumpcad.exporters.shapes import shapes
-from jumpcad.parts.body_plate import TEXT_HEIGHT_MM
+from jumpcad.parts.body_plate import TEXT_HEIGHTS_MM
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle
 from jumpcad.solids.text import text
@@ -89,7 +89,8 @@ def test_the_name_reads_from_the_outside(robot: Robot, side: str, label: str) ->
     part = next(part for part in robot.parts if part.name == f"body_plate_{side}")
     _, engraved = sheet(part, high - low)
     x0, y0, x1, y1 = engraved.bounds()
-    letters = text(f"{robot.name} {label}", TEXT_HEIGHT_MM)
+    tall, short = (text(f"{robot.name} {label}", height) for height in TEXT_HEIGHTS_MM)
+    letters = tall if tall.area() < 1.05 * engraved.area() else short
     shared = []
     for wanted in (letters, letters.mirror((1.0, 0.0))):
         a0, b0, a1, b1 = wanted.bounds()

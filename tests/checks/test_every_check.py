@@ -1,0 +1,135 @@
+"""Every limit that `check` knows was seen to fire: what no other file here makes fire does so in this one.
+
+Limits of the drive are those of its synthesis, which keeps them; a finished drive that meets a tighter limit fires.
+"""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from support.built import LONG_TOES, built
+
+from jumpcad.checks import check
+from jumpcad.checks.drive import drive_findings
+from jumpcad.checks.printability import bed_findings
+from jumpcad.checks.strength import strength_findings
+from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits, synthesise
+from jumpcad.drive.cam_limits import LIMITS, ROWS, measure
+from jumpcad.drive.gears import gear_pair
+from jumpcad.drive.spring import synthesise_spring
+from jumpcad.drive.train import _train
+from jumpcad.findings import errors
+from jumpcad.hardware import load_catalogue
+from jumpcad.robot import Robot
+
+DRIVE = synthesise(built("kenan-2.0").design, DriveLimits())
+
+
+def test_every_name_stands_in_a_test() -> None:
+    names = {finding.name for robot in (built("kenan-2.0"), built(LONG_TOES)) for finding in check(robot)}
+    tests = Path(__file__).parents[1]
+    texts = "\n".join(path.read_text() for path in (*tests.glob("*.py"), *tests.glob("checks/*.py")))
+    assert len(names) > 45
+    assert {name for name in names if name not in texts} == set()
+
+
+@pytest.mark.parametrize(
+    ("name", "tighter"),
+    [
+        ("cam_pressure_angle", {"pressure_angle_rad": 0.01}),
+        ("cam_undercut", {"undercut_margin_mm": 200.0}),
+        ("cam_contact", {"pressure_mpa": 1.0}),
+        ("cam_roller_load", {"roller_load_n": 1.0}),
+        ("cam_core", {"core_radius_mm": 100.0}),
+        ("cam_hub", {"hub_radius_mm": 100.0}),
+        ("cam_drop", {"reserve_rad": 6.0}),
+        ("cam_next_lift", {"clearance_mm": 100.0}),
+        ("cam_overshoot", {"overshoot_rad": 3.0}),
+        ("cam_place", {"axis_min_rad": 3.0}),
+    ],
+)
+def test_cam(name: str, tighter: dict[str, float]) -> None:
+    cam = DRIVE.cam
+    axis = math.hypot(*cam.cam_axis_mm)
+    lead = cam.lever_start_rad - math.atan2(cam.cam_axis_mm[1], cam.cam_axis_mm[0])
+    shape = np.array([[cam.lever_length_mm, axis - cam.lever_length_mm, lead]])
+
+    def margin(limits: CamLimits) -> float:
+        _, rows, _ = measure(cam.law, limits, shape, 400)
+        return min(float(row[0]) for row, limit in zip(rows, ROWS, strict=True) if LIMITS[limit].name == name)
+
+    usual = replace(CamLimits(), hub_radius_mm=max(CamLimits().hub_radius_mm, DRIVE.spring.outer_diameter_mm / 2.0))
+    assert margin(usual) >= -1e-6
+    assert margin(replace(usual, **tighter)) < 0.0
+
+
+@pytest.mark.parametrize(
+    ("name", "tighter"),
+    [
+        ("gear_strength_1", {"stress_mpa": 0.01}),
+        ("gear_strength_2", {"stress_mpa": 0.01}),
+        ("cam_gear_room", {"cam_gear_tip_max_mm": 3.0}),
+        ("motor_torque", {"stall_share": 1e-3}),
+        ("cam_speed", {"cam_speed_max_rad_s": 0.01}),
+        ("gear_mesh_1", {}),
+        ("gear_mesh_2", {}),
+    ],
+)
+def test_gears_and_motor(name: str, tighter: dict[str, Any]) -> None:
+    good, law = gear_pair(15, 30, 1.25, 5.0, 0.15), DRIVE.cam.law
+    # pulled apart by two thirds of a tooth's height: the next teeth meet after these part
+    poor = replace(good, centre_distance_mm=good.centre_distance_mm + 1.8)
+    stages = (poor, poor) if name.startswith("gear_mesh") else (good, good)
+    train = _train(law, DRIVE.train.motor, stages, replace(TrainLimits(), **tighter))
+    (finding,) = [finding for finding in train.findings if finding.name == name]
+    assert finding.margin < 0.0
+    usual = _train(law, DRIVE.train.motor, (good, good), replace(TrainLimits(), cam_speed_max_rad_s=50.0))
+    assert all(finding.margin > 0.0 for finding in usual.findings if finding.name == name)
+
+
+def test_spring_stress() -> None:
+    """The margin is what a tighter limit than the spring's own stress takes away."""
+    design, wire = built("kenan-2.0").design, load_catalogue().wire
+    spring = synthesise_spring(design.stiffness_nm_per_rad, design.compression_rad, wire, SpringLimits())
+    (finding,) = spring.findings
+    assert finding.name == "spring_stress"
+    assert finding.margin == pytest.approx(0.78 * spring.tensile_mpa - spring.stress_mpa)
+
+
+@pytest.mark.parametrize("name", sorted({finding.name for finding in DRIVE.findings}))
+def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
+    assert kenan.plan is not None
+    drive = kenan.plan.drive
+    findings = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.train.findings)
+    spring = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.spring.findings)
+    cam = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.cam.findings)
+    violated = replace(
+        drive,
+        spring=replace(drive.spring, findings=spring),
+        cam=replace(drive.cam, findings=cam),
+        train=replace(drive.train, findings=findings),
+    )
+    robot = replace(kenan, plan=replace(kenan.plan, drive=violated))
+    assert [finding.name for finding in errors(drive_findings(robot))] == [name]
+
+
+def test_toe_joint() -> None:
+    robot = built(LONG_TOES)
+    assert robot.workshop is not None
+    name = robot.workshop.material_name("links")
+    weak = robot.workshop.materials[name].model_copy(update={"strength_in_plane_mpa": 0.3})
+    workshop = robot.workshop.model_copy(update={"materials": {**robot.workshop.materials, name: weak}})
+    broken = errors(strength_findings(replace(robot, workshop=workshop)))
+    assert "toe_joint_strength" in {finding.name for finding in broken}
+
+
+def test_bed(kenan: Robot) -> None:
+    assert kenan.workshop is not None
+    bed = kenan.workshop.printer.model_copy(update={"bed_mm": (100.0, 90.0, 50.0)})
+    tiny = replace(kenan, workshop=kenan.workshop.model_copy(update={"printer": bed}))
+    (finding,) = errors(bed_findings(tiny))
+    assert finding.name == "bed_fit"
+    assert finding.message.startswith("foot")
