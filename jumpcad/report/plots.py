@@ -16,7 +16,7 @@ from jumpcad.search.space import Array, Space
 from jumpcad.search.surrogate import Belief, unwarped, warped
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
-ACQUISITION = "log10(expected improvement × P(feasible))"
+ACQUISITION = "log10 of EI × P(feasible)"
 DECADES = 6.0
 """How far below its maximum the acquisition is drawn."""
 
