@@ -104,7 +104,7 @@ def optimize(
     design_file = output or path.with_suffix(".toml")
     _refuse_foreign_file(design_file)
     if not as_json:
-        print(f"study {path}: {request.method} on the {model} robot, {request.space.dimension} free parameters")
+        print(f"study {path}: {request.method} on the {model} robot, free parameters: {request.space.dimension}")
     with make_pool(workers, dask, limit) as pool, watching(evaluations, as_json) as watch:
         result = run_study(request, path, pool, watch)
     if result.winner is not None:

@@ -194,7 +194,7 @@ class Ledger:
         if difference.startswith("versions."):
             raise JumpcadError(
                 f"{self.path}: was made by another program ({difference}), whose rows do not mix with this one's; "
-                f"go on with that program, or name another file (--from {self.path} learns from this one)"
+                f"go on with that program, or name another file (`optimize --from {self.path}` learns from this one)"
             )
         if difference:
             raise JumpcadError(

@@ -119,7 +119,8 @@ class Pool:
             again: dict[int, str] = {}
             yield from self._collect(self._submit(sent, [designs[index]]), [index], again)
             if again:
-                self.notice(f"a design is quarantined: {again[index]}; before: {reason}")
+                values = ", ".join(f"{value:.6g}" for value in designs[index].to_vector())
+                self.notice(f"a design is quarantined: {again[index]}; before: {reason}; design: {values}")
                 yield Outcome(index, Evaluation(QUARANTINED, detail=again[index]), 0.0)
 
     def _tasks(self, count: int) -> list[list[int]]:
@@ -253,7 +254,8 @@ def _unpacked(sent: bytes) -> Model:
     for name, version in model.versions().items():
         if version != asked[name]:
             raise JumpcadError(
-                f"a worker has {name} {version}, not {asked[name]}: install there what is installed here"
+                f"a worker has {name} {version}, not {asked[name]}: install there what is installed here, "
+                f"or repeat the command if it changed meanwhile"
             )
     return model
 
@@ -273,7 +275,7 @@ def _evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> by
             except JumpcadError:
                 raise
             except Exception as error:  # the run must outlive a bug that one design in a thousand meets
-                result = _Failure(f"{type(error).__name__}: {error}")
+                result = _Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
         results.append((result, time.perf_counter() - start))
     return pickle.dumps(results)
 
