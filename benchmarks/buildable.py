@@ -1,8 +1,11 @@
 """Is every design either a robot that can be printed and put together, or refused for a named reason?
 
-Random designs within the search bounds, and designs near the published best ones, each with two workshops. A robot
-counts as built if the re-read STL file of every part is one closed part that fits the bed, and no two pieces meet from
-rest through winding and drop. Run `python benchmarks/buildable.py [--designs N] [--json]`.
+Random designs within the search bounds, and designs near the best ones, each with two workshops. A robot counts as
+built if the re-read STL file of every part is one closed part that fits the bed. Of every tenth design the whole bundle
+is written, and no two of its pieces may meet from rest through winding and drop.
+
+Run `python benchmarks/buildable.py [--designs N] [--sample N] [--log FILE.jsonl] [--json]`. With a log, an interrupted
+run goes on where it stopped.
 """
 
 import argparse
@@ -10,8 +13,9 @@ import json
 import re
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
 from time import process_time
 
 import numpy as np
@@ -19,7 +23,8 @@ import numpy as np
 from jumpcad.assembly import build
 from jumpcad.checks.interference import overlaps
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
-from jumpcad.errors import CannotBuildError
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.exporters.bundle import contents
 from jumpcad.exporters.plates import packed
 from jumpcad.exporters.stl import write_stl
 from jumpcad.robot import Robot
@@ -27,7 +32,7 @@ from jumpcad.solids.finish import faults
 from jumpcad.workshop import Workshop, load_workshop
 
 WORKSHOPS = ("default", "fine")
-BEST = ("best-ga", "best-bo")
+BEST = ("best-ga", "best-bo", "best-printable")
 SHARE_NEAR = 2 / 7
 """Of all designs, those near the best ones."""
 NEAR = 0.05
@@ -48,22 +53,20 @@ REASONS = {
 """How a refusal begins, and the reason that it is counted under."""
 
 
-@dataclass
-class Tally:
-    """What became of the designs of one kind in one workshop; `wrong` holds what must not happen."""
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one design: `result` is `built`, a refusal's reason or `WRONG`, which must not happen.
+
+    `whole` says whether bundle and interference were looked at too.
+    """
 
     kind: str
+    number: int
     workshop: str
-    built: int = 0
-    refused: Counter[str] = field(default_factory=Counter)
-    wrong: list[str] = field(default_factory=list)
-    built_s: list[float] = field(default_factory=list)
-    refused_s: list[float] = field(default_factory=list)
-
-    @property
-    def designs(self) -> int:
-        """Designs looked at."""
-        return self.built + self.refused.total() + len(self.wrong)
+    result: str
+    detail: str
+    build_s: float
+    whole: bool = False
 
 
 def random_designs(count: int) -> Iterator[Design]:
@@ -75,7 +78,7 @@ def random_designs(count: int) -> Iterator[Design]:
 
 
 def designs_near_the_best(count: int) -> Iterator[Design]:
-    """Yield the published best designs with each number changed by up to 5 %, as far as a design may go."""
+    """Yield the best designs with each number changed by up to 5 %, as far as a design may go."""
     rng = np.random.default_rng(SEED + 1)
     best = [np.array(load_design(name).to_vector()) for name in BEST]
     made = 0
@@ -83,92 +86,104 @@ def designs_near_the_best(count: int) -> Iterator[Design]:
         vector = best[made % len(best)] * rng.uniform(1 - NEAR, 1 + NEAR, 8)
         try:
             design = Design.from_vector(vector.tolist())
-        except CannotBuildError:
-            raise
-        except Exception:
+        except JumpcadError:
             continue
         made += 1
         yield design
 
 
+KINDS: dict[str, Callable[[int], Iterator[Design]]] = {"random": random_designs, "near the best": designs_near_the_best}
+
+
 def reason(refusal: str) -> str | None:
-    """Return what a refusal is counted under, or None if it is none of the known ones."""
+    """Return what a refusal is counted under, or None if it is none of the known ones or proposes nothing."""
     for pattern, name in REASONS.items():
-        if match := re.search(pattern, refusal):
+        if (match := re.search(pattern, refusal)) and ": " in refusal:
             missed = re.search(r"misses: (.*?) \(", refusal)
             return name.format(limit=missed[1] if missed else "", **match.groupdict())
     return None
 
 
-def faults_of(robot: Robot, workshop: Workshop) -> list[str]:
+def faults_of(robot: Robot, workshop: Workshop, whole: bool) -> list[str]:
     """Return what is wrong with a built robot: files that are no parts, parts off the bed, pieces that meet."""
     found = [f"{part.name}: {fault}" for part in robot.parts for fault in faults(write_stl(part.mesh))]
     found += [f"{part.name} is not on the bed" for part in robot.parts if abs(part.mesh.bounds[0, 2]) > 1e-6]
     packed(robot.parts, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
-    found += [f"{a} and {b} share {volume:.2f} mm³, {when}" for a, b, when, volume in overlaps(robot)]
+    if whole:
+        found += [f"{path} is empty" for path, data in contents(robot, pictures=False) if not data]
+        found += [f"{a} and {b} share {volume:.2f} mm³, {when}" for a, b, when, volume in overlaps(robot)]
     return found
 
 
-def tally(kind: str, designs: Iterable[Design], workshop_name: str) -> Tally:
-    """Build designs and count what became of them."""
-    result, workshop = Tally(kind, workshop_name), load_workshop(workshop_name)
-    for design in designs:
-        start = process_time()
-        try:
-            robot = build(design, workshop)
-        except CannotBuildError as refusal:
-            result.refused_s.append(process_time() - start)
-            if (name := reason(str(refusal))) and ": " in str(refusal):
-                result.refused[name] += 1
-            else:
-                result.wrong.append(f"unnamed refusal: {refusal} {design.to_vector()}")
-            continue
-        except Exception as error:
-            result.wrong.append(f"{type(error).__name__}: {error} {design.to_vector()}")
-            continue
-        result.built_s.append(process_time() - start)
-        try:
-            found = faults_of(robot, workshop)
-        except CannotBuildError as refusal:
-            found = [f"refused too late: {refusal}"]
-        if found:
-            result.wrong.append(f"{'; '.join(found)} {design.to_vector()}")
-        else:
-            result.built += 1
-    return result
+def look(design: Design, workshop: Workshop, whole: bool) -> tuple[str, str, float, bool]:
+    """Build a design; return result, detail, the CPU time of building it (s), and whether all of it was looked at.
+
+    Whatever is raised is an outcome here, as the question is whether anything but a refusal ever is.
+    """
+    start = process_time()
+    try:
+        robot = build(design, workshop)
+    except CannotBuildError as refusal:
+        return reason(str(refusal)) or "WRONG", str(refusal), process_time() - start, False
+    except Exception as error:
+        return "WRONG", f"{type(error).__name__}: {error}", process_time() - start, False
+    seconds = process_time() - start
+    try:
+        found = faults_of(robot, workshop, whole)
+    except Exception as error:
+        found = [f"after it was built, {type(error).__name__}: {error}"]
+    return ("WRONG" if found else "built"), "; ".join(found), seconds, whole
+
+
+def outcomes(count: int, sample: int, log: Path | None) -> list[Outcome]:
+    """Look at designs of both kinds in every workshop; what the log holds is not looked at again."""
+    lines = log.read_text().splitlines() if log and log.exists() else []
+    known = {(one.kind, one.number, one.workshop): one for one in (Outcome(**json.loads(line)) for line in lines)}
+    near = round(count * SHARE_NEAR)
+    found = []
+    for kind, many in (("random", count - near), ("near the best", near)):
+        for number, design in enumerate(KINDS[kind](many)):
+            for offset, name in enumerate(WORKSHOPS):
+                outcome = known.get((kind, number, name))
+                if outcome is None:
+                    looked = look(design, load_workshop(name), whole=number % sample == offset)
+                    outcome = Outcome(kind, number, name, *looked)
+                    if log:
+                        with log.open("a") as file:
+                            file.write(json.dumps(asdict(outcome)) + "\n")
+                found.append(outcome)
+    return found
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, print, and return 1 if anything happened that must not."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--designs", type=int, default=700)
+    parser.add_argument("--sample", type=int, default=10, help="of every so many designs the whole bundle is looked at")
+    parser.add_argument("--log", type=Path)
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args(arguments)
-    near = round(options.designs * SHARE_NEAR)
-    kinds: dict[str, tuple[Callable[[int], Iterator[Design]], int]] = {
-        "random": (random_designs, options.designs - near),
-        "near the best": (designs_near_the_best, near),
-    }
-    tallies = [tally(kind, make(count), workshop) for kind, (make, count) in kinds.items() for workshop in WORKSHOPS]
+    found = outcomes(options.designs, options.sample, options.log)
     if options.json:
-        print(json.dumps([asdict(one) for one in tallies], indent=2))
+        print(json.dumps([asdict(outcome) for outcome in found], indent=2))
     else:
-        for one in tallies:
-            tell(one)
-    return int(any(one.wrong for one in tallies))
+        tell(found)
+    return int(any(outcome.result == "WRONG" for outcome in found))
 
 
-def tell(one: Tally) -> None:
-    """Print one tally as a table."""
-    print(f"{one.kind}, workshop {one.workshop}: {one.designs} designs")
-    lines = [("built", one.built), *one.refused.most_common(), ("WRONG", len(one.wrong))]
-    for name, count in lines:
-        print(f"  {count:5d}  {100.0 * count / one.designs:5.1f} %  {name}")
-    for name, seconds in (("build", one.built_s), ("refusal", one.refused_s)):
-        if seconds:
-            print(f"  {name}: {1000.0 * float(np.median(seconds)):.0f} ms of CPU time (median)")
-    for wrong in one.wrong:
-        print(f"  {wrong}")
+def tell(found: list[Outcome]) -> None:
+    """Print a table for every kind and workshop, and what went wrong."""
+    for kind, name in sorted({(one.kind, one.workshop) for one in found}, reverse=True):
+        here = [one for one in found if (one.kind, one.workshop) == (kind, name)]
+        print(f"{kind}, workshop {name}: {len(here)} designs, {sum(one.whole for one in here)} bundles looked at whole")
+        for result, count in Counter(one.result for one in here).most_common():
+            print(f"  {count:5d}  {100.0 * count / len(here):5.1f} %  {result}")
+        if seconds := [one.build_s for one in here if one.result == "built"]:
+            print(f"  build: {1000.0 * float(np.median(seconds)):.0f} ms of CPU time (median)")
+    wrong = [one for one in found if one.result == "WRONG"]
+    print(f"{len(wrong)} went wrong")
+    for one in wrong:
+        print(f"  {one.kind} {one.number}, workshop {one.workshop}: {one.detail}")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """What pool and ledger cost, what a second worker brings, and that killing loses nothing.
 
-Batches of 20 capsule robots, as the genetic algorithm sends them. Wall times mean nothing on a busy machine.
-Run `python benchmarks/search_pool.py [--kills N]`.
+Batches of 20 robots, as the genetic algorithm sends them. Wall times mean nothing on a busy machine, so the second
+worker is also tried on evaluations that take their time without using the processor.
+Run `python benchmarks/search_pool.py [--model capsule] [--repeats N] [--kills N]`.
 """
 
 import argparse
@@ -16,18 +17,32 @@ from pathlib import Path
 
 import numpy as np
 
+from jumpcad.design import Design
 from jumpcad.search.campaign import Campaign
 from jumpcad.search.ledger import Ledger, Row
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import find_objective
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
+from jumpcad.workshop import load_workshop
 
-BATCH, BATCHES = 20, 25
-MODEL = RobotModel("capsule")
+BATCH, BATCHES = 20, 15
+PAUSE_S = 0.02
 # Designs near the top of the hill: all of them pass the gate and jump, so that an evaluation takes its full time.
 SPACE = Space.parse(bound=["compression_ratio=0.6:0.8", "rest_angle_deg=55:70", "c_coef=0.95:1.05", "e_coef=0.8:1.1",
                            "stiffness_nmm_per_deg=20:30", "ground_link_angle_deg=10:40"])  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Waiting(RobotModel):
+    """Waits, and then says of every design what its robot said of the first one."""
+
+    def __call__(self, design: Design) -> Evaluation:
+        """Evaluate a design, as it were."""
+        if "answer" not in vars(self):
+            vars(self)["answer"] = super().__call__(design)
+        time.sleep(PAUSE_S)
+        return vars(self)["answer"]
 
 
 @dataclass(frozen=True)
@@ -39,12 +54,12 @@ class Cost:
     caller_s: float
 
 
-def batches_cost(workers: int, path: Path | None, repeat: int) -> Cost:
+def batches_cost(model: RobotModel, workers: int, path: Path | None, repeat: int) -> Cost:
     """Return what all batches cost with that many workers, started beforehand; 0 computes in the calling process."""
     points = SPACE.spread((BATCHES + 1) * BATCH, np.random.default_rng(repeat))
     designs = [SPACE.to_design(point) for point in points]
     with Ledger.write(path, {}) as ledger, local_pool(workers) as pool:
-        campaign = Campaign(SPACE, find_objective("fitness"), MODEL, ledger, pool)
+        campaign = Campaign(SPACE, find_objective("fitness"), model, ledger, pool)
         campaign.evaluate(designs[:BATCH], "sample", 0)
         wall, caller = time.perf_counter(), time.process_time()
         for step in range(1, BATCHES + 1):
@@ -87,23 +102,33 @@ def _shown(values: list[float]) -> str:
 def main() -> None:
     """Print the figures."""
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--model", default="printed")
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument("--repeats", type=int, default=5)
     arguments = parser.parse_args()
+    workshop = load_workshop("default") if arguments.model == "printed" else None
+    real, waiting = RobotModel(arguments.model, workshop), Waiting(arguments.model, workshop)
+    figures: dict[str, list[float]] = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        overheads, shares, ratios = [], [], []
         for repeat in range(arguments.repeats):
-            alone = batches_cost(0, None, repeat)
-            one = batches_cost(1, folder / f"1-{repeat}.db", repeat)
-            two = batches_cost(2, folder / f"2-{repeat}.db", repeat)
-            overheads.append(100 * (1 - one.own_s / one.wall_s))
-            shares.append(100 * one.caller_s / alone.caller_s)
-            ratios.append(one.wall_s / two.wall_s)
-        print("median, and each of", arguments.repeats)
-        print(f"pool and ledger, CPU of the caller / of the evaluations: {_shown(shares)} %")
-        print(f"pool and ledger, share of one worker's wall time: {_shown(overheads)} %")
-        print(f"two workers, times as fast as one: {_shown(ratios)}", flush=True)
+            alone = batches_cost(real, 0, None, repeat)
+            one, two, waited, waited_two = (
+                batches_cost(model, workers, folder / f"{number}-{repeat}.db", repeat)
+                for number, (model, workers) in enumerate([(real, 1), (real, 2), (waiting, 1), (waiting, 2)])
+            )
+            for what, value in (
+                ("evaluation, CPU (ms)", 1000 * alone.caller_s / (BATCH * BATCHES)),
+                ("pool and ledger, CPU of the caller (ms)", 1000 * waited_two.caller_s / (BATCH * BATCHES)),
+                ("pool and ledger / evaluations, CPU (%)", 100 * waited_two.caller_s / alone.caller_s),
+                ("pool and ledger, share of one worker's wall time (%)", 100 * (1 - one.own_s / one.wall_s)),
+                ("two workers, times as fast as one", one.wall_s / two.wall_s),
+                (f"the same, waiting {1000 * PAUSE_S:.0f} ms a design", waited.wall_s / waited_two.wall_s),
+            ):
+                figures.setdefault(what, []).append(value)
+        print(f"{arguments.model} robot: median, and each of {arguments.repeats}")
+        for what, values in figures.items():
+            print(f"{what:54s}{_shown(values)}", flush=True)
         if arguments.kills:
             different, total = killed_rows(arguments.kills, folder)
             print(f"{arguments.kills} times killed (SIGKILL): {different} of {total} rows differ")

@@ -103,6 +103,7 @@ def _assembled(design: Design, workshop: Workshop, name: str, growth: Growth) ->
 def plan_of(design: Design, workshop: Workshop, growth: Growth | None = None) -> tuple[Plan, Bores]:
     """Return the plan of a design in a workshop, and the bores of its parts."""
     growth = growth or Growth()
+    small.require_axle(workshop)
     catalogue = load_catalogue()
     chosen = workshop.bought
     roller = catalogue.bearings[chosen.roller]
@@ -261,5 +262,5 @@ def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, bores: B
         ),
         motors=workshop.bought.motors,
         gap_mm=CLEAR_MM,
-        hub_axle_radius_mm=SPACER_RADIUS_MM,
+        axle_radius_mm=SPACER_RADIUS_MM,
     )

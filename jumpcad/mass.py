@@ -1,4 +1,8 @@
-"""Mass, centre of mass and inertia of rigid things, moved and added up."""
+"""Mass, centre of mass and inertia of rigid things, moved and added up.
+
+Products of matrices are sums here and not calls to BLAS, whose last digits depend on the processor and on the number of
+threads: the same robot has the same bytes everywhere.
+"""
 
 import math
 from collections.abc import Iterable
@@ -37,8 +41,8 @@ class MassProperties:
         rotation = transform[:3, :3]
         return MassProperties(
             self.mass_kg,
-            rotation @ self.com_m + transform[:3, 3],
-            rotation @ self.inertia_kg_m2 @ rotation.T,
+            np.einsum("ij,j->i", rotation, self.com_m) + transform[:3, 3],
+            np.einsum("ij,jk,lk->il", rotation, self.inertia_kg_m2, rotation),
         )
 
     def scaled_to(self, mass_kg: float) -> "MassProperties":
@@ -54,5 +58,30 @@ def combined(items: Iterable[MassProperties]) -> MassProperties:
     inertia = np.zeros((3, 3))
     for item in items:
         offset = item.com_m - com
-        inertia += item.inertia_kg_m2 + item.mass_kg * (offset @ offset * np.eye(3) - np.outer(offset, offset))
+        inertia += item.inertia_kg_m2 + item.mass_kg * ((offset * offset).sum() * np.eye(3) - np.outer(offset, offset))
     return MassProperties(mass, com, inertia)
+
+
+def principal_axes(inertia_kg_m2: Array) -> tuple[Array, Array]:
+    """Return principal moments (3,) of a tensor (3, 3), and the rotation (3, 3) from their axes to the tensor's.
+
+    Jacobi's method: turns by at most 45° about one axis after the other, so that the rotation is a small one where the
+    tensor is nearly diagonal (Golub and Van Loan, Matrix Computations, section 8.5).
+    """
+    a, axes = inertia_kg_m2.tolist(), np.eye(3).tolist()
+    nothing = 1e-17 * (a[0][0] + a[1][1] + a[2][2])
+    while max(abs(a[0][1]), abs(a[0][2]), abs(a[1][2])) > nothing:
+        for i, j, k in ((0, 1, 2), (0, 2, 1), (1, 2, 0)):
+            if (off := a[i][j]) == 0.0:
+                continue
+            half = (a[j][j] - a[i][i]) / (2.0 * off)
+            tan = math.copysign(1.0, half) / (abs(half) + math.hypot(1.0, half))
+            cos = 1.0 / math.hypot(1.0, tan)
+            sin = tan * cos
+            a[i][i], a[j][j] = a[i][i] - tan * off, a[j][j] + tan * off
+            a[i][j] = a[j][i] = 0.0
+            a[i][k], a[j][k] = cos * a[i][k] - sin * a[j][k], sin * a[i][k] + cos * a[j][k]
+            a[k][i], a[k][j] = a[i][k], a[j][k]
+            for row in axes:
+                row[i], row[j] = cos * row[i] - sin * row[j], sin * row[i] + cos * row[j]
+    return np.array([a[i][i] for i in range(3)]), np.array(axes)

@@ -5,6 +5,7 @@ tips, which bends toes and rails. Heights follow from the printing material's in
 with the formulas by which `checks.strength` judges the finished robot. What it still finds too weak then grows.
 """
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
@@ -101,19 +102,21 @@ def sections(design: Design, workshop: Workshop, hub_width_mm: float = 0.0, grow
     torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
     thickness = growth.thickness * max(6.0 if torque < 900.0 else 8.0, hub_width_mm)
     root = max(HEIGHT_MIN_MM + 2.0, height_for_mm(torque, thickness, allowable, skin))
-    leg_root = growth.leg * _stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share)
+    stiff = _stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share)
+    leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
     depth = max(eye, leg_tip / 2.0) + 1.0
     toes = RESERVE * float(push_off(design, TYPICAL_BODY, depth).toes_n.max())
     toe = height_for_mm(toe_moment_nmm(design, toes), toe_width, allowable, skin, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, skin, upright=True)
-    toe_root, rail_root = growth.toe * max(TOE_MIN_MM, toe), growth.rail * max(RAIL_MIN_MM, rail)
+    toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
+    rail_root = _in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
     return Sections(
         thickness_mm=thickness,
         leg_root_mm=leg_root,
         leg_tip_mm=leg_tip,
         front_mm=growth.front * HEIGHT_MIN_MM,
-        lever_root_mm=growth.lever * root,
+        lever_root_mm=_in_hundredths(growth.lever * root),
         eye_radius_mm=eye,
         lug_thickness_mm=lug,
         foot_depth_mm=depth,
@@ -147,6 +150,11 @@ def _stiff_mm(
             break
         root_mm *= 1.01 * (share / share_max) ** (1.0 / 3.0)
     return root_mm
+
+
+def _in_hundredths(height_mm: float) -> float:
+    """Return a height rounded up to 0.01 mm: the last digits of the loads differ between processors."""
+    return math.ceil(height_mm * 100.0 - 1e-6) / 100.0
 
 
 def _leg_tip_mm(root_mm: float) -> float:

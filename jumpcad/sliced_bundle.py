@@ -19,6 +19,7 @@ from jumpcad.slicing import Sliced, slice_part, slice_plate, slicer_version
 from jumpcad.solids.layers import mass_properties
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
+from jumpcad.solids.stack import Section
 from jumpcad.workshop import Material, Workshop, load_workshop
 
 Array = npt.NDArray[np.float64]
@@ -196,11 +197,11 @@ class _Scan:
         """Volume moments (10,)."""
         return mesh_moments(self._solid)
 
-    def regions_at(self, heights_mm: Array) -> list[Region]:
+    def sections_at(self, heights_mm: Array) -> list[Section]:
         """Return the cross-sections at heights (n,); neighbours that do not differ are one object."""
         regions: list[Region] = []
         for height in heights_mm:
             region = self._solid.slice(float(height)).simplify(STRAIGHT_MM)
             same = regions and (region - regions[-1]).area() + (regions[-1] - region).area() < SMALLEST_MM2
             regions.append(regions[-1] if same else region)
-        return regions
+        return [Section(region) for region in regions]

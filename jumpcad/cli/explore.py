@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from jumpcad.search.campaign import Campaign
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
+LEAST_R_SQUARED = 0.5
+"""Below it, an importance says more of the surrogate's luck than of the robot."""
 
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
 SamplesOption = Annotated[int, typer.Option(help="Designs sampled for pca and importance.")]
@@ -151,6 +153,8 @@ def _looker(view: str, samples: int, seed: int) -> View:
             }
             lines = [f"{found.names[i]:24s}{found.mean[i]:8.3f} ± {found.deviation[i]:.3f}" for i in order]
             lines.append(f"R² on designs held out: {found.r_squared:.3f} ({found.designs} of {len(rows)} designs jump)")
+            if found.r_squared < LEAST_R_SQUARED:
+                lines.append("that is too little to tell what is important: raise --samples, or narrow the bounds")
             return data, lines, {"importance": lambda: plots.importance(found)}
         best = elite(rows)
         views = {"sampled": components(campaign, rows), "elite": components(campaign, best)}

@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from jumpcad.search.study import Request, Result
 
 HEADING = "# Found by jumpcad optimize"
+SHOWN = 10
+"""Candidates that are printed; --json has all of them."""
 
 MethodArgument = Annotated[
     str | None,
@@ -102,7 +104,7 @@ def optimize(
     design_file = output or path.with_suffix(".toml")
     _refuse_foreign_file(design_file)
     if not as_json:
-        print(f"study {path}: {request.method} on the {model} robot, {request.space.dimension} free parameters")
+        print(f"study {path}: {request.method} on the {model} robot, free parameters: {request.space.dimension}")
     with make_pool(workers, dask, limit) as pool, watching(evaluations, as_json) as watch:
         result = run_study(request, path, pool, watch)
     if result.winner is not None:
@@ -172,6 +174,7 @@ def _data(request: "Request", result: "Result", design_file: Path) -> dict[str, 
             for candidate in result.candidates
         ],
         "active_bounds": [asdict(bound) for bound in result.bounds],
+        "notes": result.notes,
     }
     if request.method in FRONTS:
         data["front"] = [row_data(row) for row in front(result.rows)]
@@ -185,6 +188,8 @@ def _print_result(request: "Request", result: "Result", design_file: Path) -> No
 
     refused = ", ".join(f"{name} {count}" for name, count in count_refusals(result.rows).items())
     print(f"{len(result.rows)} designs evaluated; refused: {refused or 'none'}")
+    for note in result.notes:
+        print(f"note: {note}")
     if result.best is None or result.winner is None:
         print("no design jumps: widen the bounds, raise --evaluations, or see the reasons above")
         return
@@ -193,11 +198,13 @@ def _print_result(request: "Request", result: "Result", design_file: Path) -> No
         for row in front(result.rows):
             print(f"  {energy_j(row.design):8.4f} J  {row.score:10.4f}")
     print(f"\nbest {request.objective} {result.best.score:.4f}")
-    for candidate in result.candidates:
+    if result.candidates:
+        print(f"nine in ten neighbours reach, with parameters ±1 % and with lengths ±{request.tolerance_mm:g} mm:")
+        print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  refused of 32")
+    for candidate in result.candidates[:SHOWN]:
+        refusals = ", ".join(f"{name} {count}" for name, count in candidate.refusals.items())
         print(
-            f"  {candidate.row.score:10.4f}  of its neighbours, nine in ten reach {candidate.parameters_score:.4f} "
-            f"(parameters ±1 %) and {candidate.print_score:.4f} (lengths ±{request.tolerance_mm:g} mm)"
-            + "".join(f"; {name} refuses {count}" for name, count in candidate.refusals.items())
+            f"  {candidate.row.score:10.4f}{candidate.parameters_score:10.4f}{candidate.print_score:10.4f}  {refusals}"
         )
     print(f"\n{design_file}: {request.objective} {result.winner.score:.4f}")
     print("\n".join(design_lines(result.winner)))

@@ -99,6 +99,8 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+    from jumpcad.search.ledger import SEARCH_PHASES
+
     columns = (
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
         TextColumn("{task.fields[rate]}  best {task.fields[best]}"), TimeRemainingColumn(),
@@ -108,7 +110,7 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
         best: list[float] = []
 
         def watch(row: "Row", computed: bool) -> None:
-            if row.phase in ("robust", "bounds"):
+            if row.phase not in SEARCH_PHASES:
                 progress.update(task, description="robust pick")
                 return
             if row.score is not None and (not best or row.score > best[0]):

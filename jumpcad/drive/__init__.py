@@ -39,8 +39,8 @@ LEAST_COMPRESSION_RAD = math.radians(0.5)
 class DriveLimits:
     """Everything that the drive needs to know of the workshop and of the parts around it.
 
-    The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `motor_distance_min_mm` and `cam_speed_max_rad_s`
-    are tightened by the spring and the cam that were found.
+    The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `motor_distance_min_mm`, `idler_distance_min_mm`
+    and `cam_speed_max_rad_s` are tightened by the spring and the cam that were found.
 
     Attributes
     ----------
@@ -48,8 +48,9 @@ class DriveLimits:
         Names in the catalogue; none stands for every one.
     gap_mm
         Between things that pass each other.
-    hub_axle_radius_mm
-        Around the leg's axle where the cam gear passes it, beside the spring.
+    axle_radius_mm
+        Around an axle, with what turns on it or holds it apart: the leg's where the cam gear passes it, beside the
+        spring, and an idler's beside the cam.
     motor_half_mm
         From the motor's axis to the outside of what holds it, where it is narrowest.
     fall_s
@@ -67,7 +68,7 @@ class DriveLimits:
     train: TrainLimits = field(default_factory=TrainLimits)
     motors: tuple[str, ...] = ()
     gap_mm: float = 0.8
-    hub_axle_radius_mm: float = 3.2
+    axle_radius_mm: float = 3.2
     motor_half_mm: float = 6.9
     fall_s: float = 0.03
     face_widths_mm: tuple[float, ...] = (5.0, 6.5, 8.0)
@@ -152,11 +153,13 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
 
 def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
     """Return what motor and gears must respect beside a cam."""
-    room = math.hypot(*cam.cam_axis_mm) - limits.hub_axle_radius_mm - limits.gap_mm
-    beside = cam.outer_radius_mm + limits.motor_half_mm + limits.gap_mm
+    room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
+    motor = cam.outer_radius_mm + limits.motor_half_mm + limits.gap_mm
+    idler = cam.outer_radius_mm + limits.axle_radius_mm + limits.gap_mm
     return replace(
         limits.train,
         cam_gear_tip_max_mm=min(limits.train.cam_gear_tip_max_mm, room),
-        motor_distance_min_mm=max(limits.train.motor_distance_min_mm, beside),
+        motor_distance_min_mm=max(limits.train.motor_distance_min_mm, motor),
+        idler_distance_min_mm=max(limits.train.idler_distance_min_mm, idler),
         cam_speed_max_rad_s=min(limits.train.cam_speed_max_rad_s, limits.cam.reserve_rad / limits.fall_s),
     )

@@ -6,6 +6,7 @@ of the lever's end to the cam's axis (the gap), and the lever's lead over the di
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -120,11 +121,7 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
     cos a = axis·sin(psi)/|W|; the curvature is (|W|² + W x W')/|W|³.
     """
     roller, clearance = limits.roller_radius_mm, limits.clearance_mm
-    # The law's second derivative jumps where the ramp ends: the sharpest curvature is just behind it.
-    ramp = np.linspace(0.0, law.ramp_rad, samples // 4, endpoint=False)
-    rest = law.ramp_rad + (law.lift_rad - law.ramp_rad) * np.linspace(0.0, 1.0, samples - samples // 4) ** 2
-    cam = np.concatenate([ramp, rest])
-    wind, first, second = law.derivatives(cam)
+    wind, first, second = _sampled(law, samples)
     lever, axis, lead = shapes[:, 0, None], shapes[:, :2].sum(axis=1)[:, None], shapes[:, 2, None]
     psi = lead + wind
     direction = np.exp(1j * psi)
@@ -159,7 +156,7 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
     highest, lowest = axis_range(law, limits, axis, lead[:, 0], outer)
 
     # The extremes lie at either end of the lift or just behind the ramp, so each half is smooth in the shape.
-    halves = [0, 2 * len(ramp)]
+    halves = [0, 2 * (samples // 4)]
     pressure_angle = np.arccos(np.clip(np.minimum.reduceat(cos_pressure, halves, axis=1), -1.0, 1.0))
     convex_radius = 1 / np.maximum(np.maximum.reduceat(curvature, halves, axis=1), 1e-9)
     peak_pressure = np.maximum.reduceat(pressure, halves, axis=1)
@@ -184,6 +181,17 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
         "pressure": peak_pressure.max(axis=1),
     }
     return outer, margins.T, numbers
+
+
+@lru_cache(maxsize=8)
+def _sampled(law: CamLaw, samples: int) -> tuple[Array, Array, Array]:
+    """Return a law's winding and its derivatives (samples,) over the lift; a search asks for the same ones often.
+
+    The second derivative jumps where the ramp ends: the sharpest curvature is just behind it.
+    """
+    ramp = np.linspace(0.0, law.ramp_rad, samples // 4, endpoint=False)
+    rest = law.ramp_rad + (law.lift_rad - law.ramp_rad) * np.linspace(0.0, 1.0, samples - samples // 4) ** 2
+    return law.derivatives(np.concatenate([ramp, rest]))
 
 
 def axis_range(law: CamLaw, limits: CamLimits, axis: Array, lead: Array, outer: Array) -> tuple[Array, Array]:

@@ -1,7 +1,9 @@
 """The smallest cam that meets every limit.
 
 A coarse grid over the three numbers of a cam's shape gives the start, sequential quadratic programming the optimum,
-always in the same way; the direction of the cam's axis follows from where there is room.
+always in the same way; the direction of the cam's axis follows from where there is room. The optimum is rounded to
+tenths of a micrometre and ten-thousandths of a degree, so that what the linear algebra underneath leaves open from one
+processor to another, some 1e-10 of it, does not reach the robot.
 """
 
 import itertools
@@ -72,6 +74,8 @@ class _Shapes:
     """The search for a shape: logarithms of lever (mm), gap from lever to axis (mm) and lead (rad), shape (3,)."""
 
     STEP = 1e-6
+    ROUND_TO = np.array([1e-4, 1e-4, math.radians(1e-4)])
+    ROUNDING = 3e-4  # of a margin's scale: more than rounding costs, so that asking for it leads to another shape
 
     def __init__(self, law: CamLaw, limits: CamLimits) -> None:
         self.law, self.limits = law, limits
@@ -88,7 +92,7 @@ class _Shapes:
         self.known: dict[bytes, tuple[float, Array, Array, Array]] = {}
 
     def best(self) -> tuple[Array, bool]:
-        """Return the shape (3,) itself, and whether it meets every limit with the reserve; else it is the least bad.
+        """Return the rounded shape (3,) itself, and whether it meets every limit with the reserve; else the least bad.
 
         Sequential quadratic programming from the best point of a coarse grid; where that ends outside the limits, it
         starts again from where the largest violation is smallest.
@@ -101,14 +105,19 @@ class _Shapes:
                 starts[0] = start = self._least_bad(start)
                 shape = self._smallest(start) if self._fits(start) else start
             if self._fits(shape):
-                return np.exp(shape), True
+                return self._rounded(shape), True
         nearest = max(starts, key=lambda logs: float(self._at(logs)[2].min()))
-        return np.exp(nearest), False
+        return self._rounded(nearest), False
+
+    def _rounded(self, logs: Array) -> Array:
+        return np.asarray(np.round(np.exp(logs) / self.ROUND_TO) * self.ROUND_TO)
 
     def allow_for(self, shape: Array, margin: Array) -> None:
-        """Ask for what the coarse samples of the search hid at a shape (3,) whose true margins are known."""
+        """Ask for what coarse samples and rounding cost at a shape (3,) whose true margins are known."""
         hidden = self._at(np.log(shape))[2] + self.reserve - margin / SCALES
-        self.reserve = np.maximum(self.reserve, 1.05 * hidden + 1e-4)
+        missing = -margin / SCALES
+        rounded_off = np.where(missing > 0, np.maximum(2.0 * missing, self.ROUNDING), 0.0)
+        self.reserve = np.maximum(self.reserve, 1.05 * hidden + 1e-4) + rounded_off
 
     def _fits(self, logs: Array) -> bool:
         return float(self._at(logs)[2].min()) >= -1e-5
@@ -168,7 +177,7 @@ def _constrained_minimum(
     constraints: Any = {"type": "ineq", "fun": lambda x: margins(x)[0], "jac": lambda x: margins(x)[1]}
     found = optimize.minimize(
         objective, start, jac=True, bounds=bounds, constraints=constraints, method="SLSQP",
-        options={"maxiter": 25, "ftol": 1e-5},
+        options={"maxiter": 60, "ftol": 1e-9},
     )  # fmt: skip
     return np.asarray(found.x)
 

@@ -49,9 +49,11 @@ class TrainLimits:
     pinion_root_min_mm, cam_gear_root_min_mm
         Least root radius: shaft or axle, its fit and a wall; for the cam gear, its key and a wall.
     cam_gear_tip_max_mm
-        Room for the cam gear beside what surrounds the leg's pivot.
+        Room for the cam gear beside what surrounds the leg's pivot; without limit unless given.
     motor_distance_min_mm
         Least distance of the motor's axis from the cam's.
+    idler_distance_min_mm
+        Least distance of an idler's axle from the cam's: it crosses the plane in which the cam turns.
     axle_mm
         Radius around the cam's axle that an idler's large gear must leave free.
     cam_speed_max_rad_s
@@ -71,8 +73,9 @@ class TrainLimits:
     tip_min_mm: float = 0.4
     pinion_root_min_mm: float = 3.2
     cam_gear_root_min_mm: float = 5.6
-    cam_gear_tip_max_mm: float = 40.0
+    cam_gear_tip_max_mm: float = math.inf
     motor_distance_min_mm: float = 12.0
+    idler_distance_min_mm: float = 0.0
     axle_mm: float = 4.0
     cam_speed_max_rad_s: float = 4.6
     seconds_per_gram: float = 2.0
@@ -196,6 +199,7 @@ def _candidates(law: CamLaw, limits: TrainLimits, count: int) -> Array:
     if count == 1:
         last = last[last["distance_mm"] >= limits.motor_distance_min_mm]
         return np.column_stack([last["wheel"] / last["pinion"], _area(last), _teeth(last)])
+    last = last[last["distance_mm"] >= limits.idler_distance_min_mm]
     i, j = (grid.ravel() for grid in np.meshgrid(np.arange(len(smallest)), np.arange(len(last)), indexing="ij"))
     first, last = smallest[i], last[j]
     fits = first["tip_mm"] + limits.axle_mm <= last["distance_mm"]

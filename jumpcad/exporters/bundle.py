@@ -25,7 +25,7 @@ from jumpcad.exporters.step import require_step, write_step
 from jumpcad.exporters.stl import write_stl
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import MESH_FOLDER, write_loop, write_urdf
-from jumpcad.pictures.stills import step_pictures, stills
+from jumpcad.pictures.stills import STILLS, all_pictures
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import require_part
 
@@ -86,9 +86,9 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     yield "bom.csv", write_bom(bill_of_materials(robot))
     drawn = pictures and bool(robot.parts) and find_spec("pybullet") is not None
     yield "assembly.md", write_guide(robot, drawn)
-    seen = stills(robot) if drawn else {}
-    yield "report.html", write_report(robot, seen)
-    for picture, png in (seen | (step_pictures(robot) if drawn else {})).items():
+    seen = all_pictures(robot) if drawn else {}
+    yield "report.html", write_report(robot, {name: seen[name] for name in STILLS if name in seen})
+    for picture, png in seen.items():
         yield f"pictures/{picture}.png", png
 
 

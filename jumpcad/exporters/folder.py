@@ -1,6 +1,8 @@
 """A bundle's folder, written whole or not at all.
 
-It is written beside its place and renamed into it: a killed build leaves the old bundle or none.
+It is written beside its place and changes places with the old one in one step: whenever a build is killed, a whole
+bundle stands under the name, the old one or the new one, and at most a hidden folder is left over beside it. Where the
+system cannot exchange two folders (see `jumpcad.exporters.swap`) there are two renames, between which there is none.
 """
 
 import hashlib
@@ -16,6 +18,7 @@ from typing import Any
 import jumpcad
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.manifest import FORMAT, MANIFEST, Bundle, is_bundle
+from jumpcad.exporters.swap import exchanged
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")
 """Whose versions the shapes may depend on."""
@@ -100,6 +103,8 @@ def _write(target: Path, files: Mapping[str, bytes]) -> None:
             file = fresh / PurePosixPath(path)
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(data)
+        if target.exists() and exchanged(fresh, target):
+            return
         if target.exists():
             os.rename(target, workplace / "old")
         os.rename(fresh, target)

@@ -22,7 +22,7 @@ def body_poses(robot: Robot, wound: float = 0.0) -> dict[str, Array]:
     poses = {BODY: transform(about_y(pose.body_pitch_rad), pose.body_position_m)}
     for joint in robot.joints:
         turn = about_y(joint.rest_angle_rad + pose.joint_rad[joint.name])
-        poses[joint.child] = poses[joint.parent] @ transform(turn, joint.origin_m)
+        poses[joint.child] = np.einsum("ij,jk->ik", poses[joint.parent], transform(turn, joint.origin_m))
     return poses
 
 

@@ -9,11 +9,9 @@ import json
 import math
 import xml.etree.ElementTree as ET
 
-import numpy as np
-from scipy.optimize import linear_sum_assignment
-
 from jumpcad.exporters.shapes import Shape, shapes
-from jumpcad.exporters.xml import Array, add, document, rpy
+from jumpcad.exporters.xml import add, document, rpy
+from jumpcad.mass import principal_axes
 from jumpcad.robot import Body, Joint, Robot
 from jumpcad.simulation.mechanics import release_pose
 from jumpcad.simulation.settings import Settings
@@ -88,17 +86,6 @@ def _link(root: ET.Element, body: Body, visible: list[Shape]) -> None:
         collision = add(link, "collision", name=contact.name)
         add(collision, "origin", xyz=contact.centre_m, rpy="0 0 0")
         add(add(collision, "geometry"), "sphere", radius=contact.radius_m)
-
-
-def principal_axes(inertia_kg_m2: Array) -> tuple[Array, Array]:
-    """Return principal moments (3,) and the rotation (3, 3) from their axes to the tensor's, as small as it can be."""
-    moments, axes = np.linalg.eigh(inertia_kg_m2)
-    _, order = linear_sum_assignment(-np.abs(axes))
-    moments, axes = moments[order], axes[:, order]
-    axes = axes * np.where(np.diag(axes) < 0, -1.0, 1.0)
-    if np.linalg.det(axes) < 0:
-        axes[:, np.argmin(np.diag(axes))] *= -1.0
-    return moments, axes
 
 
 def _joint(root: ET.Element, joint: Joint, settings: Settings) -> None:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
+import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.mass import MassProperties
@@ -40,9 +41,8 @@ class Bought:
 
     def moved(self, T_body_frame: Array) -> "Bought":
         """Return the part drawn in a frame of its body instead of the body's own; that frame's pose (4, 4) in mm."""
-        return replace(
-            self, T_body_part=T_body_frame @ self.T_body_part, mass=self.mass.placed(in_metres(T_body_frame))
-        )
+        T_body_part = np.einsum("ij,jk->ik", T_body_frame, self.T_body_part)
+        return replace(self, T_body_part=T_body_part, mass=self.mass.placed(in_metres(T_body_frame)))
 
     @cached_property
     def solid(self) -> Manifold:

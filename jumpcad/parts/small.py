@@ -4,6 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from jumpcad.errors import JumpcadError
 from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import SPACER_RADIUS_MM, TRAY_MM, Plan
 from jumpcad.parts.body_plate import TAB_MM, ear_reach_mm, socket_about_axis, tray_slots
@@ -12,6 +13,7 @@ from jumpcad.parts.part import Drawing, Placement, about_z, lying_on_left, lying
 from jumpcad.robot import BODY
 from jumpcad.solids.outline import disc, hole, rectangle, ring, union
 from jumpcad.solids.stack import Stack
+from jumpcad.workshop import Workshop
 
 COLLAR_MM = 3.0
 COLLAR_RADIUS_MM = 3.6
@@ -58,6 +60,23 @@ def spring_bushing(plan: Plan, bores: Bores, side: str) -> Drawing:
     # printed mandrel down; on the left the mandrel lies to the right, on the right to the left
     pose = lying_on_right(inner, x, z) if side == "left" else lying_on_left(-inner, x, z)
     return Drawing(f"spring_bushing_{side}", "body", Stack.of(slabs), (Placement(BODY, pose),))
+
+
+def require_axle(workshop: Workshop) -> None:
+    """Refuse axles around which the spacers' tubes would have no wall.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the thickest axle that they hold.
+    """
+    axle, fits = workshop.bought.axle_mm, workshop.fits
+    thickest = 2.0 * (SPACER_RADIUS_MM - fits.sliding_mm - fits.wall_min_mm)
+    if axle > thickest:
+        raise JumpcadError(
+            f"bought.axle_mm = {axle:g} is more than {thickest:g}, around which spacers of "
+            f"{2.0 * SPACER_RADIUS_MM:g} mm keep a wall of fits.wall_min_mm = {fits.wall_min_mm:g}: a thinner axle fits"
+        )
 
 
 def spacer(plan: Plan, bores: Bores, name: str, places: list[tuple[np.ndarray, float, float]]) -> Drawing:

@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 
 import numpy as np
 from PIL import Image
@@ -12,10 +13,11 @@ from jumpcad.exporters.poses import body_poses, transform
 from jumpcad.exporters.shapes import Shape, shapes
 from jumpcad.exporters.steps import assembly_steps
 from jumpcad.parts.part import Array
-from jumpcad.pictures.studio import View, studio
+from jumpcad.pictures.studio import Studio, View, studio
 from jumpcad.robot import Robot
 from jumpcad.simulation.jump import Trajectory
 
+STILLS = ("rest", "compressed", "exploded")
 STILL_SIZE = (720, 540)
 JUMP_SIZE = (560, 350)
 JUMP_FRAMES = 36
@@ -42,33 +44,21 @@ def stills(robot: Robot, size: tuple[int, int] = STILL_SIZE) -> dict[str, bytes]
         If PyBullet is not installed, or the robot has no parts to be seen.
     """
     things = _things(robot)
-    rest, wound = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
-    scenes = {
-        "rest": (rest, View()),
-        "compressed": (wound, View()),
-        "exploded": (exploded(things, rest), EXPLODED_VIEW),
-    }
-    with studio([(thing.mesh, thing.colour) for thing in things]) as scene:
-        return {
-            name: _png(scene.picture(poses, size, view, _corners(things, poses)))
-            for name, (poses, view) in scenes.items()
-        }
+    with _studio(things) as scene:
+        return _stills(scene, robot, things, size)
 
 
-def step_pictures(robot: Robot, size: tuple[int, int] = STEP_SIZE) -> dict[str, bytes]:
-    """Return a PNG file for every step of assembly: what is added in colour, what is already there pale."""
-    things, steps = _things(robot), assembly_steps(robot)
-    number = {shape.name: index for index, step in enumerate(steps) for shape in step.added}
-    poses = _poses(things, body_poses(robot))
-    pictures = {}
-    with studio([(thing.mesh, thing.colour) for thing in things]) as scene:
-        for index in range(len(steps)):
-            there = [pose if number[thing.name] <= index else None for thing, pose in zip(things, poses, strict=True)]
-            pale = [number[thing.name] < index for thing in things]
-            added = [thing for thing in things if number[thing.name] == index]
-            corners = _corners(added, _poses(added, body_poses(robot)))
-            pictures[f"step-{index + 1}"] = _png(scene.picture(there, size, STEP_VIEW, _widened(corners), pale))
-    return pictures
+def all_pictures(robot: Robot) -> dict[str, bytes]:
+    """Return the PNG files of a robot and of every step of its assembly, by name.
+
+    Raises
+    ------
+    JumpcadError
+        As `stills`.
+    """
+    things = _things(robot)
+    with _studio(things) as scene:
+        return _stills(scene, robot, things, STILL_SIZE) | _step_pictures(scene, robot, things, STEP_SIZE)
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
@@ -78,7 +68,7 @@ def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
     frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
     corners = np.concatenate([_corners(things, poses) for poses in frames])
-    with studio([(thing.mesh, thing.colour) for thing in things]) as scene:
+    with _studio(things) as scene:
         pictures = [scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames]
     return _gif(pictures)
 
@@ -95,6 +85,34 @@ def exploded(things: Sequence[Shape], poses: Sequence[Array]) -> list[Array]:
         outer = float(y.max() if centre > 0.0 else y.min()) if abs(centre) > CENTRED_M else 0.0
         moved.append(transform(pose[:3, :3], pose[:3, 3] + [0.0, EXPLOSION * outer, 0.0]))
     return moved
+
+
+def _stills(scene: Studio, robot: Robot, things: Sequence[Shape], size: tuple[int, int]) -> dict[str, bytes]:
+    rest, wound = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
+    scenes = ((rest, View()), (wound, View()), (exploded(things, rest), EXPLODED_VIEW))
+    return {
+        name: _png(scene.picture(poses, size, view, _corners(things, poses)))
+        for name, (poses, view) in zip(STILLS, scenes, strict=True)
+    }
+
+
+def _step_pictures(scene: Studio, robot: Robot, things: Sequence[Shape], size: tuple[int, int]) -> dict[str, bytes]:
+    """Return a picture of every step of assembly: what is added in colour, what is already there pale."""
+    steps = assembly_steps(robot)
+    number = {shape.name: index for index, step in enumerate(steps) for shape in step.added}
+    poses = _poses(things, body_poses(robot))
+    pictures = {}
+    for index in range(len(steps)):
+        there = [pose if number[thing.name] <= index else None for thing, pose in zip(things, poses, strict=True)]
+        pale = [number[thing.name] < index for thing in things]
+        added = [thing for thing in things if number[thing.name] == index]
+        corners = _corners(added, _poses(added, body_poses(robot)))
+        pictures[f"step-{index + 1}"] = _png(scene.picture(there, size, STEP_VIEW, _widened(corners), pale))
+    return pictures
+
+
+def _studio(things: Sequence[Shape]) -> AbstractContextManager[Studio]:
+    return studio([(thing.mesh, thing.colour) for thing in things])
 
 
 def _things(robot: Robot) -> tuple[Shape, ...]:
@@ -134,7 +152,7 @@ def _widened(corners: Array) -> Array:
 
 def _png(picture: Image.Image) -> bytes:
     stream = io.BytesIO()
-    picture.save(stream, "PNG", optimize=True)
+    picture.save(stream, "PNG")
     return stream.getvalue()
 
 

@@ -99,8 +99,7 @@ class Studio:
             Which things are only hinted at.
         """
         bullet, (width, height) = self._bullet, (SUPERSAMPLING * side for side in size)
-        for number, pose in zip(self._ids, poses, strict=True):
-            self._place(number, AWAY if pose is None else pose)
+        self._place([AWAY if pose is None else pose for pose in poses])
         for number, colour, hinted in zip(self._ids, self._colours, pale or [False] * len(poses), strict=True):
             self._paint(number, PALE if hinted else colour)
         camera = aimed(frame_m, view, width / height)
@@ -116,11 +115,11 @@ class Studio:
         image[owner < 0] = BACKGROUND
         matrix = np.reshape(lens, (4, 4)).T @ np.reshape(eyes, (4, 4)).T
         ink = borders(owner)
-        seen_m = _farthest_beside(distance_m(np.reshape(depth, (height, width)), camera))
+        seen = _farthest_beside(np.reshape(depth, (height, width)))
         for ends, pose in zip(self._creases_mm, poses, strict=True):
             if pose is None:
                 continue
-            _draw(ink, ends * MM @ pose[:3, :3].T + pose[:3, 3], matrix, seen_m)
+            _draw(ink, ends * MM @ pose[:3, :3].T + pose[:3, 3], matrix, seen, camera)
         image[ink] = image[ink] + EDGE_STRENGTH * (EDGE_COLOUR - image[ink])
         return Image.fromarray(image).resize(size, Image.Resampling.BOX)
 
@@ -138,9 +137,11 @@ class Studio:
         )
         return int(bullet.createMultiBody(0.0, -1, shape, physicsClientId=self._client))
 
-    def _place(self, number: int, pose: Array) -> None:
-        turn = Rotation.from_matrix(pose[:3, :3]).as_quat().tolist()
-        self._bullet.resetBasePositionAndOrientation(number, pose[:3, 3].tolist(), turn, physicsClientId=self._client)
+    def _place(self, poses: Sequence[Array]) -> None:
+        stacked = np.array(poses)
+        turns = Rotation.from_matrix(stacked[:, :3, :3]).as_quat().tolist()
+        for number, place, turn in zip(self._ids, stacked[:, :3, 3].tolist(), turns, strict=True):
+            self._bullet.resetBasePositionAndOrientation(number, place, turn, physicsClientId=self._client)
 
     def _paint(self, number: int, colour: Colour) -> None:
         self._bullet.changeVisualShape(number, -1, rgbaColor=[*colour, 1.0], physicsClientId=self._client)
@@ -198,14 +199,18 @@ def borders(owner: npt.NDArray[np.int_]) -> Mask:
     return mask
 
 
-def _farthest_beside(distance: Array) -> Array:
-    """Return for every pixel the greatest distance within one pixel of it."""
-    wide = np.maximum(distance, np.maximum(np.roll(distance, 1, axis=1), np.roll(distance, -1, axis=1)))
-    return np.maximum(wide, np.maximum(np.roll(wide, 1, axis=0), np.roll(wide, -1, axis=0)))
+def _farthest_beside(depth: Array) -> Array:
+    """Return for every pixel the greatest depth within one pixel of it."""
+    for _ in range(2):
+        wide = depth.copy()
+        np.maximum(wide[1:], depth[:-1], out=wide[1:])
+        np.maximum(wide[:-1], depth[1:], out=wide[:-1])
+        depth = wide.T
+    return depth
 
 
-def _draw(ink: Mask, ends_m: Array, matrix: Array, seen_m: Array) -> None:
-    """Ink the pixels of edges (n, 2, 3) that nothing hides."""
+def _draw(ink: Mask, ends_m: Array, matrix: Array, depth: Array, camera: Camera) -> None:
+    """Ink the pixels of edges (n, 2, 3) that nothing hides, by what depth is seen at every pixel."""
     height, width = ink.shape
     clip = np.concatenate([ends_m, np.ones((*ends_m.shape[:2], 1))], axis=2) @ matrix.T
     distance = clip[..., 3]
@@ -218,5 +223,5 @@ def _draw(ink: Mask, ends_m: Array, matrix: Array, seen_m: Array) -> None:
     near = 1.0 / (1.0 / distance[which, 0] + share * (1.0 / distance[which, 1] - 1.0 / distance[which, 0]))
     inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
     x, y, near = x[inside], y[inside], near[inside]
-    seen = near <= seen_m[y, x] + EDGE_DEPTH_M
+    seen = near <= distance_m(depth[y, x], camera) + EDGE_DEPTH_M
     ink[y[seen], x[seen]] = True

@@ -16,6 +16,9 @@ from jumpcad.search.space import Array, Space
 from jumpcad.search.surrogate import Belief, unwarped, warped
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
+ACQUISITION = "log10 of EI × P(feasible)"
+DECADES = 6.0
+"""How far below its maximum the acquisition is drawn."""
 
 
 def history(rows: Sequence[Row], objective: Objective) -> Figure:
@@ -146,9 +149,9 @@ def _one_parameter(space: Space, rows: Sequence[Row], belief: Belief, objective:
     values = [getattr(row.design, parameter.name) for row in feasible]
     above.plot(values, _scores(feasible), "o", ms=4, color="black", label="evaluated")
     above.legend()
-    labels(above, "", f"{objective.meaning} ({objective.unit})")
-    below.plot(x, np.exp(belief.log_improvement(points, best) + belief.log_feasible(points)), color=ORANGE)
-    labels(below, parameter.name, "expected improvement\n× P(feasible)")
+    labels(above, "", objective.unit)
+    below.plot(x, _log_acquisition(belief, points, best), color=ORANGE)
+    labels(below, parameter.name, ACQUISITION)
     return figure
 
 
@@ -159,18 +162,23 @@ def _two(space: Space, rows: Sequence[Row], belief: Belief, objective: Objective
     first, second = space.free
     x, y = first.lower + unit * first.width, second.lower + unit * second.width
     mean = np.full(len(points), warped(best)) if belief.score is None else belief.score.predict(points)[0]
-    gain = np.exp(belief.log_improvement(points, best) + belief.log_feasible(points))
     heat(figure, left, x, y, unwarped(mean).reshape(61, 61), objective.unit)
-    heat(figure, right, x, y, gain.reshape(61, 61), "expected improvement × P(feasible)")
+    heat(figure, right, x, y, _log_acquisition(belief, points, best).reshape(61, 61), ACQUISITION)
     for axes, title in ((left, "surrogate"), (right, "acquisition")):
         for colour, chosen in (("white", True), (RED, False)):
             shown = [row.design for row in rows if (row.score is not None) == chosen]
             axes.plot(
                 [getattr(d, first.name) for d in shown], [getattr(d, second.name) for d in shown],
-                ".", ms=4, mec="black", mew=0.3, color=colour,
+                ".", ms=7, mec="black", mew=0.4, color=colour,
             )  # fmt: skip
         labels(axes, first.name, second.name, f"{title}; refused designs in red")
     return figure
+
+
+def _log_acquisition(belief: Belief, points: Array, best: float) -> Array:
+    """Return the decimal logarithm of the acquisition (m,): a search that has converged leaves it a needle."""
+    value = (belief.log_improvement(points, best) + belief.log_feasible(points)) / np.log(10.0)
+    return np.maximum(value, value.max() - DECADES)
 
 
 def _scores(rows: Sequence[Row]) -> Array:

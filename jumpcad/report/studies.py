@@ -1,6 +1,6 @@
 """All pictures of a study."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from jumpcad.report import plots
 from jumpcad.report.figures import save
-from jumpcad.search.ledger import Ledger
+from jumpcad.search.ledger import Ledger, Row
 from jumpcad.search.objective import find_objective
 from jumpcad.search.space import Space
 from jumpcad.search.study import FRONTS, search_rows
@@ -27,8 +27,19 @@ def plot_study(ledger: Ledger, folder: Path) -> list[Path]:
         figures["parallel"] = partial(plots.parallel, space, rows)
     if rows and identity["method"] in FRONTS:
         figures["pareto"] = partial(plots.pareto, rows, objective)
-    theta = rows[-1].proposal.get("theta") if rows else None
-    if theta is not None and space.dimension <= 2:
-        belief = Belief.from_rows(space, rows, theta, fit=())
-        figures["acquisition"] = partial(plots.acquisition, space, rows, belief, objective)
+    if space.dimension <= 2:
+        for name, number, count in _moments(rows):
+            belief = Belief.from_rows(space, rows[:count], rows[number].proposal["theta"], fit=())
+            figures[name] = partial(plots.acquisition, space, rows[:count], belief, objective)
     return [save(draw(), folder, name) for name, draw in figures.items()]
+
+
+def _moments(rows: Sequence[Row]) -> list[tuple[str, int, int]]:
+    """Return two moments of a Bayesian search: picture's name, the row with the hyperparameters, and how many rows.
+
+    Before the first proposal there is much to learn; in the end, little.
+    """
+    proposed = [number for number, row in enumerate(rows) if "theta" in row.proposal]
+    if not proposed:
+        return []
+    return [("acquisition-first", proposed[0], proposed[0]), ("acquisition", proposed[-1], len(rows))]

@@ -11,6 +11,7 @@ import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,9 @@ APPLICATION_ID = 0x4A554D50
 FORMAT = 1
 PATIENCE_S = 5.0
 """How long a reader or writer waits for another one to finish."""
-PHASES = ("ga", "bo", "pareto", "nsga2", "sample", "sweep", "bounds", "robust")
-"""All phases, in the order in which a study goes through them; the last two look around the best."""
-SEARCH_PHASES = PHASES[:-2]
+PHASES = ("ga", "bo", "pareto", "nsga2", "sample", "sweep", "margin", "bounds", "robust")
+"""All phases, in the order in which a study goes through them; the last three look around the best."""
+SEARCH_PHASES = PHASES[:-3]
 
 _SCHEMA = f"""
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -65,7 +66,7 @@ class Row:
     duration_s: float
     proposal: Mapping[str, Any] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def key(self) -> Key:
         """What identifies the design: its vector."""
         return tuple(self.design.to_vector())
@@ -190,6 +191,11 @@ class Ledger:
         # A commit need not wait for the disk: the file stays whole, and only a power cut can take the last batches.
         self._connection.execute("PRAGMA synchronous = NORMAL")
         difference = _difference(self.identity, json.loads(json.dumps(identity)))
+        if difference.startswith("versions."):
+            raise JumpcadError(
+                f"{self.path}: was made by another program ({difference}), whose rows do not mix with this one's; "
+                f"go on with that program, or name another file (`optimize --from {self.path}` learns from this one)"
+            )
         if difference:
             raise JumpcadError(
                 f"{self.path}: holds another study ({difference}); repeat its own request or name another file"
@@ -264,9 +270,12 @@ def _record(row: Row) -> tuple[Any, ...]:
     evaluation = row.evaluation
     return (
         row.phase, row.step, row.place, *row.key, row.model, evaluation.verdict, row.score,
-        json.dumps(dict(evaluation.metrics)), json.dumps([finding.to_dict() for finding in evaluation.findings]),
-        evaluation.detail, json.dumps(dict(row.proposal)), row.duration_s,
+        _text(dict(evaluation.metrics)), _text([finding.to_dict() for finding in evaluation.findings]),
+        evaluation.detail, _text(dict(row.proposal)), row.duration_s,
     )  # fmt: skip
+
+
+_text = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), check_circular=False).encode
 
 
 def _row(record: dict[str, Any]) -> Row:

@@ -4,18 +4,21 @@ import hashlib
 import importlib.metadata
 import json
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from pathlib import Path
 from typing import Any
 
 from jumpcad import __version__
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.files import did_you_mean
+from jumpcad.files import did_you_mean, templates_folder
 from jumpcad.findings import errors
 from jumpcad.gate import geometry_findings, statics_findings
 from jumpcad.search.objective import Evaluation
 
 MODELS = ("printed", "capsule", "published")
+PRESENTATION = ("cli", "pictures", "report")
+"""The packages of jumpcad that decide no row of a study."""
 
 
 @dataclass(frozen=True)
@@ -80,9 +83,9 @@ class RobotModel:
         return hashlib.sha256(content.encode()).hexdigest()
 
     def versions(self) -> dict[str, str]:
-        """Return the versions of the packages that decide an evaluation."""
+        """Return the versions of the packages that decide an evaluation, and the hash of this one's code."""
         solids = ["manifold3d", "trimesh"] if self.name == "printed" else []
-        return {"jumpcad": __version__} | versions("numpy", self.describe()["engine"], *solids)
+        return {"jumpcad": __version__, "code": code_digest()} | versions("numpy", self.describe()["engine"], *solids)
 
     def _printed(self, design: Design) -> Evaluation:
         from jumpcad.evaluation import evaluate
@@ -108,6 +111,23 @@ class RobotModel:
             "spring_energy_j": jump.energy_j,
         }
         return Evaluation("jump" if jump.distance_m > 0 else "no_takeoff", metrics, tuple(geometry_findings(design)))
+
+
+@cache
+def code_digest() -> str:
+    """Return a hash (hexadecimal) of the code and the catalogue that decide the rows of a study.
+
+    A version number is raised at a release; between two of them, only the code itself says that it has changed.
+    """
+    package = Path(__file__).parents[1]
+    files = {path.relative_to(package).as_posix(): path for path in package.rglob("*.py")}
+    files |= {f"hardware/{path.name}": path for path in (templates_folder() / "hardware").glob("*.toml")}
+    found = hashlib.sha256()
+    for name in sorted(files):
+        if name.split("/")[0] not in PRESENTATION:
+            content = files[name].read_bytes()
+            found.update(f"{name} {len(content)}\n".encode() + content)
+    return found.hexdigest()[:16]
 
 
 def versions(*packages: str) -> dict[str, str]:

@@ -8,6 +8,7 @@ at a time, and a design that fails again is quarantined, with the reason.
 import contextlib
 import math
 import os
+import pickle
 import re
 import signal
 import threading
@@ -16,14 +17,17 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
+
+import cloudpickle
 
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model
 
-TASK_S = 0.03
-"""Evaluations are sent in tasks of up to this length: long against the 0.4 ms that sending one takes."""
+TASK_S = 0.1
+"""Evaluations are sent in tasks of up to this length: long against the 0.3 ms that sending one takes."""
 
 ANSWER_S = 10.0
 """How long a Dask scheduler may take to answer."""
@@ -100,21 +104,23 @@ class Pool:
         JumpcadError
             If the model itself cannot work, whatever the design.
         """
+        sent = cloudpickle.dumps((model, model.versions()))  # once a batch; executors would do it once a task
         suspects: dict[int, str] = {}
         waiting = deque(self._tasks(len(designs)))
         running: dict[Future[Any], list[int]] = {}
         while waiting or running:
             while waiting and len(running) < self.workers + 1:  # one more keeps workers busy while results travel
                 task = waiting.popleft()
-                running[self._submit(model, [designs[index] for index in task])] = task
+                running[self._submit(sent, [designs[index] for index in task])] = task
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 yield from self._collect(future, running.pop(future), suspects)
         for index, reason in suspects.items():
             self.notice(f"an evaluation failed and is repeated alone: {reason}")
             again: dict[int, str] = {}
-            yield from self._collect(self._submit(model, [designs[index]]), [index], again)
+            yield from self._collect(self._submit(sent, [designs[index]]), [index], again)
             if again:
-                self.notice(f"a design is quarantined: {again[index]}; before: {reason}")
+                values = ", ".join(f"{value:.6g}" for value in designs[index].to_vector())
+                self.notice(f"a design is quarantined: {again[index]}; before: {reason}; design: {values}")
                 yield Outcome(index, Evaluation(QUARANTINED, detail=again[index]), 0.0)
 
     def _tasks(self, count: int) -> list[list[int]]:
@@ -122,24 +128,24 @@ class Pool:
         most = max(1, int(TASK_S / self._mean_s))
         tasks, start = [], 0
         while start < count:
-            size = min(most, math.ceil((count - start) / (2 * self.workers)))
+            size = min(most, math.ceil((count - start) / (1.5 * self.workers)))
             tasks.append(list(range(start, start + size)))
             start += size
         return tasks
 
-    def _submit(self, model: Model, designs: list[Design]) -> Future[Any]:
+    def _submit(self, sent: bytes, designs: list[Design]) -> Future[Any]:
         if self._executor is None:
             self._executor = self._open()
         try:
-            return self._executor.submit(_evaluate_task, model, designs, self._limit_s)
+            return self._executor.submit(_evaluate_task, sent, designs, self._limit_s)
         except BrokenExecutor:
             self.close()
             self._executor = self._open()
-            return self._executor.submit(_evaluate_task, model, designs, self._limit_s)
+            return self._executor.submit(_evaluate_task, sent, designs, self._limit_s)
 
     def _collect(self, future: Future[Any], task: list[int], suspects: dict[int, str]) -> Iterator[Outcome]:
         try:
-            results = future.result()
+            results = pickle.loads(future.result())
         except JumpcadError:
             raise
         except Exception as error:  # whatever an executor raises for a lost worker
@@ -235,8 +241,31 @@ def _end_with_parent(parent: int) -> None:
     os._exit(1)
 
 
-def _evaluate_task(model: Model, designs: Sequence[Design], limit_s: float) -> list[tuple[Any, float]]:
-    """Evaluate designs one after the other, in a worker."""
+@lru_cache(maxsize=1)
+def _unpacked(sent: bytes) -> Model:
+    """Return a model that arrived pickled; the same one for all tasks of a search.
+
+    Raises
+    ------
+    JumpcadError
+        If this machine would compute something else than the one that asks.
+    """
+    model, asked = cloudpickle.loads(sent)
+    for name, version in model.versions().items():
+        if version != asked[name]:
+            raise JumpcadError(
+                f"a worker has {name} {version}, not {asked[name]}: install there what is installed here, "
+                f"or repeat the command if it changed meanwhile"
+            )
+    return model
+
+
+def _evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> bytes:
+    """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
+
+    Left to an executor, which must be ready for functions and classes, pickling takes four times as long.
+    """
+    model = _unpacked(sent)
     results: list[tuple[Any, float]] = []
     for design in designs:
         start = time.perf_counter()
@@ -246,9 +275,9 @@ def _evaluate_task(model: Model, designs: Sequence[Design], limit_s: float) -> l
             except JumpcadError:
                 raise
             except Exception as error:  # the run must outlive a bug that one design in a thousand meets
-                result = _Failure(f"{type(error).__name__}: {error}")
+                result = _Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
         results.append((result, time.perf_counter() - start))
-    return results
+    return pickle.dumps(results)
 
 
 @contextlib.contextmanager

@@ -3,6 +3,7 @@
 Near some designs a thousandth of one parameter decides over the jump. A printer does not hit thousandths.
 """
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,9 +14,11 @@ from scipy.stats import qmc
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.search.campaign import Campaign
 from jumpcad.search.ledger import Row
+from jumpcad.search.margin import keep_off
 from jumpcad.search.space import Array, Space, physical_limits
 
-CANDIDATES, ROUNDS = 10, 3
+TENS = 3
+"""How many times ten of the best rows are tried at most."""
 KEPT = 0.9
 """Share of the best score at which a robust score is good enough to look no further."""
 SAMPLES = 16
@@ -64,14 +67,20 @@ class ActiveBound:
 def rank_candidates(campaign: Campaign, rows: Sequence[Row], seed: int, tolerance_mm: float) -> list[Candidate]:
     """Evaluate the neighbours of the best of some rows and return these, most robust first.
 
-    The best often lie at the edge of a constraint; as long as none of ten keeps most of its score, the next ten follow.
+    The best often lies at the edge of a constraint. If a neighbour of it is refused, a few designs that keep off the
+    edge join the first ten; if none of all these keeps most of the best score, the next tens follow.
     """
-    chosen = best_apart(campaign.space, rows, ROUNDS * CANDIDATES)
+    chosen = best_apart(campaign.space, rows, TENS * 10)
+    tens = [chosen[start : start + 10] for start in range(0, len(chosen), 10)]
+    first = (TENS + 1) * len(rows)
     candidates: list[Candidate] = []
-    for turn in range(ROUNDS):
-        ten = chosen[turn * CANDIDATES : (turn + 1) * CANDIDATES]
-        candidates += _examined(campaign, ten, ROUNDS * len(rows) + turn, seed, tolerance_mm)
-        if any(candidate.robust_score >= KEPT * (chosen[0].score or 0.0) for candidate in candidates):
+    for turn, ten in enumerate(tens):
+        candidates += _examined(campaign, ten, first + turn, seed, tolerance_mm)
+        if turn == 0 and candidates[0].refusals:
+            off_edge = keep_off(campaign, rows, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
+            feasible = [row for row in off_edge if row.score is not None]
+            candidates += _examined(campaign, feasible, first + TENS, seed, tolerance_mm)
+        if max(candidate.robust_score for candidate in candidates) >= KEPT * (chosen[0].score or 0.0):
             break
     return sorted(candidates, key=lambda candidate: -candidate.robust_score)
 

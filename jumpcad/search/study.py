@@ -117,12 +117,13 @@ class Stage:
 
 @dataclass(frozen=True)
 class Result:
-    """What a study found: its rows in order, the best, the most robust first, and the winner's active bounds."""
+    """What a study found: its rows in order, the best, the most robust first, the winner's active bounds, its notes."""
 
     rows: list[Row]
     best: Row | None
     candidates: list[Candidate]
     bounds: list[ActiveBound]
+    notes: list[str]
 
     @property
     def winner(self) -> Row | None:
@@ -158,8 +159,10 @@ def run_study(
     JumpcadError
         If the request is wrong, or the file holds another study, is damaged or in use.
     """
-    prior = _read_prior(request)
+    prior, remark = _read_prior(request)
     with Ledger.write(path, request.identity(prior)) as ledger:
+        if remark and remark not in ledger.notes():
+            ledger.note(remark)
         stages = _stages(request, ledger, len(prior))
         objective = find_objective(request.objective)
         campaign = Campaign(request.space, objective, request.model, ledger, pool, prior, watch)
@@ -171,7 +174,7 @@ def run_study(
         if request.method not in FRONTS:
             candidates = rank_candidates(campaign, rows, request.seed, request.tolerance_mm)
         bounds = active_bounds(campaign, candidates[0].row, len(rows)) if candidates else []
-    return Result(rows, best, candidates, bounds)
+        return Result(rows, best, candidates, bounds, ledger.notes())
 
 
 def best_row(rows: Sequence[Row]) -> Row | None:
@@ -219,10 +222,10 @@ def _stages(request: Request, ledger: Ledger, prior: int) -> list[Stage]:
     return stages
 
 
-def _read_prior(request: Request) -> list[Row]:
-    """Return the rows of the prior study that lie in the space, scored by this request's objective."""
+def _read_prior(request: Request) -> tuple[list[Row], str]:
+    """Return the rows of the prior study that lie in the space, scored by this request's objective, and a remark."""
     if request.prior is None:
-        return []
+        return [], ""
     with Ledger.read(request.prior) as ledger:
         theirs, ours = ledger.identity["model"], json.loads(json.dumps(request.model.describe()))
         if theirs != ours:
@@ -230,8 +233,10 @@ def _read_prior(request: Request) -> list[Row]:
                 f"{request.prior}: was made with another model ({theirs['name']}, or other settings) than this search"
             )
         objective = find_objective(request.objective)
-        return [
+        rows = [
             replace(row, score=objective.score(row.evaluation))
             for row in ledger.rows()
             if request.space.contains(row.design)
         ]
+        same = all(row.model == request.model.digest for row in rows)
+        return rows, "" if same else f"{request.prior} was made by another program; it is learned from all the same"

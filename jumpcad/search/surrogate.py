@@ -62,6 +62,13 @@ class Surrogate:
         variance = np.maximum(self._variance - np.einsum("ij,ij->j", half, half), 1e-12)
         return self._centre + self._spread * (covariance @ self._alpha), self._spread * np.sqrt(variance)
 
+    def slope(self, points: Array) -> Array:
+        """Return the gradient (m, d) of the mean at points (m, d)."""
+        distance = self._distance(points)
+        weights = (1.0 + distance) * np.exp(-distance) * self._alpha
+        pull = weights @ self.x - weights.sum(axis=1, keepdims=True) * points
+        return self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
+
     def believing(self, point: Array) -> Self:
         """Return the process that took its own mean at a point (d,) for a measurement (kriging believer)."""
         mean, _ = self.predict(point[None])
@@ -69,9 +76,13 @@ class Surrogate:
 
     def _covariance(self, points: Array) -> Array:
         """Return the covariance (m, n) of points with the data."""
-        difference = points[:, None, :] / self._lengths - self.x[None] / self._lengths
-        distance = np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        distance = self._distance(points)
         return self._variance * (1.0 + distance + distance**2 / 3.0) * np.exp(-distance)
+
+    def _distance(self, points: Array) -> Array:
+        """Return the distances (m, n) of points from the data, √5·r in lengths of the kernel."""
+        difference = points[:, None, :] / self._lengths - self.x[None] / self._lengths
+        return np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
 
 
 @dataclass(frozen=True)
@@ -116,11 +127,17 @@ class Belief:
         found = {name: surrogate.theta for name, surrogate in self.constraints.items()}
         return found if self.score is None else {"score": self.score.theta} | found
 
-    def log_feasible(self, points: Array) -> Array:
-        """Return the logarithm of the probability (m,) that designs (m, d) meet every constraint."""
+    def log_feasible(self, points: Array, scatter: Array | None = None) -> Array:
+        """Return the logarithm of the probability (m,) that designs (m, d) meet every constraint.
+
+        With `scatter`, standard deviations (m, d) of what is made of each design, that such a neighbour meets them: to
+        first order, the variance of a margin grows by that of its slope (Girard et al., NIPS 2002).
+        """
         total = np.zeros(len(points))
         for surrogate in self.constraints.values():
             mean, deviation = surrogate.predict(points)
+            if scatter is not None:
+                deviation = np.hypot(deviation, np.linalg.norm(scatter * surrogate.slope(points), axis=1))
             total += log_ndtr(mean / deviation)
         return total
 

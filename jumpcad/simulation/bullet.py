@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Body, Joint, Robot
+from jumpcad.mass import principal_axes
+from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Robot
 from jumpcad.simulation.engines import import_pybullet
 from jumpcad.simulation.mechanics import Release, State, release_pose
 from jumpcad.simulation.settings import Settings, surface_friction
@@ -88,7 +89,8 @@ class BulletWorld:
         self._damping_dt = settings.joint_damping_nms_per_rad * settings.dt_s
         self.joint_damping_j = 0.0
         bodies = [robot.bodies[name] for name in (BODY, *LINKS)]
-        self._moments, self._axes = principal_axes(np.stack([body.inertia_kg_m2 for body in bodies]))
+        principal = [principal_axes(body.inertia_kg_m2) for body in bodies]
+        self._moments, self._axes = (np.stack(arrays) for arrays in zip(*principal, strict=True))
         self._body_in_principal = self._axes[BODY_ORDER].transpose(0, 2, 1)
         release = release_pose(robot)
         self.robot_id = self._create(robot, bodies, release)
@@ -229,13 +231,6 @@ class BulletWorld:
             (foot_axes.T @ (points[FOOT] - foot.com_m)).tolist(),
             physicsClientId=self._client,
         )
-
-
-def principal_axes(inertia_kg_m2: Array) -> tuple[Array, Array]:
-    """Return principal moments (n, 3) of tensors (n, 3, 3), and rotations (n, 3, 3) from principal axes to theirs."""
-    moments, axes = np.linalg.eigh(inertia_kg_m2)
-    axes[..., 0] *= np.sign(np.linalg.det(axes))[:, None]
-    return moments, axes
 
 
 def _joints(robot: Robot) -> list[Joint]:

@@ -33,12 +33,13 @@ def lie(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float])
     bed_mm
         Usable bed (x, y, z).
     """
-    size, bed = bounds_mm[1] - bounds_mm[0], np.asarray(bed_mm)
-    along = Lie(0.0, float((bed - size).min())), Lie(90.0, float((bed - size[[1, 0, 2]]).min()))
+    x, y, z = (bounds_mm[1] - bounds_mm[0]).tolist()
+    bed_x, bed_y, bed_z = bed_mm
+    along = Lie(0.0, min(bed_x - x, bed_y - y, bed_z - z)), Lie(90.0, min(bed_x - y, bed_y - x, bed_z - z))
     best = max(along, key=lambda lie: lie.margin_mm)
     if best.margin_mm >= -ROUND_OFF_MM:
         return best
-    for found in _askew(outline(), float(size[2]), bed):
+    for found in _askew(outline(), z, np.asarray(bed_mm)):
         if found.margin_mm >= -ROUND_OFF_MM:
             return found
         best = max(best, found, key=lambda lie: lie.margin_mm)

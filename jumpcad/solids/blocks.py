@@ -17,7 +17,7 @@ from manifold3d import CrossSection, Manifold, OpType
 from jumpcad.solids.finish import finished
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region, circle_points
-from jumpcad.solids.stack import NOTHING
+from jumpcad.solids.stack import NOTHING, Section
 
 Array = npt.NDArray[np.float64]
 Contours = list[Array]
@@ -77,10 +77,14 @@ class Bar:
         rise = np.where(start[:, 1] == end[:, 1], 1.0, end[:, 1] - start[:, 1])
         x = start[:, 0] + (z - start[:, 1]) / rise * (end[:, 0] - start[:, 0])
         ends = np.sort(np.where(crosses, x, np.inf), axis=1)[:, : int(crosses.sum(axis=1).max(initial=0))]
+        rows, pairs = np.nonzero(np.isfinite(ends[:, ::2]))
+        x0, x1 = ends[rows, 2 * pairs], ends[rows, 2 * pairs + 1]
+        corners = np.empty((len(rows), len(self.y_mm), 4, 2))
+        corners[..., 0] = np.stack([x0, x1, x1, x0], axis=-1)[:, None]
+        corners[..., 1] = [(y0, y0, y1, y1) for y0, y1 in self.y_mm]
         rectangles: list[Contours] = [[] for _ in heights_mm]
-        for row, pair in np.argwhere(np.isfinite(ends[:, ::2])).tolist():
-            x0, x1 = ends[row, 2 * pair : 2 * pair + 2]
-            rectangles[row] += [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]) for y0, y1 in self.y_mm]
+        for row, over_y in zip(rows.tolist(), corners, strict=True):
+            rectangles[row].extend(over_y)
         return rectangles
 
 
@@ -159,11 +163,18 @@ class Turned:
 
     def contours_at(self, heights_mm: Array) -> list[Contours]:
         """Return the block's outlines at heights (n,), turned and moved."""
-        return [[self._moved(contour) for contour in contours] for contours in self.block.contours_at(heights_mm)]
+        sections = self.block.contours_at(heights_mm)
+        known = {id(contour): contour for contours in sections for contour in contours}
+        if not known:
+            return sections
+        ends = np.cumsum([len(contour) for contour in known.values()])[:-1]
+        moved = dict(zip(known, np.split(self._moved(np.concatenate(list(known.values()))), ends), strict=True))
+        return [[moved[id(contour)] for contour in contours] for contours in sections]
 
     def _moved(self, points_mm: Array) -> Array:
         cos, sin = math.cos(self.angle_rad), math.sin(self.angle_rad)
-        return np.asarray(points_mm @ np.array([[cos, sin], [-sin, cos]]) + self.place_mm)
+        x, y = points_mm.T
+        return np.column_stack([cos * x - sin * y, sin * x + cos * y]) + self.place_mm
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,6 +221,10 @@ class Blocks:
             else:
                 regions.append(regions[-1])
         return regions
+
+    def sections_at(self, heights_mm: npt.ArrayLike) -> list[Section]:
+        """Return the same as sections that no chamfer narrows."""
+        return [Section(region) for region in self.regions_at(heights_mm)]
 
 
 def _gathered(blocks: tuple[Block, ...], heights_mm: Array) -> Iterator[Contours]:

@@ -47,7 +47,8 @@ def faults(stl: bytes) -> list[str]:
         found.append("its surface is turned inside out in places")
     elif not mesh.volume > 0:
         found.append(f"its volume is {mesh.volume:g} mm³")
-    if (pieces := len(mesh.split(only_watertight=False))) != 1:
+    nodes = np.arange(len(mesh.faces))
+    if (pieces := len(trimesh.graph.connected_components(mesh.face_adjacency, nodes=nodes, min_len=1))) != 1:
         found.append(f"it is {pieces} pieces")
     return found
 

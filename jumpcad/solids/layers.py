@@ -6,21 +6,20 @@ of the layers that count as top or bottom ends there, and infill elsewhere. The 
 as bridges, with round threads of the nozzle's diameter d, d + 0.05 mm apart.
 """
 
-import itertools
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import lru_cache
-from typing import Literal, Protocol, TypeVar
+from collections.abc import Callable, Hashable, Sequence
+from typing import Literal, NamedTuple, Protocol, TypeVar
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
 from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.mass import MassProperties
-from jumpcad.solids.moments import areas_moments, borders_moments, mass_of, prism_moments
+from jumpcad.solids.moments import areas_and_borders, mass_of, prism_moments
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2
+from jumpcad.solids.runs import Run, jumps_of, runs_of
+from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2, Section
 from jumpcad.workshop import Process
 
 Array = npt.NDArray[np.float64]
@@ -48,24 +47,26 @@ class Shape(Protocol):
     def moments(self) -> Array:
         """Volume moments (10,)."""
 
-    def regions_at(self, heights_mm: Array) -> list[Region]:
-        """Return the cross-sections at heights (n,) ascending; neighbours that do not differ are one object."""
+    def sections_at(self, heights_mm: Array) -> list[Section]:
+        """Return the cross-sections at heights (n,) ascending; outlines that do not differ are one object."""
 
 
-@dataclass(frozen=True)
-class Layer:
-    """One printed layer, or several alike; neighbours of the same cross-section share one object."""
+class Layer(NamedTuple):
+    """One printed layer; neighbours of the same cross-section share one outline."""
 
     z0_mm: float
     z1_mm: float
-    section: Region
+    section: Section
 
 
-@lru_cache(maxsize=128)
+_KNOWN: WeakKeyDictionary[Shape, dict[tuple[object, ...], MassProperties]] = WeakKeyDictionary()
+"""What is known of shapes, for as long as someone keeps them: gears and small parts serve many designs."""
+
+
 def mass_properties(
     shape: Shape, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
 ) -> MassProperties:
-    """Return mass, centre and inertia of one part in its printing frame (kg, m); of the last shapes it is remembered.
+    """Return mass, centre and inertia of one part in its printing frame (kg, m); found once for every shape.
 
     Parameters
     ----------
@@ -78,8 +79,11 @@ def mass_properties(
     model
         `solid` for volume times density, `printed` for the layer model.
     """
-    moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
-    return mass_of(moments, density_g_cm3)
+    known, case = _KNOWN.setdefault(shape, {}), (density_g_cm3, process, nozzle_mm, model)
+    if case not in known:
+        moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
+        known[case] = mass_of(moments, density_g_cm3)
+    return known[case]
 
 
 def line_spacing_mm(width_mm: float, height_mm: float) -> float:
@@ -93,7 +97,7 @@ def sliced(shape: Shape, process: Process) -> list[Layer]:
     first, height = process.first_layer_mm, process.layer_height_mm
     above = max(0, math.ceil((top - bottom - first) / height - 0.5 - 1e-6))
     levels = bottom + np.array([0.0, *(first + height * np.arange(above + 1))])
-    sections = shape.regions_at(np.round((levels[:-1] + levels[1:]) / 2.0, 6))
+    sections = shape.sections_at(np.round((levels[:-1] + levels[1:]) / 2.0, 6))
     return [Layer(*layer) for layer in zip(levels[:-1].tolist(), levels[1:].tolist(), sections, strict=True)]
 
 
@@ -102,53 +106,59 @@ def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
 
     In each layer, as if it were laid at full height everywhere: the area of its cross-section, less the rounding of
     the lines along its border, plus the turns of the solid filling and of the infill, less what the infill leaves
-    open, plus what bridges over infill hold more than flat lines do.
+    open, plus what bridges over infill hold more than flat lines do. All but the area are those of the middle layer of
+    a run of layers that are alike. A chamfer takes from a layer's area, not from what is inside its perimeters.
     """
-    thread_layers = max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9))
-    layers = _joined(sliced(shape, process), max(process.bottom_layers + thread_layers, process.top_layers))
-    sections = [layer.section for layer in layers]
+    layers = sliced(shape, process)
+    outlines = [layer.section.outline for layer in layers]
+    number = {outline: index for index, outline in enumerate(dict.fromkeys(outlines))}
+    which = np.array([number[outline] for outline in outlines])
+    areas, borders = areas_and_borders(list(number))
+    jumps = jumps_of(which, areas[which, 0])
+    runs = runs_of(areas[which], jumps, process)
+    middles = [run.middle for run in runs]
+
     spacing = line_spacing_mm(process.line_width_mm, process.layer_height_mm)
     void = (process.line_width_mm - spacing) / 2.0
-    outlines = _each(lambda section: section.simplify(OUTLINE_TOLERANCE_MM), sections)
-    cores = _each(lambda outline: _core(outline, process.perimeters * spacing + void, spacing), outlines)
-    sparse, solid = _filling(outlines, cores, process)
+    shell = process.perimeters * spacing + void
+    cores = _each(lambda outline: _core(outline, shell, spacing), [outlines[middle] for middle in middles])
+    windows = [_window(middle, outlines, jumps, process) for middle in middles]
+    filled = _each(lambda core, window: _filled(core, window, process.solid_below_area_mm2), cores, windows)
+    solid, sparse = [pair[0] for pair in filled], [pair[1] for pair in filled]
+    bridged = _bridged(runs, cores, solid, sparse, max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9)))
     hollow = 1.0 - process.infill
-    bridged = _bridged(solid, sparse, thread_layers)
     thread = math.pi * nozzle_mm**2 / 4.0 / (nozzle_mm + BRIDGE_GAP_MM)
     excess = max(0.0, thread / process.layer_height_mm - 1.0) if hollow > 0.0 else 0.0
 
-    area = _table(areas_moments, sections, sparse, bridged)
-    border = _table(borders_moments, outlines, solid, sparse)
-    plastic = area[0] - void * border[0] + spacing * SOLID_TURNS * border[1]
-    plastic += hollow * (spacing * SPARSE_TURNS * border[2] - area[1]) + excess * area[2]
-    return prism_moments(plastic, [layer.z0_mm for layer in layers], [layer.z1_mm for layer in layers])
+    area, border = _table(solid, sparse, bridged)
+    inside = spacing * SOLID_TURNS * border[0] + hollow * (spacing * SPARSE_TURNS * border[1] - area[1])
+    inside -= void * borders[which[middles]]
+    insets = np.array([[layer.section.inset_mm] for layer in layers])
+    z0, z1 = np.array([layer.z0_mm for layer in layers]), np.array([layer.z1_mm for layer in layers])
+    first, last = [run.first for run in runs], [run.end - 1 for run in runs]
+    plastic = [areas[which] - insets * borders[which], inside, excess * area[2]]
+    bottoms, tops = [z0, z0[first], z0[first]], [z1, z1[last], z1[first]]
+    return prism_moments(*(np.concatenate(parts) for parts in (plastic, bottoms, tops)))
 
 
-def _joined(layers: Sequence[Layer], reach: int) -> list[Layer]:
-    """Return the layers with those taken together that are farther than `reach` layers from another cross-section."""
-    joined: list[Layer] = []
-    for section, same in itertools.groupby(layers, key=lambda layer: layer.section):
-        run = list(same)
-        if len(run) > 2 * reach + 1:
-            middle = Layer(run[reach].z0_mm, run[-reach - 1].z1_mm, section)
-            run = [*run[:reach], middle, *run[len(run) - reach :]]
-        joined += run
-    return joined
+def _window(middle: int, outlines: Sequence[Region], jumps: Sequence[int], process: Process) -> tuple[Region, ...]:
+    """Return the outlines that a layer's infill must lie within beside its own; `NOTHING` at the ends of the part.
+
+    Of layers that change little by little, those at either end of the window and beside jumps speak for all.
+    """
+    low, high = middle - process.bottom_layers, middle + process.top_layers
+    if low < 0 or high >= len(outlines):
+        return (NOTHING,)
+    layers = {low, high, *(layer for jump in jumps if low < jump <= high for layer in (jump - 1, jump))}
+    return tuple(dict.fromkeys(outlines[layer] for layer in sorted(layers) if outlines[layer] is not outlines[middle]))
 
 
-def _each(change: Callable[..., T], *regions: Sequence[Region]) -> list[T]:
-    """Return what becomes of every layer's regions; every distinct case is computed once."""
-    cases = list(zip(*regions, strict=True))
-    known = {case: change(*case) for case in dict.fromkeys(cases)}
-    return [known[case] for case in cases]
-
-
-def _core(outline: Region, walls_mm: float, spacing_mm: float) -> Region:
+def _core(outline: Region, shell_mm: float, spacing_mm: float) -> Region:
     """Return what is inside the perimeters; nothing where that is all narrower than a line, as they widen to fill it.
 
     So does PrusaSlicer (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
     """
-    core = outline.offset(-walls_mm, JoinType.Miter)
+    core = outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
     if core.is_empty():
         return NOTHING
     border = sum(float(np.hypot(*(ring - np.roll(ring, 1, axis=0)).T).sum()) for ring in core.to_polygons())
@@ -156,41 +166,22 @@ def _core(outline: Region, walls_mm: float, spacing_mm: float) -> Region:
     return NOTHING if narrow else core
 
 
-def _table(measure: Callable[[Sequence[Region]], Array], *regions: Sequence[Region]) -> Array:
-    """Return the moments (k, n, 6) of k regions in each of n layers; every distinct one is computed once."""
-    everything = [region for column in regions for region in column]
-    number = {region: index for index, region in enumerate(dict.fromkeys(everything))}
-    moments = measure(list(number))
-    return np.asarray(moments[[number[region] for region in everything]].reshape(len(regions), -1, 6))
+def _filled(core: Region, window: Sequence[Region], solid_below_mm2: float) -> tuple[Region, Region]:
+    """Return the solidly and the sparsely filled region of a core, the latter inside all outlines of a window.
 
-
-def _filling(
-    outlines: Sequence[Region], cores: Sequence[Region], process: Process
-) -> tuple[list[Region], list[Region]]:
-    """Return the sparsely and the solidly filled region of every layer.
-
-    The sparse one lies inside the perimeters, and inside the outlines of all layers that would otherwise make it a top
-    or a bottom. Pieces so small as to be filled are not part of it.
+    Pieces so small as to be filled are not part of the sparse region.
     """
-    below, above = process.bottom_layers, process.top_layers
-    if len(outlines) < below + 1 + above:
-        return [NOTHING] * len(outlines), list(cores)
-
-    def filling(outline: Region, core: Region, common: Region) -> tuple[Region, Region]:
-        sparse = core if common is outline else core ^ common
-        if process.solid_below_area_mm2 > 0.0 and (large := _large(sparse, process.solid_below_area_mm2)) is not sparse:
-            return large, core - large
-        if core.area() - sparse.area() < SMALLEST_AREA_MM2:
-            return core, NOTHING
-        if sparse.area() < SMALLEST_AREA_MM2:
-            return NOTHING, core
-        return sparse, core - common  # not `core - sparse`: along the border that they share, slivers would remain
-
-    inside = slice(below, len(outlines) - above)
-    filled = _each(filling, outlines[inside], cores[inside], _common(outlines, below + 1 + above))
-    sparse = [NOTHING] * below + [sparse for sparse, _ in filled] + [NOTHING] * above
-    solid = [*cores[:below], *(solid for _, solid in filled), *cores[len(cores) - above :]]
-    return sparse, solid
+    if NOTHING in window:
+        return core, NOTHING
+    common = CrossSection.batch_boolean(list(window), OpType.Intersect) if window else core
+    sparse = core ^ common if window else core
+    if solid_below_mm2 > 0.0 and (large := _large(sparse, solid_below_mm2)) is not sparse:
+        return core - large, large
+    if core.area() - sparse.area() < SMALLEST_AREA_MM2:
+        return NOTHING, core
+    if sparse.area() < SMALLEST_AREA_MM2:
+        return core, NOTHING
+    return core - common, sparse  # not `core - sparse`: along the border that they share, slivers would remain
 
 
 def _large(region: Region, area_mm2: float) -> Region:
@@ -200,28 +191,34 @@ def _large(region: Region, area_mm2: float) -> Region:
     return region if len(large) == len(pieces) else CrossSection.compose(large)
 
 
-def _common(regions: Sequence[Region], count: int) -> list[Region]:
-    """Return what each `count` regions in a row have in common, by doubling the length of shorter rows."""
-    known: dict[frozenset[Region], Region] = {frozenset([region]): region for region in regions}
-    rows, span = [frozenset([region]) for region in regions], 1
-    while span < count:
-        step = min(span, count - span)
-        longer = [a | b for a, b in zip(rows[:-step], rows[step:], strict=True)]
-        for a, b, both in zip(rows[:-step], rows[step:], longer, strict=True):
-            if both not in known:
-                known[both] = known[a] ^ known[b]
-        rows, span = longer, span + step
-    return [known[row] for row in rows]
+def _bridged(
+    runs: Sequence[Run], cores: Sequence[Region], solid: Sequence[Region], sparse: Sequence[Region], depth: int
+) -> list[Region]:
+    """Return what threads bridge in the first layer of every run: where it is solid over `depth` sparse layers."""
+    below = [sparse[index] for index, run in enumerate(runs) for _ in range(run.first, run.end)]
 
-
-def _bridged(solid: Sequence[Region], sparse: Sequence[Region], depth: int) -> list[Region]:
-    """Return the region of every layer that is solid over sparse ones, which a thread laid as a bridge is deep."""
-
-    def over(*regions: Region) -> Region:
-        if NOTHING in regions:
+    def over(index: int) -> Region:
+        first = runs[index].first
+        beneath = dict.fromkeys(below[max(first - depth, 0) : first])
+        if first < depth or solid[index] is NOTHING or NOTHING in beneath:
             return NOTHING
-        return CrossSection.batch_boolean(list(dict.fromkeys(regions)), OpType.Intersect)
+        beneath.pop(cores[index], None)  # all that is solid lies within its own core
+        return CrossSection.batch_boolean([solid[index], *beneath], OpType.Intersect) if beneath else solid[index]
 
-    count = min(depth, len(solid))
-    below = [[NOTHING] * step + list(sparse[: len(sparse) - step]) for step in range(1, count + 1)]
-    return _each(over, solid, *below)
+    return [over(index) for index in range(len(runs))]
+
+
+def _each(change: Callable[..., T], *columns: Sequence[Hashable]) -> list[T]:
+    """Return what becomes of every run's regions; every distinct case is computed once."""
+    cases = list(zip(*columns, strict=True))
+    known = {case: change(*case) for case in dict.fromkeys(cases)}
+    return [known[case] for case in cases]
+
+
+def _table(*regions: Sequence[Region]) -> tuple[Array, Array]:
+    """Return the moments (k, n, 6) of k regions in each of n runs, and those of their borders."""
+    everything = [region for column in regions for region in column]
+    number = {region: index for index, region in enumerate(dict.fromkeys(everything))}
+    which = [number[region] for region in everything]
+    areas, borders = (moments[which].reshape(len(regions), -1, 6) for moments in areas_and_borders(list(number)))
+    return areas, borders

@@ -28,17 +28,7 @@ def area_moments(region: CrossSection) -> Array:
 
 def areas_moments(regions: Sequence[CrossSection]) -> Array:
     """Return the area moments (n, 6) of several regions, which is quicker than one after the other."""
-    (x0, y0), (x1, y1), ends = _sides(regions)
-    cross = (x0 * y1 - x1 * y0) / 24.0
-    products = [
-        12.0 * cross,
-        4.0 * (x0 + x1) * cross,
-        4.0 * (y0 + y1) * cross,
-        2.0 * (x0 * x0 + x0 * x1 + x1 * x1) * cross,
-        2.0 * (y0 * y0 + y0 * y1 + y1 * y1) * cross,
-        (x0 * (2.0 * y0 + y1) + x1 * (y0 + 2.0 * y1)) * cross,
-    ]
-    return _sums(products, ends)
+    return _areas(*_sides(regions))
 
 
 def border_moments(region: CrossSection) -> Array:
@@ -48,7 +38,32 @@ def border_moments(region: CrossSection) -> Array:
 
 def borders_moments(regions: Sequence[CrossSection]) -> Array:
     """Return the moments (n, 6) along the borders of several regions, by Simpson's rule, exact along straight sides."""
-    (x0, y0), (x1, y1), ends = _sides(regions)
+    return _borders(*_sides(regions))
+
+
+def areas_and_borders(regions: Sequence[CrossSection]) -> tuple[Array, Array]:
+    """Return the moments (n, 6) of several regions and those along their borders."""
+    sides = _sides(regions)
+    return _areas(*sides), _borders(*sides)
+
+
+def _areas(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
+    (x0, y0), (x1, y1) = start, end
+    cross = (x0 * y1 - x1 * y0) / 24.0
+    x, y = x0 + x1, y0 + y1
+    products = [
+        12.0 * cross,
+        4.0 * x * cross,
+        4.0 * y * cross,
+        2.0 * (x0 * x0 + x1 * x) * cross,
+        2.0 * (y0 * y0 + y1 * y) * cross,
+        (x0 * (y0 + y) + x1 * (y + y1)) * cross,
+    ]
+    return _sums(products, ends)
+
+
+def _borders(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
+    (x0, y0), (x1, y1) = start, end
     length = np.hypot(x1 - x0, y1 - y0)
     part = length / 6.0
     x, y = x0 + x1, y0 + y1
@@ -129,7 +144,7 @@ def point_moments(points_mm: Array, weights: Array) -> Array:
     """Return the moments (10,) of weighted points (n, 3)."""
     x, y, z = points_mm.T
     products = (np.ones_like(x), x, y, z, x * x, y * y, z * z, x * y, y * z, z * x)
-    return np.array([float(weights @ product) for product in products])
+    return np.array([float((weights * product).sum()) for product in products])
 
 
 def mass_of(moments: Array, density_g_cm3: float) -> MassProperties:

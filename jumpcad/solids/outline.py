@@ -91,12 +91,10 @@ def rectangle(size_mm: Sequence[float], centre_mm: Point = ORIGIN, corner_radius
         raise JumpcadError(f"corners of {corner_radius_mm:g} mm radius do not fit {width:g} x {height:g} mm")
     circle = circle_points(2.0 * corner_radius_mm)
     quarter = len(circle) // 4
-    corners = [(across, along), (-across, along), (-across, -along), (across, -along)]
-    arcs = [
-        corner + np.roll(circle, -quarter * number, axis=0)[: quarter + 1]
-        for number, corner in enumerate(np.asarray(centre_mm, dtype=float) + corners)
-    ]
-    return CrossSection([np.concatenate(arcs)])
+    signs = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
+    corners = np.asarray(centre_mm, dtype=float) + signs * (across, along)
+    arcs = np.add.outer(quarter * np.arange(4), np.arange(quarter + 1)) % len(circle)
+    return CrossSection([(corners[:, None] + circle[arcs]).reshape(-1, 2)])
 
 
 def tapered_bar(start_mm: Point, end_mm: Point, start_width_mm: float, end_width_mm: float) -> Region:

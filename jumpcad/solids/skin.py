@@ -203,7 +203,8 @@ def _loops(points: Ints, starts: Ints, ends: Ints) -> list[Ints]:
         following[start].append(end)
     loops = []
     while following:
-        first = min(following, key=lambda point: len(following[point]))
+        # where one way leads on, if there is such a point
+        first = next((point for point, ways in following.items() if len(ways) == 1), next(iter(following)))
         loop = [first]
         while True:
             here = loop[-1]

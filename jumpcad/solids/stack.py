@@ -8,6 +8,7 @@ import functools
 import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -27,13 +28,26 @@ SMALLEST_AREA_MM2 = 1e-6  # what clipping leaves where two regions only touch
 NOTHING: Region = CrossSection()
 
 
+class Section(NamedTuple):
+    """A cross-section: an outline whose border a chamfer sets back by `inset_mm`."""
+
+    outline: Region
+    inset_mm: float = 0.0
+
+
 @dataclass(frozen=True)
 class Slab:
-    """A region extruded from `z0_mm` to `z1_mm`."""
+    """An outline, with its border set back by `inset_mm`, extruded from `z0_mm` to `z1_mm`."""
 
     z0_mm: float
     z1_mm: float
-    region: Region
+    outline: Region
+    inset_mm: float = 0.0
+
+    @functools.cached_property
+    def region(self) -> Region:
+        """The region that is extruded."""
+        return self.outline.offset(-self.inset_mm, JoinType.Miter) if self.inset_mm else self.outline
 
     @property
     def height_mm(self) -> float:
@@ -109,9 +123,7 @@ class Stack:
         steps, z, height = [], 0.0, first_layer_mm or layer_mm
         while (inset := depth_mm - z - height / 2.0) > 1e-9:
             top = min(z + height, bottom.height_mm)
-            region = bottom.region.offset(-inset, JoinType.Miter)
-            if not region.is_empty():
-                steps.append(Slab(_z(bottom.z0_mm + z), _z(bottom.z0_mm + top), region))
+            steps.append(Slab(_z(bottom.z0_mm + z), _z(bottom.z0_mm + top), bottom.region, inset))
             z, height = top, layer_mm
         rest = Slab(_z(bottom.z0_mm + z), bottom.z1_mm, bottom.region)
         upper = (rest, *self.slabs[1:]) if rest.height_mm > 1e-9 else self.slabs[1:]
@@ -130,14 +142,14 @@ class Stack:
     @functools.cached_property
     def bounds_mm(self) -> Array:
         """Lower and upper corner of the bounding box, (2, 3) in mm."""
-        flat = np.array([slab.region.bounds() for slab in self.slabs])
+        flat = np.array([region.bounds() for region in self._widest()])
         low, high = flat[:, :2].min(axis=0), flat[:, 2:].max(axis=0)
         return np.array([[*low, self.z0_mm], [*high, self.z1_mm]])
 
     @property
     def outline_mm(self) -> Array:
         """Points (n, 2) that span its convex hull seen from above."""
-        return np.concatenate([contour for slab in self.slabs for contour in slab.region.to_polygons()])
+        return np.concatenate([contour for region in self._widest() for contour in region.to_polygons()])
 
     @functools.cached_property
     def moments(self) -> Array:
@@ -156,12 +168,12 @@ class Stack:
 
     def regions_at(self, heights_mm: npt.ArrayLike) -> list[Region]:
         """Return the cross-sections at heights (n,), at the edge of two slabs the upper one's; `NOTHING` outside."""
-        heights = np.asarray(heights_mm, dtype=float)
-        numbers = np.searchsorted([slab.z0_mm for slab in self.slabs], heights, side="right") - 1
-        slabs = [self.slabs[number] if number >= 0 else None for number in numbers]
+        return [slab.region if slab else NOTHING for slab in self._slabs_at(heights_mm)]
+
+    def sections_at(self, heights_mm: npt.ArrayLike) -> list[Section]:
+        """Return the same as outlines with what a chamfer takes from them."""
         return [
-            slab.region if slab and height < slab.z1_mm else NOTHING
-            for slab, height in zip(slabs, heights.tolist(), strict=True)
+            Section(slab.outline, slab.inset_mm) if slab else Section(NOTHING) for slab in self._slabs_at(heights_mm)
         ]
 
     def footprint(self) -> Region:
@@ -175,14 +187,25 @@ class Stack:
         vertices, faces = skin(heights, [clean[id(slab.region)] for slab in self.slabs])
         return Manifold(Mesh64(vertices, faces.astype(np.uint64)))
 
+    def _slabs_at(self, heights_mm: npt.ArrayLike) -> list[Slab | None]:
+        """Return the slabs at heights (n,), at the edge of two the upper one."""
+        heights = np.asarray(heights_mm, dtype=float)
+        numbers = np.searchsorted([slab.z0_mm for slab in self.slabs], heights, side="right") - 1
+        inside = (numbers >= 0) & (heights < np.array([slab.z1_mm for slab in self.slabs])[numbers])
+        return [self.slabs[number] if within else None for number, within in zip(numbers, inside, strict=True)]
+
+    def _widest(self) -> list[Region]:
+        """Return the regions that matter for how far the stack reaches: without those that others contain."""
+        whole = {slab.outline for slab in self.slabs if not slab.inset_mm}
+        return [slab.region for slab in self.slabs if not slab.inset_mm or slab.outline not in whole]
+
     def _mapped(self, change: Callable[[Region], Region], change_z: Callable[[float], float] = lambda z: z) -> "Stack":
         """Return the stack with every region and height changed; regions that were one object stay one object."""
-        regions = {id(slab.region): slab.region for slab in self.slabs}
-        changed = {key: change(region) for key, region in regions.items()}
+        changed = {outline: change(outline) for outline in {slab.outline: None for slab in self.slabs}}
         slabs = []
         for slab in self.slabs:
             low, high = sorted((_z(change_z(slab.z0_mm)), _z(change_z(slab.z1_mm))))
-            slabs.append(Slab(low, high, changed[id(slab.region)]))
+            slabs.append(Slab(low, high, changed[slab.outline], slab.inset_mm))
         return Stack(tuple(sorted(slabs, key=lambda slab: slab.z0_mm)))
 
 

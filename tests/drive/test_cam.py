@@ -173,3 +173,11 @@ def test_what_no_cam_can_do_is_refused_with_what_to_change():
 def test_the_same_inputs_give_the_same_cam():
     first, second = synthesised(45, 1.0), synthesised(45, 1.0)
     assert first.profile_mm.tobytes() == second.profile_mm.tobytes()
+
+
+def test_rounding_the_smallest_cam_refuses_none():
+    """Springs between two strengths that both have a cam, each cam as small as its contact pressure allows."""
+    limits = CamLimits(hub_radius_mm=8.4, gap_min_mm=11.0)
+    for torque in np.linspace(1.45, 1.75, 160):
+        cam = synthesised(52.0, torque / math.radians(52.0), limits)
+        assert cam.contact_pressure_mpa <= limits.pressure_mpa + 1e-6

@@ -34,7 +34,10 @@ def check(design, drive):
     assert cam.law.energy_j == pytest.approx(design.spring_energy_j)
     axis = math.hypot(*cam.cam_axis_mm)
     assert axis - cam.outer_radius_mm - spring.outer_diameter_mm / 2 >= LIMITS.cam.clearance_mm - 1e-6
-    assert axis - train.stages[-1].wheel.tip_radius_mm >= LIMITS.hub_axle_radius_mm + LIMITS.gap_mm - 1e-6
+    assert axis - train.stages[-1].wheel.tip_radius_mm >= LIMITS.axle_radius_mm + LIMITS.gap_mm - 1e-6
+    for pair in train.stages[1:]:
+        idler = pair.centre_distance_mm - cam.outer_radius_mm
+        assert idler >= LIMITS.axle_radius_mm + LIMITS.gap_mm - 1e-6, "the idler's axle crosses the cam"
     assert train.electrical_j * train.efficiency > design.spring_energy_j
     turned = train.motor.no_load_rpm * math.pi / 30 / train.ratio * LIMITS.fall_s
     assert turned <= LIMITS.cam.reserve_rad + 1e-9
@@ -82,6 +85,17 @@ def test_a_fast_motor_is_geared_down_for_the_leg_to_fall_in_time():
     needed = 180 * math.pi / 30 * LIMITS.fall_s / LIMITS.cam.reserve_rad
     assert drive.train.ratio >= needed
     check(load_design("kenan-2.0"), drive)
+
+
+def test_a_cam_as_large_as_a_hand_is_turned_by_one_pair_or_by_two_whose_axle_passes_it():
+    """Wound far against a strong spring; so large a cam is far from the leg's axle, and so is its gear."""
+    design = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 28.683, 36.353])
+    smaller_gear = dataclasses.replace(LIMITS, train=TrainLimits(cam_gear_tip_max_mm=40.0))
+    for limits, pairs in ((LIMITS, 1), (smaller_gear, 2)):
+        drive = synthesise(design, limits)
+        check(design, drive)
+        assert drive.cam.outer_radius_mm > 40.0
+        assert len(drive.train.stages) == pairs
 
 
 def test_torque_at_the_cam_is_what_the_design_note_says():

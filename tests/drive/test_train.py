@@ -104,6 +104,18 @@ def test_no_lighter_single_pair_would_do(name):
         ), f"{pinion}:{wheel} is smaller"
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga", "best-bo"])
+def test_who_is_in_a_hurry_gets_heavier_gears(name):
+    """What a gram of gears may save of winding time decides between motors and ratios."""
+    hurry, patience = (
+        synthesise_train(law_of(name), MOTORS, dataclasses.replace(LIMITS, seconds_per_gram=seconds))
+        for seconds in (0.01, 1e6)
+    )
+    gears = [sum(p.module_mm**2 * (p.pinion.teeth**2 + p.wheel.teeth**2) for p in t.stages) for t in (hurry, patience)]
+    assert hurry.winding_s < patience.winding_s
+    assert gears[0] > gears[1]
+
+
 def test_a_jump_costs_electricity_of_the_order_that_was_measured():
     """The study measured 1.5 J and 1.3 J a jump (10.2 %) at the prototypes' supply.
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from support.elsewhere import environment
 
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters import bundle as bundle_module
@@ -44,7 +45,7 @@ def test_masses_in_the_manifest_add_up(small_robot: Robot, tmp_path: Path) -> No
     assert {line["source"] for line in manifest["masses"]} == {"solid", "catalogue"}
 
 
-def test_same_bytes_in_another_process(small_robot: Robot, tmp_path: Path) -> None:
+def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path) -> None:
     export(small_robot, tmp_path / "here")
     code = (
         "from support.robots import make_small_robot; from jumpcad.exporters.bundle import export; import sys;"
@@ -54,7 +55,7 @@ def test_same_bytes_in_another_process(small_robot: Robot, tmp_path: Path) -> No
     subprocess.run(
         [sys.executable, "-c", code, str(tmp_path / "there")],
         check=True,
-        env={**os.environ, "PYTHONPATH": paths, "PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"},
+        env=environment(PYTHONPATH=paths),
     )
     assert bytes_of(tmp_path / "here") == bytes_of(tmp_path / "there")
 

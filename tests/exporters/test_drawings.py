@@ -1,6 +1,9 @@
 """DXF and GLB read back by independent readers."""
 
 import io
+import os
+import subprocess
+import sys
 
 import ezdxf
 import numpy as np
@@ -10,7 +13,7 @@ import trimesh
 from jumpcad.assembly import build
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import MILLIMETRES, sheet, write_dxf, write_dxfs
-from jumpcad.exporters.glb import write_glb
+from jumpcad.exporters.glb import creased, write_glb
 from jumpcad.exporters.poses import body_poses
 from jumpcad.exporters.shapes import shapes
 from jumpcad.parts.body_plate import TEXT_HEIGHTS_MM
@@ -41,6 +44,18 @@ def test_a_plate_with_a_hole_is_cut_and_engraved_in_millimetres() -> None:
     assert document.units == MILLIMETRES
     assert enclosed_mm2(document, "CUT") == pytest.approx(800.0 - np.pi * 25.0, rel=0.001)
     assert enclosed_mm2(document, "ENGRAVE") == pytest.approx(np.pi, rel=0.005)
+
+
+def test_a_sheet_is_the_same_text_whatever_the_hashes_of_strings() -> None:
+    """Sets of strings are listed in an order that differs from process to process."""
+    program = (
+        "from jumpcad.exporters.dxf import write_dxf; from jumpcad.solids.outline import disc;"
+        "print(write_dxf(disc(9.0), disc(2.0)))"
+    )
+    seeds = [{**os.environ, "PYTHONHASHSEED": seed} for seed in "123456"]
+    texts = {subprocess.run([sys.executable, "-c", program], env=seed, capture_output=True).stdout for seed in seeds}
+    assert len(texts) == 1
+    assert b"LWPOLYLINE" in texts.pop()
 
 
 @pytest.fixture(scope="module")
@@ -103,3 +118,14 @@ def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(robot: 
     low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
     assert np.allclose(scene.bounds, [[low[0], low[2], -high[1]], [high[0], high[2], -low[1]]], atol=1e-6)
     assert glb == write_glb(robot)
+
+
+def test_a_box_is_drawn_with_sharp_edges_and_a_cylinder_round() -> None:
+    vertices, normals, _ = creased(trimesh.creation.box((1.0, 2.0, 3.0)))
+    assert len(vertices) == 24
+    assert np.array_equal(np.abs(normals).max(axis=1), np.ones(24))
+    vertices, normals, faces = creased(trimesh.creation.cylinder(5.0, 8.0, sections=64))
+    side = np.abs(normals[:, 2]) < 0.5
+    assert side.sum() == (~side & (np.hypot(*vertices[:, :2].T) > 1.0)).sum() == 2 * 64
+    assert np.allclose(normals[side, :2], vertices[side, :2] / 5.0, atol=0.03)
+    assert np.allclose(trimesh.Trimesh(vertices, faces).area, trimesh.creation.cylinder(5.0, 8.0, sections=64).area)

@@ -55,8 +55,8 @@ def studied(path, space, method="bo", evaluations=20):
 @pytest.mark.parametrize(
     ("fixed", "method", "names"),
     [
-        ([*REST, "rest_angle_deg=50"], "bo", {"history", "slices", "acquisition"}),
-        (REST, "bo", {"history", "slices", "parallel", "acquisition"}),
+        ([*REST, "rest_angle_deg=50"], "bo", {"history", "slices", "acquisition-first", "acquisition"}),
+        (REST, "bo", {"history", "slices", "parallel", "acquisition-first", "acquisition"}),
         (REST, "nsga2", {"history", "slices", "parallel", "pareto"}),
     ],
 )

@@ -116,7 +116,7 @@ def test_a_study_of_another_version_is_refused(tmp_path):
 
     request = replace(REQUEST, method="ga", evaluations=5)
     run(request, tmp_path / "s.db")
-    with pytest.raises(JumpcadError, match=r'versions\.hill: "1" there, "2" here'):
+    with pytest.raises(JumpcadError, match=r'another program \(versions\.hill: "1" there, "2" here\).*--from'):
         run(replace(request, model=Newer()), tmp_path / "s.db")
 
 
@@ -141,8 +141,20 @@ def test_a_prior_study_of_the_same_model_is_learned_from(tmp_path):
     run(replace(REQUEST, method="ga", evaluations=120), tmp_path / "old.db")
     learned = run(replace(REQUEST, method="bo", evaluations=6, prior=tmp_path / "old.db"))
     assert learned.best.score > 9.9
+    assert learned.notes == []
     with pytest.raises(JumpcadError, match="another model"):
         run(replace(REQUEST, model=Hill(name="other"), prior=tmp_path / "old.db"))
+
+
+def test_a_prior_study_of_another_program_is_said_to_be_one(tmp_path):
+    class Newer(Hill):
+        digest = "newer"
+
+    run(replace(REQUEST, method="ga", evaluations=20), tmp_path / "old.db")
+    request = replace(REQUEST, method="ga", model=Newer(), evaluations=20, prior=tmp_path / "old.db")
+    for _ in range(2):
+        (note,) = run(request, tmp_path / "new.db").notes
+        assert "old.db was made by another program" in note
 
 
 @pytest.mark.parametrize(

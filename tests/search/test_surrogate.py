@@ -45,6 +45,15 @@ def test_a_believer_does_not_change_the_mean(data):
     assert after.predict(point[None])[1] < 0.3 * before.predict(point[None])[1]
 
 
+def test_the_slope_is_the_difference_of_the_mean(data):
+    surrogate = Surrogate(*data)
+    points, step = np.random.default_rng(2).random((20, 3)), 1e-5
+    for axis in range(3):
+        shift = step * np.eye(3)[axis]
+        rise = surrogate.predict(points + shift)[0] - surrogate.predict(points - shift)[0]
+        assert surrogate.slope(points)[:, axis] == pytest.approx(rise / (2 * step), abs=1e-5)
+
+
 def rows_of(count, model=None):
     points = SMALL.spread(count, np.random.default_rng(0))
     found = []
@@ -54,6 +63,18 @@ def rows_of(count, model=None):
         score = evaluation.metrics.get("fitness") if evaluation.feasible else None
         found.append(Row("bo", 0, place, design, evaluation, score, "m", 0.0))
     return found
+
+
+def test_scatter_counts_the_neighbours_that_are_refused():
+    belief = Belief.from_rows(SMALL, rows_of(60), {}, None)
+    belief = Belief(None, {"loop": belief.constraints["loop"]})
+    edge = (0.7 - 0.1) / 0.7  # of the compression ratio, the first axis
+    for inside in (0.02, 0.05):
+        point, scatter = np.array([[edge - inside, 0.4, 0.6]]), np.array([[0.03, 0.1, 0.1]])
+        neighbours = point + scatter * np.random.default_rng(0).standard_normal((4000, 3))
+        share = np.mean(neighbours[:, 0] <= edge)
+        assert np.exp(belief.log_feasible(point, scatter)) == pytest.approx(share, abs=0.03)
+        assert belief.log_feasible(point) > belief.log_feasible(point, scatter)
 
 
 def test_expected_improvement_is_the_integral_over_the_belief():

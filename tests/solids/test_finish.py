@@ -30,6 +30,12 @@ def test_a_part_inside_out_is_found():
     assert faults(stl(mesh)) == ["its volume is -1 mm³"]
 
 
+def test_a_triangle_turned_over_is_found():
+    mesh = trimesh.creation.box((1, 1, 1))
+    mesh.faces[0] = mesh.faces[0, ::-1]
+    assert faults(stl(mesh)) == ["its surface is turned inside out in places"]
+
+
 def test_two_pieces_are_found_even_when_they_overlap():
     two = trimesh.util.concatenate([trimesh.creation.box((2, 2, 2)), trimesh.creation.icosphere(radius=0.5)])
     assert faults(stl(two)) == ["it is 2 pieces"]

@@ -1,15 +1,17 @@
 """The printed mass against arithmetic on paper; against a slicer it is tested in tests/clients."""
 
+import gc
 import math
+import weakref
 
 import numpy as np
 import pytest
-from manifold3d import CrossSection, OpType
 
+from jumpcad.solids import runs
 from jumpcad.solids.blocks import Bar, Blocks, Finger
-from jumpcad.solids.layers import _common, line_spacing_mm, mass_properties, sliced
+from jumpcad.solids.layers import line_spacing_mm, mass_properties, sliced
 from jumpcad.solids.outline import disc, rectangle, tapered_bar
-from jumpcad.solids.stack import Stack
+from jumpcad.solids.stack import Section, Stack
 from jumpcad.workshop import load_workshop
 
 PROCESS = load_workshop("default").process.model_copy(
@@ -78,10 +80,20 @@ def test_small_sparse_areas_are_filled_when_the_process_says_so():
 
 def test_layers_cover_the_part_from_the_bed_up():
     process = PROCESS.model_copy(update={"first_layer_mm": 0.3})
-    layers = sliced(BOX.moved(z_mm=1.0), process)
-    assert (layers[0].z0_mm, layers[0].z1_mm) == pytest.approx((1.0, 1.3))
-    assert layers[-1].z1_mm == pytest.approx(5.0, abs=0.1)
-    assert len({layer.section for layer in layers}) == 1
+    found = sliced(BOX.moved(z_mm=1.0), process)
+    assert (found[0].z0_mm, found[0].z1_mm) == pytest.approx((1.0, 1.3))
+    assert found[-1].z1_mm == pytest.approx(5.0, abs=0.1)
+    assert len({layer.section.outline for layer in found}) == 1
+
+
+def test_what_is_known_of_a_shape_is_kept_as_long_as_the_shape():
+    shape = Stack.of([(0, 4, disc(12.0))])
+    assert mass_properties(shape, 1.0, PROCESS, 0.4) is mass_properties(shape, 1.0, PROCESS, 0.4)
+    assert grams(shape, infill=1.0) > grams(shape)
+    gone = weakref.ref(shape)
+    del shape
+    gc.collect()
+    assert gone() is None
 
 
 class Turned:
@@ -91,10 +103,10 @@ class Turned:
         self.shape, self.angle_deg = shape, angle_deg
         self.bounds_mm = shape.bounds_mm
 
-    def regions_at(self, heights_mm):
-        turned = {}
-        regions = self.shape.regions_at(heights_mm)
-        return [turned.setdefault(r, r.rotate(self.angle_deg).translate((1.234567, -0.7654321))) for r in regions]
+    def sections_at(self, heights_mm):
+        regions = [section.outline for section in self.shape.sections_at(heights_mm)]
+        turned = {r: Section(r.rotate(self.angle_deg).translate((1.234567, -0.7654321))) for r in regions}
+        return [turned[r] for r in regions]
 
 
 def test_a_part_weighs_the_same_however_it_lies_on_the_bed():
@@ -105,13 +117,35 @@ def test_a_part_weighs_the_same_however_it_lies_on_the_bed():
     assert masses == pytest.approx([masses[0]] * 4, rel=3e-4)
 
 
-def test_what_rows_of_regions_have_in_common_does_not_depend_on_how_it_is_found():
-    regions = [rectangle((10.0, 10.0), (x, y)) for x, y in ((0, 0), (1, 3), (4, 1), (4, 1), (2, 2), (-1, 0), (0, 3))]
-    for count in range(1, 8):
-        found = _common(regions, count)
-        expected = [
-            CrossSection.batch_boolean(regions[n : n + count], OpType.Intersect)
-            for n in range(len(regions) - count + 1)
-        ]
-        assert [region.area() for region in found] == pytest.approx([region.area() for region in expected])
-        assert len(found) == len(expected)
+@pytest.mark.parametrize("top_layers", [2, 5])
+@pytest.mark.parametrize("slope_mm", [0.3, 3.0, 9.0])
+def test_layers_that_change_little_by_little_are_as_if_each_were_taken_by_itself(slope_mm, top_layers, monkeypatch):
+    process = PROCESS.model_copy(update={"top_layers": top_layers, "layer_height_mm": 0.1})
+    toe = Finger(np.array([0.0, 8.0]), 7.0, 9.5, np.array([-70.0, 60.0]), 5.0, 9.5 - slope_mm)
+    rail = tapered_bar((0.0, 5.0), (70.0, 4.0), 10.0, 7.0) - disc(3.2, (0.0, 5.0))
+    shape = Blocks((toe, Bar(rail, ((5.0, 9.0),))))
+    together = mass_properties(shape, 1.0, process, 0.4)
+    monkeypatch.setattr(runs, "ALIKE_LAYERS", 1)
+    apart = mass_properties(Turned(shape, 0.0), 1.0, process, 0.4)
+    assert together.mass_kg == pytest.approx(apart.mass_kg, rel=6e-3)
+    assert np.diag(together.inertia_kg_m2) == pytest.approx(np.diag(apart.inertia_kg_m2), rel=1e-2)
+
+
+def test_a_chamfer_weighs_as_much_as_slabs_that_are_narrower():
+    outline = tapered_bar((0.0, 0.0), (60.0, 0.0), 14.0, 9.0) - disc(5.0)
+    slabs = Stack.of([(0, 5, outline)]).chamfered(0.35, 0.2).slabs
+    chamfered, stepped = Stack(slabs), Stack.of([(slab.z0_mm, slab.z1_mm, slab.region) for slab in slabs])
+    assert grams(chamfered) == pytest.approx(grams(stepped), rel=1e-3)
+    assert grams(chamfered) < grams(Stack.of([(0, 5, outline)]))
+
+
+def test_a_cavity_of_one_layer_makes_the_layers_around_it_solid():
+    wide, hollow = rectangle((40.0, 30.0)), rectangle((40.0, 30.0)) - disc(16.0)
+    cavity = Stack.of([(0, 4, wide), (4, 4.2, hollow), (4.2, 8.2, wide)])
+    s, r, shell = 0.45 - 0.2 * (1.0 - math.pi / 4.0), 8.0, 2.0 * 0.407 + 0.0215
+    area, border = math.pi * r**2, 2.0 * math.pi * r
+    # three layers below it and two above are solid there instead of sparse, the lowest of them is bridged
+    solid = 5.0 * (0.8 * area + s * border * (0.5 + 0.8 * 0.25)) + (math.pi * 0.4**2 / 4.0 / 0.09 - 1.0) * area
+    walls = 0.8 * math.pi * ((r + shell) ** 2 - r**2) - 0.0215 * border + 0.8 * 0.25 * s * 2.0 * math.pi * (r + shell)
+    more = 0.2 * (solid + walls - 0.2 * area)
+    assert grams(cavity) - grams(Stack.of([(0, 8.2, wide)])) == pytest.approx(more / 1000.0, rel=0.01)

@@ -1,0 +1,104 @@
+"""CPU time of `jumpcad build`, from the start of Python to the last file, and where it goes.
+
+Every round is a process of its own, as a build is: nothing is remembered from one to the next. The times are those of
+Python's own processor clock (seconds), so a busy machine matters little. Run
+`python benchmarks/build.py [DESIGN ...] [--json] [--rounds N]`.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+from time import process_time
+from typing import Any
+
+import numpy as np
+
+DESIGNS = ("kenan-2.0", "best-printable")
+STAGES = {
+    "stl/": "parts as solids and STL files",
+    "print/": "plates",
+    "urdf/": "URDF",
+    "mjcf/": "MJCF",
+    "sdf/": "SDF",
+    "dxf/": "outlines",
+    "pictures/": "pictures",
+}
+"""What a file belongs to, by where it lies in the bundle; files in no such folder are documents, but for the GLB."""
+
+
+def stage_of(path: str) -> str:
+    """Return what a file of the bundle belongs to."""
+    found = (stage for folder, stage in STAGES.items() if path.startswith(folder))
+    return next(found, "GLB" if path.endswith(".glb") else "documents")
+
+
+def once(name: str) -> dict[str, float]:
+    """Build a design in this process and return the CPU time (s) of every stage, and in total from Python's start."""
+    clock = [("start of Python", process_time())]
+
+    def passed(stage: str) -> None:
+        clock.append((stage, process_time()))
+
+    from jumpcad import assembly, simulation
+    from jumpcad.capsule import capsule_robot
+    from jumpcad.design import load_design
+    from jumpcad.exporters import bundle
+
+    passed("imports")
+    robot = assembly.build(load_design(name), name=name)
+    passed("robot")
+    contents = bundle.contents
+
+    def timed(*arguments: Any) -> Iterator[tuple[str, str | bytes]]:
+        for path, content in contents(*arguments):
+            passed(stage_of(path))
+            yield path, content
+
+    bundle.contents = timed
+    with tempfile.TemporaryDirectory() as folder:
+        bundle.export(robot, Path(folder) / name)
+    passed("documents")
+    for one in (robot, capsule_robot(robot.design)):
+        simulation.simulate(one)
+    passed("simulations")
+    spent: dict[str, float] = defaultdict(float, {"start of Python": clock[0][1]})
+    for (_, before), (stage, after) in pairwise(clock):
+        spent[stage] += after - before
+    return {"total": clock[-1][1], **spent}
+
+
+def rounds(name: str, count: int) -> dict[str, float]:
+    """Return the medians of some builds in processes of their own."""
+    command = [sys.executable, __file__, "--once", name]
+    runs = [json.loads(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(count)]
+    return {stage: float(np.median([run[stage] for run in runs])) for stage in runs[0]}
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("designs", nargs="*", default=DESIGNS)
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--once", action="store_true", help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    if arguments.once:
+        print(json.dumps(once(arguments.designs[0])))
+        return
+    found = {name: rounds(name, arguments.rounds) for name in arguments.designs}
+    if arguments.json:
+        print(json.dumps(found, indent=2))
+        return
+    print(f"CPU time (s), medians of {arguments.rounds} builds")
+    for name, stages in found.items():
+        print(f"{name}: " + ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in stages.items()))
+
+
+if __name__ == "__main__":
+    main()

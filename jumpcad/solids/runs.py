@@ -1,0 +1,84 @@
+"""Runs of layers that are alike: where a part's cross-section stays the same, or changes steadily."""
+
+import itertools
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from jumpcad.solids.stack import SMALLEST_AREA_MM2
+from jumpcad.workshop import Process
+
+Array = npt.NDArray[np.float64]
+Numbers = npt.NDArray[np.int64]
+
+ALIKE_LAYERS = 5
+"""So many layers at most that change little by little are taken together."""
+ALIKE = 0.1
+"""Nor may the bends of what changes add up to more than this share of the largest cross-section."""
+JUMP = 0.01
+"""A change by a larger share of it, beyond twice the changes below and above, is a jump."""
+
+
+class Run(NamedTuple):
+    """Layers on top of each other, from `first` to the one before `end`."""
+
+    first: int
+    end: int
+
+    @property
+    def middle(self) -> int:
+        """The layer that speaks for all."""
+        return (self.first + self.end) // 2
+
+
+def jumps_of(which: Numbers, area_mm2: Array) -> list[int]:
+    """Return the layers whose cross-section differs from the one below by more than a step in a series of small ones.
+
+    Parameters
+    ----------
+    which, area_mm2
+        The number of each layer's cross-section, and its area, (n,).
+    """
+    changed = np.concatenate([[True], which[1:] != which[:-1], [True]])
+    beside_steady = ~changed[:-2] | ~changed[2:]
+    change = np.abs(np.diff(area_mm2, prepend=area_mm2[0], append=area_mm2[-1]))
+    large = change[1:-1] > JUMP * area_mm2.max() + 2.0 * np.maximum(change[:-2], change[2:])
+    return [int(index) + 1 for index in np.flatnonzero(changed[1:-1] & (beside_steady | large))]
+
+
+def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
+    """Return runs of layers that are alike and have the same jumps among what makes them bottoms and tops.
+
+    Where area and polar moment about the centre change from layer to layer, they change steadily within a run, and so
+    does what makes its layers bottoms and tops; its length is odd. Its middle layer is then what all are on average.
+    It is no longer than tops are thick: what a run bridges begins where the run below ends.
+
+    Parameters
+    ----------
+    area
+        Area moments of all layers, (n, 6).
+    """
+    count, below, above = len(area), process.bottom_layers, process.top_layers
+    cuts = {jump + step for jump in jumps for step in (-above, 0, below)} | {below, count - above}
+    ends = sorted({0, count, *(cut for cut in cuts if 0 < cut < count)})
+    a, x, y, xx, yy, _ = area.T
+    sizes = np.stack([a, xx + yy - (x * x + y * y) / np.maximum(a, SMALLEST_AREA_MM2)])
+    steps = np.diff(sizes, prepend=sizes[:, :1], append=sizes[:, -1:])
+    steps[:, list(jumps)] = 0.0
+    if not steps.any():
+        return list(itertools.starmap(Run, itertools.pairwise(ends)))
+    bends = (np.abs(np.diff(steps)) / sizes.max(axis=1, keepdims=True)).max(axis=0)
+    bends = np.pad(bends, (below, above))
+    bent = np.cumsum(bends[:count] + bends[below : below + count] + bends[below + above :])
+    longest = max(1, min(ALIKE_LAYERS, above - (above + 1) % 2))
+    runs = []
+    for first, end in itertools.pairwise(ends):
+        while first < end:
+            length = int(np.searchsorted(bent[first:end], bent[first] + ALIKE, side="right"))
+            if bent[first] < bent[first + length - 1]:
+                length = min(longest, length - (length + 1) % 2)
+            runs.append(Run(first, first + length))
+            first += length
+    return runs

@@ -1,0 +1,76 @@
+"""What a study knows of the program that made it."""
+
+import subprocess
+import sys
+
+import pytest
+from support.hills import SMALL, Hill
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search import models
+from jumpcad.search.models import PRESENTATION, RobotModel, code_digest
+from jumpcad.search.pool import local_pool
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """Return the folder of a small package that stands in for this one."""
+    root = tmp_path / "jumpcad"
+    for name in ("search/models.py", "simulation/run.py", "cli/study.py"):
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(f"# {name}\n")
+    (tmp_path / "templates" / "hardware").mkdir(parents=True)
+    monkeypatch.setattr(models, "__file__", str(root / "search" / "models.py"))
+    monkeypatch.setattr(models, "templates_folder", lambda: tmp_path / "templates")
+    return root
+
+
+@pytest.mark.parametrize(
+    ("name", "counts"),
+    [
+        ("simulation/run.py", True),
+        ("simulation/new.py", True),
+        ("../templates/hardware/wire.toml", True),
+        ("cli/study.py", False),
+    ],
+)
+def test_every_change_of_what_computes_is_noticed(package, name, counts):
+    before = code_digest.__wrapped__()
+    assert code_digest.__wrapped__() == before
+    (package / name).write_text("changed = True\n")
+    assert (code_digest.__wrapped__() != before) == counts
+
+
+def test_the_digest_is_part_of_what_a_study_is_about():
+    assert RobotModel("capsule").versions()["code"] == code_digest()
+
+
+def test_no_evaluation_imports_what_the_digest_leaves_out():
+    code = f"""
+import sys
+from jumpcad.design import load_design
+from jumpcad.search import study
+from jumpcad.search.models import MODELS, RobotModel
+from jumpcad.workshop import load_workshop
+for name in ("printed", "capsule"):
+    RobotModel(name, load_workshop("default") if name == "printed" else None)(load_design("kenan-2.0"))
+print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part] for part in {PRESENTATION}]])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.split() == [], done.stderr
+
+
+class Elsewhere(Hill):
+    """A hill whose version depends on who asks."""
+
+    asked = 0
+
+    def versions(self):
+        type(self).asked += 1
+        return {"hill": str(type(self).asked)}
+
+
+def test_a_worker_with_another_program_computes_nothing():
+    design = SMALL.to_design([0.5, 0.5, 0.5])
+    with local_pool(0) as pool, pytest.raises(JumpcadError, match="a worker has hill 2, not 1"):
+        list(pool.evaluate(Elsewhere(), [design]))

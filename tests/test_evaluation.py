@@ -1,0 +1,133 @@
+"""The closed loop: eight numbers in, the jump of the robot that is printed from them out."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.loaded import loaded_range_m
+
+from jumpcad.assembly import build
+from jumpcad.checks import constraint_findings
+from jumpcad.design import Design, load_design
+from jumpcad.errors import CannotBuildError
+from jumpcad.evaluation import evaluate
+from jumpcad.exporters.bundle import export
+from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.from_urdf import robot_from_urdf
+from jumpcad.workshop import Workshop, load_workshop
+
+KENAN = load_design("kenan-2.0")
+TEMPLATES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
+FEEBLE = Design.from_vector([158.0, 1.16, 0.7, 0.96, 0.25, 60.0, 5.0, 30.0])
+"""A large robot with 5 N·mm/° that is hardly wound."""
+
+
+def changed(**sections: dict[str, object]) -> Workshop:
+    workshop = load_workshop("default")
+    parts = {name: getattr(workshop, name).model_copy(update=values) for name, values in sections.items()}
+    return workshop.model_copy(update=parts)
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_the_jump_is_that_of_the_robot_that_is_written(name: str, tmp_path: Path) -> None:
+    """Gate, build and simulation in one; and the URDF on disk, read back and simulated."""
+    found, robot = evaluate(load_design(name)), build(load_design(name), name="")
+    assert found.jump == simulate(robot)
+    urdf = tmp_path / "robot.urdf"
+    urdf.write_text(write_urdf(robot), encoding="utf-8")
+    urdf.with_suffix(".loop.json").write_text(write_loop(robot), encoding="utf-8")
+    again = simulate(robot_from_urdf(urdf))
+    assert found.verdict == again.verdict == "jump"
+    assert found.jump.ballistic_range_m == pytest.approx(again.ballistic_range_m, rel=1e-9)
+    assert found.jump.com_rise_m == pytest.approx(again.com_rise_m, rel=1e-9)
+    assert found.jump.mass_kg == pytest.approx(again.mass_kg, rel=1e-12)
+    assert found.fitness == pytest.approx(1000.0 * again.ballistic_range_m / robot.design.l_max_mm)
+
+
+def test_pybullet_that_loads_the_bundle_sees_the_same_jump(tmp_path: Path) -> None:
+    pytest.importorskip("pybullet", reason="PyBullet loads the file")
+    named = build(KENAN, name="kenan-2.0")  # engraved, so a little lighter than a candidate
+    loaded = loaded_range_m(export(named, tmp_path / "k", pictures=False).folder / "urdf" / "kenan-2.0.urdf")
+    assert loaded == pytest.approx(simulate(named).ballistic_range_m, rel=1e-9)
+    assert loaded == pytest.approx(evaluate(KENAN).jump.ballistic_range_m, rel=5e-3)
+
+
+def test_its_masses_are_those_of_its_parts() -> None:
+    found = evaluate(KENAN)
+    pieces = sum(part.mass_kg * part.quantity for part in found.robot.parts)
+    pieces += sum(item.mass_kg for item in found.robot.hardware)
+    assert found.metrics["mass_kg"] == pytest.approx(pieces) == pytest.approx(found.jump.mass_kg)
+    assert sum(v for k, v in found.metrics.items() if k.endswith("_mass_kg")) == pytest.approx(pieces)
+
+
+def test_figures_of_winding_keep_the_books() -> None:
+    """More goes in than the springs hold, and the motor is not switched on for more than a minute."""
+    found = evaluate(KENAN)
+    assert found.metrics["electrical_energy_j"] > KENAN.spring_energy_j
+    assert found.jump.spring_energy_j == pytest.approx(KENAN.spring_energy_j)
+    assert 0.5 < found.metrics["winding_time_s"] < 60.0
+    assert 0.0 < found.jump.takeoff_energy_ratio < 1.0
+
+
+def test_the_workshop_decides_what_it_weighs_and_how_far_it_jumps() -> None:
+    solid = evaluate(KENAN, changed(mass={"model": "solid"}))
+    printed = evaluate(KENAN)
+    assert solid.metrics["mass_kg"] > printed.metrics["mass_kg"]
+    assert solid.fitness < printed.fitness
+
+
+def test_the_settings_and_the_engine_are_passed_on() -> None:
+    slippery = evaluate(KENAN, settings=Settings(foot_friction=0.3))
+    assert slippery.fitness < 0.9 * evaluate(KENAN).fitness
+    pytest.importorskip("mujoco")
+    other = evaluate(KENAN, engine="mujoco")
+    assert other.jump.engine == "mujoco"
+    assert other.fitness == pytest.approx(evaluate(KENAN).fitness, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("design", "reason"),
+    [
+        (KENAN.model_copy(update={"c_coef": 1.5, "d_coef": 0.3}), "loop: "),
+        (KENAN.model_copy(update={"c_coef": 1.03, "d_coef": 0.5, "compression_ratio": 0.8}), "below_ground: "),
+        (KENAN.model_copy(update={"stiffness_nmm_per_deg": 120.0}), "no wire of "),
+        (Design.from_vector([105.3, 1.035, 0.57, 1.21, 0.756, 46.9, 5.2, 14.5]), "main leg and front link come "),
+    ],
+)
+def test_what_cannot_be_built_is_refused_by_name(design: Design, reason: str) -> None:
+    with pytest.raises(CannotBuildError, match=rf"^{reason}.*: (lower|raise) \w+"):
+        evaluate(design)
+
+
+def test_what_can_be_built_but_not_jump_has_a_verdict_and_no_fitness() -> None:
+    short_toes = KENAN.model_copy(update={"e_coef": 0.3, "ground_link_angle_deg": 85.0})
+    for design, verdict in ((FEEBLE, "too_weak"), (short_toes, "tips")):
+        found = evaluate(design)
+        assert found.verdict == verdict
+        assert found.fitness == 0.0
+        assert found.jump.ballistic_range_m is None
+        refused = [finding.name for finding in found.findings if finding.severity == "error" and finding.margin < 0]
+        assert verdict in refused
+
+
+def test_every_cheap_check_is_among_its_findings() -> None:
+    found = evaluate(KENAN)
+    names = [finding.name for finding in found.findings]
+    assert {"loop", "below_ground", "tips", "too_weak", "audit_energy", "audit_loop"} <= set(names)
+    checked = constraint_findings(found.robot)
+    assert [finding for finding in found.findings if finding in checked] == checked
+    assert len(names) == len(set(names))
+
+
+def test_the_same_document_in_another_process() -> None:
+    code = "import json, jumpcad; print(json.dumps(jumpcad.evaluate(jumpcad.load_design('best-bo')).to_dict()))"
+    there = subprocess.run(
+        [sys.executable, "-c", code],
+        check=True, capture_output=True, text=True, cwd=Path(__file__).parents[1],
+        env={**os.environ, "PYTHONHASHSEED": "7"},
+    ).stdout  # fmt: skip
+    assert json.loads(there) == json.loads(json.dumps(evaluate(load_design("best-bo")).to_dict()))
