@@ -208,14 +208,21 @@ def _require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y
 
 def _spring_pin(obstacles: list[Obstacle], hub: Array, radius_mm: float, inside: tuple[float, float]) -> Array:
     """Return the place of the pin that holds the springs' body arms: across both plates, in front of the hub."""
-    angles = np.radians(np.arange(20.0, 131.0, 5.0))
-    places = hub + radius_mm * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    index = best_place(
-        "spring pin", obstacles, places, (1.5, 1.5), 0.0, inside,
-        lambda p: np.abs(np.arctan2(p[:, 1] - hub[1], p[:, 0] - hub[0]) - math.radians(40.0)),
-        "lower stiffness_nmm_per_deg (a smaller spring) or raise carrying_link_mm",
-    )  # fmt: skip
-    return places[index]
+
+    def place(step_deg: float) -> Array:
+        angles = np.radians(np.arange(20.0, 131.0, step_deg))
+        places = hub + radius_mm * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        index = best_place(
+            "spring pin", obstacles, places, (1.5, 1.5), 0.0, inside,
+            lambda p: np.abs(np.arctan2(p[:, 1] - hub[1], p[:, 0] - hub[0]) - math.radians(40.0)),
+            "lower stiffness_nmm_per_deg (a smaller spring) or raise carrying_link_mm",
+        )  # fmt: skip
+        return np.asarray(places[index])
+
+    try:
+        return place(5.0)
+    except CannotBuildError:
+        return place(1.0)
 
 
 def _train_places(
