@@ -45,13 +45,13 @@ def once(name: str) -> dict[str, float]:
     def passed(stage: str) -> None:
         clock.append((stage, process_time()))
 
-    from jumpcad import assembly, simulation
+    from jumpcad import building, simulation
     from jumpcad.capsule import capsule_robot
     from jumpcad.design import load_design
     from jumpcad.exporters import bundle
 
     passed("imports")
-    robot = assembly.build(load_design(name), name=name)
+    robot = building.build(load_design(name), name=name)
     passed("robot")
     contents = bundle.contents
 

@@ -20,7 +20,7 @@ from time import process_time
 
 import numpy as np
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.checks.interference import overlaps
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad import assembly, evaluation, published
+from jumpcad import assembly, building, evaluation, published
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
@@ -28,12 +28,13 @@ from jumpcad.workshop import load_workshop
 REFERENCE = Path(__file__).parents[1] / "tests" / "data" / "reference_flights.csv"
 RANDOM = 12
 STAGES: dict[str, tuple[ModuleType, str]] = {
-    "gate": (assembly, "geometry_findings"),
+    "gate": (building, "geometry_findings"),
     "sections": (assembly, "sections"),
     "drive": (assembly, "synthesise"),
     "plan": (assembly, "make_plan"),
     "drawings": (assembly, "drawings"),
     "printed masses": (assembly, "mass_properties"),
+    "growth": (building, "strength_findings"),
     "bought parts": (shopping, "bought_parts"),
     "simulation": (evaluation, "simulate"),
     "checks": (evaluation, "constraint_findings"),

@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 
 from jumpcad import load_design, load_workshop
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.checks import constraint_findings
 
 MY_WORKSHOP = """\

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from jumpcad import published as published
-    from jumpcad.assembly import build as build
+    from jumpcad.building import build as build
     from jumpcad.capsule import capsule_robot as capsule_robot
     from jumpcad.checks import check as check
     from jumpcad.design import SEARCH_BOUNDS as SEARCH_BOUNDS
@@ -39,7 +39,7 @@ _HOMES = {
     "SEARCH_BOUNDS": "design",
     "Settings": "simulation",
     "Workshop": "workshop",
-    "build": "assembly",
+    "build": "building",
     "capsule_robot": "capsule",
     "check": "checks",
     "evaluate": "evaluation",

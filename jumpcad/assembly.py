@@ -6,13 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from jumpcad.checks.strength import strength_findings
 from jumpcad.design import Design
 from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
-from jumpcad.errors import CannotBuildError
 from jumpcad.fatigue import spring_share
-from jumpcad.findings import errors
-from jumpcad.gate import geometry_findings
 from jumpcad.hardware import Bearing, load_catalogue
 from jumpcad.hub import allowed_n, bearing_load_n, first_guess, hub_bearings, hub_width_mm, wound_forces_n
 from jumpcad.layout.lateral import GAP_MM
@@ -25,58 +21,10 @@ from jumpcad.parts.part import Drawing, Part
 from jumpcad.robot import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Robot, Surface, five_bar
 from jumpcad.sizing import Growth, Sections, sections
 from jumpcad.solids.layers import mass_properties
-from jumpcad.workshop import Workshop, load_workshop
-
-GROWTH_ROUNDS = 10
-FOLLOWS = {
-    "leg_strength": "leg",
-    "leg_flex": "leg",
-    "leg_sideways": "thickness",
-    "hub_strength": "leg",
-    "lever_strength": "lever",
-    "front_link_strength": "front",
-    "front_link_buckling": "front",
-    "eye_strength": "thickness",
-    "foot_lug_strength": "lug",
-    "toe_strength": "toe",
-    "toe_landing": "toe",
-    "toe_joint_strength": "toe",
-    "rail_strength": "rail",
-    "plate_seat": "plate",
-    "cam_key_strength": "key",
-}
-"""What grows when a check fails: a factor of `Growth`."""
+from jumpcad.workshop import Workshop
 
 
-def build(design: Design, workshop: Workshop | None = None, name: str = "robot") -> Robot:
-    """Build the printed robot of a design in a workshop; its name, if it has one, is engraved on its plates.
-
-    Sections grow until the strength checks pass, or until there is no room for more.
-
-    Raises
-    ------
-    CannotBuildError
-        If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
-    """
-    workshop = workshop or load_workshop("default")
-    refused = errors(geometry_findings(design))
-    if refused:
-        raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")
-    growth = Growth()
-    robot = _assembled(design, workshop, name, growth)
-    for _ in range(GROWTH_ROUNDS):
-        weak = {FOLLOWS[finding.name] for finding in errors(strength_findings(robot)) if finding.name in FOLLOWS}
-        if not weak:
-            break
-        growth = growth.more(weak)
-        try:
-            robot = _assembled(design, workshop, name, growth)
-        except CannotBuildError:  # no room for more: the checks say what stays too weak
-            break
-    return robot
-
-
-def _assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
+def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
     """Return the robot of a design with its sections grown by factors."""
     plan, bores = plan_of(design, workshop, growth)
     drawn = drawings(plan, bores, name)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
 from jumpcad.findings import Finding

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.exporters.bundle import export
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from support.loaded import loaded_range_m
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.checks import constraint_findings
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from jumpcad import assembly
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.checks import check
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
@@ -41,7 +41,7 @@ def test_what_was_sized_to_hold_does_not_grow(monkeypatch: pytest.MonkeyPatch) -
 )
 def test_sections_grow_until_the_checks_pass(shop: Workshop, grown: set[str]) -> None:
     design = load_design("best-bo")
-    as_sized = assembly._assembled(design, shop, "", Growth())
+    as_sized = assembly.assembled(design, shop, "", Growth())
     assert errors(strength_findings(as_sized))
     robot = build(design, shop)
     assert errors(check(robot)) == []

@@ -28,7 +28,7 @@ def check(
 
     The exit code is 1 if a limit is violated that forbids the robot.
     """
-    from jumpcad.assembly import build
+    from jumpcad.building import build
     from jumpcad.checks import check as check_robot
     from jumpcad.design import load_design
     from jumpcad.findings import errors

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 def designed(subject: str, workshop: str) -> "Robot":
     """Return the printed robot of a bundle (from the inputs that it keeps), of a template, or of a design file."""
-    from jumpcad.assembly import build as build_robot
+    from jumpcad.building import build as build_robot
     from jumpcad.design import load_design
     from jumpcad.exporters.manifest import is_bundle, open_bundle
     from jumpcad.workshop import load_workshop

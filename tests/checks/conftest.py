@@ -2,7 +2,7 @@
 
 import pytest
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.robot import Robot
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.checks.case import Case, leg_axle_moment_nmm
 from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError

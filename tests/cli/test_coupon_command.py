@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.exporters.manifest import verify
 from jumpcad.workshop import load_workshop

@@ -4,7 +4,7 @@ import pytest
 from support.clients import Case
 from support.robots import make_small_robot
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.exporters.bundle import export
 

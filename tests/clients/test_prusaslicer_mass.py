@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.exporters.stl import write_stl

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.exporters.bom import Plate, bill_of_facts, bill_of_materials, mass_facts, write_bom
 from jumpcad.exporters.guide import with_bill, write_guide

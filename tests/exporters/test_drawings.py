@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import MILLIMETRES, sheet, write_dxf, write_dxfs
 from jumpcad.exporters.glb import creased, write_glb

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
 from jumpcad.exporters.report import write_report

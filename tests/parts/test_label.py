@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.parts.body_plate import ENGRAVING_MM, TEXT_HEIGHTS_MM
 from jumpcad.robot import Robot

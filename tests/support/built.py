@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 import trimesh
 
-from jumpcad.assembly import build
+from jumpcad.building import build
 from jumpcad.design import Design, load_design
 from jumpcad.parts.part import Part
 from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Robot
