@@ -50,7 +50,8 @@ def main() -> None:
     assert result.best is not None
     print(f"best {result.best.score:.3f}, robust pick {result.winner.score:.3f} body lengths")
     for bound in result.bounds:
-        print(f"{bound.name} is on its {bound.side} bound; going to {bound.beyond:g} is worth {bound.worth}")
+        worth = f"refused ({bound.reason})" if bound.worth is None else f"worth {bound.worth:+.3f}"
+        print(f"{bound.name} is on its {bound.side} bound; going to {bound.beyond:g} is {worth}")
     write_text_atomically(arguments.folder / "winner.toml", result.winner.design.to_toml())
 
 
