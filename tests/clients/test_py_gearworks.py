@@ -9,7 +9,7 @@ from manifold3d import CrossSection
 
 from jumpcad.drive.gears import Gear, GearPair, gear_pair
 
-pgw = pytest.importorskip("py_gearworks", reason="an independent gear generator, built on build123d")
+pgw = pytest.importorskip("py_gearworks", reason="py_gearworks is not installed (the extra `clients`)")
 
 PAIRS = [(12, 31, 1.0), (14, 40, 1.25), (17, 18, 1.5)]
 BACKLASH_MM = 0.15
