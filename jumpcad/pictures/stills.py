@@ -18,7 +18,7 @@ from jumpcad.robot import Robot
 from jumpcad.simulation.jump import Trajectory
 
 STILLS = ("rest", "compressed", "exploded")
-STILL_SIZE = (720, 540)
+STILL_SIZE = (600, 450)
 JUMP_SIZE = (560, 350)
 JUMP_FRAMES = 36
 FRAME_MS = 50
@@ -28,7 +28,7 @@ EXPLOSION = 2.4
 CENTRED_M = 0.004
 """A thing whose middle is within this of the middle plane is in the middle."""
 EXPLODED_VIEW = View(yaw_deg=-34.0, pitch_deg=24.0)
-STEP_SIZE = (400, 300)
+STEP_SIZE = (320, 240)
 STEP_VIEW = View(yaw_deg=62.0, pitch_deg=24.0)
 """From the left, from where things are put on the axles."""
 STEP_ROOM = 1.3

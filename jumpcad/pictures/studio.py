@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.exporters.shapes import Colour
 from jumpcad.simulation.engines import import_pybullet
+from jumpcad.solids.shading import CREASE_RAD, creased
 
 if TYPE_CHECKING:
     import trimesh
@@ -25,8 +26,6 @@ Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 SUPERSAMPLING = 2
-CREASE_RAD = math.radians(28.0)
-"""Faces that meet at more than this have an edge between them."""
 EDGE_DEPTH_M = 0.0006
 """An edge may lie this far behind what is seen beside it."""
 EDGE_COLOUR = np.array([30.0, 32.0, 36.0])
@@ -124,14 +123,14 @@ class Studio:
         return Image.fromarray(image).resize(size, Image.Resampling.BOX)
 
     def _load(self, mesh: "trimesh.Trimesh", colour: Colour) -> int:
-        """Load a mesh with corners of its own for every face, which gives flat shading."""
+        """Load a mesh with a vertex for every normal that a corner needs."""
         bullet = self._bullet
-        corners = mesh.triangles.reshape(-1, 3) * MM
+        vertices, normals, faces = creased(mesh)
         shape = bullet.createVisualShape(
             bullet.GEOM_MESH,
-            vertices=corners.tolist(),
-            indices=list(range(len(corners))),
-            normals=np.repeat(mesh.face_normals, 3, axis=0).tolist(),
+            vertices=(vertices * MM).tolist(),
+            indices=faces.ravel().tolist(),
+            normals=normals.tolist(),
             rgbaColor=[*colour, 1.0],
             physicsClientId=self._client,
         )
