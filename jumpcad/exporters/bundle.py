@@ -87,9 +87,9 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     drawn = pictures and bool(robot.parts) and find_spec("pybullet") is not None
     yield "assembly.md", write_guide(robot, drawn)
     seen = all_pictures(robot) if drawn else {}
-    yield "report.html", write_report(robot, {name: seen[name] for name in STILLS if name in seen})
     for picture, png in seen.items():
         yield f"pictures/{picture}.png", png
+    yield "report.html", write_report(robot, {name: seen[name] for name in STILLS if name in seen})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

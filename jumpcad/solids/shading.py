@@ -36,5 +36,9 @@ def creased(mesh: "trimesh.Trimesh") -> tuple[Array, Array, npt.NDArray[np.int64
     sums = np.stack([np.bincount(one, axis, corner.size) for axis in weighted.T], axis=1)
     normals = np.round(sums / np.sqrt((sums * sums).sum(axis=1, keepdims=True)), 6)
     rows = np.column_stack([mesh.vertices[ends], normals])
-    vertices, faces = np.unique(rows, axis=0, return_inverse=True)
+    order = np.lexsort(rows.T[::-1])
+    new = np.append(True, (np.diff(rows[order], axis=0) != 0.0).any(axis=1))
+    faces = np.empty(order.size, dtype=np.int64)
+    faces[order] = np.cumsum(new) - 1
+    vertices = rows[order[new]]
     return vertices[:, :3], vertices[:, 3:], faces.reshape(-1, 3)
