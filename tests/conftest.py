@@ -16,9 +16,7 @@ def small_robot() -> Robot:
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Offer a run that fails if a program or package is missing for which a test would be skipped."""
-    parser.addoption(
-        "--all-installed", action="store_true", help="what is not installed fails the run"
-    )
+    parser.addoption("--all-installed", action="store_true", help="what is not installed fails the run")
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:

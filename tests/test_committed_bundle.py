@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import pytest
-
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.exporters.bundle import export
@@ -16,7 +14,6 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 
 def test_the_committed_bundle_is_made_again_byte_for_byte(tmp_path: Path) -> None:
-    pytest.importorskip("pybullet", reason="PyBullet draws the bundle's pictures")
     again = export(build(load_design("kenan-2.0"), name="kenan-2.0"), tmp_path / "kenan-2.0")
     committed, made = contents(COMMITTED), contents(again.folder)
     assert sorted(committed) == sorted(made)

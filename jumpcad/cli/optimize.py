@@ -202,7 +202,7 @@ def _print_result(request: "Request", result: "Result", design_file: Path) -> No
         print(f"nine in ten neighbours reach, with parameters ±1 % and with lengths ±{request.tolerance_mm:g} mm:")
         print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  refused of 32")
     for candidate in result.candidates[:SHOWN]:
-        refusals = ", ".join(f"{name} {count}" for name, count in candidate.refusals.items())
+        refusals = ", ".join(f"{name} {count}" for name, count in candidate.refusals.items()) or "none"
         print(
             f"  {candidate.row.score:10.4f}{candidate.parameters_score:10.4f}{candidate.print_score:10.4f}  {refusals}"
         )

@@ -74,6 +74,7 @@ class _Shapes:
     """The search for a shape: logarithms of lever (mm), gap from lever to axis (mm) and lead (rad), shape (3,)."""
 
     STEP = 1e-6
+    STEPS = STEP * np.eye(4, 3, -1)  # none, and one along each axis
     ROUND_TO = np.array([1e-4, 1e-4, math.radians(1e-4)])
     ROUNDING = 3e-4  # of a margin's scale: more than rounding costs, so that asking for it leads to another shape
 
@@ -156,7 +157,7 @@ class _Shapes:
         """Return size, its gradient (3,), margins (rows,) and their gradients (rows, 3) at one point."""
         key = logs.tobytes()
         if key not in self.known:
-            size, margins = self._size_and_margins(np.vstack([logs, logs + self.STEP * np.eye(3)]), samples=25)
+            size, margins = self._size_and_margins(logs + self.STEPS, samples=25)
             size_slope, margin_slope = (size[1:] - size[0]) / self.STEP, (margins[:, 1:] - margins[:, :1]) / self.STEP
             self.known[key] = float(size[0]), size_slope, margins[:, 0], margin_slope
         return self.known[key]

@@ -5,7 +5,6 @@ The same robot gives the same bytes.
 
 import re
 from collections.abc import Iterator
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -42,7 +41,7 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
     folder
         Is made, with its parents; may be empty or hold an older bundle, which is replaced as a whole.
     pictures
-        Whether to draw the robot, which takes most of the time; without PyBullet there are none.
+        Whether to draw the robot, which takes a quarter of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
 
@@ -84,12 +83,12 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     for outline, dxf in write_dxfs(robot).items():
         yield f"dxf/{outline}.dxf", dxf
     yield "bom.csv", write_bom(bill_of_materials(robot))
-    drawn = pictures and bool(robot.parts) and find_spec("pybullet") is not None
+    drawn = pictures and bool(robot.parts)
     yield "assembly.md", write_guide(robot, drawn)
     seen = all_pictures(robot) if drawn else {}
-    yield "report.html", write_report(robot, {name: seen[name] for name in STILLS if name in seen})
     for picture, png in seen.items():
         yield f"pictures/{picture}.png", png
+    yield "report.html", write_report(robot, {name: seen[name] for name in STILLS if name in seen})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

@@ -5,21 +5,18 @@ metres and y up.
 """
 
 import numpy as np
-import numpy.typing as npt
 import trimesh
-from scipy import sparse
 from trimesh.visual.material import PBRMaterial
 
 from jumpcad.exporters.poses import body_poses
 from jumpcad.exporters.shapes import Colour, Shape, shapes
-from jumpcad.robot import Array, Robot
+from jumpcad.robot import Robot
+from jumpcad.solids.shading import creased
 
 Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 """From the robot's z up to y up."""
 FRAME = "robot"
 ROUGHNESS = 0.6
-CREASE_RAD = 0.5
-"""Faces that meet at less than this look smooth."""
 
 
 def write_glb(robot: Robot) -> bytes:
@@ -46,27 +43,6 @@ def _in_metres(shape: Shape) -> trimesh.Trimesh:
     material = _material(shape.mesh_name, shape.colour)
     visual = trimesh.visual.TextureVisuals(material=material)
     return trimesh.Trimesh(vertices * 0.001, faces, vertex_normals=normals, visual=visual, process=False)
-
-
-def creased(mesh: trimesh.Trimesh) -> tuple[Array, Array, npt.NDArray[np.int64]]:
-    """Return vertices (n, 3), their normals (n, 3) and faces (m, 3): one vertex for every normal that a corner needs.
-
-    A corner's normal is the mean of the faces around it that meet its own face at less than the crease angle, weighted
-    by area. trimesh's `smooth_shade` numbers its vertices in the order of a sort that leaves ties to the processor.
-    """
-    seen = mesh.face_normals.any(axis=1)  # not a needle without an area
-    normal, area, ends = mesh.face_normals[seen], mesh.area_faces[seen], mesh.faces[seen].ravel()
-    corner = np.arange(ends.size)
-    at_vertex = sparse.csr_array((np.ones(corner.size), (corner, ends)))
-    one, other = (at_vertex @ at_vertex.T).nonzero()
-    smooth = (normal[one // 3] * normal[other // 3]).sum(axis=1) > np.cos(CREASE_RAD)
-    one, other = one[smooth], other[smooth] // 3
-    weighted = normal[other] * area[other, None]
-    sums = np.stack([np.bincount(one, axis, corner.size) for axis in weighted.T], axis=1)
-    normals = np.round(sums / np.sqrt((sums * sums).sum(axis=1, keepdims=True)), 6)
-    rows = np.column_stack([mesh.vertices[ends], normals])
-    vertices, faces = np.unique(rows, axis=0, return_inverse=True)
-    return vertices[:, :3], vertices[:, 3:], faces.reshape(-1, 3)
 
 
 def _material(name: str, colour: Colour) -> PBRMaterial:

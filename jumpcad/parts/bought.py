@@ -52,9 +52,7 @@ class Bought:
     @cached_property
     def look(self) -> "trimesh.Trimesh":
         """The mesh of the envelope in its own frame, without detail that eyes miss (mm)."""
-        from jumpcad.solids.finish import to_trimesh
-
-        return to_trimesh(self.solid.simplify(UNSEEN_MM))
+        return _look(self.shape)
 
 
 def bought(
@@ -82,6 +80,14 @@ def _drawn(slabs: tuple[tuple[float, float, Region], ...]) -> tuple[Stack, float
     """Return slabs laid on their left face, the height y of that face, and the mass properties at unit density."""
     stack, _ = laid(slabs)
     return stack, max(y1 for _, y1, _ in slabs), stack.mass_properties(1.0)
+
+
+@lru_cache(maxsize=64)
+def _look(shape: Stack) -> "trimesh.Trimesh":
+    """Return the mesh of a shape, which all copies share."""
+    from jumpcad.solids.finish import to_trimesh
+
+    return to_trimesh(shape.solid().simplify(UNSEEN_MM))
 
 
 def in_metres(pose_mm: Array) -> Array:

@@ -2,7 +2,6 @@
 
 import io
 from collections.abc import Sequence
-from contextlib import AbstractContextManager
 
 import numpy as np
 from PIL import Image
@@ -13,12 +12,13 @@ from jumpcad.exporters.poses import body_poses, transform
 from jumpcad.exporters.shapes import Shape, shapes
 from jumpcad.exporters.steps import assembly_steps
 from jumpcad.parts.part import Array
-from jumpcad.pictures.studio import Studio, View, studio
+from jumpcad.pictures.camera import View
+from jumpcad.pictures.studio import Studio
 from jumpcad.robot import Robot
 from jumpcad.simulation.jump import Trajectory
 
 STILLS = ("rest", "compressed", "exploded")
-STILL_SIZE = (720, 540)
+STILL_SIZE = (600, 450)
 JUMP_SIZE = (560, 350)
 JUMP_FRAMES = 36
 FRAME_MS = 50
@@ -28,7 +28,7 @@ EXPLOSION = 2.4
 CENTRED_M = 0.004
 """A thing whose middle is within this of the middle plane is in the middle."""
 EXPLODED_VIEW = View(yaw_deg=-34.0, pitch_deg=24.0)
-STEP_SIZE = (400, 300)
+STEP_SIZE = (320, 240)
 STEP_VIEW = View(yaw_deg=62.0, pitch_deg=24.0)
 """From the left, from where things are put on the axles."""
 STEP_ROOM = 1.3
@@ -41,11 +41,10 @@ def stills(robot: Robot, size: tuple[int, int] = STILL_SIZE) -> dict[str, bytes]
     Raises
     ------
     JumpcadError
-        If PyBullet is not installed, or the robot has no parts to be seen.
+        If the robot has no parts to be seen.
     """
     things = _things(robot)
-    with _studio(things) as scene:
-        return _stills(scene, robot, things, size)
+    return _stills(_studio(things), robot, things, size)
 
 
 def all_pictures(robot: Robot) -> dict[str, bytes]:
@@ -57,8 +56,8 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
         As `stills`.
     """
     things = _things(robot)
-    with _studio(things) as scene:
-        return _stills(scene, robot, things, STILL_SIZE) | _step_pictures(scene, robot, things, STEP_SIZE)
+    scene = _studio(things)
+    return _stills(scene, robot, things, STILL_SIZE) | _step_pictures(scene, robot, things, STEP_SIZE)
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
@@ -68,9 +67,8 @@ def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
     frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
     corners = np.concatenate([_corners(things, poses) for poses in frames])
-    with _studio(things) as scene:
-        pictures = [scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames]
-    return _gif(pictures)
+    scene = _studio(things)
+    return _gif([scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames])
 
 
 def exploded(things: Sequence[Shape], poses: Sequence[Array]) -> list[Array]:
@@ -111,8 +109,8 @@ def _step_pictures(scene: Studio, robot: Robot, things: Sequence[Shape], size: t
     return pictures
 
 
-def _studio(things: Sequence[Shape]) -> AbstractContextManager[Studio]:
-    return studio([(thing.mesh, thing.colour) for thing in things])
+def _studio(things: Sequence[Shape]) -> Studio:
+    return Studio([(thing.mesh, thing.colour) for thing in things])
 
 
 def _things(robot: Robot) -> tuple[Shape, ...]:

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.mass import MassProperties
-from jumpcad.solids.moments import areas_and_borders, mass_of, prism_moments
+from jumpcad.solids.moments import areas_and_borders, border_mm, mass_of, prism_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.runs import Run, jumps_of, runs_of
 from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2, Section
@@ -161,8 +161,9 @@ def _core(outline: Region, shell_mm: float, spacing_mm: float) -> Region:
     core = outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
     if core.is_empty():
         return NOTHING
-    border = sum(float(np.hypot(*(ring - np.roll(ring, 1, axis=0)).T).sum()) for ring in core.to_polygons())
-    narrow = 2.0 * core.area() < spacing_mm * border and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
+    narrow = (
+        2.0 * core.area() < spacing_mm * border_mm(core) and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
+    )
     return NOTHING if narrow else core
 
 

@@ -47,6 +47,12 @@ def areas_and_borders(regions: Sequence[CrossSection]) -> tuple[Array, Array]:
     return _areas(*sides), _borders(*sides)
 
 
+def border_mm(region: CrossSection) -> float:
+    """Return the length of a region's border, holes included (mm)."""
+    start, end, _ = _sides([region])
+    return float(np.hypot(*(end - start)).sum())
+
+
 def _areas(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
     (x0, y0), (x1, y1) = start, end
     cross = (x0 * y1 - x1 * y0) / 24.0

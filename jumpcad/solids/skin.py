@@ -65,20 +65,27 @@ def _chains(contours_mm: Sequence[Sequence[Floats]]) -> tuple[Ints, Ints, Ints]:
             ends.append(np.roll(snapped, -1, axis=0))
             owner.append(np.full(len(snapped), slab))
     corners = np.concatenate([*starts, *ends])
-    points, index = np.unique(corners, axis=0, return_inverse=True)
+    points, index = _unique(corners)
     edges = index.reshape(2, -1).T
     signs = np.zeros((len(edges), len(contours_mm)), dtype=np.int64)
     signs[np.arange(len(edges)), np.concatenate(owner)] = 1
     return (points, *_merged(edges, signs))
 
 
+def _unique(pairs: Ints) -> tuple[Ints, Ints]:
+    """Return every pair (n, 2) of 32-bit numbers once, in order, and for each of them where it is in that list."""
+    keys, index = np.unique((pairs[:, 0] << 32) + pairs[:, 1], return_inverse=True)
+    first = (keys + (1 << 31)) >> 32
+    return np.column_stack([first, keys - (first << 32)]), index
+
+
 def _merged(edges: Ints, signs: Ints) -> tuple[Ints, Ints]:
     """Return every edge once, from its lower to its higher point; runs to and fro cancel."""
     backwards = edges[:, 0] > edges[:, 1]
     signs = np.where(backwards[:, None], -signs, signs)
-    unique, index = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
+    unique, index = _unique(np.sort(edges, axis=1))
     total = np.zeros((len(unique), signs.shape[1]), dtype=np.int64)
-    np.add.at(total, index.ravel(), signs)
+    np.add.at(total, index, signs)
     kept = total.any(axis=1) & (unique[:, 0] != unique[:, 1])
     return unique[kept], total[kept]
 
@@ -91,8 +98,8 @@ def _conforming(points: Ints, edges: Ints, signs: Ints) -> tuple[Ints, Ints, Int
     """
     for _ in range(MAX_ROUNDS):
         points = np.concatenate([points, _crossings(points, edges)])
-        points, index = np.unique(points, axis=0, return_inverse=True)
-        edges = index.ravel()[edges]
+        points, index = _unique(points)
+        edges = index[edges]
         hit_edges, hit_points = _hits(points, edges)
         if len(hit_edges):
             edges, signs = _merged(*_cut(points, edges, signs, hit_edges, hit_points))

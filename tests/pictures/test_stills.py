@@ -15,8 +15,6 @@ from jumpcad.pictures.stills import exploded, jump_gif, stills
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 
-pytest.importorskip("pybullet")
-
 
 def test_three_different_pictures_of_the_size_asked(small_robot: Robot) -> None:
     files = stills(small_robot, (160, 120))

@@ -5,9 +5,8 @@ import pytest
 import trimesh
 from PIL import Image
 
-from jumpcad.pictures.studio import View, aimed, borders, creases, studio
-
-pytest.importorskip("pybullet")
+from jumpcad.pictures.camera import View, aimed
+from jumpcad.pictures.studio import Studio, borders, creases
 
 RED, BLUE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 FRONT = View(yaw_deg=0.0, pitch_deg=0.0)
@@ -21,8 +20,7 @@ def at(x: float, y: float = 0.0, z: float = 0.0) -> np.ndarray:
 
 
 def taken(things: list, poses: list[np.ndarray], frame: np.ndarray, view: View = FRONT) -> np.ndarray:
-    with studio(things) as scene:
-        return np.asarray(scene.picture(poses, SIZE, view, frame)).astype(int)
+    return np.asarray(Studio(things).picture(poses, SIZE, view, frame)).astype(int)
 
 
 def corners(*size_mm: float) -> np.ndarray:
@@ -46,17 +44,21 @@ def test_borders_are_where_things_end() -> None:
 def test_the_camera_sees_all_it_is_asked_to(view: View) -> None:
     points = np.random.default_rng(1).uniform(-0.1, 0.1, (200, 3)) * [1.0, 2.0, 0.5]
     camera = aimed(points, view, 4 / 3)
-    along = camera.target_m - camera.eye_m
-    along /= np.linalg.norm(along)
+    yaw, pitch = np.radians([view.yaw_deg, view.pitch_deg])
+    along = -np.array([np.cos(yaw) * np.cos(pitch), np.sin(yaw) * np.cos(pitch), np.sin(pitch)])
     right = np.cross(along, [0, 0, 1])
     right /= np.linalg.norm(right)
+    up = np.cross(right, along)
     rays = points - camera.eye_m
     depth = rays @ along
     slope = np.tan(np.radians(7.0))
+    assert depth.min() > 0.0
     assert np.abs(rays @ right / depth).max() <= slope * 4 / 3 * 1.02
-    assert np.abs(rays @ np.cross(right, along) / depth).max() <= slope * 1.02
-    assert camera.near_m < depth.min()
-    assert depth.max() < camera.far_m
+    assert np.abs(rays @ up / depth).max() <= slope * 1.02
+    pixels, distance = camera.seen(points, (400, 300))
+    assert np.allclose(distance, depth)
+    assert np.allclose(pixels[:, 0], 200 + 150 * rays @ right / depth / slope)
+    assert np.allclose(pixels[:, 1], 150 - 150 * rays @ up / depth / slope)
 
 
 def test_a_plate_is_as_wide_as_its_share_of_the_frame() -> None:

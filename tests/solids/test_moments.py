@@ -33,6 +33,12 @@ def test_moments_of_a_border_are_those_of_a_thin_strip():
     assert width * moments.border_moments(region) == pytest.approx(moments.area_moments(strip), rel=5e-3)
 
 
+def test_a_border_goes_around_holes_too():
+    plate, hole = outline.rectangle((30.0, 12.0)), outline.rectangle((4.0, 2.0), (3.0, 1.0))
+    assert moments.border_mm(plate - hole) == pytest.approx(2 * (30 + 12) + 2 * (4 + 2))
+    assert moments.border_mm(plate - plate) == 0.0
+
+
 def test_a_prism_is_a_box():
     area = moments.area_moments(outline.rectangle((40.0, 20.0), (7.0, -3.0)))
     found = moments.mass_of(moments.prism_moments(area, 2.0, 12.0), 1.27)

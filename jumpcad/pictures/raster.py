@@ -1,0 +1,80 @@
+"""Triangles to pixels: at every pixel the nearest triangle that faces the camera.
+
+Row by row, all triangles at once: every triangle is cut into the spans that it covers of each row, every span into its
+pixels. An edge that two triangles share is cut at the same place in both, so that there are neither gaps nor overlaps.
+"""
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+
+X, Y, NEARNESS, SHADE = range(4)
+"""The columns of what is known of a corner."""
+
+
+def drawn(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Array]:
+    """Return what is seen at every pixel of a picture of some width and height.
+
+    Parameters
+    ----------
+    corners
+        The corners (n, 3, 4) of triangles, counter-clockwise as seen from outside: x (pixels, to the right), y (pixels,
+        down), nearness (1 over the distance, 1/m), shade. A triangle that reaches behind the camera, where nearness is
+        negative, is left out.
+    size
+        Width and height in pixels.
+
+    Returns
+    -------
+    number
+        Of the triangle at every pixel (height, width); -1 where there is none.
+    nearness, shade
+        Of that triangle at the pixel's centre (height, width); 0 where there is none.
+    """
+    width, height = size
+    ahead, across = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
+    before = (corners[:, :, NEARNESS] > 0.0).all(axis=1)
+    facing = np.nonzero(before & (ahead[:, 0] * across[:, 1] < ahead[:, 1] * across[:, 0]))[0]
+    span, left, right = _spans(corners[facing], height)
+    which, x = _centres(left[:, X], right[:, X], width)
+    share = ((x + 0.5 - left[which, X]) / (right[which, X] - left[which, X]))[:, None]
+    values = left[which, NEARNESS:] + share * (right[which, NEARNESS:] - left[which, NEARNESS:])
+    pixel = (left[which, Y] - 0.5).astype(np.int64) * width + x
+    nearness = np.zeros(width * height)
+    np.maximum.at(nearness, pixel, values[:, 0])
+    nearest = values[:, 0] == nearness[pixel]
+    number, shade = np.full(width * height, -1), np.zeros(width * height)
+    number[pixel[nearest]] = facing[span[which[nearest]]]
+    shade[pixel[nearest]] = values[nearest, 1]
+    return number.reshape(height, width), nearness.reshape(height, width), shade.reshape(height, width)
+
+
+def _spans(corners: Array, height: int) -> tuple[Ints, Array, Array]:
+    """Return for every row that a triangle (n, 3, 4) covers its number and the span's left and right end (m, 4)."""
+    order = np.argsort(corners[:, :, Y], axis=1, kind="stable")
+    top, middle, bottom = np.moveaxis(np.take_along_axis(corners, order[:, :, None], axis=1), 1, 0)
+    number, row = _centres(top[:, Y], bottom[:, Y], height)
+    top, middle, bottom = top[number], middle[number], bottom[number]
+    above = (row + 0.5 < middle[:, Y])[:, None]
+    one = _at(row, top, bottom)
+    other = _at(row, np.where(above, top, middle), np.where(above, middle, bottom))
+    swapped = (one[:, X] > other[:, X])[:, None]
+    return number, np.where(swapped, other, one), np.where(swapped, one, other)
+
+
+def _at(row: Ints, start: Array, end: Array) -> Array:
+    """Return where edges that run down from start to end (n, 4) cross the middles of rows (n,), as points (n, 4)."""
+    share = (row + 0.5 - start[:, Y]) / (end[:, Y] - start[:, Y])
+    point: Array = start + share[:, None] * (end - start)
+    point[:, Y] = row + 0.5
+    return point
+
+
+def _centres(low: Array, high: Array, count: int) -> tuple[Ints, Ints]:
+    """Return all pairs (interval, pixel) in which low ≤ pixel + 0.5 < high, for pixels from 0 to below a count."""
+    first, last = (np.clip(np.ceil(ends - 0.5), 0, count).astype(np.int64) for ends in (low, high))
+    many = np.maximum(last - first, 0)
+    interval = np.repeat(np.arange(len(low)), many)
+    return interval, first[interval] + np.arange(len(interval)) - np.repeat(np.cumsum(many) - many, many)
