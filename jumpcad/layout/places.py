@@ -23,7 +23,12 @@ ROUND_OFF_MM = 1e-6
 def ring_candidates(centre_mm: Array, radius_mm: float) -> tuple[Array, Array]:
     """Return places (n, 2) on a circle, and their directions (n,) counter-clockwise from x."""
     angle = np.linspace(0.0, 2.0 * math.pi, TURN_STEPS, endpoint=False)
-    return centre_mm + radius_mm * np.stack([np.cos(angle), np.sin(angle)], axis=-1), angle
+    return around(centre_mm, radius_mm, angle), angle
+
+
+def around(centre_mm: Array, radius_mm: float, angle_rad: Array) -> Array:
+    """Return the places (n, 2) at angles (n,) on a circle, to a nanometre: cosines differ between processors."""
+    return np.round(centre_mm + radius_mm * np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1), 6)
 
 
 def grid_candidates(x_mm: tuple[float, float], z_mm: tuple[float, float], step_mm: float) -> Array:

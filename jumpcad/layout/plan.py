@@ -13,7 +13,7 @@ from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.hardware import Battery, Bearing, Board
 from jumpcad.layout.lateral import GAP_MM, Lateral, lateral_stack
-from jumpcad.layout.places import best_place, grid_candidates, ring_candidates
+from jumpcad.layout.places import around, best_place, grid_candidates, ring_candidates
 from jumpcad.layout.room import EVERYWHERE, Array, Obstacle, bar, box_obstacle, clearance, disc
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.linkage import Linkage
@@ -211,7 +211,7 @@ def _spring_pin(obstacles: list[Obstacle], hub: Array, radius_mm: float, inside:
 
     def place(step_deg: float) -> Array:
         angles = np.radians(np.arange(20.0, 131.0, step_deg))
-        places = hub + radius_mm * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        places = around(hub, radius_mm, angles)
         index = best_place(
             "spring pin", obstacles, places, (1.5, 1.5), 0.0, inside,
             lambda p: np.abs(np.arctan2(p[:, 1] - hub[1], p[:, 0] - hub[0]) - math.radians(40.0)),

@@ -24,8 +24,10 @@ def test_a_ring_is_at_its_radius_in_its_directions() -> None:
     centre = np.array([3.0, -4.0])
     places, angles = ring_candidates(centre, 12.5)
     offset = places - centre
-    np.testing.assert_allclose(np.hypot(*offset.T), 12.5)
-    np.testing.assert_allclose(np.mod(np.arctan2(offset[:, 1], offset[:, 0]), 2 * math.pi), angles, atol=1e-12)
+    np.testing.assert_allclose(np.hypot(*offset.T), 12.5, atol=1e-6)  # places are whole nanometres
+    np.testing.assert_array_equal(places, np.round(places, 6))
+    around = np.angle(np.exp(1j * (np.arctan2(offset[:, 1], offset[:, 0]) - angles)))
+    np.testing.assert_allclose(around, 0.0, atol=1e-7)
     np.testing.assert_allclose(np.diff(angles), 2 * math.pi / len(places))
 
 
