@@ -114,7 +114,8 @@ class Belief:
         feasible = np.array([row.score is not None for row in rows], dtype=bool)
         score = None
         if feasible.sum() >= 2:
-            score = learn("score", feasible, warped(np.array([row.score for row in rows if row.score is not None])))
+            scores = np.array([row.score for row in rows if row.score is not None])
+            score = learn("score", feasible, warped(forwards(scores)))
         constraints = {}
         for name, margins in constraint_margins(rows).items():
             known = np.isfinite(margins)
@@ -152,6 +153,15 @@ class Belief:
         """Return the belief after its own means at a point (d,) were taken for measurements."""
         constraints = {name: surrogate.believing(point) for name, surrogate in self.constraints.items()}
         return Belief(None if self.score is None else self.score.believing(point), constraints)
+
+
+def forwards(scores: Array) -> Array:
+    """Return scores (n,) in which a jump backwards counts as no jump, if any goes forwards.
+
+    How far a design jumps the wrong way tells nothing of the best ones, but cliffs on the way to them shorten the
+    lengths of the process: without this, one seed in eight was still lost at 100 evaluations.
+    """
+    return np.maximum(scores, 0.0) if scores.max() > 0.0 else scores
 
 
 def warped(score: npt.ArrayLike) -> Array:

@@ -10,7 +10,7 @@ from support.hills import SMALL, Hill
 from jumpcad.findings import Finding
 from jumpcad.search.ledger import Row
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.surrogate import VERDICT, Belief, Surrogate, _kernel, constraint_margins, unwarped, warped
+from jumpcad.search.surrogate import VERDICT, Belief, Surrogate, _kernel, constraint_margins, forwards, unwarped, warped
 
 
 @pytest.fixture
@@ -142,3 +142,8 @@ def test_warping_is_undone():
     scores = np.array([-4.0, 0.0, 2.25, 11.8])
     assert warped(scores) == pytest.approx([-2.0, 0.0, 1.5, 11.8**0.5])
     assert unwarped(warped(scores)) == pytest.approx(scores)
+
+
+def test_a_jump_backwards_counts_as_none_once_something_jumps_forwards():
+    assert forwards(np.array([2.0, -3.0, 0.5])).tolist() == [2.0, 0.0, 0.5]
+    assert forwards(np.array([-2.0, -3.0])).tolist() == [-2.0, -3.0]  # as for energies, of which less is better
