@@ -59,7 +59,7 @@ def test_bodies_are_the_sum_of_their_meshes(name: str, body: str) -> None:
         inertia += tensor + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
     found = robot.bodies[body]
     assert found.mass_kg == pytest.approx(total, rel=1e-9)
-    np.testing.assert_allclose(found.com_m, centre, atol=2e-6)
+    np.testing.assert_allclose(found.com_m, centre, atol=1e-6)
     np.testing.assert_allclose(found.inertia_kg_m2, inertia, atol=2e-5 * np.abs(inertia).max())
 
 
