@@ -45,10 +45,11 @@ def once(name: str) -> dict[str, float]:
     def passed(stage: str) -> None:
         clock.append((stage, process_time()))
 
-    from jumpcad import building, simulation
-    from jumpcad.capsule import capsule_robot
+    from jumpcad import simulation
+    from jumpcad.building import growth as building
+    from jumpcad.bundle import export as bundle
     from jumpcad.design import load_design
-    from jumpcad.exporters import bundle
+    from jumpcad.mechanism.capsule import capsule_robot
 
     passed("imports")
     robot = building.build(load_design(name), name=name)

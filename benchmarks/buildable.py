@@ -21,14 +21,14 @@ from time import process_time
 import numpy as np
 
 from jumpcad.building import build
+from jumpcad.bundle.export import contents
 from jumpcad.checks.interference import overlaps
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.exporters.bundle import contents
-from jumpcad.exporters.plates import packed
-from jumpcad.exporters.stl import write_stl
+from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import faults
+from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Workshop, load_workshop
 
 WORKSHOPS = ("default", "fine")

@@ -18,7 +18,9 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad import assembly, building, evaluation, published
+from jumpcad import evaluation, published
+from jumpcad.building import assembly
+from jumpcad.building import growth as building
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate

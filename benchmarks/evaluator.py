@@ -12,11 +12,11 @@ from time import process_time
 import numpy as np
 
 from jumpcad import published
-from jumpcad.capsule import capsule_robot
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files import template_names
-from jumpcad.gate import geometry_findings, statics_findings
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.simulation import load_settings, simulate
 from jumpcad.simulation.bullet import BulletEngine
 from jumpcad.simulation.run import Run

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from jumpcad.capsule import capsule_robot
 from jumpcad.design import load_design
 from jumpcad.files import template_names
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import load_settings, simulate
 from jumpcad.simulation.bullet import RESET_EVERY
 

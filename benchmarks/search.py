@@ -14,14 +14,14 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.search.bayesian import default_initial, run_bayesian
-from jumpcad.search.campaign import Campaign
-from jumpcad.search.genetic import run_genetic
-from jumpcad.search.ledger import Ledger
+from jumpcad.search.evaluator import Campaign
+from jumpcad.search.methods.bayesian import default_initial, run_bayesian
+from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
+from jumpcad.search.store import Ledger
 
 MARKS = (60, 100, 200, 250, 500, 1000)
 SPACE = Space.default()

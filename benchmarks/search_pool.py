@@ -18,12 +18,12 @@ from pathlib import Path
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.search.campaign import Campaign
-from jumpcad.search.ledger import Ledger, Row
+from jumpcad.search.evaluator import Campaign
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
+from jumpcad.search.store import Ledger, Row
 from jumpcad.workshop import load_workshop
 
 BATCH, BATCHES = 20, 15

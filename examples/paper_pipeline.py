@@ -8,16 +8,16 @@ from pathlib import Path
 
 from jumpcad import load_design, load_workshop
 from jumpcad.files import write_text_atomically
-from jumpcad.report import plots
-from jumpcad.report.figures import save
-from jumpcad.report.studies import plot_study
-from jumpcad.search.campaign import Campaign
+from jumpcad.search import plots
+from jumpcad.search.evaluator import Campaign
 from jumpcad.search.explore import sweep
-from jumpcad.search.ledger import Ledger
+from jumpcad.search.figures import save
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
+from jumpcad.search.store import Ledger
+from jumpcad.search.studies import plot_study
 from jumpcad.search.study import Request, run_study
 
 

@@ -7,11 +7,11 @@ import argparse
 from pathlib import Path
 
 from jumpcad import load_workshop
-from jumpcad.report import plots
-from jumpcad.report.figures import save
+from jumpcad.search import plots
+from jumpcad.search.figures import save
+from jumpcad.search.methods.pareto import energy_j, front, hypervolume
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
-from jumpcad.search.pareto import energy_j, front, hypervolume
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
 from jumpcad.search.study import Request, run_study

@@ -7,9 +7,8 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from jumpcad import published as published
     from jumpcad.building import build as build
-    from jumpcad.capsule import capsule_robot as capsule_robot
+    from jumpcad.bundle.export import export as export
     from jumpcad.checks import check as check
     from jumpcad.design import SEARCH_BOUNDS as SEARCH_BOUNDS
     from jumpcad.design import Design as Design
@@ -17,8 +16,9 @@ if TYPE_CHECKING:
     from jumpcad.errors import CannotBuildError as CannotBuildError
     from jumpcad.errors import JumpcadError as JumpcadError
     from jumpcad.evaluation import evaluate as evaluate
-    from jumpcad.exporters.bundle import export as export
     from jumpcad.findings import Finding as Finding
+    from jumpcad.mechanism.capsule import capsule_robot as capsule_robot
+    from jumpcad.paper import published as published
     from jumpcad.robot import Robot as Robot
     from jumpcad.simulation import Jump as Jump
     from jumpcad.simulation import Settings as Settings
@@ -37,19 +37,19 @@ _HOMES = {
     "JumpcadError": "errors",
     "Robot": "robot",
     "SEARCH_BOUNDS": "design",
-    "Settings": "simulation",
+    "Settings": "settings",
     "Workshop": "workshop",
     "build": "building",
-    "capsule_robot": "capsule",
+    "capsule_robot": "mechanism.capsule",
     "check": "checks",
     "evaluate": "evaluation",
-    "export": "exporters.bundle",
+    "export": "bundle.export",
     "load_design": "design",
-    "load_settings": "simulation",
+    "load_settings": "settings",
     "load_workshop": "workshop",
     "simulate": "simulation",
 }
-_MODULES = {"published"}
+_MODULES = {"published": "paper.published"}
 
 __all__ = ["__version__", *sorted(_HOMES), *sorted(_MODULES)]
 
@@ -58,7 +58,7 @@ def __getattr__(name: str) -> Any:
     if name in _HOMES:
         value = getattr(importlib.import_module(f"jumpcad.{_HOMES[name]}"), name)
     elif name in _MODULES:
-        value = importlib.import_module(f"jumpcad.{name}")
+        value = importlib.import_module(f"jumpcad.{_MODULES[name]}")
     else:
         raise AttributeError(f"module 'jumpcad' has no attribute {name!r}")
     globals()[name] = value

@@ -17,12 +17,12 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
-from jumpcad.linkage import Linkage
+from jumpcad.mechanism.linkage import Linkage
 
 if TYPE_CHECKING:
     from jumpcad.layout.plan import Plan
-    from jumpcad.parts.bought import Bought
     from jumpcad.parts.part import Part
+    from jumpcad.parts.purchased import Bought
     from jumpcad.workshop import Workshop
 
 Array = npt.NDArray[np.float64]

@@ -10,11 +10,11 @@ import pytest
 from support.loaded import loaded_range_m
 
 from jumpcad.building import build
+from jumpcad.bundle.export import export
 from jumpcad.checks import constraint_findings
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
-from jumpcad.exporters.bundle import export
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf

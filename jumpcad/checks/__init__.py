@@ -5,7 +5,7 @@ front_link_buckling, eye_strength, foot_lug_strength, toe_strength, toe_landing,
 plate_seat, cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
 roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
 motor_torque; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
-solid; `interference` interference; and those of `jumpcad.gate`: loop, below_ground, tips, too_weak.
+solid; `interference` interference; and those of `jumpcad.mechanism.feasibility`: loop, below_ground, tips, too_weak.
 """
 
 from jumpcad.checks.drive import drive_findings
@@ -14,7 +14,7 @@ from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import bed_findings, printability_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.findings import Finding
-from jumpcad.gate import geometry_findings, statics_findings
+from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.robot import Robot
 
 __all__ = ["check", "constraint_findings"]

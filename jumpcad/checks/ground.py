@@ -5,7 +5,7 @@ from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
 from jumpcad.findings import Finding, limit
-from jumpcad.linkage import Linkage, direction
+from jumpcad.mechanism.linkage import Linkage, direction
 from jumpcad.parts.body_plate import PAD_WALL_MM, STANDOFF_PAD_MM
 from jumpcad.parts.small import COLLAR_RADIUS_MM
 from jumpcad.robot import BODY, FOOT, Array, Robot

@@ -15,7 +15,7 @@ from manifold3d import Manifold
 
 from jumpcad.findings import Finding
 from jumpcad.layout.plan import Plan
-from jumpcad.linkage import Linkage
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.part import Shape
 from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Robot
 from jumpcad.solids.stack import Stack, overlap_volume_mm3

@@ -13,13 +13,13 @@ import numpy as np
 import trimesh
 from manifold3d import CrossSection, JoinType
 
-from jumpcad.exporters.stl import write_stl
 from jumpcad.findings import Finding, limit
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import faults
 from jumpcad.solids.outline import Region, grown, union
 from jumpcad.solids.stack import Stack
+from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Fits, Process
 
 HALVINGS = 7

@@ -3,12 +3,12 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.checks.case import Case, stress_finding
-from jumpcad.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
+from jumpcad.checks.load_case import Case, stress_finding
 from jumpcad.findings import Finding, limit
-from jumpcad.hub import allowed_n, bearing_load_n
 from jumpcad.layout.lateral import ROLLER_WASHER_MM
-from jumpcad.stress import pin_stress_mpa
+from jumpcad.strength.bearings import allowed_n, bearing_load_n
+from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
+from jumpcad.strength.stress import pin_stress_mpa
 
 ROLLER_SCREW_CORE_MM = 2.39
 """M3, ISO 724."""

@@ -1,7 +1,7 @@
 """Does it break? Links, eyes, pins and seats wound, at release and at landing (N, N·mm, mm, MPa).
 
 Wound, the cam's push on the lever and the springs' arms bend main leg and lever about the hub. At release the same
-torque goes into the foot (`jumpcad.loads`). At landing the robot falls from as high as its springs' energy could lift
+torque goes into the foot (`jumpcad.strength.loads`). At landing the robot falls from as high as its springs' energy could lift
 it and is stopped over `safety.landing_stop_mm`; the legs fold against the springs, which bend them no more than
 winding did. All links print lying, so that motion bends them along their layers; the foot prints on its sole, so that
 its lugs are pulled across theirs.
@@ -12,19 +12,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.checks.case import Case, stress_finding
+from jumpcad.checks.load_case import Case, stress_finding
 from jumpcad.checks.steel import steel_findings
 from jumpcad.findings import Finding, limit
-from jumpcad.loads import (
-    rail_moment_nmm,
-    toe_moment_nmm,
-    toe_tip_mm,
-)
 from jumpcad.parts.links import LEVER_EYE_RADIUS_MM
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
 from jumpcad.robot import Robot
-from jumpcad.sizing import leg_flex_share
-from jumpcad.stress import (
+from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm, toe_tip_mm
+from jumpcad.strength.sizing import leg_flex_share
+from jumpcad.strength.stress import (
     STATIONS,
     VON_MISES,
     Bar,

@@ -12,7 +12,7 @@ from jumpcad.cli.subjects import designed
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
-    from jumpcad.exporters.manifest import Bundle
+    from jumpcad.bundle.manifest import Bundle
     from jumpcad.robot import Robot
     from jumpcad.simulation import Jump
 
@@ -37,8 +37,8 @@ def build(
     as_json: JsonFlag = False,
 ) -> None:
     """Build a robot: parts to print, files to simulate, what to buy, and how far it jumps."""
-    from jumpcad.capsule import capsule_robot
-    from jumpcad.exporters.bundle import export
+    from jumpcad.bundle.export import export
+    from jumpcad.mechanism.capsule import capsule_robot
     from jumpcad.simulation import simulate
     from jumpcad.simulation.engines import default_engine
 
@@ -65,8 +65,8 @@ def render(
     as_json: JsonFlag = False,
 ) -> None:
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
-    from jumpcad.exporters.manifest import is_bundle
-    from jumpcad.pictures.stills import jump_gif, stills
+    from jumpcad.bundle.manifest import is_bundle
+    from jumpcad.bundle.renders import jump_gif, stills
     from jumpcad.simulation import Settings, simulate
     from jumpcad.simulation.engines import default_engine
 
@@ -99,8 +99,8 @@ def verify(
     bundle: Annotated[Path, typer.Argument(help="A bundle's folder.", metavar="BUNDLE")], as_json: JsonFlag = False
 ) -> None:
     """Compare a bundle's files with its manifest; the exit code is 1 if one is changed or missing."""
-    from jumpcad.exporters.manifest import open_bundle
-    from jumpcad.exporters.manifest import verify as differences
+    from jumpcad.bundle.manifest import open_bundle
+    from jumpcad.bundle.manifest import verify as differences
 
     wrong = differences(bundle)
     if as_json:

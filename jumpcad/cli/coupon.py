@@ -47,7 +47,7 @@ def coupon(
 
 def _written(workshop: str, folder: Path) -> dict[str, Any]:
     """Write the coupon and return what to say of it."""
-    from jumpcad.exporters.coupon import export_coupon
+    from jumpcad.coupon.export import export_coupon
     from jumpcad.workshop import load_workshop
 
     bundle = export_coupon(load_workshop(workshop), folder)
@@ -56,7 +56,7 @@ def _written(workshop: str, folder: Path) -> dict[str, Any]:
 
 def _measured(readings: Path, workshop: str, output: Path) -> dict[str, Any]:
     """Write the workshop with the fits that were read, complete; return what changed."""
-    from jumpcad.coupon import Readings, measured_workshop
+    from jumpcad.coupon.readings import Readings, measured_workshop
     from jumpcad.files import require_new_toml, write_text_atomically
     from jumpcad.workshop import load_workshop
 

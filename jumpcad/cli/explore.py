@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import JsonFlag, print_json
-from jumpcad.cli.searching import (
+from jumpcad.cli.searching import (  # fmt: skip
     BoundOption,
     ChooseOption,
     DaskOption,
@@ -26,13 +26,13 @@ from jumpcad.cli.searching import (
     make_pool,
     make_space,
     watching,
-)  # fmt: skip
+)
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
-    from jumpcad.search.campaign import Campaign
+    from jumpcad.search.evaluator import Campaign
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
 LEAST_R_SQUARED = 0.5
@@ -77,9 +77,9 @@ def explore(
     With --study, evaluations are kept and not repeated.
     """
     from jumpcad.design import load_design
-    from jumpcad.search.campaign import Campaign
-    from jumpcad.search.ledger import Ledger
+    from jumpcad.search.evaluator import Campaign
     from jumpcad.search.objective import find_objective
+    from jumpcad.search.store import Ledger
 
     if view not in VIEWS:
         raise JumpcadError(f"{view!r} is not one of the views {', '.join(VIEWS)}{did_you_mean(view, VIEWS)}")
@@ -101,7 +101,7 @@ def explore(
     ):
         data, lines, figures = run(Campaign(space, aim, robot, ledger, pool, watch=watch))
     if plots is not None:
-        from jumpcad.report.figures import save
+        from jumpcad.search.figures import save
 
         data["pictures"] = [str(save(draw(), plots, name)) for name, draw in figures.items()]
     if as_json:
@@ -116,7 +116,7 @@ View = Callable[["Campaign"], tuple[dict[str, Any], list[str], dict[str, Callabl
 
 def _swept(centre: "Design", points: int) -> View:
     def run(campaign: "Campaign") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
-        from jumpcad.report import plots
+        from jumpcad.search import plots
         from jumpcad.search.explore import sweep
 
         sweeps = sweep(campaign, centre, points)
@@ -139,7 +139,7 @@ def _swept(centre: "Design", points: int) -> View:
 
 def _looker(view: str, samples: int, seed: int) -> View:
     def run(campaign: "Campaign") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
-        from jumpcad.report import plots
+        from jumpcad.search import plots
         from jumpcad.search.explore import UNIFORM_NOTE, components, elite, importance, sample
 
         rows = sample(campaign, samples, seed)
@@ -173,7 +173,7 @@ def _mapped(centre: "Design", over: str, points: int) -> View:
         raise JumpcadError(f"--over {over}: a map has two parameters, NAME,NAME")
 
     def run(campaign: "Campaign") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
-        from jumpcad.report import plots
+        from jumpcad.search import plots
         from jumpcad.search.explore import feasibility_map
 
         found = feasibility_map(campaign, centre, names[0], names[1], points)

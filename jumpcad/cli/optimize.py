@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import JsonFlag, print_json
-from jumpcad.cli.searching import (
+from jumpcad.cli.searching import (  # fmt: skip
     AroundOption,
     BoundOption,
     ChooseOption,
@@ -31,12 +31,12 @@ from jumpcad.cli.searching import (
     make_space,
     row_data,
     watching,
-)  # fmt: skip
+)
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
-    from jumpcad.search.ledger import Row
     from jumpcad.search.models import RobotModel
+    from jumpcad.search.store import Row
     from jumpcad.search.study import Request, Result
 
 HEADING = "# Found by jumpcad optimize"
@@ -143,15 +143,15 @@ def _write_design(path: Path, winner: "Row", request: "Request") -> None:
 def _plot(path: Path, folder: Path | None) -> list[str]:
     if folder is None:
         return []
-    from jumpcad.report.studies import plot_study
-    from jumpcad.search.ledger import Ledger
+    from jumpcad.search.store import Ledger
+    from jumpcad.search.studies import plot_study
 
     with Ledger.read(path) as ledger:
         return [str(picture) for picture in plot_study(ledger, folder)]
 
 
 def _data(request: "Request", result: "Result", design_file: Path) -> dict[str, Any]:
-    from jumpcad.search.pareto import front, hypervolume
+    from jumpcad.search.methods.pareto import front, hypervolume
     from jumpcad.search.study import FRONTS, count_refusals
 
     data: dict[str, Any] = {
@@ -183,7 +183,7 @@ def _data(request: "Request", result: "Result", design_file: Path) -> dict[str, 
 
 
 def _print_result(request: "Request", result: "Result", design_file: Path) -> None:
-    from jumpcad.search.pareto import energy_j, front, hypervolume
+    from jumpcad.search.methods.pareto import energy_j, front, hypervolume
     from jumpcad.search.study import FRONTS, count_refusals
 
     refused = ", ".join(f"{name} {count}" for name, count in count_refusals(result.rows).items())

@@ -10,7 +10,7 @@ from jumpcad.cli.output import JsonFlag, print_json
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from jumpcad.reproduction import Hyperparameter, Reproduction
+    from jumpcad.paper.reproduction import Hyperparameter, Reproduction
 
 
 def register(app: typer.Typer) -> None:
@@ -20,7 +20,7 @@ def register(app: typer.Typer) -> None:
 
 def reproduce(as_json: JsonFlag = False) -> None:
     """Print the published table of results, simulated again, beside what the evaluator says."""
-    from jumpcad import reproduction
+    from jumpcad.paper import reproduction
 
     rows = reproduction.reproduce()
     if as_json:

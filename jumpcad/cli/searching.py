@@ -11,11 +11,11 @@ import typer
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
-    from jumpcad.search.campaign import Watch
-    from jumpcad.search.ledger import Row
+    from jumpcad.search.evaluator import Watch
     from jumpcad.search.models import RobotModel
     from jumpcad.search.pool import Pool
     from jumpcad.search.space import Space
+    from jumpcad.search.store import Row
 
 ModelOption = Annotated[str, typer.Option(help="The robot behind the objective: printed, capsule or published.")]
 StudyOption = Annotated[Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db")]
@@ -68,8 +68,8 @@ def make_space(
 def make_model(name: str, workshop: str, settings: str, engine: str | None) -> "RobotModel":
     """Return the model that the options describe."""
     from jumpcad.search.models import MODELS, RobotModel
+    from jumpcad.settings import load_settings
     from jumpcad.simulation.engines import ENGINES, default_engine
-    from jumpcad.simulation.settings import load_settings
     from jumpcad.workshop import load_workshop
 
     if engine is not None and engine not in ENGINES:
@@ -99,7 +99,7 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    from jumpcad.search.ledger import SEARCH_PHASES
+    from jumpcad.search.store import SEARCH_PHASES
 
     columns = (
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),

@@ -57,8 +57,8 @@ def simulate(
 
     The exit code is 0 for a jump and 1 if the design is refused or does not jump.
     """
-    from jumpcad.capsule import capsule_robot
     from jumpcad.design import load_design
+    from jumpcad.mechanism.capsule import capsule_robot
 
     if capsule and published:
         raise JumpcadError("--capsule and --published exclude each other: choose one model")

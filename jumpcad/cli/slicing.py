@@ -9,7 +9,7 @@ import typer
 from jumpcad.cli.output import JsonFlag, print_json
 
 if TYPE_CHECKING:
-    from jumpcad.sliced_bundle import SlicedBundle
+    from jumpcad.bundle.sliced import SlicedBundle
 
 WIDE = 120
 """Columns of a table that holds the longest names of parts."""
@@ -39,8 +39,8 @@ def slice_command(
     """
     from rich.console import Console
 
+    from jumpcad.bundle.sliced import slice_bundle, write_times
     from jumpcad.files import require_new_toml, write_text_atomically
-    from jumpcad.sliced_bundle import slice_bundle, write_times
     from jumpcad.workshop import load_workshop
 
     if write_masses is not None:
@@ -76,7 +76,7 @@ def _facts(bundle: Path, found: "SlicedBundle") -> dict[str, Any]:
 
 
 def _tell(found: "SlicedBundle") -> None:
-    from jumpcad.exporters.guide import duration
+    from jumpcad.bundle.guide import duration
 
     _print_table(
         ("part", "quantity", "material", "g each", "model g", "model", "time each"),

@@ -10,7 +10,7 @@ from jumpcad.cli.searching import PlotsOption, row_data
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
-    from jumpcad.search.ledger import Ledger
+    from jumpcad.search.store import Ledger
 
 StudiesArgument = Annotated[
     list[Path], typer.Argument(help="One study to look at, or several to compare.", metavar="F.db…")
@@ -32,7 +32,7 @@ def study(
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the rows."""
-    from jumpcad.search.ledger import Ledger
+    from jumpcad.search.store import Ledger
     from jumpcad.search.table import write_table
 
     if len(files) > 1 and (export or plots):
@@ -44,7 +44,7 @@ def study(
             if export is not None:
                 write_table(ledger.rows(), export)
             if plots is not None:
-                from jumpcad.report.studies import plot_study
+                from jumpcad.search.studies import plot_study
 
                 summaries[-1]["pictures"] = [str(picture) for picture in plot_study(ledger, plots)]
     if as_json:

@@ -10,8 +10,8 @@ if TYPE_CHECKING:
 def designed(subject: str, workshop: str) -> "Robot":
     """Return the printed robot of a bundle (from the inputs that it keeps), of a template, or of a design file."""
     from jumpcad.building import build as build_robot
+    from jumpcad.bundle.manifest import is_bundle, open_bundle
     from jumpcad.design import load_design
-    from jumpcad.exporters.manifest import is_bundle, open_bundle
     from jumpcad.workshop import load_workshop
 
     if is_bundle(subject):
@@ -24,7 +24,7 @@ def designed(subject: str, workshop: str) -> "Robot":
 
 def written_robot(subject: str) -> "Robot | None":
     """Return the robot of a bundle or a URDF file, read from that file; None for anything else."""
-    from jumpcad.exporters.manifest import is_bundle, open_bundle
+    from jumpcad.bundle.manifest import is_bundle, open_bundle
     from jumpcad.simulation.from_urdf import robot_from_urdf
 
     path = Path(subject)

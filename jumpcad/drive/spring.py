@@ -9,9 +9,9 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from jumpcad.catalogue import Wire
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
-from jumpcad.hardware import Wire
 
 _TURNS_MIN, _INDEX_MIN, _INDEX_MAX = 2.0, 4.0, 16.0
 """What springs are wound as: at least 2 turns, and 4 to 16 for coil over wire diameter."""

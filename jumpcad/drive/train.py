@@ -12,11 +12,11 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
+from jumpcad.catalogue import Motor
 from jumpcad.drive.cam import CamLaw
 from jumpcad.drive.gears import Gear, GearPair, centre_distance_mm, gear_pair, least_shift
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
-from jumpcad.hardware import Motor
 
 Array = npt.NDArray[np.float64]
 Pairs = npt.NDArray[np.void]

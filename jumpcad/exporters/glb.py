@@ -8,10 +8,10 @@ import numpy as np
 import trimesh
 from trimesh.visual.material import PBRMaterial
 
-from jumpcad.exporters.poses import body_poses
-from jumpcad.exporters.shapes import Colour, Shape, shapes
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.solids.shading import creased
+from jumpcad.scene.shading import creased
+from jumpcad.scene.shapes import Colour, Shape, shapes
 
 Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 """From the robot's z up to y up."""

@@ -6,12 +6,12 @@ Loading key frame `wound` and stepping is the whole jump. The cam is not modelle
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
-from jumpcad.exporters.poses import body_poses, standing
-from jumpcad.exporters.shapes import Shape, shapes
 from jumpcad.exporters.xml import about_y, add, document, wxyz
+from jumpcad.mechanism.poses import body_poses, standing
 from jumpcad.robot import BODY, Body, Joint, Robot
+from jumpcad.scene.shapes import Shape, shapes
+from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.mujoco import IMPEDANCE, SOFTNESS_STEPS, SUBSTEPS
-from jumpcad.simulation.settings import Settings, surface_friction
 
 MESH_FOLDER = "../urdf/meshes"
 """Folder of the meshes, seen from that of the MJCF file."""

@@ -9,12 +9,12 @@ import json
 import math
 import xml.etree.ElementTree as ET
 
-from jumpcad.exporters.shapes import Shape, shapes
 from jumpcad.exporters.xml import add, document, rpy
-from jumpcad.mass import principal_axes
+from jumpcad.mechanism.mass import principal_axes
 from jumpcad.robot import Body, Joint, Robot
+from jumpcad.scene.shapes import Shape, shapes
+from jumpcad.settings import Settings
 from jumpcad.simulation.mechanics import release_pose
-from jumpcad.simulation.settings import Settings
 
 MESH_FOLDER = "meshes"
 """Folder of the meshes, beside the URDF file."""

@@ -7,7 +7,7 @@ lies across, its shaft to the left.
 
 from dataclasses import dataclass
 
-from jumpcad.hardware import Motor
+from jumpcad.catalogue import Motor
 
 Interval = tuple[float, float]
 

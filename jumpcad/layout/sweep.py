@@ -8,8 +8,8 @@ import math
 import numpy as np
 
 from jumpcad.layout.room import EVERYWHERE, Array, Obstacle, bar
-from jumpcad.linkage import Linkage, direction
-from jumpcad.sizing import Sections
+from jumpcad.mechanism.linkage import Linkage, direction
+from jumpcad.strength.sizing import Sections
 
 POSITIONS = 13
 ALONG = 41

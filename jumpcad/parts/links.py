@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from jumpcad.layout.plan import Plan
-from jumpcad.parts.bores import Bores
+from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Placement, laid
 from jumpcad.robot import FRONT_LINK, MAIN_LEG
 from jumpcad.solids.outline import disc, filleted, hole, stadium, tapered_bar, union

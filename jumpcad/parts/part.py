@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from manifold3d import Manifold
 
-from jumpcad.mass import MassProperties
-from jumpcad.solids.bed import Lie, lie, require_bed
+from jumpcad.mechanism.mass import MassProperties
+from jumpcad.printing.bed import Lie, lie, require_bed
 from jumpcad.solids.blocks import Blocks
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack

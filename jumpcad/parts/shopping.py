@@ -6,13 +6,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.hardware import Bearing, Catalogue, Screw
+from jumpcad.catalogue import Bearing, Catalogue, Screw
 from jumpcad.layout.lateral import GAP_MM, ROLLER_WASHER_MM, Interval
 from jumpcad.layout.plan import TRAY_MM, Plan
 from jumpcad.parts import toes
 from jumpcad.parts.body_plate import ear_places
-from jumpcad.parts.bores import Bores
-from jumpcad.parts.bought import Bought, bought
+from jumpcad.parts.holes import Bores
+from jumpcad.parts.purchased import Bought, bought
 from jumpcad.parts.small import COLLAR_MM
 from jumpcad.parts.train import gear_turns
 from jumpcad.robot import BODY, FOOT, MAIN_LEG, Array

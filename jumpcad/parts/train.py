@@ -11,7 +11,7 @@ import numpy as np
 
 from jumpcad.drive.gears import Gear
 from jumpcad.layout.plan import Plan
-from jumpcad.parts.bores import Bores
+from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Placement, about_z, laid, lying_on_left
 from jumpcad.robot import BODY
 from jumpcad.solids.outline import Point, Region, d_bore, disc, hole, polygon, rectangle, rounded, union

@@ -8,9 +8,9 @@ from threadpoolctl import threadpool_limits
 
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.campaign import Campaign
-from jumpcad.search.ledger import Row
+from jumpcad.search.evaluator import Campaign
 from jumpcad.search.space import Array, Parameter
+from jumpcad.search.store import Row
 from jumpcad.search.surrogate import Surrogate, warped
 
 ELITE_SHARE = 0.1

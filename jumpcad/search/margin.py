@@ -11,10 +11,10 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from jumpcad.search.acquisition import Proposal, propose
-from jumpcad.search.bayesian import incumbent, unproposed
-from jumpcad.search.campaign import Campaign
-from jumpcad.search.ledger import Row
+from jumpcad.search.evaluator import Campaign
+from jumpcad.search.methods.bayesian import incumbent, unproposed
 from jumpcad.search.space import Array, Space
+from jumpcad.search.store import Row
 from jumpcad.search.surrogate import Belief
 
 CONFIDENCES = (0.95, 0.99, 0.999)

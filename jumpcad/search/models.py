@@ -13,7 +13,7 @@ from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import did_you_mean, templates_folder
 from jumpcad.findings import errors
-from jumpcad.gate import geometry_findings, statics_findings
+from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import Evaluation
 
 MODELS = ("printed", "capsule", "published")
@@ -64,7 +64,7 @@ class RobotModel:
             return False
         if self.name != "capsule":
             return True
-        from jumpcad.capsule import capsule_robot
+        from jumpcad.mechanism.capsule import capsule_robot
 
         return not errors(statics_findings(capsule_robot(design)))
 
@@ -94,7 +94,7 @@ class RobotModel:
         return Evaluation(result.verdict, _figures(result.jump) | result.metrics, tuple(result.findings))
 
     def _capsule(self, design: Design) -> Evaluation:
-        from jumpcad.capsule import capsule_robot
+        from jumpcad.mechanism.capsule import capsule_robot
         from jumpcad.simulation import simulate
 
         jump = simulate(capsule_robot(design), self.settings, self.engine)

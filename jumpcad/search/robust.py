@@ -12,10 +12,10 @@ import numpy as np
 from scipy.stats import qmc
 
 from jumpcad.design import PARAMETERS, Design
-from jumpcad.search.campaign import Campaign
-from jumpcad.search.ledger import Row
+from jumpcad.search.evaluator import Campaign
 from jumpcad.search.margin import keep_off
 from jumpcad.search.space import Array, Space, physical_limits
+from jumpcad.search.store import Row
 
 TENS = 3
 """How many times ten of the best rows are tried at most."""

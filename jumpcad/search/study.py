@@ -13,16 +13,16 @@ from typing import Any
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.search.bayesian import default_initial, run_bayesian
-from jumpcad.search.campaign import Campaign, Watch
-from jumpcad.search.genetic import find_preset, run_genetic
-from jumpcad.search.ledger import SEARCH_PHASES, Ledger, Row
+from jumpcad.search.evaluator import Campaign, Watch
+from jumpcad.search.methods.bayesian import default_initial, run_bayesian
+from jumpcad.search.methods.genetic import find_preset, run_genetic
+from jumpcad.search.methods.pareto import run_nsga2, run_pareto
 from jumpcad.search.models import versions
 from jumpcad.search.objective import Model, find_objective
-from jumpcad.search.pareto import run_nsga2, run_pareto
 from jumpcad.search.pool import Pool
 from jumpcad.search.robust import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.space import Space
+from jumpcad.search.store import SEARCH_PHASES, Ledger, Row
 
 FRONTS = ("pareto", "nsga2")
 """Methods that look for a front instead of one best design."""

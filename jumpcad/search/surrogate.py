@@ -16,8 +16,8 @@ from scipy.linalg import solve_triangular
 from scipy.optimize import minimize
 from scipy.special import erfcx, log_ndtr
 
-from jumpcad.search.ledger import Row
 from jumpcad.search.space import Array, Space
+from jumpcad.search.store import Row
 
 VERDICT = "verdict"
 """Stands among the constraints for all refusals together, also those that leave no margin: +1 for a jump, else -1."""

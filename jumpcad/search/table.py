@@ -8,7 +8,7 @@ from typing import Any
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import write_text_atomically
-from jumpcad.search.ledger import Row
+from jumpcad.search.store import Row
 
 
 def table(rows: Sequence[Row]) -> list[dict[str, Any]]:

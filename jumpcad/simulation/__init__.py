@@ -10,12 +10,12 @@ from typing import Protocol
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, errors
-from jumpcad.gate import geometry_findings, statics_findings
+from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.robot import Robot
+from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import ENGINES
 from jumpcad.simulation.jump import Jump
 from jumpcad.simulation.run import Run, World
-from jumpcad.simulation.settings import Settings, load_settings
 
 __all__ = ["Jump", "Settings", "load_settings", "simulate"]
 

@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.mass import principal_axes
+from jumpcad.mechanism.mass import principal_axes
 from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Robot
+from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.engines import import_pybullet
 from jumpcad.simulation.mechanics import Release, State, release_pose
-from jumpcad.simulation.settings import Settings, surface_friction
 
 RESET_EVERY = 500
 UNCLAMPED_RAD_S = 1e6

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.linkage import Linkage
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import BODY_NAMES, Array, Robot
 
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import BODY, BODY_NAMES, Robot
+from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.engines import import_mujoco
 from jumpcad.simulation.mechanics import Release, State, release_pose
-from jumpcad.simulation.settings import Settings, surface_friction
 
 SUBSTEPS = 4
 """MuJoCo's own steps in one of the settings': what makes its stiffest constraints as exact as Bullet's rigid ones."""

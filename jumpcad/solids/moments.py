@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from manifold3d import CrossSection, Manifold
 
-from jumpcad.mass import MassProperties
+from jumpcad.mechanism.mass import MassProperties
 
 Array = npt.NDArray[np.float64]
 

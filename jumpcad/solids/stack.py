@@ -15,7 +15,7 @@ import numpy.typing as npt
 from manifold3d import CrossSection, JoinType, Manifold, Mesh64, OpType
 
 from jumpcad.errors import JumpcadError
-from jumpcad.mass import MassProperties
+from jumpcad.mechanism.mass import MassProperties
 from jumpcad.solids.moments import areas_moments, mass_of, prism_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.skin import skin

@@ -8,12 +8,12 @@ import pytest
 from typer.testing import CliRunner
 
 import jumpcad
-from jumpcad.capsule import capsule_robot
 from jumpcad.checks import constraint_findings
 from jumpcad.cli import app
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, errors, limit
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 
 

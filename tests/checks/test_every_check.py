@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from support.built import LONG_TOES, built
 
+from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
 from jumpcad.checks.drive import drive_findings
 from jumpcad.checks.printability import bed_findings
@@ -22,7 +23,6 @@ from jumpcad.drive.gears import gear_pair
 from jumpcad.drive.spring import synthesise_spring
 from jumpcad.drive.train import _train
 from jumpcad.findings import errors
-from jumpcad.hardware import load_catalogue
 from jumpcad.robot import Robot
 
 DRIVE = synthesise(built("kenan-2.0").design, DriveLimits())

@@ -8,7 +8,7 @@ from manifold3d import Manifold
 
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import Moment, components, pose_of
-from jumpcad.linkage import Linkage
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import FOOT, FRONT_LINK, MAIN_LEG, Robot
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from jumpcad.checks.printability import bed_findings, printability_findings
 from jumpcad.findings import Finding, errors
-from jumpcad.mass import MassProperties
+from jumpcad.mechanism.mass import MassProperties
 from jumpcad.parts.part import Drawing, Part, Placement
 from jumpcad.robot import BODY, Robot
 from jumpcad.solids.blocks import Bar, Blocks

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from jumpcad.building import build
-from jumpcad.checks.case import Case, leg_axle_moment_nmm
+from jumpcad.catalogue import load_catalogue
+from jumpcad.checks.load_case import Case, leg_axle_moment_nmm
 from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
-from jumpcad.hardware import load_catalogue
-from jumpcad.hub import bearing_load_n
 from jumpcad.robot import Robot
+from jumpcad.strength.bearings import bearing_load_n
 
 
 def changed(robot: Robot, role: str, **figures: float) -> Robot:

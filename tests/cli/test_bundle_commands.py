@@ -80,7 +80,7 @@ def test_verify_finds_what_was_changed(capsys: pytest.CaptureFixture[str], tmp_p
 def test_render_draws_stills_and_the_jump_of_a_bundle(
     capsys: pytest.CaptureFixture[str], bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("jumpcad.pictures.stills.JUMP_FRAMES", 3)
+    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 3)
     code, out, _ = run(capsys, "render", bundle, "-o", tmp_path / "p", "--json")
     assert code == 0
     assert json.loads(out)["files"] == ["compressed.png", "exploded.png", "jump.gif", "rest.png"]

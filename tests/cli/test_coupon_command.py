@@ -7,8 +7,8 @@ import pytest
 from support.commands import Run
 
 from jumpcad.building import build
+from jumpcad.bundle.manifest import verify
 from jumpcad.design import load_design
-from jumpcad.exporters.manifest import verify
 from jumpcad.workshop import load_workshop
 
 

@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
-from jumpcad.exporters.bundle import export
-from jumpcad.exporters.manifest import open_bundle, verify
+from jumpcad.bundle.export import export
+from jumpcad.bundle.manifest import open_bundle, verify
+from jumpcad.bundle.sliced import slice_bundle
+from jumpcad.printing.layer_mass import mass_properties
+from jumpcad.printing.prusaslicer import slicer_program
 from jumpcad.robot import Robot
-from jumpcad.sliced_bundle import slice_bundle
-from jumpcad.slicing import slicer_program
-from jumpcad.solids.layers import mass_properties
 from jumpcad.workshop import load_workshop
 
 needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")

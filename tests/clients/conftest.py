@@ -5,8 +5,8 @@ from support.clients import Case
 from support.robots import make_small_robot
 
 from jumpcad.building import build
+from jumpcad.bundle.export import export
 from jumpcad.design import load_design
-from jumpcad.exporters.bundle import export
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
 

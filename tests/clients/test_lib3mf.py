@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import pytest
 import trimesh
 
-from jumpcad.exporters.plates import packed
 from jumpcad.exporters.threemf import write_threemf
+from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import hole, ring, stadium
 from jumpcad.solids.stack import Stack

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.clients import Case, same_tensor
 
-from jumpcad.exporters.poses import body_poses
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import BODY
 
 pinocchio = pytest.importorskip("pinocchio")

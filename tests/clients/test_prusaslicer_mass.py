@@ -11,14 +11,14 @@ import pytest
 from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.exporters.stl import write_stl
-from jumpcad.slicing import slice_part, slicer_program, slicer_settings
+from jumpcad.printing.layer_mass import mass_properties
+from jumpcad.printing.prusaslicer import slice_part, slicer_program, slicer_settings
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.finish import to_trimesh
-from jumpcad.solids.layers import mass_properties
 from jumpcad.solids.moments import mass_of
 from jumpcad.solids.outline import disc, hole, polygon, rectangle, tapered_bar
 from jumpcad.solids.stack import Stack
+from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import load_workshop
 
 needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
@@ -125,7 +125,7 @@ def test_settings_that_the_slicer_does_not_know_are_reported(tmp_path, monkeypat
     def with_a_typo(*workshop):
         return slicer_settings(*workshop) | {"perimeterz": "9"}
 
-    monkeypatch.setattr("jumpcad.slicing.slicer_settings", with_a_typo)
+    monkeypatch.setattr("jumpcad.printing.prusaslicer.slicer_settings", with_a_typo)
     path = written(Stack.of([(0, 2, disc(12))]), tmp_path)
     assert slice_part(path, WORKSHOP.printer, WORKSHOP.process, MATERIAL).ignored == {"perimeterz": ("9", "nothing")}
 

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.spring import SpringLimits, synthesise_spring
 from jumpcad.errors import CannotBuildError
-from jumpcad.hardware import load_catalogue
 
 WIRE = load_catalogue().wire
 LENGTH_MM = 13.0

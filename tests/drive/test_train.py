@@ -6,12 +6,12 @@ import math
 
 import pytest
 
+from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.cam import CamLaw
 from jumpcad.drive.gears import gear_pair
 from jumpcad.drive.train import TrainLimits, synthesise_train
 from jumpcad.errors import CannotBuildError
-from jumpcad.hardware import load_catalogue
 
 MOTORS = list(load_catalogue().motors.values())
 LIMITS = TrainLimits()

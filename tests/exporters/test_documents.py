@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 
 from jumpcad.building import build
+from jumpcad.bundle.bom import Plate, bill_of_facts, bill_of_materials, mass_facts, write_bom
+from jumpcad.bundle.guide import with_bill, write_guide
 from jumpcad.design import load_design
-from jumpcad.exporters.bom import Plate, bill_of_facts, bill_of_materials, mass_facts, write_bom
-from jumpcad.exporters.guide import with_bill, write_guide
-from jumpcad.exporters.shapes import shapes
-from jumpcad.exporters.steps import REST, assembly_steps
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import REST, assembly_steps
+from jumpcad.scene.shapes import shapes
 from jumpcad.workshop import load_workshop
 
 

@@ -14,12 +14,12 @@ from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import MILLIMETRES, sheet, write_dxf, write_dxfs
 from jumpcad.exporters.glb import write_glb
-from jumpcad.exporters.poses import body_poses
-from jumpcad.exporters.shapes import shapes
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.body_plate import TEXT_HEIGHTS_MM
 from jumpcad.robot import Robot
+from jumpcad.scene.shading import creased
+from jumpcad.scene.shapes import shapes
 from jumpcad.solids.outline import disc, hole, rectangle
-from jumpcad.solids.shading import creased
 from jumpcad.solids.text import text
 
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from jumpcad.building import build
+from jumpcad.bundle.export import export
+from jumpcad.bundle.manifest import verify
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.exporters import step
-from jumpcad.exporters.bundle import export
-from jumpcad.exporters.manifest import verify
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.blocks import Blocks, Finger

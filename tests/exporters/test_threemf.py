@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from jumpcad.exporters.plates import packed
 from jumpcad.exporters.threemf import write_threemf
+from jumpcad.printing.plates import packed
 
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from support.loaded import loaded_range_m
 
-from jumpcad.capsule import capsule_robot
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import BODY_NAMES, Robot
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf

@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from jumpcad.hardware import load_catalogue
+from jumpcad.catalogue import load_catalogue
 from jumpcad.layout.lateral import GAP_MM, Lateral, lateral_stack
 
 MOTOR = load_catalogue().motors["n20-298"]

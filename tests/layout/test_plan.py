@@ -11,12 +11,12 @@ import pytest
 import shapely
 from support.built import LONG_TOES, built, geared, in_body
 
-from jumpcad.assembly import plan_of
+from jumpcad.building.assembly import plan_of
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
-from jumpcad.gate import geometry_findings
 from jumpcad.layout.plan import CLEAR_MM, TRAY_MM, Electronics, Plan, make_plan
+from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop
 

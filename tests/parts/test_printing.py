@@ -8,9 +8,9 @@ import shapely
 import trimesh
 from support.built import LONG_TOES, built, geared, region
 
-from jumpcad.exporters.stl import write_stl
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import faults
+from jumpcad.solids.stl import write_stl
 
 LAYER_MM = 0.2
 BRIDGE_MM, LINES_MM = 10.0, 0.9

@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 from support.hills import SMALL, Hill
 
-from jumpcad.search.campaign import Campaign
-from jumpcad.search.ledger import Ledger
+from jumpcad.search.evaluator import Campaign
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
+from jumpcad.search.store import Ledger
 
 
 @pytest.fixture

@@ -13,9 +13,9 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.ledger import Ledger
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
+from jumpcad.search.store import Ledger
 from jumpcad.search.study import Request, plan_stages, run_study
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4)

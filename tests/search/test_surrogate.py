@@ -8,8 +8,8 @@ from sklearn.gaussian_process import GaussianProcessRegressor
 from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
-from jumpcad.search.ledger import Row
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.store import Row
 from jumpcad.search.surrogate import VERDICT, Belief, Surrogate, _kernel, constraint_margins, forwards, unwarped, warped
 
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from support.flights import Flight, make_lopsided
 
-from jumpcad.capsule import capsule_robot
 from jumpcad.design import PARAMETERS, Design, load_design
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 
 TABLE = Path(__file__).parents[1] / "data" / "reference_flights.csv"

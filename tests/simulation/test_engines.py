@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from support.flights import Flight
 
-from jumpcad.capsule import capsule_robot
 from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import BODY, BODY_NAMES, Robot
 from jumpcad.simulation import Settings, _engine, simulate
 from jumpcad.simulation.bullet import LINKS

@@ -9,11 +9,11 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from support.flights import Flight
 
-from jumpcad.mass import principal_axes
+from jumpcad.mechanism.mass import principal_axes
 from jumpcad.robot import BODY, BODY_NAMES, FOOT, Array, Robot
+from jumpcad.settings import Settings
 from jumpcad.simulation import _engine
 from jumpcad.simulation.mechanics import Mechanics, State, ballistics, release_pose
-from jumpcad.simulation.settings import Settings
 
 
 def frames(robot: Robot) -> dict[str, Array]:

@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 from support.flights import Flight, make_lopsided
 
-from jumpcad.capsule import capsule_robot
 from jumpcad.design import Design
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import BODY, FOOT, Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.mechanics import release_pose

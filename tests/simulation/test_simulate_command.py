@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from jumpcad import cli
-from jumpcad.capsule import capsule_robot
 from jumpcad.design import Design, load_design
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Settings, simulate
 
 

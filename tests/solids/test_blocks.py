@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jumpcad.assembly import plan_of
+from jumpcad.building.assembly import plan_of
 from jumpcad.design import load_design
 from jumpcad.parts.foot import foot
 from jumpcad.solids.blocks import Bar, Blocks, Finger

@@ -5,7 +5,7 @@ import pytest
 import trimesh
 from manifold3d import Manifold
 
-from jumpcad.mass import MassProperties, combined
+from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.solids import moments, outline
 
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from jumpcad.exporters.manifest import Bundle
-from jumpcad.exporters.poses import body_poses
-from jumpcad.exporters.shapes import shapes
+from jumpcad.bundle.manifest import Bundle
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.shapes import shapes
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from jumpcad.settings import Settings
 from jumpcad.simulation.bullet import BODY_ORDER, BulletEngine, BulletWorld
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.simulation.run import Run
-from jumpcad.simulation.settings import Settings
 
 
 class LoadedWorld(BulletWorld):

@@ -3,11 +3,11 @@
 from collections import defaultdict
 from dataclasses import replace
 
-from jumpcad.capsule import capsule_robot
 from jumpcad.design import load_design
-from jumpcad.mass import combined
-from jumpcad.parts.bought import bought, in_metres
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.mass import combined
 from jumpcad.parts.part import Drawing, Part, Placement, laid, lying_on_left, lying_on_right
+from jumpcad.parts.purchased import bought, in_metres
 from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Robot
 from jumpcad.solids.outline import disc, hole, rectangle, stadium, union
 from jumpcad.solids.stack import Stack

@@ -1,0 +1,106 @@
+"""assembly.md: what to print, what to buy, which springs to order, and how it goes together."""
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from jumpcad.bundle.bom import Bill, Item, bill_of_materials, euros
+from jumpcad.parts.part import Part
+from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import assembly_steps
+from jumpcad.scene.shapes import Shape
+
+PRINT, BUY = "## Print", "## Buy"
+
+
+def write_guide(robot: Robot, pictures: bool = True) -> str:
+    """Return the guide in Markdown; `pictures` says whether `pictures/step-N.png` are beside it."""
+    lines = [
+        f"# {robot.name}",
+        "",
+        f"{1000.0 * robot.mass_kg:.1f} g. Left and right are the robot's own, seen from above with the jump ahead.",
+        *_tables(bill_of_materials(robot)),
+        *_springs(robot),
+        *_steps(robot, pictures),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def with_bill(guide: str, bill: Bill) -> str:
+    """Return a written guide with another bill in place of its own."""
+    tables = re.compile(rf"\n{PRINT}\n.*\n{BUY}\n.*?(?=\n\n## |\Z)", re.DOTALL)
+    return tables.sub(lambda _: "\n".join(_tables(bill)), guide, count=1)
+
+
+def duration(seconds: float) -> str:
+    """Return a time in hours and minutes, rounded to whole minutes: `2:31 h`."""
+    hours, minutes = divmod(round(seconds / 60.0), 60)
+    return f"{hours}:{minutes:02d} h"
+
+
+def _tables(bill: Bill) -> Iterator[str]:
+    """Yield the bill's lines; times and prices have columns where any is known."""
+    printed = [item for item in bill.items if item.kind == "printed"]
+    bought = [item for item in bill.items if item.kind == "bought"]
+    yield from ("", PRINT, "", *_table("part | copies | material | g each", printed, printed=True))
+    if bill.plates:
+        yield from ("", "| plate | material | time |", "|---|---|--:|")
+        yield from (f"| {plate.name} | {plate.material} | {duration(plate.time_s)} |" for plate in bill.plates)
+        yield f"| all | | {duration(bill.time_s or 0.0)} |"
+    yield from ("", BUY, "", *_table("article | quantity | g each", bought, printed=False))
+    cost = "" if bill.cost_eur is None else f", {euros(bill.cost_eur)} € together"
+    yield from ("", f"In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.")
+
+
+def _table(head: str, items: Sequence[Item], printed: bool) -> Iterator[str]:
+    timed = any(item.time_s is not None for item in items)
+    priced = any(item.price_eur is not None for item in items)
+    yield f"| {head} |{' time each |' * timed}{' € |' * priced}"
+    yield f"|---|--:|{'---|' * printed}--:|{'--:|' * timed}{'--:|' * priced}"
+    for item in items:
+        row = [item.name, str(item.quantity), *([item.material] * printed), f"{1000.0 * item.mass_kg:.2f}"]
+        row += [duration(item.time_s) if item.time_s is not None else ""] * timed
+        row += [euros(item.total_eur)] * priced
+        yield f"| {' | '.join(row)} |"
+
+
+def _springs(robot: Robot) -> Iterator[str]:
+    """Yield the order for the spring maker."""
+    if robot.plan is None:
+        return
+    spring = robot.plan.drive.spring
+    rate = 1000.0 * spring.stiffness_nm_per_rad * math.pi / 180.0
+    wind = math.degrees(robot.spring.wind_rad)
+    yield from (
+        "",
+        "## Springs to order",
+        "",
+        "Two torsion springs, one wound left-hand and one right-hand, close-coiled, of patented spring steel wire:",
+        "",
+        f"- wire {spring.wire_mm:g} mm, inside diameter {spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, "
+        f"body at most {spring.body_length_mm:.1f} mm long when wound",
+        f"- two straight arms of {spring.arm_length_mm:.1f} mm, {math.degrees(spring.free_arm_angle_rad):.0f}° apart "
+        "when relaxed",
+        f"- {rate:.2f} N·mm/° each; works from 0° to {wind:.1f}°, closing; {spring.stress_mpa:.0f} MPa at most "
+        f"({spring.allowable_mpa:.0f} MPa allowed)",
+    )
+
+
+def _steps(robot: Robot, pictures: bool) -> Iterator[str]:
+    for number, step in enumerate(assembly_steps(robot), start=1):
+        yield from ("", f"## {number}. {step.title}", "", step.text, "")
+        if pictures:
+            yield from (f"![{step.title}](pictures/step-{number}.png)", "")
+        for label, count in Counter(_label(shape) for shape in step.added if _counts(shape)).items():
+            yield f"- {count} × {label}"
+
+
+def _label(shape: Shape) -> str:
+    source = shape.source
+    return source.name if isinstance(source, Part) else source.article
+
+
+def _counts(shape: Shape) -> bool:
+    """Tell whether a shape is a thing of its own, not a piece of one that is listed elsewhere."""
+    return isinstance(shape.source, Part) or shape.source.units > 0

@@ -1,0 +1,167 @@
+"""What pictures of a robot there are: at rest, compressed, exploded, and its jump."""
+
+import io
+from collections.abc import Sequence
+
+import numpy as np
+from PIL import Image
+from scipy.spatial.transform import Rotation
+
+from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.poses import body_poses, transform
+from jumpcad.parts.part import Array
+from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import assembly_steps
+from jumpcad.scene.camera import View
+from jumpcad.scene.renderer import Studio
+from jumpcad.scene.shapes import Shape, shapes
+from jumpcad.simulation.jump import Trajectory
+
+STILLS = ("rest", "compressed", "exploded")
+STILL_SIZE = (600, 450)
+JUMP_SIZE = (560, 350)
+JUMP_FRAMES = 36
+FRAME_MS = 50
+PALETTE = 64
+EXPLOSION = 2.4
+"""How far things move apart across the robot, over their distance from its middle plane."""
+CENTRED_M = 0.004
+"""A thing whose middle is within this of the middle plane is in the middle."""
+EXPLODED_VIEW = View(yaw_deg=-34.0, pitch_deg=24.0)
+STEP_SIZE = (320, 240)
+STEP_VIEW = View(yaw_deg=62.0, pitch_deg=24.0)
+"""From the left, from where things are put on the axles."""
+STEP_ROOM = 1.3
+JUMP_VIEW = View(yaw_deg=-80.0, pitch_deg=6.0)
+
+
+def stills(robot: Robot, size: tuple[int, int] = STILL_SIZE) -> dict[str, bytes]:
+    """Return the PNG files of a robot at rest, compressed and exploded, by name.
+
+    Raises
+    ------
+    JumpcadError
+        If the robot has no parts to be seen.
+    """
+    things = _things(robot)
+    return _stills(_studio(things), robot, things, size)
+
+
+def all_pictures(robot: Robot) -> dict[str, bytes]:
+    """Return the PNG files of a robot and of every step of its assembly, by name.
+
+    Raises
+    ------
+    JumpcadError
+        As `stills`.
+    """
+    things = _things(robot)
+    scene = _studio(things)
+    return _stills(scene, robot, things, STILL_SIZE) | _step_pictures(scene, robot, things, STEP_SIZE)
+
+
+def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
+    """Return an animated GIF of a recorded jump, at an even pace from release on."""
+    things = _things(robot)
+    times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
+    moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
+    frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
+    corners = np.concatenate([_corners(things, poses) for poses in frames])
+    scene = _studio(things)
+    return _gif([scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames])
+
+
+def exploded(things: Sequence[Shape], poses: Sequence[Array]) -> list[Array]:
+    """Return poses with everything moved apart across the robot, as far as its outer face is from the middle plane.
+
+    What is centred on that plane stays: legs, and what reaches from plate to plate.
+    """
+    moved = []
+    for thing, pose in zip(things, poses, strict=True):
+        y = _corners([thing], [pose])[:, 1]
+        centre = float((pose[:3, :3] @ thing.mesh.centroid)[1] / 1000.0 + pose[1, 3])
+        outer = float(y.max() if centre > 0.0 else y.min()) if abs(centre) > CENTRED_M else 0.0
+        moved.append(transform(pose[:3, :3], pose[:3, 3] + [0.0, EXPLOSION * outer, 0.0]))
+    return moved
+
+
+def _stills(scene: Studio, robot: Robot, things: Sequence[Shape], size: tuple[int, int]) -> dict[str, bytes]:
+    rest, wound = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
+    scenes = ((rest, View()), (wound, View()), (exploded(things, rest), EXPLODED_VIEW))
+    return {
+        name: _png(scene.picture(poses, size, view, _corners(things, poses)))
+        for name, (poses, view) in zip(STILLS, scenes, strict=True)
+    }
+
+
+def _step_pictures(scene: Studio, robot: Robot, things: Sequence[Shape], size: tuple[int, int]) -> dict[str, bytes]:
+    """Return a picture of every step of assembly: what is added in colour, what is already there pale."""
+    steps = assembly_steps(robot)
+    number = {shape.name: index for index, step in enumerate(steps) for shape in step.added}
+    poses = _poses(things, body_poses(robot))
+    pictures = {}
+    for index in range(len(steps)):
+        there = [pose if number[thing.name] <= index else None for thing, pose in zip(things, poses, strict=True)]
+        pale = [number[thing.name] < index for thing in things]
+        added = [thing for thing in things if number[thing.name] == index]
+        corners = _corners(added, _poses(added, body_poses(robot)))
+        pictures[f"step-{index + 1}"] = _png(scene.picture(there, size, STEP_VIEW, _widened(corners), pale))
+    return pictures
+
+
+def _studio(things: Sequence[Shape]) -> Studio:
+    return Studio([(thing.mesh, thing.colour) for thing in things])
+
+
+def _things(robot: Robot) -> tuple[Shape, ...]:
+    things = shapes(robot)
+    if not things:
+        raise JumpcadError(f"{robot.name}: has no parts to be seen; jumpcad build makes them")
+    return things
+
+
+def _poses(things: Sequence[Shape], bodies: dict[str, Array]) -> list[Array]:
+    return [bodies[thing.body] @ thing.T_body_mesh for thing in things]
+
+
+def _recorded(trajectory: Trajectory, moment: int) -> dict[str, Array]:
+    turns = Rotation.from_quat(trajectory.quaternion_xyzw[moment]).as_matrix()
+    places = trajectory.position_m[moment]
+    return {
+        name: transform(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)
+    }
+
+
+def _corners(things: Sequence[Shape], poses: Sequence[Array]) -> Array:
+    """Return the corners (8·n, 3) of the things' bounding boxes in the world (m)."""
+    corners = []
+    for thing, pose in zip(things, poses, strict=True):
+        low, high = thing.mesh.bounds / 1000.0
+        box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        corners.append(box @ pose[:3, :3].T + pose[:3, 3])
+    return np.concatenate(corners)
+
+
+def _widened(corners: Array) -> Array:
+    """Return a frame with room around what is added, so that it is seen where it belongs."""
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
+    return middle + STEP_ROOM * (corners - middle)
+
+
+def _png(picture: Image.Image) -> bytes:
+    stream = io.BytesIO()
+    picture.save(stream, "PNG")
+    return stream.getvalue()
+
+
+def _gif(pictures: list[Image.Image]) -> bytes:
+    """Return an endless GIF whose frames share one palette."""
+    width, height = pictures[0].size
+    sheet = Image.new("RGB", (width, height * len(pictures)))
+    for row, picture in enumerate(pictures):
+        sheet.paste(picture, (0, row * height))
+    palette = sheet.quantize(PALETTE, dither=Image.Dither.NONE)
+    first, *rest = (picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures)
+    stream = io.BytesIO()
+    first.save(stream, "GIF", save_all=True, append_images=rest, duration=FRAME_MS, loop=0)
+    return stream.getvalue()

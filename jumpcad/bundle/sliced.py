@@ -1,0 +1,207 @@
+"""A bundle's parts and plates as PrusaSlicer prints them, beside the printed-mass model."""
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import trimesh
+from manifold3d import Manifold, Mesh64
+
+from jumpcad.bundle.bom import Plate, bill_of_facts, write_bom
+from jumpcad.bundle.folder import change_files
+from jumpcad.bundle.guide import with_bill
+from jumpcad.bundle.manifest import Bundle, open_bundle, verify
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.printing.layer_mass import mass_properties
+from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version
+from jumpcad.solids.moments import mesh_moments
+from jumpcad.solids.outline import Region
+from jumpcad.solids.stack import Section
+from jumpcad.workshop import Material, Workshop, load_workshop
+
+Array = npt.NDArray[np.float64]
+
+STRAIGHT_MM = 1e-4
+"""Corners nearer than this to a straight line come from the triangles of a wall."""
+SMALLEST_MM2 = 1e-2
+"""Cross-sections that differ by less do so because STL files hold 32-bit floats."""
+PLATE = re.compile(r"print/(plate-\d+-(.+))\.3mf")
+
+
+@dataclass(frozen=True)
+class SlicedPart:
+    """A printed part: grams of one copy as sliced and as modelled from the same STL file, seconds to print it alone."""
+
+    name: str
+    material: str
+    quantity: int
+    grams: float
+    modelled_grams: float
+    time_s: float
+
+    @property
+    def difference(self) -> float:
+        """By what share of the sliced mass the model is heavier (lighter if negative)."""
+        return self.modelled_grams / self.grams - 1.0
+
+
+@dataclass(frozen=True)
+class SlicedPlate:
+    """A plate sliced as it lies: grams and seconds of all that is on it."""
+
+    name: str
+    material: str
+    grams: float
+    time_s: float
+
+
+@dataclass(frozen=True)
+class SlicedBundle:
+    """What PrusaSlicer says of a bundle printed in a workshop.
+
+    `billed` tells whether the times belong into the bundle's bill of materials: it has one and is its own workshop's.
+    `ignored` maps each setting that the slicer did not take over to what was asked for and what it used.
+    """
+
+    bundle: Bundle
+    version: str
+    workshop: Workshop
+    billed: bool
+    parts: tuple[SlicedPart, ...]
+    plates: tuple[SlicedPlate, ...]
+    ignored: dict[str, tuple[str, str]]
+
+    @property
+    def weighed(self) -> Workshop:
+        """The workshop with the sliced grams as the weighed masses of its parts, to 1 mg."""
+        grams = self.workshop.mass.weighed_g | {part.name: round(part.grams, 3) for part in self.parts}
+        mass = self.workshop.mass.model_copy(update={"weighed_g": grams})
+        return self.workshop.model_copy(update={"mass": mass})
+
+
+def slice_bundle(
+    folder: str | Path, workshop: Workshop | None = None, tell: Callable[[str], None] = lambda name: None
+) -> SlicedBundle:
+    """Slice every part and every plate of a bundle.
+
+    Parameters
+    ----------
+    folder
+        The bundle.
+    workshop
+        How it is printed; as the bundle's own workshop says unless given.
+    tell
+        Is told the name of what is sliced next.
+
+    Raises
+    ------
+    JumpcadError
+        If a file of the bundle is changed or missing, if it has no printed parts, or if PrusaSlicer is missing,
+        crashes, or is of another major version.
+    CannotBuildError
+        If PrusaSlicer refuses a part.
+    """
+    if wrong := verify(folder):
+        raise JumpcadError(f"{folder} is not as it was built: {', '.join(wrong)}; jumpcad build makes it anew")
+    bundle = open_bundle(folder)
+    printed = [line for line in bundle.manifest["masses"] if line["kind"] == "printed"]
+    if not printed or "workshop.toml" not in bundle.files:
+        raise JumpcadError(f"{folder}: has no printed parts to slice")
+    version = slicer_version()
+    built_in = load_workshop(bundle.folder / "workshop.toml")
+    workshop = workshop or built_in
+    _require_materials((line["material"] for line in printed), workshop)
+    ignored: dict[str, tuple[str, str]] = {}
+    parts, plates = [], []
+    for line in printed:
+        tell(line["name"])
+        stl, material = bundle.folder / f"stl/{line['name']}.stl", workshop.materials[line["material"]]
+        sliced = slice_part(stl, workshop.printer, workshop.process, material)
+        ignored |= sliced.ignored
+        modelled = _modelled_grams(stl, workshop, material)
+        parts.append(
+            SlicedPart(line["name"], line["material"], line["quantity"], _some(stl, sliced), modelled, sliced.time_s)
+        )
+    for path, name, material_name in _plates(bundle):
+        tell(name)
+        sliced = slice_plate(path, workshop.printer, workshop.process, workshop.materials[material_name])
+        ignored |= sliced.ignored
+        plates.append(SlicedPlate(name, material_name, _some(path, sliced), sliced.time_s))
+    billed = workshop == built_in and "bom.csv" in bundle.files
+    return SlicedBundle(bundle, version, workshop, billed, tuple(parts), tuple(plates), ignored)
+
+
+def write_times(found: SlicedBundle) -> Bundle:
+    """Write the printing times into a bundle's bill of materials and guide, and return the bundle as it is then.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder cannot be written.
+    """
+    bundle = found.bundle
+    bill = bill_of_facts(bundle.manifest["masses"], found.workshop).sliced(
+        {part.name: part.time_s for part in found.parts},
+        [Plate(plate.name, plate.material, plate.time_s) for plate in found.plates],
+    )
+    guide = (bundle.folder / "assembly.md").read_text(encoding="utf-8")
+    changes = {"bom.csv": write_bom(bill), "assembly.md": with_bill(guide, bill)}
+    return change_files(bundle, changes, {"PrusaSlicer": found.version})
+
+
+def _plates(bundle: Bundle) -> Iterator[tuple[Path, str, str]]:
+    """Yield file, name and material of each plate."""
+    for path in bundle.files:
+        if found := PLATE.fullmatch(path):
+            yield bundle.folder / path, found[1], found[2]
+
+
+def _require_materials(names: Iterable[str], workshop: Workshop) -> None:
+    """Refuse a workshop that lacks a material that the bundle is printed in."""
+    for name in names:
+        if name not in workshop.materials:
+            known = ", ".join(workshop.materials)
+            raise JumpcadError(f"the bundle has parts of {name}, but the workshop only {known}: build it with that")
+
+
+def _some(model: Path, sliced: Sliced) -> float:
+    """Return the grams of what was sliced, if any."""
+    if not sliced.grams > 0.0:
+        raise CannotBuildError(f"{model.name}: the slicer found nothing to print: every wall is thinner than a line")
+    return sliced.grams
+
+
+def _modelled_grams(stl: Path, workshop: Workshop, material: Material) -> float:
+    """Return what the printed-mass model makes of an STL file (g)."""
+    mass = mass_properties(_Scan(stl), material.density_g_cm3, workshop.process, workshop.printer.nozzle_mm)
+    return 1000.0 * mass.mass_kg
+
+
+class _Scan:
+    """An STL file as the mass model sees parts (mm)."""
+
+    def __init__(self, stl: Path) -> None:
+        mesh = trimesh.load_mesh(stl)
+        self._solid = Manifold(Mesh64(np.asarray(mesh.vertices, dtype=float), mesh.faces.astype(np.uint64)))
+
+    @property
+    def bounds_mm(self) -> Array:
+        """Lower and upper corner of the bounding box, (2, 3)."""
+        return np.array(self._solid.bounding_box()).reshape(2, 3)
+
+    @property
+    def moments(self) -> Array:
+        """Volume moments (10,)."""
+        return mesh_moments(self._solid)
+
+    def sections_at(self, heights_mm: Array) -> list[Section]:
+        """Return the cross-sections at heights (n,); neighbours that do not differ are one object."""
+        regions: list[Region] = []
+        for height in heights_mm:
+            region = self._solid.slice(float(height)).simplify(STRAIGHT_MM)
+            same = regions and (region - regions[-1]).area() + (regions[-1] - region).area() < SMALLEST_MM2
+            regions.append(regions[-1] if same else region)
+        return [Section(region) for region in regions]

@@ -1,0 +1,120 @@
+"""A robot under load: what its strength checks share (N, N·mm, mm, MPa)."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from jumpcad.findings import Finding, limit
+from jumpcad.layout.plan import Plan
+from jumpcad.parts.holes import Bores
+from jumpcad.robot import BODY, Array, Robot
+from jumpcad.strength.bearings import wound_forces_n
+from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_tip_mm
+from jumpcad.strength.stress import Skin, pin_stress_mpa
+from jumpcad.workshop import Workshop
+
+
+@dataclass(frozen=True)
+class Case:
+    """A robot under load."""
+
+    robot: Robot
+    plan: Plan
+    workshop: Workshop
+
+    @cached_property
+    def torque_nmm(self) -> float:
+        return 1000.0 * self.robot.design.peak_spring_torque_nm
+
+    @cached_property
+    def skin(self) -> Skin:
+        return Skin.of(self.workshop.process)
+
+    @cached_property
+    def bores(self) -> Bores:
+        return Bores.of(self.workshop, self.plan.hub_bearing)
+
+    @cached_property
+    def allowable_mpa(self) -> float:
+        return self.workshop.material("links").strength_in_plane_mpa / self.workshop.safety.strength_factor
+
+    @cached_property
+    def steel_mpa(self) -> float:
+        return self.workshop.safety.steel_yield_mpa / self.workshop.safety.steel_factor
+
+    @cached_property
+    def forces(self) -> PushOff:
+        body = self.robot.bodies[BODY]
+        gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
+        mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
+        return push_off(self.robot.design, mass, self.plan.sections.foot_depth_mm)
+
+    @cached_property
+    def ankle_n(self) -> float:
+        return float(np.linalg.norm(self.forces.ankle_n, axis=1).max())
+
+    @cached_property
+    def front_n(self) -> float:
+        return float(np.abs(self.forces.front_n).max())
+
+    @cached_property
+    def landing_n(self) -> float:
+        return landing_force_n(self.robot.design, self.robot.mass_kg, self.workshop.safety.landing_stop_mm)
+
+    @cached_property
+    def toe_blow_n(self) -> float:
+        """What one toe's tip bears that lands first: the body turns away from it."""
+        body = self.robot.bodies[BODY]
+        about_x, about_y = 1000.0 * np.sqrt(np.diag(body.inertia_kg_m2)[:2] / body.mass_kg)
+        return self.landing_n * reflected_share(toe_tip_mm(self.robot.design), (float(about_x), float(about_y)))
+
+    @cached_property
+    def steel_stresses_mpa(self) -> dict[str, float]:
+        """Bending stresses of axles and pins: the leg's and the cam's axle, the springs' pin, the foot's pins."""
+        plan, lateral = self.plan, self.plan.lateral
+        span = (sum(lateral.left_plate) - sum(lateral.right_plate)) / 2.0
+        arms, cam = self.wound_forces_n
+        at = sum(lateral.cam) / 2.0 - sum(lateral.right_plate) / 2.0
+        arm = self.torque_nmm / plan.leg_pin_mm / 2.0
+        thickness, lug = plan.sections.thickness_mm, plan.sections.lug_thickness_mm
+        lever = lateral.lug_left[0] - thickness / 2.0 + lug / 2.0 + thickness / 4.0
+        moments = {
+            "leg_axle": leg_axle_moment_nmm(arms, cam, span, sum(lateral.spring_left) / 2.0),
+            "cam_axle": plan.drive.cam.peak_contact_n * at * (span - at) / span,
+            "spring_pin": arm * (span / 2.0 - lateral.spring_left[1]),
+            "foot_pin": max(self.ankle_n, self.front_n, self.landing_n) / 2.0 * lever,
+        }
+        return {name: pin_stress_mpa(moment, plan.axle_mm) for name, moment in moments.items()}
+
+    @cached_property
+    def wound_forces_n(self) -> tuple[tuple[Array, Array], Array]:
+        """Forces (2,) of the springs' arms on leg and plates, and that of the cam on the lever.
+
+        In the body's frame, springs wound, roller at the end of the lift; both springs together.
+        """
+        plan = self.plan
+        on_leg, on_lever = wound_forces_n(self.robot.design, plan.drive)
+        pin = (plan.spring_pin_mm - plan.hub_mm) / plan.leg_pin_mm
+        on_pin = self.torque_nmm / plan.leg_pin_mm * np.array([-pin[1], pin[0]])
+        return (on_leg, on_pin), on_lever
+
+
+def stress_finding(name: str, what: str, stress: float, allowable: float, remedy: str) -> Finding:
+    message = f"{what}: {stress:.1f} of {allowable:.1f} MPa"
+    return limit(name, allowable - stress, "MPa", message, remedy)
+
+
+def leg_axle_moment_nmm(arms_n: tuple[Array, Array], cam_n: Array, span_mm: float, coil_mm: float) -> float:
+    """Return the largest bending moment in the leg's axle, a simple beam between the plates.
+
+    The leg pushes on its middle with arm and cam forces; each coil, `coil_mm` beside it, pushes back with half of
+    what its arms bear.
+    """
+    on_leg, on_pin = arms_n
+    support = (cam_n - on_pin) / 2.0
+    coil = -(on_leg + on_pin) / 2.0
+    middle = support * span_mm / 2.0 - coil * coil_mm
+    beside = support * (span_mm / 2.0 - coil_mm)
+    return float(max(np.linalg.norm(middle), np.linalg.norm(beside)))

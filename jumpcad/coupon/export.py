@@ -1,0 +1,110 @@
+"""The fit coupon's folder: STL and 3MF files, how to use them, and a file for the readings.
+
+It is a bundle like a robot's: with a manifest, and with the workshop that it was made for.
+"""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from jumpcad.bundle.folder import write_folder
+from jumpcad.bundle.manifest import Bundle, is_bundle, verify
+from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_bores, pieces
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters.threemf import write_threemf
+from jumpcad.files import templates_folder
+from jumpcad.parts.holes import Bores
+from jumpcad.printing.layer_mass import mass_properties
+from jumpcad.printing.plates import packed
+from jumpcad.solids.finish import require_part
+from jumpcad.solids.stl import write_stl
+from jumpcad.workshop import Workshop
+
+READINGS = "readings.toml"
+GUIDE = "guides/coupon.md"
+
+
+def export_coupon(workshop: Workshop, folder: str | Path) -> Bundle:
+    """Write the coupon of a workshop: a gauge in every material that a role uses, gears in that of the gears.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder holds anything but a bundle or a coupon whose readings were filled in, or cannot be written.
+    CannotBuildError
+        If a piece does not fit the bed.
+    """
+    if is_bundle(folder) and f"{READINGS}: changed" in verify(folder):
+        raise JumpcadError(f"{folder}: {READINGS} has been filled in; choose another folder with -o or move it away")
+    bores = coupon_bores(workshop)
+    made = pieces(bores, list(workshop.materials), workshop.material_name("gears"))
+    masses = [
+        {
+            "kind": "printed",
+            "name": piece.name,
+            "quantity": piece.quantity,
+            "material": piece.material,
+            "mass_kg": _mass_kg(piece, workshop),
+            "source": "printed",
+        }
+        for piece in made
+    ]
+    facts = {"mass_kg": sum(_mass_kg(piece, workshop) for piece in made), "masses": masses}
+    return write_folder(folder, "coupon", facts, _contents(workshop, bores, made))
+
+
+def _contents(workshop: Workshop, bores: Bores, made: Sequence[Piece]) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of every file but the manifest."""
+    yield "workshop.toml", workshop.to_toml()
+    for piece in made:
+        stl = write_stl(piece.mesh)
+        require_part(piece.name, stl)
+        yield f"stl/{piece.name}.stl", stl
+    for plate in packed(made, workshop.printer.bed_mm, workshop.process.part_spacing_mm):
+        yield f"print/{plate.name}.3mf", write_threemf(plate)
+    yield "coupon.md", _guide(workshop, bores)
+    yield READINGS, _template(workshop, bores)
+
+
+def _mass_kg(piece: Piece, workshop: Workshop) -> float:
+    density = workshop.materials[piece.material].density_g_cm3
+    return mass_properties(piece.shape, density, workshop.process, workshop.printer.nozzle_mm).mass_kg
+
+
+def _guide(workshop: Workshop, bores: Bores) -> str:
+    """Return the how-to."""
+    bearing = (
+        f"the bearing {bores.bearing.name}" if bores.bearing else "left out: the legs of this robot have no bearing"
+    )
+    return (
+        (templates_folder() / GUIDE)
+        .read_text(encoding="utf-8")
+        .format(
+            materials=" and ".join(workshop.materials),
+            gears=workshop.material_name("gears"),
+            axle=f"{bores.axle_mm:g}",
+            example=f"{bores.axle_mm + 0.2:g}",
+            bearing=bearing,
+            readings=READINGS,
+        )
+    )
+
+
+def _template(workshop: Workshop, bores: Bores) -> str:
+    """Return the file for the readings: every key commented out, with the value that the workshop has now."""
+    fits = workshop.fits
+    lines = [
+        "# What the coupon says; see coupon.md. Take the # from a line and write what you found, in mm as engraved."
+    ]
+    for name in workshop.materials:
+        lines += [
+            "",
+            f"[gauge.{name}]",
+            f"# axle_press_mm = {fits.press_mm:.2f}",
+            f"# axle_sliding_mm = {fits.sliding_mm:.2f}",
+            f"# axle_loose_mm = {fits.loose_mm:.2f}",
+        ]
+        if bores.bearing:
+            lines.append(f"# bearing_press_mm = {fits.press_mm:.2f}")
+        lines.append(f"# pegs_mm = [{', '.join(f'{peg:.2f}' for peg in PEGS_MM)}]")
+    lines += ["", "[gears]", f"# turns_freely_mm = {fits.backlash_circumferential_mm:.2f}", ""]
+    return "\n".join(lines)

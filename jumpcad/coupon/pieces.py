@@ -1,0 +1,193 @@
+"""The fit coupon: a gauge of holes and pegs in every material, and a gear pair at several backlashes (mm).
+
+Every step is engraved with its offset as it stands in a workshop's fits: `.10` in the gauge is a hole 0.10 mm larger
+per side than what goes through it, `.15` on a pinion a circumferential backlash of 0.15 mm. Everything lies flat on the
+bed and narrows upwards, so that it prints without support.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from jumpcad.drive.gears import Gear, GearPair, gear_pair
+from jumpcad.parts.holes import Bores
+from jumpcad.solids.finish import to_trimesh
+from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union
+from jumpcad.solids.stack import Stack
+from jumpcad.solids.text import text
+from jumpcad.strength.bearings import hub_bearings
+from jumpcad.workshop import Workshop
+
+if TYPE_CHECKING:
+    import trimesh
+
+STEP_MM = 0.05
+"""Between neighbours of a ladder: as fine as desktop printers repeat a hole (practice)."""
+LONGEST_LADDER = 15
+BEYOND = 2
+"""Steps by which a ladder goes beyond the fits that it starts from."""
+PEGS_MM = (4.0, 6.0, 8.0)
+PEG_HEIGHT_MM = 8.0
+GAUGE_MM = 3.0
+HOLDER_MM = 6.0
+COLUMNS = 5
+MARGIN_MM = 3.0
+LETTERS_MM = 3.5
+LABEL_GAP_MM = 2.0
+TITLE_MM = 5.0
+ENGRAVED_MM = 0.6
+MODULE_MM, PINION_TEETH, WHEEL_TEETH, FACE_MM = 1.25, 15, 20, 5.0
+"""A pair as robots have them: usual module and face, no undercut, room for letters inside the pinion's root."""
+PINION_LETTERS_MM = 3.0
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A printed piece of the coupon, in printing orientation; one copy."""
+
+    name: str
+    material: str
+    shape: Stack
+    quantity: int = 1
+
+    @cached_property
+    def mesh(self) -> "trimesh.Trimesh":
+        """Mesh (mm)."""
+        return to_trimesh(self.shape.solid())
+
+
+@dataclass(frozen=True)
+class Ladders:
+    """What a coupon offers to try: offsets per side for axle and bearing, circumferential backlashes; ascending (mm).
+
+    `bearing_mm` is empty in a workshop whose legs have no bearing.
+    """
+
+    axle_mm: tuple[float, ...]
+    bearing_mm: tuple[float, ...]
+    backlash_mm: tuple[float, ...]
+
+
+def ladders(bores: Bores) -> Ladders:
+    """Return the ladders around a workshop's fits."""
+    fits = bores.fits
+    seats = _ladder(fits.press_mm, fits.press_mm) if bores.bearing else ()
+    backlash = fits.backlash_circumferential_mm
+    free = tuple(step for step in _ladder(backlash, backlash) if step >= 0.0)
+    return Ladders(_ladder(fits.press_mm, fits.loose_mm), seats, free)
+
+
+def coupon_pair() -> GearPair:
+    """Return the coupon's gears without backlash; its pinions are the thinner ones of `pinion`."""
+    return gear_pair(PINION_TEETH, WHEEL_TEETH, MODULE_MM, FACE_MM, 0.0)
+
+
+def pinion(backlash_mm: float) -> Gear:
+    """Return the pinion whose teeth alone make the pair's circumferential backlash."""
+    return replace(coupon_pair().pinion, thinning_mm=backlash_mm)
+
+
+def engraved(offset_mm: float) -> str:
+    """Return an offset as it is engraved: `.05`, `-.05`, `1.00`."""
+    return f"{offset_mm:.2f}".replace("0.", ".", 1)
+
+
+def coupon_bores(workshop: Workshop) -> Bores:
+    """Return the bores that a workshop's coupon tries: with the lightest bearing that its hubs may have."""
+    return Bores.of(workshop, hub_bearings(workshop)[0])
+
+
+def pieces(bores: Bores, materials: Sequence[str], gear_material: str) -> list[Piece]:
+    """Return all pieces: a gauge in every material, and in one a wheel, its holder, and a pinion for each backlash."""
+    steps, pair = ladders(bores), coupon_pair()
+    made = [Piece(f"gauge_{name}", name, bores.chamfered(gauge(bores, steps, name))) for name in materials]
+    running = hole(bores.running(bores.axle_mm))
+    wheel = Stack.of([(0.0, FACE_MM, polygon(pair.wheel.profile_mm) - running)])
+    made.append(Piece("gear_holder", gear_material, bores.chamfered(_holder(bores, pair.centre_distance_mm))))
+    made.append(Piece("gear_wheel", gear_material, bores.chamfered(wheel)))
+    for backlash in steps.backlash_mm:
+        gear = Stack.of([(0.0, FACE_MM, polygon(pinion(backlash).profile_mm) - running)])
+        letters = _middled(engraved(backlash), PINION_LETTERS_MM)
+        middle = (bores.axle_mm + coupon_pair().pinion.root_radius_mm) / 2.0
+        gear = gear.minus([_cut(FACE_MM, letters.translate((0.0, middle - PINION_LETTERS_MM / 2.0)))])
+        made.append(Piece(f"pinion_{round(100.0 * backlash):02d}", gear_material, bores.chamfered(gear)))
+    return made
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of holes or pegs: its letter, empty where it goes on from the row above, labels and diameters."""
+
+    letter: str
+    rungs: tuple[tuple[str, float], ...]
+    pegs: bool = False
+
+    @property
+    def size_mm(self) -> float:
+        """The largest diameter."""
+        return max(diameter for _, diameter in self.rungs)
+
+
+def gauge_rows(bores: Bores, steps: Ladders) -> list[Row]:
+    """Return the rows of a gauge from the back: holes for the axle (A), for the bearing's outside (B), pegs (P)."""
+    rows = []
+    seat = bores.bearing.outer_mm if bores.bearing else 0.0
+    for letter, nominal, ladder in (("A", bores.axle_mm, steps.axle_mm), ("B", seat, steps.bearing_mm)):
+        for start in range(0, len(ladder), COLUMNS):
+            rungs = tuple((engraved(step), nominal + 2.0 * step) for step in ladder[start : start + COLUMNS])
+            rows.append(Row("" if start else letter, rungs))
+    return [*rows, Row("P", tuple((f"{peg:g}", peg) for peg in PEGS_MM), pegs=True)]
+
+
+def gauge(bores: Bores, steps: Ladders, title: str) -> Stack:
+    """Return the plate with the material's name, the rows of holes and the row of pegs."""
+    rows = gauge_rows(bores, steps)
+    across = max(row.size_mm for row in rows) + 2.0 * MARGIN_MM
+    left = TITLE_MM + 2.0 * MARGIN_MM
+    letters = [text(title, TITLE_MM).translate((MARGIN_MM, -MARGIN_MM - TITLE_MM))]
+    holes: list[Region] = []
+    pegs: list[Region] = []
+    y = -2.0 * MARGIN_MM - TITLE_MM
+    for row in rows:
+        middle, line = y - row.size_mm / 2.0, y - row.size_mm - LABEL_GAP_MM - LETTERS_MM
+        if row.letter:
+            letters.append(text(row.letter, TITLE_MM).translate((MARGIN_MM, middle - TITLE_MM / 2.0)))
+        for column, (label, diameter) in enumerate(row.rungs):
+            x = left + across * (column * (2 if row.pegs else 1) + 0.5)  # room for the jaws of callipers
+            letters.append(_middled(label, LETTERS_MM).translate((x, line)))
+            (pegs if row.pegs else holes).append((disc if row.pegs else hole)(diameter, (x, middle)))
+        y = line - MARGIN_MM
+    size = left + COLUMNS * across, -y
+    plate = rectangle(size, (size[0] / 2.0, y / 2.0), MARGIN_MM)
+    solid = Stack.of([(0.0, GAUGE_MM, plate - union(holes)), (0.0, GAUGE_MM + PEG_HEIGHT_MM, union(pegs))])
+    return solid.minus([_cut(GAUGE_MM, union(letters))])
+
+
+def _holder(bores: Bores, centre_distance_mm: float) -> Stack:
+    """Return the bar that holds two axles fast at a centre distance."""
+    ends = (0.0, 0.0), (centre_distance_mm, 0.0)
+    bar = stadium(*ends, bores.press(bores.axle_mm) + 4.0 * bores.fits.wall_mm)
+    return Stack.of([(0.0, HOLDER_MM, bar)]).through(*(hole(bores.press(bores.axle_mm), end) for end in ends))
+
+
+def _ladder(low_mm: float, high_mm: float) -> tuple[float, ...]:
+    """Return multiples of a step from below the lowest fit to above the highest; the step doubles if they are many."""
+    step = STEP_MM
+    while (count := round((high_mm - low_mm) / step) + 1 + 2 * BEYOND) > LONGEST_LADDER:
+        step *= 2.0
+    first = math.floor(low_mm / step + 0.5) - BEYOND
+    return tuple(round((first + number) * step, 3) for number in range(count))
+
+
+def _middled(label: str, height_mm: float) -> Region:
+    """Return letters whose middle stands on the origin."""
+    letters = text(label, height_mm)
+    left, _, right, _ = letters.bounds()
+    return letters.translate((-(left + right) / 2.0, 0.0))
+
+
+def _cut(top_mm: float, letters: Region) -> tuple[float, float, Region]:
+    """Return letters as a slab to engrave into a top face."""
+    return top_mm - ENGRAVED_MM, top_mm, letters

@@ -1,0 +1,157 @@
+"""The fit coupon: printed once, tried with the bought parts, and read back into a workshop's fits.
+
+A fit in a workshop is what a hole must be drawn larger per side so that, printed, it fits: shrinkage is included. So
+the hole of a ladder that fits *is* the fit, and its engraved offset is taken over as it stands. Where several readings
+speak of one fit, the one counts with which every one of them still works:
+
+- `press_mm`: the smallest. A seat that is a step too tight still takes its part, one that is too wide drops it.
+- `sliding_mm`, `loose_mm`: the largest. A running fit that is a step too wide runs, one that is too tight seizes.
+- `hole_allowance_diameter_mm`: a hole that just holds a part has, once printed, the part's own diameter, so printing
+  narrows holes by twice the press fit; the largest reading counts, for such holes must not be too small.
+- `backlash_circumferential_mm`: of the tightest pinion that turns freely. Where the gears were not tried it follows
+  from the pegs, since teeth are outsides like them: pegs that came out g larger in diameter have every flank g/2
+  further out, which takes g/cos 20° from each gear's gaps along the pitch circle and 2·g/cos 20° from the pair's
+  backlash; that and the least play are what must be drawn. Lengths in mm.
+"""
+
+import itertools
+import math
+from collections.abc import Iterable, Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from jumpcad.coupon.pieces import PEGS_MM, coupon_bores, ladders
+from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
+from jumpcad.errors import JumpcadError
+from jumpcad.files import Contradiction, Record, Section
+from jumpcad.workshop import Workshop
+
+LEAST_PLAY_MM = 0.05
+"""Circumferential play that keeps printed gears from binding where they run out of true (judgement)."""
+PEG_ERROR_MM = 0.5
+"""A peg further than this from its diameter was misread, or comes from a printer that no fit can help."""
+
+
+AXLE_KEYS = ("axle_press_mm", "axle_sliding_mm", "axle_loose_mm")
+
+
+class Tried(Section):
+    """What one material's gauge says; what was not tried is left out."""
+
+    axle_press_mm: float | None = None
+    axle_sliding_mm: float | None = None
+    axle_loose_mm: float | None = None
+    bearing_press_mm: float | None = None
+    pegs_mm: Annotated[tuple[float, ...], Field(strict=False)] = ()
+
+    @property
+    def peg_growth_mm(self) -> float:
+        """By how much the pegs came out larger in diameter than drawn."""
+        return sum(self.pegs_mm) / len(self.pegs_mm) - sum(PEGS_MM) / len(PEGS_MM)
+
+
+class TriedGears(Section):
+    """What the gears say: the backlash engraved on the tightest pinion that turns freely all round."""
+
+    turns_freely_mm: float | None = None
+
+
+class Readings(Record):
+    """Everything read from a coupon: gauges by material, and gears."""
+
+    gauge: dict[str, Tried] = Field(default_factory=dict)
+    gears: TriedGears = TriedGears()
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield pegs that were misread, and fits that are tighter than the one before them."""
+        for name, tried in self.gauge.items():
+            place = ("gauge", name)
+            if tried.pegs_mm and len(tried.pegs_mm) != len(PEGS_MM):
+                nominal = ", ".join(f"{peg:g}" for peg in PEGS_MM)
+                yield (*place, "pegs_mm"), tried.pegs_mm, f"must be {len(PEGS_MM)} diameters, of the pegs {nominal} mm"
+            for peg, measured in zip(PEGS_MM, tried.pegs_mm, strict=False):
+                if abs(measured - peg) > PEG_ERROR_MM:
+                    limits = f"{peg - PEG_ERROR_MM:g}…{peg + PEG_ERROR_MM:g}"
+                    reason = f"{measured:g} for the peg of {peg:g} mm is outside {limits}: measure again"
+                    yield (*place, "pegs_mm"), tried.pegs_mm, f"{reason}, or calibrate the printer first"
+            fits = [(key, getattr(tried, key)) for key in AXLE_KEYS if getattr(tried, key) is not None]
+            for (tight, low), (wide, high) in itertools.pairwise(fits):
+                if high < low:
+                    yield (*place, wide), high, f"must be at least {tight} = {low:g}, the tighter fit: try them again"
+
+
+def measured_workshop(readings: Readings, workshop: Workshop, source: str = "readings") -> Workshop:
+    """Return the workshop with the fits that were read from its coupon, and nothing else changed.
+
+    Parameters
+    ----------
+    readings
+        Of the coupon that this workshop gives.
+    workshop
+        The base.
+    source
+        Where the readings come from, for errors.
+
+    Raises
+    ------
+    JumpcadError
+        If there is no reading, one lies outside of its ladder or contradicts another, or the fits contradict each
+        other.
+    """
+    if wrong := list(_complaints(readings, workshop)):
+        raise JumpcadError("; ".join(f"{source}: {complaint}" for complaint in wrong))
+    fits = _fits(readings, workshop)
+    if not fits:
+        raise JumpcadError(f"{source}: no reading: fill in at least one, such as axle_press_mm under [gauge.PETG]")
+    data = workshop.model_dump()
+    return Workshop.from_data(data | {"fits": data["fits"] | fits}, source)
+
+
+def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
+    """Return the fits that the readings decide."""
+    tried = list(readings.gauge.values())
+    press = _given(value for gauge in tried for value in (gauge.axle_press_mm, gauge.bearing_press_mm))
+    sliding = _given(gauge.axle_sliding_mm for gauge in tried)
+    loose = _given(gauge.axle_loose_mm for gauge in tried)
+    fits: dict[str, float] = {}
+    if press:
+        fits |= {"press_mm": min(press), "hole_allowance_diameter_mm": 2.0 * max(press)}
+    if sliding:
+        fits["sliding_mm"] = max(sliding)
+    if loose:
+        fits["loose_mm"] = max(loose)
+    teeth = readings.gauge.get(workshop.material_name("gears"), Tried())
+    if readings.gears.turns_freely_mm is not None:
+        fits["backlash_circumferential_mm"] = readings.gears.turns_freely_mm
+    elif teeth.pegs_mm:
+        lost = 2.0 * teeth.peg_growth_mm / math.cos(PRESSURE_ANGLE_RAD)
+        fits["backlash_circumferential_mm"] = max(LEAST_PLAY_MM + lost, 0.0)
+    return {key: round(value, 3) for key, value in fits.items()}
+
+
+def _given(values: Iterable[float | None]) -> list[float]:
+    return [value for value in values if value is not None]
+
+
+def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
+    """Yield what a workshop's coupon cannot have said."""
+    steps = ladders(coupon_bores(workshop))
+    for name, tried in readings.gauge.items():
+        if name not in workshop.materials:
+            yield f"gauge.{name}: the workshop prints in {', '.join(workshop.materials)}"
+        for key in AXLE_KEYS:
+            yield from _off_ladder(f"gauge.{name}.{key}", getattr(tried, key), steps.axle_mm)
+        yield from _off_ladder(f"gauge.{name}.bearing_press_mm", tried.bearing_press_mm, steps.bearing_mm)
+    yield from _off_ladder("gears.turns_freely_mm", readings.gears.turns_freely_mm, steps.backlash_mm)
+
+
+def _off_ladder(key: str, value: float | None, ladder: tuple[float, ...]) -> Iterator[str]:
+    """Yield a complaint about a reading outside of its ladder; between two steps is allowed."""
+    if value is None:
+        return
+    if not ladder:
+        yield f"{key} = {value:g}: the workshop's legs have no bearing; leave it out"
+    elif not ladder[0] <= value <= ladder[-1]:
+        limits = f"{ladder[0]:.2f}…{ladder[-1]:.2f}"
+        yield f"{key} = {value:g}: must be {limits} as engraved; if nothing fits, set the fit by hand and print again"

@@ -1,0 +1,148 @@
+"""From a design to its drive: torsion springs, snail cam, gear train and motor, in plain numbers."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from jumpcad.catalogue import Catalogue, Motor, load_catalogue
+from jumpcad.design import Design
+from jumpcad.drive.cam import Cam, CamLaw
+from jumpcad.drive.cam_limits import CamLimits
+from jumpcad.drive.cam_search import synthesise_cam
+from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
+from jumpcad.drive.train import GearTrain, NoTrainError, TrainLimits, least_tip_mm, synthesise_train
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding
+
+LEAST_COMPRESSION_RAD = math.radians(0.5)
+"""Below it the cam's lift is lost in what a printer can resolve."""
+
+
+@dataclass(frozen=True)
+class DriveLimits:
+    """Everything that the drive needs to know of the workshop and of the parts around it.
+
+    The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `motor_distance_min_mm`, `idler_distance_min_mm`
+    and `cam_speed_max_rad_s` are tightened by the spring and the cam that were found.
+
+    Attributes
+    ----------
+    motors
+        Names in the catalogue; none stands for every one.
+    gap_mm
+        Between things that pass each other.
+    axle_radius_mm
+        Around an axle, with what turns on it or holds it apart: the leg's where the cam gear passes it, beside the
+        spring, and an idler's beside the cam.
+    motor_half_mm
+        From the motor's axis to the outside of what holds it, where it is narrowest.
+    fall_s
+        From release to the leg's swing past rest, during which the cam turns on (judgement: releases of this size take
+        15 to 30 ms).
+    face_widths_mm
+        Of the gears, in the order tried: the next where the teeth are not strong enough, or find no room that are.
+    more_gap_mm
+        How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther axis makes
+        room for a larger cam gear, and one pair of gears is lighter than two. What is too little for one is left out.
+    """
+
+    spring: SpringLimits = field(default_factory=SpringLimits)
+    cam: CamLimits = field(default_factory=CamLimits)
+    train: TrainLimits = field(default_factory=TrainLimits)
+    motors: tuple[str, ...] = ()
+    gap_mm: float = 0.8
+    axle_radius_mm: float = 3.2
+    motor_half_mm: float = 6.9
+    fall_s: float = 0.03
+    face_widths_mm: tuple[float, ...] = (5.0, 6.5, 8.0)
+    more_gap_mm: tuple[float, ...] = (0.0, 2.5, 5.0, 7.5, 10.0)
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Springs, cam and gear train of one design, and every limit that was checked with its margin."""
+
+    spring: TorsionSpring
+    cam: Cam
+    train: GearTrain
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """All findings, from the springs to the motor."""
+        return self.spring.findings + self.cam.findings + self.train.findings
+
+
+def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None = None) -> Drive:
+    """Find springs, cam, gears and motor for a design, each as small as its limits allow.
+
+    Raises
+    ------
+    CannotBuildError
+        If one of them cannot be; the message says which limit stands in the way and what to change.
+    """
+    catalogue = catalogue or load_catalogue()
+    stiffness, compression = design.stiffness_nm_per_rad, design.compression_rad
+    if compression < LEAST_COMPRESSION_RAD:
+        raise CannotBuildError(
+            f"the springs are wound by {math.degrees(compression):.2f}°, less than "
+            f"{math.degrees(LEAST_COMPRESSION_RAD):g}°: raise compression_ratio, rest_angle_deg or c_coef"
+        )
+    spring = synthesise_spring(stiffness, compression, catalogue.wire, limits.spring)
+    law = CamLaw(compression, stiffness, limits.cam.lift_rad, limits.cam.ramp_rad)
+    motors = [catalogue.motors[name] for name in limits.motors or tuple(catalogue.motors)]
+    refusal: CannotBuildError | None = None
+    for width in limits.face_widths_mm:
+        beside = replace(limits, train=replace(limits.train, face_width_mm=width))
+        try:
+            return Drive(spring, *_cam_and_train(law, motors, spring.outer_diameter_mm, beside))
+        except NoTrainError as error:  # wider teeth bear more
+            refusal = error
+    assert refusal is not None
+    raise refusal
+
+
+def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits: DriveLimits) -> tuple[Cam, GearTrain]:
+    """Find cam and gears beside a spring's coil: one pair of gears where the cam's axis can make room for it."""
+    around = max(limits.cam.hub_radius_mm, coil_mm / 2)
+    found: tuple[Cam, GearTrain] | None = None
+    refusal: CannotBuildError | None = None
+    enough = 0.0
+    for more in limits.more_gap_mm:
+        if more < enough:
+            continue
+        gap = limits.cam.gap_min_mm + more
+        try:
+            cam = synthesise_cam(law, replace(limits.cam, hub_radius_mm=around, gap_min_mm=gap))
+        except CannotBuildError as error:  # a farther axis only narrows what a cam may be
+            refusal = refusal or error
+            break
+        beside = _train_limits(cam, limits)
+        try:
+            train = synthesise_train(law, motors, beside)
+        except CannotBuildError as error:
+            refusal = refusal or error
+        else:
+            if len(train.stages) == 1:
+                return cam, train
+            found = found or (cam, train)
+        if found is not None:  # two pairs do it here; farther away only one pair would do better
+            tip = least_tip_mm(law, motors, beside)
+            enough = more + tip - beside.cam_gear_tip_max_mm if tip <= limits.train.cam_gear_tip_max_mm else math.inf
+    if found is None:
+        assert refusal is not None
+        raise refusal
+    return found
+
+
+def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
+    """Return what motor and gears must respect beside a cam."""
+    room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
+    motor = cam.outer_radius_mm + limits.motor_half_mm + limits.gap_mm
+    idler = cam.outer_radius_mm + limits.axle_radius_mm + limits.gap_mm
+    return replace(
+        limits.train,
+        cam_gear_tip_max_mm=min(limits.train.cam_gear_tip_max_mm, room),
+        motor_distance_min_mm=max(limits.train.motor_distance_min_mm, motor),
+        idler_distance_min_mm=max(limits.train.idler_distance_min_mm, idler),
+        cam_speed_max_rad_s=min(limits.train.cam_speed_max_rad_s, limits.cam.reserve_rad / limits.fall_s),
+    )

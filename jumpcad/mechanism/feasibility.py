@@ -1,0 +1,98 @@
+"""What can be refused before any solid or simulation: named reasons with signed margins.
+
+A design passes through the gate in two steps: its geometry alone, then the statics of the masses that it got. The
+order of the tests is the order in which their verdicts are given.
+"""
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from jumpcad.design import Design
+from jumpcad.findings import Finding
+from jumpcad.mechanism.linkage import Linkage, Pose
+from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Robot
+
+GRAVITY_M_S2 = 9.81
+TAKEOFF_ENERGY_FACTOR = 1.3
+"""Spring energy over the weight's work in the push-off that a jump needs at least (0 false refusals in 399)."""
+
+
+def geometry_findings(design: Design) -> list[Finding]:
+    """Return the findings `loop` and `below_ground` of a design; the second only where the first holds."""
+    assembly = design.assembly_margin_mm
+    if assembly <= 0:
+        return [_loop_finding(assembly, "there is no pose with parallel legs and a flat foot")]
+    linkage = Linkage(design)
+    margin = linkage.closing_margin_mm()
+    loop = _loop_finding(margin, "foot and front link must reach each other over the whole travel")
+    if margin <= 0:
+        return [loop]
+    height = float(linkage.height_of_body_mm(-design.compression_rad).min())
+    below = Finding(
+        "below_ground", "error" if height < 0 else "info", height, "mm",
+        f"lowest body pivot, springs wound, is {height:.1f} mm above the line through ankle and front eye",
+        "lower compression_ratio, or raise rest_angle_deg",
+    )  # fmt: skip
+    return [loop, below]
+
+
+def statics_findings(robot: Robot, gravity_m_s2: float = GRAVITY_M_S2) -> list[Finding]:
+    """Return the findings `tips` and `too_weak` of a robot whose geometry passes."""
+    linkage = Linkage(robot.design)
+    pose = linkage.pose([-robot.spring.wind_rad, 0.0])
+    com = centre_of_mass_on_foot_mm(robot, linkage, pose)
+    back, front = support_span_mm(robot.design)
+    x = float(com[0, 0])
+    stability = min(x - back, front - x)
+    tips = Finding(
+        "tips", "error" if stability < 0 else "info", stability, "mm",
+        f"centre of mass, springs wound, is at {x:.1f} mm from the ankle; the feet span {back:.1f} to {front:.1f} mm",
+        "lengthen the toes (e_coef) or turn them back (smaller ground_link_angle_deg), or wind less",
+    )  # fmt: skip
+    work = robot.mass_kg * gravity_m_s2 * float(com[1, 1] - com[0, 1]) / 1000.0
+    surplus = robot.spring.energy_j - TAKEOFF_ENERGY_FACTOR * work
+    weak = Finding(
+        "too_weak", "error" if surplus < 0 else "info", surplus, "J",
+        f"the springs hold {robot.spring.energy_j:.4f} J; standing up against gravity takes {work:.4f} J, and a jump "
+        f"needs {TAKEOFF_ENERGY_FACTOR} times that",
+        "raise stiffness_nmm_per_deg or compression_ratio, or lower carrying_link_mm",
+    )  # fmt: skip
+    return [tips, weak]
+
+
+def support_span_mm(design: Design) -> tuple[float, float]:
+    """Return the rearmost and foremost support point on the foot's x axis: ankle, front eye, toe tips (mm)."""
+    toes = -design.l5_mm * math.cos(math.radians(design.ground_link_angle_deg))
+    return min(0.0, toes), max(0.0, design.l4_mm)
+
+
+def centre_of_mass_on_foot_mm(robot: Robot, linkage: Linkage, pose: Pose) -> Array:
+    """Return the robot's centre of mass (n, 2) in the foot's x-z frame at n poses (mm)."""
+    still = np.zeros_like(pose.leg_rad)
+    places = {
+        BODY: (still, still),
+        MAIN_LEG: (still - linkage.l1 / 2, linkage.rest_rad + pose.leg_rad),
+        FRONT_LINK: (still + linkage.l1 / 2, linkage.rest_rad + pose.front_rad),
+        FOOT: (_complex(pose.ankle_mm), pose.foot_rad),
+    }
+    moment = still + 0j
+    for name, (origin, angle) in places.items():
+        body = robot.bodies[name]
+        moment += body.mass_kg * (origin + 1000.0 * _complex(body.com_m[::2]) * np.exp(-1j * angle))
+    centre = (moment / robot.mass_kg - _complex(pose.ankle_mm)) * np.exp(1j * pose.foot_rad)
+    return np.stack([centre.real, centre.imag], axis=-1)
+
+
+def _complex(point: Array) -> npt.NDArray[np.complex128]:
+    """Return points (..., 2) of the x-z plane as x + iz, which exp(-i·angle) turns about +y."""
+    return point[..., 0] + 1j * point[..., 1]
+
+
+def _loop_finding(margin_mm: float, why: str) -> Finding:
+    found = f"closes with {margin_mm:.2f} mm to spare" if margin_mm > 0 else f"is {-margin_mm:.2f} mm short of closing"
+    return Finding(
+        "loop", "info" if margin_mm > 0 else "error", margin_mm, "mm", f"the loop {found}: {why}",
+        "lower compression_ratio, or bring c_coef nearer to 1",
+    )  # fmt: skip

@@ -1,0 +1,119 @@
+"""The published study's table of results: as printed, as simulated again, as measured, and as it should be read.
+
+Lengths in m, energies in J. What was printed is quoted from the study, rounded as there.
+"""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from jumpcad import published
+from jumpcad.design import load_design
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.paper.published import PublishedJump
+from jumpcad.simulation import Jump, Settings, simulate
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A jump of a built robot; the energy is what the motor took from the battery, losses included."""
+
+    distance_m: float
+    height_m: float
+    electrical_energy_j: float
+
+
+@dataclass(frozen=True)
+class Printed:
+    """What the study prints for one robot: simulated, and measured where it was built."""
+
+    title: str
+    template: str
+    simulated: PublishedJump
+    measured: Measured | None = None
+
+
+PRINTED = (
+    Printed("Kenan 1.0", "kenan-1.0", PublishedJump(0.25, 0.10, 0.153), Measured(0.25, 0.15, 1.5)),
+    Printed("best GA", "best-ga", PublishedJump(0.891, 0.386, 0.73)),
+    Printed("best BO", "best-bo", PublishedJump(0.905, 0.389, 0.72)),
+    Printed("Kenan 2.0", "kenan-2.0", PublishedJump(0.321, 0.126, 0.133), Measured(0.35, 0.12, 1.3)),
+)
+
+
+@dataclass(frozen=True)
+class Hyperparameter:
+    """A setting of the published simulation: in the study's table, and where the study's results come from."""
+
+    name: str
+    in_table: float | None
+    in_results: float
+
+
+HYPERPARAMETERS = (
+    Hyperparameter("lateral friction", 0.8, published.LATERAL_FRICTION),
+    Hyperparameter("spinning friction", 0.1, published.SPINNING_FRICTION),
+    Hyperparameter("rolling friction", 0.01, published.ROLLING_FRICTION),
+    Hyperparameter("joint damping", 0.001, published.JOINT_DAMPING),
+    Hyperparameter("restitution", 0.8, published.RESTITUTION),
+    Hyperparameter("lateral friction of the ground", None, published.GROUND_FRICTION),
+)
+
+READING = (
+    "published: printed by the study; again: its simulation, run here; measured: built robots, the energy electrical "
+    "with all losses; evaluator: the same masses (capsule robot) in jumpcad's own simulation: ballistic range of the "
+    "centre of mass, the body's displacement at touchdown, rise of the centre of mass, and the share of the springs' "
+    "energy that is mechanical energy at take-off. "
+    "Kenan 1.0's published height is the one figure here that the study's simulation does not give.\n"
+)
+
+WHY_THEY_DIFFER = (
+    "Published length is where the body is at the first contact later than 0.5 s after release: for weak jumpers that "
+    "is tumbling after the landing.",
+    "Published height is the body's absolute height, standing height included; a jump is what the centre of mass "
+    "gains.",
+    "The published simulation does not converge: its pose does not close the loop, near-rigid joint motors fight the "
+    "loop's constraint, and with smaller time steps it blows up. The evaluator starts from the exactly closed pose.",
+    "Designs whose loop cannot close over their travel score best in it; the evaluator's gate refuses them, and every "
+    "run has to pass an audit of its energy and its loop.",
+)
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """One robot: as printed, simulated again in the same way, and as the evaluator sees the same masses jump."""
+
+    printed: Printed
+    again: PublishedJump
+    jump: Jump
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        return {
+            "robot": self.printed.template,
+            "published": asdict(self.printed.simulated),
+            "reproduced": asdict(self.again),
+            "measured": self.printed.measured and asdict(self.printed.measured),
+            "evaluated": self.jump.to_dict(),
+        }
+
+
+def reproduce(engine: str = "pybullet") -> list[Reproduction]:
+    """Simulate the study's four robots twice: as the study did, and with the evaluator, on to touchdown.
+
+    Parameters
+    ----------
+    engine
+        Of the evaluator; the published simulation exists in PyBullet alone.
+
+    Raises
+    ------
+    JumpcadError
+        If an engine is missing.
+    """
+    settings = Settings(flight="simulated")
+    rows = []
+    for printed in PRINTED:
+        design = load_design(printed.template)
+        jump = simulate(capsule_robot(design), settings, engine)
+        rows.append(Reproduction(printed, published.simulate(design), jump))
+    return rows

@@ -1,0 +1,97 @@
+"""Bought parts as bodies: a shape for the assembly, and the catalogue's mass spread evenly over it."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from manifold3d import Manifold
+
+from jumpcad.mechanism.mass import MassProperties
+from jumpcad.parts.part import UNSEEN_MM, Array, about_z, laid, lying_on_left
+from jumpcad.solids.outline import Region
+from jumpcad.solids.stack import Stack
+
+if TYPE_CHECKING:
+    import trimesh
+
+
+@dataclass(frozen=True)
+class Bought:
+    """One bought part on the robot.
+
+    `article` is what to order and `units` how many of it this piece counts for: 0 for a piece of one that is counted
+    elsewhere (a motor's shaft, a spring's second arm). `shape` lies in its own frame, placed by `T_body_part` (4, 4) in
+    mm in the frame of `body`; `mass` is given in that body's frame (kg, m).
+    """
+
+    name: str
+    article: str
+    body: str
+    shape: Stack
+    T_body_part: Array
+    mass: MassProperties
+    units: int = 1
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass (kg)."""
+        return self.mass.mass_kg
+
+    def moved(self, T_body_frame: Array) -> "Bought":
+        """Return the part drawn in a frame of its body instead of the body's own; that frame's pose (4, 4) in mm."""
+        T_body_part = np.einsum("ij,jk->ik", T_body_frame, self.T_body_part)
+        return replace(self, T_body_part=T_body_part, mass=self.mass.placed(in_metres(T_body_frame)))
+
+    @cached_property
+    def solid(self) -> Manifold:
+        """The part's envelope in its own frame (mm)."""
+        return self.shape.solid()
+
+    @cached_property
+    def look(self) -> "trimesh.Trimesh":
+        """The mesh of the envelope in its own frame, without detail that eyes miss (mm)."""
+        return _look(self.shape)
+
+
+def bought(
+    name: str,
+    article: str,
+    body: str,
+    mass_g: float,
+    slabs: Iterable[tuple[float, float, Region]],
+    at_mm: Sequence[float] = (0.0, 0.0, 0.0),
+    turn_rad: float = 0.0,
+    units: int = 1,
+) -> Bought:
+    """Return a bought part drawn as slabs (y0, y1, region in x-z), turned counter-clockwise in x-z and moved (mm).
+
+    What is drawn about its own origin from regions that are kept is one shape for all copies, and measured once.
+    """
+    shape, top, uniform = _drawn(tuple(slabs))
+    x, y, z = at_mm
+    pose = lying_on_left(top + y, x, z) @ about_z(turn_rad)
+    return Bought(name, article, body, shape, pose, uniform.scaled_to(mass_g / 1000.0).placed(in_metres(pose)), units)
+
+
+@lru_cache(maxsize=256)
+def _drawn(slabs: tuple[tuple[float, float, Region], ...]) -> tuple[Stack, float, MassProperties]:
+    """Return slabs laid on their left face, the height y of that face, and the mass properties at unit density."""
+    stack, _ = laid(slabs)
+    return stack, max(y1 for _, y1, _ in slabs), stack.mass_properties(1.0)
+
+
+@lru_cache(maxsize=64)
+def _look(shape: Stack) -> "trimesh.Trimesh":
+    """Return the mesh of a shape, which all copies share."""
+    from jumpcad.solids.finish import to_trimesh
+
+    return to_trimesh(shape.solid().simplify(UNSEEN_MM))
+
+
+def in_metres(pose_mm: Array) -> Array:
+    """Return a pose (4, 4) with its translation in metres instead of millimetres."""
+    pose = pose_mm.copy()
+    pose[:3, 3] /= 1000.0
+    return pose

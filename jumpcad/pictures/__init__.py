@@ -1,1 +1,0 @@
-"""Pictures of a robot: stills at rest, compressed and exploded, and the jump as an animation."""

@@ -1,0 +1,135 @@
+"""Print plates: parts of one material, packed on the bed."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+import rectpack
+import trimesh
+
+from jumpcad.printing.bed import require_bed
+
+Array = npt.NDArray[np.float64]
+
+STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend on rounding
+
+
+class Printable(Protocol):
+    """What packing needs to know of a printed part; the mesh is in mm and lies as it is printed."""
+
+    @property
+    def name(self) -> str:
+        """Name of the part."""
+
+    @property
+    def material(self) -> str:
+        """Name of the material."""
+
+    @property
+    def quantity(self) -> int:
+        """How many are needed."""
+
+    @property
+    def mesh(self) -> trimesh.Trimesh:
+        """The mesh."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """One copy of a part on a plate: its pose (4, 4) on the bed, in mm, from the bed's front left corner."""
+
+    part: Printable
+    T_bed_part: Array
+
+
+@dataclass(frozen=True)
+class Plate:
+    """What is printed at once: a material, a number counted from 1 within that material, and the parts."""
+
+    material: str
+    number: int
+    items: tuple[Placed, ...]
+
+    @property
+    def name(self) -> str:
+        """Name of the plate and of its file."""
+        return f"plate-{self.number}-{self.material}"
+
+
+def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[Plate]:
+    """Pack parts on plates, sorted by material; as many plates as it takes.
+
+    Parts are turned by quarters as it suits; one that is too long for that lies askew.
+
+    Parameters
+    ----------
+    parts
+        The parts, each with the quantity that is needed.
+    bed_mm
+        Usable bed (x, y, z).
+    spacing_mm
+        Distance that parts keep from each other.
+
+    Raises
+    ------
+    CannotBuildError
+        If a part fits the bed in no position.
+    """
+    by_material: dict[str, list[Printable]] = {}
+    for part in sorted(parts, key=lambda part: part.name):
+        by_material.setdefault(part.material, []).extend([part] * part.quantity)
+    return [plate for material in sorted(by_material) for plate in _plates(by_material[material], bed_mm, spacing_mm)]
+
+
+def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[Plate]:
+    """Return the plates of one material."""
+    angles = {part.name: _angle_deg(part, bed_mm) for part in parts}
+    packer = rectpack.newPacker(
+        bin_algo=rectpack.PackingBin.BFF,
+        pack_algo=rectpack.MaxRectsBssf,
+        sort_algo=rectpack.SORT_LSIDE,
+        rotation=True,
+    )
+    packer.add_bin(*(math.floor((side + spacing_mm) * STEPS_PER_MM) for side in bed_mm[:2]), count=len(parts))
+    sizes = []
+    for number, part in enumerate(parts):
+        low, high = _bounds(part, angles[part.name])
+        size = tuple(math.ceil((side + spacing_mm) * STEPS_PER_MM - 1e-6) for side in (high - low)[:2])
+        sizes.append(size)
+        packer.add_rect(*size, rid=number)
+    packer.pack()
+    plates: dict[int, list[tuple[int, Placed]]] = {}
+    for plate, x, y, width, height, number in packer.rect_list():
+        turned = (width, height) != sizes[number]
+        angle = angles[parts[number].name] + (90.0 if turned else 0.0)
+        low, _ = _bounds(parts[number], angle)
+        pose = _turn(angle)
+        pose[:3, 3] = x / STEPS_PER_MM - low[0], y / STEPS_PER_MM - low[1], -low[2]
+        plates.setdefault(plate, []).append((number, Placed(parts[number], pose)))
+    return [
+        Plate(parts[0].material, number, tuple(item for _, item in sorted(plates[plate], key=lambda pair: pair[0])))
+        for number, plate in enumerate(sorted(plates), start=1)
+    ]
+
+
+def _angle_deg(part: Printable, bed_mm: Sequence[float]) -> float:
+    """Return the turn at which a part fits the bed; packing makes quarters of its own."""
+    mesh = part.mesh
+    return require_bed(part.name, mesh.bounds, lambda: mesh.vertices[:, :2], bed_mm).angle_deg % 90.0
+
+
+def _bounds(part: Printable, angle_deg: float) -> tuple[Array, Array]:
+    """Return the corners of the bounding box of a part turned about z."""
+    points = part.mesh.vertices @ _turn(angle_deg)[:3, :3].T
+    return points.min(axis=0), points.max(axis=0)
+
+
+def _turn(angle_deg: float) -> Array:
+    """Return a turn about z as a pose (4, 4); quarters are exact."""
+    quarter = {0.0: (1.0, 0.0), 90.0: (0.0, 1.0)}
+    angle = math.radians(angle_deg)
+    cos, sin = quarter.get(angle_deg, (math.cos(angle), math.sin(angle)))
+    return np.array([[cos, -sin, 0.0, 0.0], [sin, cos, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])

@@ -1,0 +1,164 @@
+"""PrusaSlicer as a second opinion: grams, time and toolpath of a part, printed as the workshop says."""
+
+import re
+import shutil
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.printing.gcode import Toolpath, read_gcode
+from jumpcad.solids.moments import G_PER_CM3
+from jumpcad.workshop import Material, Printer, Process
+
+PROGRAM = "prusa-slicer"
+MAJOR = 2
+"""The major version whose settings, remarks and exit codes are known here."""
+TIMEOUT_S = 600
+FILAMENT_MM = 1.75
+REFUSED = 1
+"""PrusaSlicer's exit code for input that it will not print; others are not its own."""
+
+
+@dataclass(frozen=True)
+class Sliced:
+    """One sliced part: grams, seconds of printing, settings that the slicer did not take over, and its toolpath.
+
+    `ignored` maps a setting to what was asked for and what the slicer says it used.
+    """
+
+    grams: float
+    time_s: float
+    ignored: dict[str, tuple[str, str]]
+    toolpath: Toolpath
+
+
+def slicer_program() -> str | None:
+    """Return the path of PrusaSlicer's program, or None."""
+    return shutil.which(PROGRAM)
+
+
+def slicer_settings(printer: Printer, process: Process, material: Material) -> dict[str, str]:
+    """Return PrusaSlicer's settings for a workshop: what decides the plastic laid down, and nothing that adds to it."""
+    width, height = printer.bed_mm[:2]
+    solid = process.infill >= 1.0
+    lines = ("", "perimeter_", "external_perimeter_", "infill_", "solid_infill_", "top_infill_", "first_layer_")
+    return {
+        "bed_shape": f"0x0,{width:g}x0,{width:g}x{height:g},0x{height:g}",
+        "max_print_height": f"{printer.bed_mm[2]:g}",
+        "nozzle_diameter": f"{printer.nozzle_mm:g}",
+        "filament_diameter": f"{FILAMENT_MM:g}",
+        "filament_density": f"{material.density_g_cm3:g}",
+        "layer_height": f"{process.layer_height_mm:g}",
+        "first_layer_height": f"{process.first_layer_mm:g}",
+        **{f"{line}extrusion_width": f"{process.line_width_mm:g}" for line in lines},
+        "perimeters": str(process.perimeters),
+        "top_solid_layers": str(process.top_layers),
+        "bottom_solid_layers": str(process.bottom_layers),
+        "top_solid_min_thickness": "0",
+        "bottom_solid_min_thickness": "0",
+        "fill_density": f"{100.0 * process.infill:g}%",
+        "fill_pattern": "rectilinear" if solid else process.infill_pattern,
+        "solid_infill_below_area": f"{process.solid_below_area_mm2:g}",
+        "skirts": "0",
+        "brim_width": "0",
+        "elefant_foot_compensation": "0",
+        "support_material": "0",
+        "ensure_vertical_shell_thickness": "0",
+        "start_gcode": "",
+        "end_gcode": "",
+    }
+
+
+def slicer_version() -> str:
+    """Return the version of the installed PrusaSlicer, such as `2.5.0`.
+
+    Raises
+    ------
+    JumpcadError
+        If it is missing, does not answer, or is of another major version than `MAJOR`.
+    """
+    done = _run(["--help"], "its help")
+    found = re.search(r"PrusaSlicer-((\d+)[\w.-]*)", done.stdout + done.stderr)
+    if found is None:
+        raise JumpcadError(f"{PROGRAM} does not say that it is PrusaSlicer: install PrusaSlicer {MAJOR} in its place")
+    if int(found[2]) != MAJOR:
+        raise JumpcadError(f"{PROGRAM} is of version {found[1]}, whose settings are not known: install version {MAJOR}")
+    return found[1]
+
+
+def slice_part(stl: Path, printer: Printer, process: Process, material: Material) -> Sliced:
+    """Slice one STL file with PrusaSlicer, in the middle of the bed.
+
+    Raises
+    ------
+    JumpcadError
+        If PrusaSlicer is missing, crashes, or writes something that is not its G-code.
+    CannotBuildError
+        If PrusaSlicer refuses the part; its own last words are quoted.
+    """
+    centre = f"{printer.bed_mm[0] / 2.0:g},{printer.bed_mm[1] / 2.0:g}"
+    return _sliced(stl, ["--center", centre], slicer_settings(printer, process, material), material)
+
+
+def slice_plate(threemf: Path, printer: Printer, process: Process, material: Material) -> Sliced:
+    """Slice one print plate with PrusaSlicer, every part where it lies; errors are those of `slice_part`."""
+    return _sliced(threemf, ["--dont-arrange"], slicer_settings(printer, process, material), material)
+
+
+def _sliced(model: Path, place: list[str], asked: dict[str, str], material: Material) -> Sliced:
+    """Slice a model file with settings and read what came of it."""
+    with tempfile.TemporaryDirectory() as folder:
+        config, output = Path(folder) / "config.ini", Path(folder) / "part.gcode"
+        config.write_text("".join(f"{key} = {value}\n" for key, value in asked.items()), encoding="utf-8")
+        files = ["--load", str(config), "--output", str(output), str(model)]
+        done = _run(["--export-gcode", *place, *files], model.name)
+        if done.returncode != 0 or not output.is_file():
+            words = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+            if words and done.returncode == REFUSED:
+                raise CannotBuildError(f"{PROGRAM} refused {model.name}: {words[-1]}")
+            said = words[-1] if words else "it said nothing"
+            raise JumpcadError(f"{PROGRAM} crashed on {model.name} with exit code {done.returncode}: {said}")
+        toolpath = read_gcode(output.read_text(encoding="utf-8", errors="replace"))
+    remarks = toolpath.remarks
+    if "estimated printing time (normal mode)" not in remarks or "filament_diameter" not in remarks:
+        raise JumpcadError(
+            f"{PROGRAM} wrote G-code without its usual remarks for {model.name}: another version or program?"
+        )
+    ignored = {key: (value, remarks.get(key, "nothing")) for key, value in asked.items() if remarks.get(key) != value}
+    return Sliced(
+        grams=float(toolpath.volumes_mm3.sum()) * material.density_g_cm3 * G_PER_CM3 * 1000.0,
+        time_s=_seconds(remarks["estimated printing time (normal mode)"]),
+        ignored=ignored,
+        toolpath=toolpath,
+    )
+
+
+def _run(arguments: list[str], purpose: str) -> subprocess.CompletedProcess[str]:
+    """Run PrusaSlicer; what it prints is text whatever it is."""
+    program = slicer_program()
+    if program is None:
+        raise JumpcadError(f"{PROGRAM} is not installed: install PrusaSlicer, or leave the printed masses as modelled")
+    try:
+        return subprocess.run(
+            [program, *arguments],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",
+            timeout=TIMEOUT_S,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        raise JumpcadError(f"{PROGRAM} did not finish {purpose} within {TIMEOUT_S} s") from None
+    except OSError as error:
+        raise JumpcadError(
+            f"{PROGRAM} at {program} cannot be run: {error.strerror}: install PrusaSlicer anew"
+        ) from None
+
+
+def _seconds(text: str) -> float:
+    """Return the seconds of a duration such as `1d 2h 3m 4s`."""
+    units = {"d": 86400.0, "h": 3600.0, "m": 60.0, "s": 1.0}
+    return sum(float(value) * units[unit] for value, unit in re.findall(r"(\d+)([dhms])", text))

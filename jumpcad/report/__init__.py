@@ -1,1 +1,0 @@
-"""What people see of robots and searches: pictures and pages."""

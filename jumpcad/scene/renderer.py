@@ -1,0 +1,155 @@
+"""Shaded pictures of things, with the edges that a draughtsman would draw.
+
+Everything is drawn twice as large as asked and scaled down. An edge is a crease of a mesh that nothing nearer hides, or
+a border between two things.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from jumpcad.scene.camera import Array, Camera, View, aimed, turned
+from jumpcad.scene.raster import drawn
+from jumpcad.scene.shading import CREASE_RAD, creased
+from jumpcad.scene.shapes import Colour
+
+if TYPE_CHECKING:
+    import trimesh
+
+Mask = npt.NDArray[np.bool_]
+
+SUPERSAMPLING = 2
+EDGE_DEPTH_M = 0.0006
+"""An edge may lie this far behind what is seen beside it."""
+EDGE_COLOUR = np.array([30.0, 32.0, 36.0])
+EDGE_STRENGTH = 0.7
+BACKGROUND = 255
+PALE: Colour = (0.90, 0.90, 0.91)
+LIGHT = np.array([-0.5, -1.2, 1.6]) / math.hypot(-0.5, -1.2, 1.6)
+AMBIENT, DIFFUSE = 0.6, 0.45
+"""How bright a face is that the light does not reach, and how much brighter one that it falls on squarely."""
+MM = 0.001
+
+
+@dataclass(frozen=True)
+class Thing:
+    """What can be seen: corners (n, 3) in m, their normals (n, 3), faces (m, 3), creases (k, 2, 3) in m, a colour."""
+
+    vertices_m: Array
+    normals: Array
+    faces: npt.NDArray[np.int64]
+    creases_m: Array
+    colour: Colour
+
+
+class Studio:
+    """Things, each a mesh (mm) and a colour, to be seen in several poses and views."""
+
+    def __init__(self, things: Sequence[tuple["trimesh.Trimesh", Colour]]) -> None:
+        self._things = [_thing(mesh, colour) for mesh, colour in things]
+
+    def picture(
+        self,
+        poses: Sequence[Array | None],
+        size: tuple[int, int],
+        view: View,
+        frame_m: Array,
+        pale: Sequence[bool] | None = None,
+    ) -> Image.Image:
+        """Return a picture.
+
+        Parameters
+        ----------
+        poses
+            The pose (4, 4) of every thing in the world, translations in m, meshes in mm; None leaves it out.
+        size
+            Width and height in pixels.
+        view
+            From where.
+        frame_m
+            Points (n, 3) that the picture shall hold.
+        pale
+            Which things are only hinted at.
+        """
+        large = (SUPERSAMPLING * size[0], SUPERSAMPLING * size[1])
+        camera = aimed(frame_m, view, size[0] / size[1])
+        hinted = pale or [False] * len(poses)
+        rows = zip(self._things, poses, hinted, strict=True)
+        there = [(thing, pose, PALE if hint else thing.colour) for thing, pose, hint in rows if pose is not None]
+        number, nearness, shade = drawn(
+            np.concatenate([_corners(thing, pose, camera, large) for thing, pose, _ in there]), large
+        )
+        owners = np.repeat(np.arange(len(there)), [len(thing.faces) for thing, _, _ in there])
+        covered = number >= 0
+        owner = np.where(covered, owners[number], -1)
+        colours = 255.0 * np.array([colour for *_, colour in there])
+        image = np.full((*owner.shape, 3), BACKGROUND, dtype=np.uint8)
+        image[covered] = np.minimum(colours[owner[covered]] * shade[covered, None], 255.0)
+        ink = borders(owner)
+        seen_m = 1.0 / np.maximum(_least_beside(nearness), np.finfo(float).tiny)
+        ends = np.concatenate([_placed(thing.creases_m, pose) for thing, pose, _ in there])
+        _draw(ink, *camera.seen(ends, large), seen_m)
+        image[ink] = image[ink] + EDGE_STRENGTH * (EDGE_COLOUR - image[ink])
+        return Image.fromarray(image).resize(size, Image.Resampling.BOX)
+
+
+def creases(mesh: "trimesh.Trimesh") -> Array:
+    """Return the ends (n, 2, 3) of the edges at which a mesh is creased (mm)."""
+    sharp = mesh.face_adjacency_angles > CREASE_RAD
+    return np.asarray(mesh.vertices[mesh.face_adjacency_edges[sharp]], dtype=float)
+
+
+def borders(owner: npt.NDArray[np.int_]) -> Mask:
+    """Return the pixels at which one thing (or the background) ends and another begins."""
+    mask = np.zeros(owner.shape, dtype=bool)
+    mask[:, 1:] |= owner[:, 1:] != owner[:, :-1]
+    mask[1:, :] |= owner[1:, :] != owner[:-1, :]
+    return mask
+
+
+def _thing(mesh: "trimesh.Trimesh", colour: Colour) -> Thing:
+    vertices, normals, faces = creased(mesh)
+    return Thing(vertices * MM, normals, faces, creases(mesh) * MM, colour)
+
+
+def _placed(points_m: Array, pose: Array) -> Array:
+    return turned(points_m, pose[:3, :3]) + pose[:3, 3]
+
+
+def _corners(thing: Thing, pose: Array, camera: Camera, size: tuple[int, int]) -> Array:
+    """Return the corners (n, 3, 4) of a placed thing's triangles as `drawn` takes them."""
+    pixels, distance = camera.seen(_placed(thing.vertices_m, pose), size)
+    lit = np.maximum(turned(turned(thing.normals, pose[:3, :3]), LIGHT[None])[:, 0], 0.0)
+    return np.column_stack([pixels, 1.0 / distance, AMBIENT + DIFFUSE * lit])[thing.faces]
+
+
+def _least_beside(values: Array) -> Array:
+    """Return for every pixel the least value within one pixel of it."""
+    for _ in range(2):
+        wide = values.copy()
+        np.minimum(wide[1:], values[:-1], out=wide[1:])
+        np.minimum(wide[:-1], values[1:], out=wide[:-1])
+        values = wide.T
+    return values
+
+
+def _draw(ink: Mask, pixel: Array, distance_m: Array, seen_m: Array) -> None:
+    """Ink the pixels of edges, whose ends lie at pixels (n, 2, 2) and distances (n, 2), before what is seen there."""
+    height, width = ink.shape
+    before = (distance_m > 0.0).all(axis=1)
+    pixel, distance_m = pixel[before], distance_m[before]
+    count = np.ceil(np.abs(pixel[:, 1] - pixel[:, 0]).max(axis=1, initial=0.0)).astype(int) + 1
+    which = np.repeat(np.arange(len(pixel)), count)
+    share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / np.repeat(count, count)
+    # perspective: what moves evenly across the picture is the inverse of distance
+    x, y = np.floor(pixel[which, 0] + share[:, None] * (pixel[which, 1] - pixel[which, 0])).astype(int).T
+    near = 1.0 / (1.0 / distance_m[which, 0] + share * (1.0 / distance_m[which, 1] - 1.0 / distance_m[which, 0]))
+    inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
+    x, y, near = x[inside], y[inside], near[inside]
+    seen = near <= seen_m[y, x] + EDGE_DEPTH_M
+    ink[y[seen], x[seen]] = True

@@ -1,0 +1,77 @@
+"""What there is to see of a robot: every copy of every part with its mesh, its place and its colour.
+
+Every picture and every exported file takes its meshes and colours from here.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from jumpcad.parts.part import Array, Part
+from jumpcad.parts.purchased import Bought, in_metres
+from jumpcad.robot import Robot
+
+if TYPE_CHECKING:
+    import trimesh
+
+Colour = tuple[float, float, float]
+
+PRINTED_COLOURS: dict[str, Colour] = {
+    "links": (0.93, 0.45, 0.13),
+    "body": (0.60, 0.71, 0.82),
+    "gears": (0.16, 0.52, 0.66),
+}
+"""By the role of a printed part."""
+BOUGHT_COLOURS: dict[str, Colour] = {
+    "torsion spring": (0.30, 0.33, 0.38),
+    "gear motor": (0.85, 0.70, 0.30),
+    "bearing": (0.72, 0.74, 0.77),
+    "steel rod": (0.66, 0.68, 0.71),
+    "screw": (0.22, 0.23, 0.25),
+    "standoff": (0.96, 0.96, 0.93),
+    "battery": (0.20, 0.42, 0.85),
+    "controller": (0.13, 0.50, 0.28),
+    "driver": (0.50, 0.20, 0.50),
+}
+"""By a word of a bought part's article or name; the first that occurs counts."""
+STEEL: Colour = (0.62, 0.64, 0.67)
+
+
+@dataclass(frozen=True)
+class Shape:
+    """One thing on the robot.
+
+    `name` is unique; `mesh_name` names its mesh, which copies share. `T_body_mesh` (4, 4) is the pose of the mesh (mm)
+    in the frame of `body`, its translation in metres. `source` is the printed or bought part.
+    """
+
+    name: str
+    mesh_name: str
+    body: str
+    T_body_mesh: Array
+    colour: Colour
+    source: Part | Bought
+
+    @property
+    def mesh(self) -> "trimesh.Trimesh":
+        """The mesh in its own frame (mm), as detailed as eyes need."""
+        return self.source.drawing.look if isinstance(self.source, Part) else self.source.look
+
+
+def shapes(robot: Robot) -> tuple[Shape, ...]:
+    """Return every copy of every printed part, then every bought part; nothing for a robot that is a mechanism only."""
+    return (*_printed(robot), *(_bought(item) for item in robot.hardware))
+
+
+def _printed(robot: Robot) -> Iterator[Shape]:
+    for part in robot.parts:
+        for number, place in enumerate(part.placements, start=1):
+            name = part.name if part.quantity == 1 else f"{part.name}_{number}"
+            colour = PRINTED_COLOURS[part.drawing.role]
+            yield Shape(name, part.name, place.body, in_metres(place.T_body_part), colour, part)
+
+
+def _bought(item: Bought) -> Shape:
+    label = f"{item.article} {item.name}".lower()
+    colour = next((colour for word, colour in BOUGHT_COLOURS.items() if word in label), STEEL)
+    return Shape(item.name, item.name, item.body, in_metres(item.T_body_part), colour, item)

@@ -1,0 +1,94 @@
+"""The main leg's hub: what its bearings bear with the springs wound, and which of the catalogue bear it (N, mm).
+
+Two bearings sit at the hub's faces. The springs' arms press evenly on both; the cam pushes beside the leg, where the
+roller is, so that the leg tilts against them and the nearer one bears more than the cam's whole force.
+"""
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from jumpcad.catalogue import Bearing, load_catalogue
+from jumpcad.design import Design
+from jumpcad.drive import Drive
+from jumpcad.errors import JumpcadError
+from jumpcad.layout.lateral import ROLLER_WASHER_MM
+from jumpcad.mechanism.linkage import direction
+from jumpcad.workshop import Workshop
+
+Array = npt.NDArray[np.float64]
+
+ANY = "any"
+"""In a workshop's place for a bearing: the lightest of the catalogue that bears its load."""
+LONGEST_ARM_MM = 10.0
+"""Springs' torque over a bearing's load: about the most of many designs, so that hardly a hub bears less than this."""
+SHOULDER_MM = 0.8
+"""Between the seats of both bearings, at least."""
+
+
+def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
+    """Return the bearings that a workshop allows in the hub, the lightest first; None where it wants none.
+
+    Raises
+    ------
+    JumpcadError
+        If none of the catalogue has the axle's bore.
+    """
+    name, axle = workshop.bought.leg_bearing, workshop.bought.axle_mm
+    catalogue = load_catalogue().bearings
+    if not name:
+        return [None]
+    named = list(catalogue.values()) if name == ANY else [catalogue[name]]
+    fitting = [bearing for bearing in named if bearing.bore_mm == axle]
+    if not fitting:
+        raise JumpcadError(
+            f'bought.leg_bearing = "{name}": no such bearing has the bore of bought.axle_mm = {axle:g}: '
+            'change one of them, or run the hub on its axle (leg_bearing = "")'
+        )
+    return [*sorted(fitting, key=lambda bearing: bearing.mass_g)]
+
+
+def first_guess(bearings: list[Bearing | None], design: Design, workshop: Workshop) -> int:
+    """Return the number of the bearing to try first: those before it could hardly do."""
+    load = 1000.0 * design.peak_spring_torque_nm / LONGEST_ARM_MM
+    enough = (bearing is None or load <= allowed_n(bearing, workshop) for bearing in bearings[:-1])
+    return next((number for number, good in enumerate(enough) if good), len(bearings) - 1)
+
+
+def hub_width_mm(bearing: Bearing | None) -> float:
+    """Return how wide the hub must be for two bearings and the shoulder between them."""
+    return 0.0 if bearing is None else 2.0 * bearing.width_mm + SHOULDER_MM
+
+
+def wound_forces_n(design: Design, drive: Drive) -> tuple[Array, Array]:
+    """Return the forces (2,) of both springs' arms on the leg, and of the cam on the lever, springs wound.
+
+    In the body's x-z plane, with the roller at the end of the lift.
+    """
+    along = direction(math.radians(design.rest_angle_deg) - design.compression_rad)
+    strength = 1000.0 * design.peak_spring_torque_nm / drive.spring.pin_radius_mm
+    on_leg = strength * np.array([along[1], -along[0]])  # downwards: towards rest
+    lever = drive.cam.lever_start_rad + design.compression_rad
+    return on_leg, drive.cam.peak_contact_n * np.array([-math.sin(lever), math.cos(lever)])
+
+
+def bearing_load_n(forces_n: tuple[Array, Array], leg_mm: float, roller_mm: float, bearing: Bearing) -> float:
+    """Return what the worse loaded of two bearings bears.
+
+    Parameters
+    ----------
+    forces_n
+        Of the springs' arms, in the middle of the hub, and of the cam, as `wound_forces_n` returns them.
+    leg_mm, roller_mm
+        Width of the leg, which may have to grow for the bearings, and of the roller beside it.
+    """
+    arms, cam = forces_n
+    width = max(leg_mm, hub_width_mm(bearing))
+    tilt = (width / 2.0 + ROLLER_WASHER_MM + roller_mm / 2.0) / (width - bearing.width_mm)
+    return float(max(np.linalg.norm(arms / 2.0 + cam * (0.5 + side * tilt)) for side in (-1.0, 1.0)))
+
+
+def allowed_n(bearing: Bearing, workshop: Workshop) -> float:
+    """Return what a bearing may bear: its static load rating over the static safety factor."""
+    return bearing.static_load_n / workshop.safety.bearing_factor

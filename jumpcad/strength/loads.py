@@ -1,0 +1,173 @@
+"""What the links bear while the springs unwind, and when the robot lands (numpy only; N, N·mm, mm).
+
+Until take-off the foot stands on the ground and the mechanism has one degree of freedom, the leg's angle. Legs and
+foot are taken as massless beside the body, so that the equation of motion follows from energy alone and every joint
+force from equilibrium (inverse dynamics; e.g. Norton, Design of Machinery, ch. 11).
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from jumpcad.design import Design
+from jumpcad.mechanism.linkage import Linkage
+
+Array = npt.NDArray[np.float64]
+
+GRAVITY_M_S2 = 9.81
+POSITIONS = 17
+
+
+@dataclass(frozen=True)
+class MovingMass:
+    """What the legs throw: mass, centre of mass (2,) in the body's x-z frame, and radius of gyration about y."""
+
+    mass_kg: float
+    com_mm: Array
+    gyration_mm: float
+
+
+@dataclass(frozen=True)
+class PushOff:
+    """Forces at n leg angles from release to rest; zero from take-off on. Vectors (n, 2) are x-z on a flat foot.
+
+    Attributes
+    ----------
+    leg_rad
+        Leg angles (n,), from wound to 0.
+    ground_n
+        Force of the ground on the foot (n, 2).
+    ankle_n
+        Force of the foot on the main leg (n, 2).
+    leg_axial_n, front_n
+        Compression (n,) of the main leg and of the front link; negative is tension.
+    toes_n
+        What both toe tips bear together (n,), with the foot resting on nose and tips alone.
+    residual_n
+        By how much forces and torques on the body fail to balance (n,): zero but for the finite differences.
+    """
+
+    leg_rad: Array
+    ground_n: Array
+    ankle_n: Array
+    leg_axial_n: Array
+    front_n: Array
+    toes_n: Array
+    residual_n: Array
+
+
+def push_off(design: Design, mass: MovingMass, foot_depth_mm: float) -> PushOff:
+    """Return the forces of a push-off from a flat foot that does not slip.
+
+    With mass m, centre of mass c(q), turn t(q), radius of gyration k and J = |c'|² + k² t'², energy gives
+    m·J·q̇²/2 = K·(wound² - q²)/2 - m·g·(rise), and its derivative by q gives q̈.
+    """
+    linkage = Linkage(design)
+    leg = np.linspace(-design.compression_rad, 0.0, POSITIONS)
+    pose = linkage.pose(leg)
+    stiffness, weight = 1000.0 * design.stiffness_nm_per_rad, mass.mass_kg * GRAVITY_M_S2
+
+    def on_foot(point_mm: Array) -> Array:
+        return _turned(point_mm - pose.ankle_mm, -pose.foot_rad)
+
+    def by_leg(values: Array) -> Array:
+        return np.gradient(values, leg, axis=0, edge_order=2)
+
+    hub, front, com = on_foot(linkage.back_pivot_mm), on_foot(linkage.front_pivot_mm), on_foot(mass.com_mm)
+    turn_1 = by_leg(-pose.foot_rad)
+    com_1 = by_leg(com)
+    com_2, turn_2 = by_leg(com_1), by_leg(turn_1)
+    arm_square = mass.gyration_mm**2
+    reflected = (com_1**2).sum(axis=1) + arm_square * turn_1**2
+    energy = 0.5 * stiffness * (leg[0] ** 2 - leg**2) - weight * (com[:, 1] - com[0, 1])
+    speed_square = np.maximum(2.0 * energy, 0.0) / reflected  # times the mass, as is the next
+    torque = -stiffness * leg
+    reflected_1 = 2.0 * ((com_1 * com_2).sum(axis=1) + arm_square * turn_1 * turn_2)
+    acceleration = (torque - weight * com_1[:, 1] - 0.5 * reflected_1 * speed_square) / reflected
+    ground = acceleration[:, None] * com_1 + speed_square[:, None] * com_2 + np.array([0.0, weight])
+    spin = arm_square * (acceleration * turn_1 + speed_square * turn_2)
+
+    along = hub / design.l2_mm  # from the ankle, which is the origin
+    across = np.stack([along[:, 1], -along[:, 0]], axis=-1)
+    shear = torque / design.l2_mm
+    front_along = (front - np.array([design.l4_mm, 0.0])) / design.l3_mm
+    # Two unknown forces, three equations; the third holds by itself, or tells the forces of parallel links apart.
+    arm = design.l1_mm
+    columns = [
+        np.column_stack([unit, _moment(pivot - com, unit) / arm])
+        for unit, pivot in ((along, hub), (front_along, front))
+    ]
+    unknown = np.stack(columns, axis=-1)
+    known = np.column_stack(
+        [ground - shear[:, None] * across, (torque + spin - shear * _moment(hub - com, across)) / arm]
+    )
+    transposed = unknown.transpose(0, 2, 1)
+    forces = np.linalg.solve(transposed @ unknown, transposed @ known[..., None])
+    axial, front_force = forces[..., 0].T
+    residual = np.linalg.norm((unknown @ forces)[..., 0] - known, axis=1)
+    ankle = axial[:, None] * along + shear[:, None] * across
+    eye = front_force[:, None] * front_along
+
+    up = ground[:, 1]
+    stands = np.cumprod(up > 0.0).astype(float)
+    back, _ = toe_tip_mm(design)
+    centre_of_pressure = (design.l4_mm * eye[:, 1] - foot_depth_mm * ground[:, 0]) / np.where(stands > 0, up, 1.0)
+    share = np.clip((design.l4_mm - centre_of_pressure) / (design.l4_mm + back), 0.0, 1.0)
+    return PushOff(
+        leg_rad=leg,
+        ground_n=ground * stands[:, None],
+        ankle_n=ankle * stands[:, None],
+        leg_axial_n=axial * stands,
+        front_n=front_force * stands,
+        toes_n=share * up * stands,
+        residual_n=residual * stands,
+    )
+
+
+def _turned(vector: Array, angle_rad: Array) -> Array:
+    """Return x-z vectors (n, 2) turned about +y by angles (n,)."""
+    x, z = vector[:, 0], vector[:, 1]
+    cos, sin = np.cos(angle_rad), np.sin(angle_rad)
+    return np.stack([cos * x + sin * z, cos * z - sin * x], axis=-1)
+
+
+def _moment(arm: Array, force: Array) -> Array:
+    """Return the moment (n,) about +y of forces (n, 2) at arms (n, 2), both x-z."""
+    return arm[:, 1] * force[:, 0] - arm[:, 0] * force[:, 1]
+
+
+def landing_force_n(design: Design, mass_kg: float, stop_mm: float, rise_m: float | None = None) -> float:
+    """Return the mean force that stops a falling robot evenly over a way, m·g·(drop + stop)/stop.
+
+    Without the rise of a simulated jump, all of the springs' energy is taken to have become height.
+    """
+    weight = mass_kg * GRAVITY_M_S2
+    drop = 1000.0 * design.spring_energy_j if rise_m is None else 1000.0 * weight * rise_m
+    return drop / stop_mm + weight
+
+
+def reflected_share(arm_mm: tuple[float, float], gyration_mm: tuple[float, float]) -> float:
+    """Return the share of a body's mass that a vertical blow meets at arms x, y from its centre of mass.
+
+    The body turns away from the blow: 1/(1 + (x/k_y)² + (y/k_x)²) with the radii of gyration (k_x, k_y) about x and y
+    (centre of percussion; e.g. Meriam and Kraige, Dynamics, 6/8).
+    """
+    return 1.0 / (1.0 + (arm_mm[0] / gyration_mm[1]) ** 2 + (arm_mm[1] / gyration_mm[0]) ** 2)
+
+
+def toe_moment_nmm(design: Design, toes_n: float) -> float:
+    """Return the moment at the root of one toe when both tips bear a force together."""
+    return 0.5 * toes_n * design.l5_mm
+
+
+def rail_moment_nmm(design: Design, toes_n: float) -> float:
+    """Return the moment in one of the two rails at the ankle when both toe tips bear a force together."""
+    return 0.5 * toes_n * toe_tip_mm(design)[0]
+
+
+def toe_tip_mm(design: Design) -> tuple[float, float]:
+    """Return how far behind the ankle and how far from the middle a toe's tip is."""
+    angle = math.radians(design.ground_link_angle_deg)
+    return design.l5_mm * math.cos(angle), design.l5_mm * math.sin(angle)

@@ -1,0 +1,161 @@
+"""Sections of the moving links from the loads that they carry (numpy only, mm, N, N·mm).
+
+The largest loads act at release: the springs' torque k·δ bends main leg and lever, and the ground pushes on the toe
+tips, which bends toes and rails. Heights follow from the printing material's in-plane strength over the safety factor,
+with the formulas by which `checks.strength` judges the finished robot. What it still finds too weak then grows.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from jumpcad.design import Design
+from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
+from jumpcad.strength.stress import STATIONS, Bar, Skin, height_for_mm, tapered_energy_nmm
+from jumpcad.workshop import Workshop
+
+TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
+"""What sizing takes the body to be, whose parts it does not know yet; those of the template designs are within 10 %."""
+RESERVE = 1.15
+"""On every load, for what only the built robot tells: masses, axial forces, the lever's length."""
+HEIGHT_MIN_MM = 6.0
+LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
+"""Height at the tip over that at the root. With half or more, moment over section falls from the root on."""
+TOE_TIP_WIDTH_MM = 5.0
+KEY_MM = 7.0
+GROWTH_STEP = 1.1
+RAIL_MIN_MM, TOE_MIN_MM, TOE_TIP_MIN_MM = 3.2, 3.2, 2.4
+
+
+@dataclass(frozen=True)
+class Sections:
+    """Outer dimensions of legs and foot (mm).
+
+    `thickness_mm` is across the robot (y); heights are in the plane of motion. `foot_depth_mm` is the distance from
+    the line of ankle and front eye down to the ground. `lug_thickness_mm` is that of lugs and rails, `key_mm` the
+    distance across the flats of the hexagon that turns the cam.
+    """
+
+    thickness_mm: float
+    leg_root_mm: float
+    leg_tip_mm: float
+    front_mm: float
+    lever_root_mm: float
+    eye_radius_mm: float
+    lug_thickness_mm: float
+    foot_depth_mm: float
+    rail_root_mm: float
+    rail_tip_mm: float
+    toe_width_mm: float
+    toe_root_mm: float
+    toe_tip_mm: float
+    key_mm: float
+
+    def leg(self, skin: Skin) -> Bar:
+        """Return the main leg's sections from hub to ankle."""
+        return Bar(self.thickness_mm, np.linspace(self.leg_root_mm, self.leg_tip_mm, STATIONS), skin)
+
+    def front(self, skin: Skin) -> Bar:
+        """Return the front link's section."""
+        return Bar(self.thickness_mm, self.front_mm, skin)
+
+    def toe(self, skin: Skin) -> Bar:
+        """Return one toe's sections from root to tip."""
+        width = np.linspace(self.toe_width_mm, TOE_TIP_WIDTH_MM, STATIONS)
+        return Bar(width, np.linspace(self.toe_root_mm, self.toe_tip_mm, STATIONS), skin, upright=True)
+
+    def rail(self, skin: Skin) -> Bar:
+        """Return one rail's sections from ankle to front eye."""
+        return Bar(
+            self.lug_thickness_mm, np.linspace(self.rail_root_mm, self.rail_tip_mm, STATIONS), skin, upright=True
+        )
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Factors on what sizing alone would choose, for what the built robot's checks found too weak."""
+
+    leg: float = 1.0
+    lever: float = 1.0
+    front: float = 1.0
+    thickness: float = 1.0
+    lug: float = 1.0
+    toe: float = 1.0
+    rail: float = 1.0
+    plate: float = 1.0
+    key: float = 1.0
+
+    def more(self, weak: Iterable[str]) -> "Growth":
+        """Return one step more for what is weak."""
+        return replace(self, **{what: GROWTH_STEP * getattr(self, what) for what in weak})
+
+
+def sections(design: Design, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
+    """Size the links of a design in a workshop, with a hub of at least a width."""
+    fits, safety, material = workshop.fits, workshop.safety, workshop.material("links")
+    skin = Skin.of(workshop.process)
+    allowable = material.strength_in_plane_mpa / safety.strength_factor
+    eye = workshop.bought.axle_mm / 2.0 + 0.3 + 2.0 * fits.wall_mm
+    lug, toe_width = growth.lug * 4.0, 7.0
+    torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
+    thickness = growth.thickness * max(6.0 if torque < 900.0 else 8.0, hub_width_mm)
+    root = max(HEIGHT_MIN_MM + 2.0, height_for_mm(torque, thickness, allowable, skin))
+    stiff = _stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share)
+    leg_root = _in_hundredths(growth.leg * stiff)
+    leg_tip = _leg_tip_mm(leg_root)
+    depth = max(eye, leg_tip / 2.0) + 1.0
+    toes = RESERVE * float(push_off(design, TYPICAL_BODY, depth).toes_n.max())
+    toe = height_for_mm(toe_moment_nmm(design, toes), toe_width, allowable, skin, upright=True)
+    rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, skin, upright=True)
+    toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
+    rail_root = _in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
+    return Sections(
+        thickness_mm=thickness,
+        leg_root_mm=leg_root,
+        leg_tip_mm=leg_tip,
+        front_mm=growth.front * HEIGHT_MIN_MM,
+        lever_root_mm=_in_hundredths(growth.lever * root),
+        eye_radius_mm=eye,
+        lug_thickness_mm=lug,
+        foot_depth_mm=depth,
+        rail_root_mm=rail_root,
+        rail_tip_mm=max(RAIL_MIN_MM, RAIL_TAPER * rail_root),
+        toe_width_mm=toe_width,
+        toe_root_mm=toe_root,
+        toe_tip_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
+        key_mm=growth.key * KEY_MM,
+    )
+
+
+def leg_flex_share(design: Design, leg: Bar, modulus_mpa: float) -> float:
+    """Return the energy that bends the leg at release as a share of the springs'.
+
+    The moment is taken to fall evenly from the hub to the ankle: an upper bound, since the springs' arms press on the
+    leg a little beyond the hub.
+    """
+    energy = tapered_energy_nmm(leg, 1000.0 * design.peak_spring_torque_nm, design.l2_mm, modulus_mpa)
+    return energy / (1000.0 * design.spring_energy_j)
+
+
+def _stiff_mm(
+    design: Design, root_mm: float, thickness_mm: float, skin: Skin, modulus_mpa: float, share_max: float
+) -> float:
+    """Return the height of the leg's root, raised until its flexing is within its share: energy goes with 1/h³."""
+    for _ in range(12):
+        heights = np.linspace(root_mm, _leg_tip_mm(root_mm), STATIONS)
+        share = leg_flex_share(design, Bar(thickness_mm, heights, skin), modulus_mpa)
+        if share <= share_max:
+            break
+        root_mm *= 1.01 * (share / share_max) ** (1.0 / 3.0)
+    return root_mm
+
+
+def _in_hundredths(height_mm: float) -> float:
+    """Return a height rounded up to 0.01 mm: the last digits of the loads differ between processors."""
+    return math.ceil(height_mm * 100.0 - 1e-6) / 100.0
+
+
+def _leg_tip_mm(root_mm: float) -> float:
+    return max(HEIGHT_MIN_MM, LEG_TAPER * root_mm)

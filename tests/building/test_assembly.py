@@ -1,0 +1,228 @@
+"""Whole robots: masses summed up by trimesh, the loop closed by the joints' frames, refusals, the same bytes."""
+
+import hashlib
+import math
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from support.built import LONG_TOES, body_in_plane, built, design, geared
+from support.elsewhere import environment
+
+from jumpcad.building import build
+from jumpcad.design import Design, load_design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.robot import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Robot
+from jumpcad.solids.finish import to_trimesh
+from jumpcad.solids.stl import write_stl
+from jumpcad.workshop import Workshop, load_workshop
+
+
+def pieces(robot: Robot, body: str) -> list[tuple[trimesh.Trimesh, float]]:
+    """Return mesh (m, in the body's frame) and mass of everything on a body."""
+    found = [
+        (part.mesh.copy().apply_transform(place.T_body_part), part.mass_kg)
+        for part in robot.parts
+        for place in part.placements
+        if place.body == body
+    ]
+    found += [
+        (to_trimesh(item.solid).apply_transform(item.T_body_part), item.mass_kg)
+        for item in robot.hardware
+        if item.body == body
+    ]
+    return [(mesh.apply_scale(0.001), mass) for mesh, mass in found]
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
+@pytest.mark.parametrize("body", BODY_NAMES)
+def test_bodies_are_the_sum_of_their_meshes(name: str, body: str) -> None:
+    """Mass, centre and tensor of every mesh by trimesh, and Steiner's theorem."""
+    robot = built(name, mass_model="solid")
+    assert {part.mass_source for part in robot.parts} == {"solid"}
+    masses, centres, tensors = [], [], []
+    for mesh, mass in pieces(robot, body):
+        mesh.density = mass / mesh.volume
+        masses.append(mass)
+        centres.append(mesh.center_mass)
+        tensors.append(mesh.moment_inertia)
+    total = sum(masses)
+    centre = np.average(centres, axis=0, weights=masses)
+    inertia = np.zeros((3, 3))
+    for mass, at, tensor in zip(masses, centres, tensors, strict=True):
+        arm = at - centre
+        inertia += tensor + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    found = robot.bodies[body]
+    assert found.mass_kg == pytest.approx(total, rel=1e-9)
+    np.testing.assert_allclose(found.com_m, centre, atol=1e-6)
+    np.testing.assert_allclose(found.inertia_kg_m2, inertia, atol=2e-5 * np.abs(inertia).max())
+
+
+def test_solid_parts_weigh_their_volume() -> None:
+    """PETG 1.27 and PLA 1.24 g/cm³."""
+    robot = built("kenan-2.0", mass_model="solid")
+    for part in robot.parts:
+        density = {"PETG": 1270.0, "PLA": 1240.0}[part.material]
+        assert part.mass_kg == pytest.approx(density * part.mesh.volume * 1e-9, rel=5e-4), part.name
+
+
+def test_printed_parts_are_mostly_lighter_than_solid_ones() -> None:
+    """Nothing but narrow frames, in which a slicer's lines overlap, is heavier (PrusaSlicer: the trays by 3 %)."""
+    printed, solid = built("kenan-2.0"), built("kenan-2.0", mass_model="solid")
+    for light, heavy in zip(printed.parts, solid.parts, strict=True):
+        assert 0.4 * heavy.mass_kg < light.mass_kg < 1.08 * heavy.mass_kg, light.name
+    assert printed.mass_kg < solid.mass_kg
+
+
+def test_a_weighed_part_weighs_what_the_scale_says() -> None:
+    workshop = load_workshop()
+    scale = workshop.mass.model_copy(update={"weighed_g": {"foot": 12.5}})
+    robot = build(load_design("kenan-2.0"), workshop.model_copy(update={"mass": scale}))
+    foot = next(part for part in robot.parts if part.name == "foot")
+    assert foot.mass_kg == pytest.approx(0.0125)
+    assert foot.mass_source == "weighed"
+    gained = 0.0125 - next(part for part in built("kenan-2.0").parts if part.name == "foot").mass_kg
+    assert robot.bodies[FOOT].mass_kg - built("kenan-2.0").bodies[FOOT].mass_kg == pytest.approx(gained, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
+def test_body_tensors_belong_to_bodies(name: str) -> None:
+    for body in built(name).bodies.values():
+        low, middle, high = np.linalg.eigvalsh(body.inertia_kg_m2)
+        assert 0 < low <= middle <= high < low + middle
+        np.testing.assert_allclose(body.inertia_kg_m2, body.inertia_kg_m2.T, atol=1e-18)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo", LONG_TOES])
+def test_frames_of_the_joints_close_the_loop(name: str) -> None:
+    """Down the tree of joints, the front link's eye and the foot's meet at every winding angle."""
+    robot = built(name)
+    for wind in np.linspace(0.0, robot.spring.wind_rad, 7):
+        pose = Linkage(robot.design).pose([-wind])
+        turns = {"leg": pose.leg_rad[0], "front": pose.front_rad[0], "ankle": pose.ankle_rad[0]}
+        frames = {BODY: np.eye(4)}
+        for joint in robot.joints:
+            angle = joint.rest_angle_rad + turns[joint.name]
+            local = np.eye(4)
+            local[0, 0] = local[2, 2] = math.cos(angle)
+            local[0, 2], local[2, 0] = math.sin(angle), -math.sin(angle)
+            local[:3, 3] = joint.origin_m
+            frames[joint.child] = frames[joint.parent] @ local
+        a = frames[robot.loop.body_a] @ [*robot.loop.point_a_m, 1.0]
+        b = frames[robot.loop.body_b] @ [*robot.loop.point_b_m, 1.0]
+        np.testing.assert_allclose(a, b, atol=1e-12)
+        for body in (MAIN_LEG, FRONT_LINK, FOOT):
+            by_cosines = body_in_plane(robot, body, wind)
+            np.testing.assert_allclose(1000.0 * frames[body][[0, 2], 3], by_cosines[:2, 2], atol=1e-9)
+            np.testing.assert_allclose(frames[body][[0, 2], 0], by_cosines[:2, 0], atol=1e-12)
+
+
+def test_the_foot_lies_flat_when_the_body_is_tilted_by_beta() -> None:
+    robot = built(LONG_TOES)
+    along_foot = body_in_plane(robot, FOOT, 0.0)[:2, 0]
+    assert math.atan2(-along_foot[1], along_foot[0]) == pytest.approx(robot.design.beta_rad, abs=1e-12)
+
+
+def test_the_energy_of_the_springs_is_the_designs() -> None:
+    robot = built("kenan-2.0")
+    spring = robot.plan.drive.spring
+    assert 2 * spring.stiffness_nm_per_rad == pytest.approx(robot.design.stiffness_nm_per_rad)
+    assert robot.spring.energy_j == pytest.approx(0.133, abs=0.001)  # the study's table for Kenan 2.0
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo", LONG_TOES])
+def test_everything_bought_is_between_or_beside_the_plates(name: str) -> None:
+    robot = built(name)
+    low, high = robot.plan.lateral.outside
+    for item in robot.hardware:
+        if item.body == BODY:
+            y = (item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3])[:, 1]
+            assert low - 4.0 < y.min(), item.name
+            assert y.max() < high + 4.0, item.name
+
+
+def test_the_same_inputs_give_the_same_files_on_another_machine() -> None:
+    code = (
+        "import hashlib, jumpcad; from jumpcad.solids.stl import write_stl;"
+        "robot = jumpcad.build(jumpcad.load_design('best-bo'), jumpcad.load_workshop(), 'best-bo');"
+        "[print(part.name, hashlib.sha256(write_stl(part.mesh)).hexdigest(), part.mass_kg) for part in robot.parts]"
+    )
+    there = subprocess.run(
+        [sys.executable, "-c", code],
+        check=True, capture_output=True, text=True, cwd=Path(__file__).parents[1],
+        env=environment(),
+    ).stdout.splitlines()  # fmt: skip
+    here = [
+        f"{part.name} {hashlib.sha256(write_stl(part.mesh)).hexdigest()} {part.mass_kg}"
+        for part in built("best-bo").parts
+    ]
+    assert here == there
+
+
+def changed(**sections: dict[str, Any]) -> Workshop:
+    """Return the default workshop with some values of some sections changed."""
+    workshop = load_workshop()
+    parts = {name: getattr(workshop, name).model_copy(update=values) for name, values in sections.items()}
+    return workshop.model_copy(update=parts)
+
+
+KENAN = design("kenan-2.0")
+CASES: dict[str, tuple[Design, Workshop, str]] = {
+    "loop": (
+        KENAN.model_copy(update={"c_coef": 1.5, "d_coef": 0.3}), changed(),
+        r"^loop: the loop is \d+\.\d+ mm short of closing.*: lower compression_ratio, or bring c_coef nearer to 1",
+    ),
+    "below ground": (
+        KENAN.model_copy(update={"c_coef": 1.03, "d_coef": 0.5, "compression_ratio": 0.8}), changed(),
+        r"^below_ground: lowest body pivot.* is -\d+\.\d mm above the line.*: lower compression_ratio",
+    ),
+    "legs meet": (
+        Design.from_vector([105.3, 1.035, 0.57, 1.21, 0.756, 46.9, 5.2, 14.5]), changed(),
+        r"main leg and front link come \d\.\d mm nearer than the 0\.5 mm .*: lower compression_ratio, or raise d_coef",
+    ),
+    "no spring": (
+        KENAN.model_copy(update={"stiffness_nmm_per_deg": 120.0}), changed(),
+        r"^no wire of .* makes a torsion spring for \d+ N·mm .*: lower stiffness_nmm_per_deg or compression_ratio",
+    ),
+    "hardly wound": (
+        KENAN.model_copy(update={"compression_ratio": 0.001}), changed(),
+        r"wound by 0\.09°, less than 0\.5°: raise compression_ratio",
+    ),
+    "weak motor": (
+        load_design("best-bo"), changed(bought={"motors": ("n20-30",)}, safety={"motor_stall_share": 0.03}),
+        r"^no motor turns the cam: it takes \d+ mN·m, the strongest allowed motor may give 1 mN·m.*: lower stiffness",
+    ),
+    "small bed": (
+        KENAN, changed(printer={"bed_mm": (70.0, 70.0, 70.0)}),
+        r"^part \w+ of \d+\.\d×\d+\.\d×\d+\.\d mm does not fit the bed of 70\.0×70\.0×70\.0 mm at any angle: choose a",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_what_cannot_be_built_is_refused_with_value_and_remedy(case: str) -> None:
+    refused, workshop, words = CASES[case]
+    with pytest.raises(CannotBuildError, match=words) as caught:
+        build(refused, workshop)
+    assert "\n" not in str(caught.value)
+    assert caught.value.exit_code == 1
+
+
+def test_an_unknown_motor_is_a_wrong_request() -> None:
+    with pytest.raises(JumpcadError, match=r"no motor 'n20-99' in the catalogue .*did you mean") as caught:
+        build(KENAN, changed(bought={"motors": ("n20-99",)}))
+    assert caught.value.exit_code == 2
+
+
+def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
+    robot = geared()
+    names = {item.name for item in robot.hardware}
+    assert "idler_axle" in names
+    assert "idler_axle" not in {item.name for item in built("kenan-2.0").hardware}
+    collars = next(part for part in robot.parts if part.name == "collar")
+    assert collars.quantity == 8

@@ -1,0 +1,62 @@
+"""Robots that were sized too weak grow until they hold, or keep what has no room to grow and say so."""
+
+from typing import Any
+
+import pytest
+
+from jumpcad.building import assembly, build
+from jumpcad.checks import check
+from jumpcad.checks.strength import strength_findings
+from jumpcad.design import load_design
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import errors
+from jumpcad.strength.sizing import Growth
+from jumpcad.workshop import Workshop, load_workshop
+
+
+def workshop(material: str = "PETG", figures: dict[str, float] | None = None, **safety: float) -> Workshop:
+    shop = load_workshop()
+    weaker = shop.materials[material].model_copy(update=figures or {})
+    safer = shop.safety.model_copy(update=safety)
+    return shop.model_copy(update={"materials": {**shop.materials, material: weaker}, "safety": safer})
+
+
+def test_what_was_sized_to_hold_does_not_grow(monkeypatch: pytest.MonkeyPatch) -> None:
+    steps: list[Any] = []
+    monkeypatch.setattr(Growth, "more", lambda self, weak: steps.append(weak))
+    for name in ("kenan-2.0", "best-bo"):
+        build(load_design(name))
+    assert steps == []
+
+
+@pytest.mark.parametrize(
+    ("shop", "grown"),
+    [
+        (workshop(landing_stop_mm=5.0), {"toe_root_mm", "front_mm"}),
+        (workshop(figures={"strength_interlayer_mpa": 4.0}), {"lug_thickness_mm", "key_mm"}),
+        (workshop(landing_stop_mm=2.0), {"toe_root_mm", "front_mm", "thickness_mm"}),
+        (workshop("PLA", {"strength_in_plane_mpa": 35.0}), {"plate"}),
+    ],
+)
+def test_sections_grow_until_the_checks_pass(shop: Workshop, grown: set[str]) -> None:
+    design = load_design("best-bo")
+    as_sized = assembly.assembled(design, shop, "", Growth())
+    assert errors(strength_findings(as_sized))
+    robot = build(design, shop)
+    assert errors(check(robot)) == []
+    assert robot.mass_kg > as_sized.mass_kg
+    before, after = ({**vars(r.plan.sections), "plate": r.plan.lateral.left_plate} for r in (as_sized, robot) if r.plan)
+    assert grown <= {name for name in before if before[name] != after[name]}
+
+
+def test_what_finds_no_room_to_grow_stays_and_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan_of = assembly.plan_of
+
+    def narrow(design: Any, shop: Any, growth: Growth) -> Any:
+        if growth.toe > 1.15:
+            raise CannotBuildError("no room")
+        return plan_of(design, shop, growth)
+
+    monkeypatch.setattr(assembly, "plan_of", narrow)
+    robot = build(load_design("best-bo"), workshop(landing_stop_mm=5.0))
+    assert "toe_landing" in {finding.name for finding in errors(strength_findings(robot))}

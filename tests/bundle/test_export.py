@@ -1,0 +1,125 @@
+"""A bundle is whole or not there, replaces nothing but a bundle, and is the same bytes for the same robot."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from support.elsewhere import environment
+
+from jumpcad.bundle import export as bundle_module
+from jumpcad.bundle.export import export
+from jumpcad.bundle.manifest import Bundle, open_bundle, verify
+from jumpcad.errors import JumpcadError
+from jumpcad.robot import Robot
+
+
+def exported(robot: Robot, folder: Path) -> Bundle:
+    return export(robot, folder, pictures=False)
+
+
+def bytes_of(folder: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_manifest_knows_every_file(small_robot: Robot, tmp_path: Path) -> None:
+    bundle = exported(small_robot, tmp_path / "deep" / "kenan")
+    found = bytes_of(bundle.folder)
+    manifest = json.loads(found.pop("manifest.json"))
+    assert manifest["files"] == {name: hashlib.sha256(data).hexdigest() for name, data in found.items()}
+    assert manifest["mass_kg"] == small_robot.mass_kg
+    assert verify(bundle.folder) == []
+    assert bundle.urdf.is_file()
+
+
+def test_masses_in_the_manifest_add_up(small_robot: Robot, tmp_path: Path) -> None:
+    manifest = exported(small_robot, tmp_path / "b").manifest
+    lines = sum(line["quantity"] * line["mass_kg"] for line in manifest["masses"])
+    bodies = sum(body["mass_kg"] for body in manifest["bodies"].values())
+    assert lines == pytest.approx(manifest["mass_kg"], rel=1e-12)
+    assert bodies == pytest.approx(manifest["mass_kg"], rel=1e-12)
+    assert {line["source"] for line in manifest["masses"]} == {"solid", "catalogue"}
+
+
+def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path) -> None:
+    export(small_robot, tmp_path / "here")
+    code = (
+        "from support.robots import make_small_robot; from jumpcad.bundle.export import export; import sys;"
+        "export(make_small_robot(), sys.argv[1])"
+    )
+    paths = os.pathsep.join([str(Path(__file__).parents[1]), str(Path(__file__).parents[2])])
+    subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path / "there")],
+        check=True,
+        env=environment(PYTHONPATH=paths),
+    )
+    assert bytes_of(tmp_path / "here") == bytes_of(tmp_path / "there")
+
+
+def test_an_old_bundle_is_replaced_as_a_whole(small_robot: Robot, tmp_path: Path) -> None:
+    folder = tmp_path / "b"
+    exported(small_robot, folder)
+    before = bytes_of(folder)
+    (folder / "stl" / "left_over.stl").write_text("old")
+    exported(small_robot, folder)
+    assert bytes_of(folder) == before
+    assert [path.name for path in tmp_path.iterdir()] == ["b"]
+
+
+def test_nothing_else_is_replaced(small_robot: Robot, tmp_path: Path) -> None:
+    (tmp_path / "thesis").mkdir()
+    (tmp_path / "thesis" / "chapter1.txt").write_text("years of work")
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(JumpcadError, match=r"no manifest\.json, so it is not a bundle"):
+        exported(small_robot, tmp_path / "thesis")
+    with pytest.raises(JumpcadError, match="is a file"):
+        exported(small_robot, tmp_path / "file")
+    assert bytes_of(tmp_path) == {"thesis/chapter1.txt": b"years of work", "file": b"x"}
+
+
+def test_a_build_that_breaks_leaves_the_old_bundle(
+    small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "b"
+    exported(small_robot, folder)
+    before = bytes_of(tmp_path)
+    whole = Path.write_bytes
+
+    def full_disk(self: Path, data: bytes) -> int:
+        if self.suffix == ".glb":
+            raise OSError(28, "No space left on device")
+        return whole(self, data)
+
+    monkeypatch.setattr(bundle_module.Path, "write_bytes", full_disk)
+    with pytest.raises(JumpcadError, match="No space left on device"):
+        exported(small_robot, folder)
+    monkeypatch.undo()
+    assert bytes_of(tmp_path) == before
+
+
+def test_verify_names_changed_and_missing_files(small_robot: Robot, tmp_path: Path) -> None:
+    folder = exported(small_robot, tmp_path / "b").folder
+    (folder / "stl" / "foot.stl").unlink()
+    (folder / "bom.csv").write_text("1,2,3")
+    assert sorted(verify(folder)) == ["bom.csv: changed", "stl/foot.stl: missing"]
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"format": 1, "name": "x", "files": 3}'])
+def test_a_broken_manifest_is_refused_in_one_line(text: str, tmp_path: Path) -> None:
+    (tmp_path / "manifest.json").write_text(text)
+    with pytest.raises(JumpcadError, match=r"manifest\.json") as error:
+        open_bundle(tmp_path)
+    assert "\n" not in str(error.value)
+    with pytest.raises(JumpcadError, match="a bundle has one"):
+        open_bundle(tmp_path / "nowhere")
+
+
+@pytest.mark.parametrize("name", ["", "../up", "a/b", ".hidden", "a\nb"])
+def test_names_that_cannot_be_files_are_refused(name: str, small_robot: Robot, tmp_path: Path) -> None:
+    with pytest.raises(JumpcadError, match="names files"):
+        exported(replace(small_robot, name=name), tmp_path / "b")
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,54 @@
+"""The stills and the animated jump of a robot."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from jumpcad.bundle.renders import exploded, jump_gif, stills
+from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot import Robot
+from jumpcad.scene.shapes import shapes
+from jumpcad.simulation import Settings, simulate
+
+
+def test_three_different_pictures_of_the_size_asked(small_robot: Robot) -> None:
+    files = stills(small_robot, (160, 120))
+    assert list(files) == ["rest", "compressed", "exploded"]
+    pictures = [Image.open(io.BytesIO(png)) for png in files.values()]
+    assert {(picture.format, picture.size) for picture in pictures} == {("PNG", (160, 120))}
+    assert len(set(files.values())) == 3
+    assert all(np.asarray(picture).min() < 100 for picture in pictures)
+
+
+def test_exploding_keeps_the_order_across_the_robot(small_robot: Robot) -> None:
+    things = shapes(small_robot)
+    poses = [body_poses(small_robot)[thing.body] @ thing.T_body_mesh for thing in things]
+    moved = dict(zip((thing.name for thing in things), exploded(things, poses), strict=True))
+    offset = {name: moved[name][1, 3] - pose[1, 3] for name, pose in zip(moved, poses, strict=True)}
+    assert offset["leg_axle"] == offset["main_leg"] == 0.0
+    assert 0.0 < offset["roller"] < offset["body_plate_left"] < offset["collar_1"]
+    assert offset["collar_2"] < offset["body_plate_right"] < 0.0
+
+
+def test_the_jump_is_an_endless_gif_of_few_colours(small_robot: Robot) -> None:
+    jump = simulate(small_robot, Settings(flight="simulated", trajectory=True))
+    assert jump.trajectory is not None
+    gif = Image.open(io.BytesIO(jump_gif(small_robot, jump.trajectory, (120, 80))))
+    assert (gif.format, gif.size, gif.info["loop"]) == ("GIF", (120, 80), 0)
+    assert gif.n_frames > 30
+    centres = []
+    for number in (0, gif.n_frames - 1):
+        gif.seek(number)
+        dark = np.asarray(gif.convert("L")) < 200
+        centres.append(np.nonzero(dark.any(axis=0))[0].mean())
+    assert centres[1] > centres[0] + 20, "x points to the right, and the robot jumps along x"
+
+
+def test_a_robot_without_parts_cannot_be_drawn() -> None:
+    with pytest.raises(JumpcadError, match="has no parts"):
+        stills(capsule_robot(load_design("kenan-2.0")))

@@ -1,0 +1,107 @@
+"""From a coupon's readings to fits: what an imagined printer does to holes and teeth, and readings that cannot be."""
+
+import math
+import tomllib
+
+import pytest
+from manifold3d import JoinType
+from support.gearing import turning_play_deg
+
+from jumpcad.coupon.pieces import coupon_bores, coupon_pair, ladders, pinion
+from jumpcad.coupon.readings import LEAST_PLAY_MM, Readings, measured_workshop
+from jumpcad.errors import JumpcadError
+from jumpcad.solids.outline import polygon
+from jumpcad.workshop import Workshop, load_workshop
+
+WORKSHOP = load_workshop("default")
+
+
+def read(text: str, workshop: Workshop = WORKSHOP) -> Workshop:
+    return measured_workshop(Readings.from_data(tomllib.loads(text), "r.toml", text), workshop, "r.toml")
+
+
+@pytest.mark.parametrize("shrinkage_mm", [0.03, 0.21, 0.34])
+def test_a_printer_that_narrows_holes_gets_fits_that_fit(shrinkage_mm: float) -> None:
+    """Try the ladder on a printer that narrows every hole by an amount, and print with the fits that come of it."""
+    steps = ladders(coupon_bores(WORKSHOP)).axle_mm
+
+    def first_with(play_mm: float) -> float:
+        return next(step for step in steps if 2.0 * step - shrinkage_mm >= play_mm)
+
+    wanted = {"axle_press_mm": -0.03, "axle_sliding_mm": 0.06, "axle_loose_mm": 0.15}
+    readings = "\n".join(f"{key} = {first_with(play)}" for key, play in wanted.items())
+    bores = coupon_bores(read(f"[gauge.PETG]\n{readings}"))
+    for bore, play in zip((bores.press(3.0), bores.running(3.0), bores.loose(3.0)), wanted.values(), strict=True):
+        assert play <= bore - shrinkage_mm - 3.0 < play + 0.1  # within one step of what was wanted, in diameter
+    assert 3.0 + bores.fits.hole_allowance_diameter_mm - shrinkage_mm == pytest.approx(3.0, abs=0.1)
+
+
+@pytest.mark.parametrize("growth_mm", [-0.02, 0.04, 0.12])
+def test_pegs_foretell_the_play_of_gears_that_spread_likewise(growth_mm: float) -> None:
+    pegs = [round(peg + growth_mm, 3) for peg in (4.0, 6.0, 8.0)]
+    fits = read(f"[gauge.PETG]\npegs_mm = {pegs}\n[gauge.PLA]\npegs_mm = [4.2, 6.2, 8.2]").fits
+    pair = coupon_pair()
+    printed = [
+        polygon(gear.profile_mm).offset(growth_mm / 2.0, JoinType.Miter)
+        for gear in (pair.wheel, pinion(fits.backlash_circumferential_mm))
+    ]
+    turn = turning_play_deg(printed[0].rotate(9.0), printed[1], pair.centre_distance_mm, 24.0)
+    assert math.radians(turn) * pair.pinion.pitch_radius_mm == pytest.approx(LEAST_PLAY_MM, abs=0.008)
+
+
+def test_only_the_fits_change_and_gears_outweigh_pegs() -> None:
+    after = read("[gauge.PETG]\npegs_mm = [4.1, 6.1, 8.1]\n[gears]\nturns_freely_mm = 0.22")
+    assert after.fits == WORKSHOP.fits.model_copy(update={"backlash_circumferential_mm": 0.22})
+    assert after.model_copy(update={"fits": WORKSHOP.fits}) == WORKSHOP
+
+
+def test_the_reading_counts_with_which_every_material_still_works() -> None:
+    fits = read(
+        "[gauge.PETG]\naxle_press_mm = 0.15\nbearing_press_mm = 0.12\naxle_sliding_mm = 0.2\naxle_loose_mm = 0.35\n"
+        "[gauge.PLA]\naxle_press_mm = 0.10\naxle_sliding_mm = 0.25\naxle_loose_mm = 0.30"
+    ).fits
+    assert (fits.press_mm, fits.sliding_mm, fits.loose_mm) == (0.10, 0.25, 0.35)
+    assert fits.hole_allowance_diameter_mm == 0.30
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", r"r\.toml: no reading: fill in at least one"),
+        ("[gauge.PETG]\n[gears]", r"r\.toml: no reading"),
+        ("[gauge.ABS]\naxle_press_mm = 0.1", r"r\.toml: gauge\.ABS: the workshop prints in PETG, PLA"),
+        (
+            "[gauge.PETG]\naxle_press_mm = 0.45",
+            r"r\.toml: gauge\.PETG\.axle_press_mm = 0\.45: must be 0\.00…0\.40 as engraved; if nothing fits",
+        ),
+        ("[gauge.PLA]\nbearing_press_mm = -0.05", r"bearing_press_mm = -0\.05: must be 0\.00…0\.20"),
+        ("[gears]\nturns_freely_mm = 0.3", r"gears\.turns_freely_mm = 0\.3: must be 0\.05…0\.25"),
+        (
+            "[gauge.PETG]\naxle_press_mm = 0.25\naxle_sliding_mm = 0.2",
+            r"r\.toml:3: gauge\.PETG\.axle_sliding_mm = 0\.2: must be at least axle_press_mm = 0\.25",
+        ),
+        (
+            "[gauge.PETG]\naxle_press_mm = 0.25",
+            r"r\.toml: fits\.sliding_mm = 0\.2: must be at least fits\.press_mm = 0\.25, the tighter fit",
+        ),
+        ("[gauge.PETG]\npegs_mm = [4.0, 6.0]", r"r\.toml:2: gauge\.PETG\.pegs_mm = .*: must be 3 diameters, of the"),
+        ("[gauge.PETG]\npegs_mm = [4.0, 8.0, 6.0]", r"pegs_mm = .*: 8 for the peg of 6 mm is outside 5\.5…6\.5"),
+        ("[gauge.PETG]\npegs_mm = [4.0, 6.0, nan]", r"pegs_mm\.2 = nan: must be a finite number"),
+        ("[gauge.PETG]\naxle_pres_mm = 0.1", r"axle_pres_mm: unknown key"),
+        (
+            '[gauge.PETG]\naxle_press_mm = ".10"',
+            r"r\.toml:2: gauge\.PETG\.axle_press_mm = '\.10': must be a valid number",
+        ),
+    ],
+)
+def test_readings_that_cannot_be_are_one_line(text: str, message: str) -> None:
+    with pytest.raises(JumpcadError, match=message) as caught:
+        read(text)
+    assert "\n" not in str(caught.value)
+    assert caught.value.exit_code == 2
+
+
+def test_a_bearing_that_the_workshop_does_not_have_has_no_seat() -> None:
+    bare = WORKSHOP.model_copy(update={"bought": WORKSHOP.bought.model_copy(update={"leg_bearing": ""})})
+    with pytest.raises(JumpcadError, match=r"bearing_press_mm = 0\.1: the workshop's legs have no bearing"):
+        read("[gauge.PETG]\nbearing_press_mm = 0.1", bare)

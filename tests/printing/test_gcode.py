@@ -1,0 +1,50 @@
+"""Reading G-code: lines, volumes and moments of toolpaths written by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.printing.gcode import read_gcode
+from jumpcad.solids.moments import G_PER_CM3, mass_of
+
+ABSOLUTE = """M82
+;HEIGHT:0.2
+;TYPE:Perimeter
+G92 E0
+G1 Z.2 F600
+G1 X10 Y5
+G1 E2 ; prime
+G1 X30 Y5 E3
+G1 X30 Y15 ; travel
+G1 E1.5
+G1 F2400
+G1 E3
+;TYPE:Solid infill
+G1 X10 Y15 E4
+; filament_diameter = 1.75
+; estimated printing time (normal mode) = 1m 5s
+"""
+RELATIVE = ABSOLUTE.replace("M82", "M83").replace("E3\n;TYPE", "E1.5\n;TYPE").replace("Y5 E3", "Y5 E1")
+RELATIVE = RELATIVE.replace("E1.5\nG1 F", "E-1.5\nG1 F").replace("Y15 E4", "Y15 E1")
+
+
+@pytest.mark.parametrize("text", [ABSOLUTE, RELATIVE])
+def test_only_moves_that_lay_a_line_count(text):
+    path = read_gcode(text)
+    assert path.filament_mm == pytest.approx([1.0, 1.0])
+    assert path.kinds == ("Perimeter", "Solid infill")
+    np.testing.assert_allclose(path.starts_mm, [[10, 5, 0.2], [30, 15, 0.2]])
+    np.testing.assert_allclose(path.ends_mm, [[30, 5, 0.2], [10, 15, 0.2]])
+    assert path.volumes_mm3.sum() == pytest.approx(2.0 * math.pi * 1.75**2 / 4.0)
+    assert path.remarks["estimated printing time (normal mode)"] == "1m 5s"
+
+
+def test_lines_turn_like_thin_rods():
+    path = read_gcode(ABSOLUTE)
+    found = mass_of(path.moments(), 1.0)
+    rod = math.pi * 1.75**2 / 4.0 * G_PER_CM3
+    assert found.com_m == pytest.approx([0.020, 0.010, 0.0001])
+    assert found.inertia_kg_m2[0, 0] == pytest.approx(2.0 * rod * 0.005**2)
+    assert found.inertia_kg_m2[1, 1] == pytest.approx(2.0 * rod * 0.020**2 / 12.0)
+    assert found.inertia_kg_m2[2, 2] == pytest.approx(2.0 * rod * (0.020**2 / 12.0 + 0.005**2))

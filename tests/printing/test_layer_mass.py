@@ -1,0 +1,151 @@
+"""The printed mass against arithmetic on paper; against a slicer it is tested in tests/clients."""
+
+import gc
+import math
+import weakref
+
+import numpy as np
+import pytest
+
+from jumpcad.printing import runs
+from jumpcad.printing.layer_mass import line_spacing_mm, mass_properties, sliced
+from jumpcad.solids.blocks import Bar, Blocks, Finger
+from jumpcad.solids.outline import disc, rectangle, tapered_bar
+from jumpcad.solids.stack import Section, Stack
+from jumpcad.workshop import load_workshop
+
+PROCESS = load_workshop("default").process.model_copy(
+    update={"perimeters": 2, "top_layers": 3, "bottom_layers": 2, "infill": 0.2}
+)
+BOX = Stack.of([(0, 4, rectangle((40.0, 30.0)))])
+
+
+def grams(shape, **changes):
+    return 1000.0 * mass_properties(shape, 1.0, PROCESS.model_copy(update=changes), 0.4).mass_kg
+
+
+def test_lines_lie_apart_by_the_area_of_their_cross_section():
+    w, h = 0.45, 0.2
+    assert line_spacing_mm(w, h) * h == pytest.approx((w - h) * h + math.pi * h**2 / 4.0)
+
+
+def test_a_box_weighs_what_its_lines_and_infill_add_up_to():
+    s = 0.45 - 0.2 * (1.0 - math.pi / 4.0)
+    void, shell = (0.45 - s) / 2.0, 2.0 * s + (0.45 - s) / 2.0
+    outline, core = 2.0 * (40.0 + 30.0), (40.0 - 2.0 * shell) * (30.0 - 2.0 * shell)
+    border = 2.0 * (70.0 - 4.0 * shell)
+    walls = 1200.0 - core - void * outline
+    solid = core + 0.5 * s * border
+    sparse = 0.2 * core + 0.8 * 0.25 * s * border
+    bridge = (math.pi * 0.4**2 / 4.0 / (0.45 * 0.2) - 1.0) * core
+    volume = 0.2 * (20 * walls + 5 * solid + 15 * sparse + bridge)
+    assert grams(BOX) == pytest.approx(volume / 1000.0, rel=1e-6)
+
+
+def test_what_is_all_solid_weighs_its_volume_within_three_percent():
+    for changes in ({"infill": 1.0}, {"top_layers": 50}, {"bottom_layers": 50}):
+        assert grams(BOX, **changes) == pytest.approx(4.8, rel=0.03)
+
+
+def test_more_plastic_weighs_more():
+    for key, values in (("infill", (0.0, 0.15, 0.4, 0.8)), ("perimeters", (1, 2, 4)), ("top_layers", (0, 3, 6))):
+        masses = [grams(BOX, **{key: value}) for value in values]
+        assert masses == sorted(masses)
+        assert masses[-1] > 1.05 * masses[0]
+
+
+def test_a_hollow_part_turns_as_if_its_mass_lay_outside():
+    solid = mass_properties(BOX, 1.0, PROCESS, 0.4, "solid")
+    printed = mass_properties(BOX, 1.0, PROCESS, 0.4)
+    assert solid.mass_kg == pytest.approx(4.8e-3)
+    for axis in range(3):
+        share = printed.inertia_kg_m2[axis, axis] / printed.mass_kg
+        assert share > 1.01 * solid.inertia_kg_m2[axis, axis] / solid.mass_kg
+
+
+def test_a_step_is_a_top_of_its_own():
+    step = Stack.of([(0, 4, rectangle((40.0, 30.0))), (4, 8, rectangle((20.0, 30.0), (10.0, 0.0)))])
+    block = Stack.of([(0, 8, rectangle((20.0, 30.0)))])
+    low = Stack.of([(0, 4, rectangle((20.0, 30.0)))])
+    # cut in two where the step is, the pieces have one wall more each, and the tall piece is as before
+    inner_walls = 2.0 * 4.0 * 30.0 * (2.0 * 0.407 + 0.02) * 0.8 / 1000.0
+    assert grams(step) == pytest.approx(grams(block) + grams(low) - inner_walls, rel=0.03)
+
+
+def test_small_sparse_areas_are_filled_when_the_process_says_so():
+    peg = Stack.of([(0, 10, disc(10.0))])
+    assert grams(peg, solid_below_area_mm2=70.0) == pytest.approx(grams(peg, infill=1.0), rel=0.07)
+    assert grams(peg, solid_below_area_mm2=70.0) > 1.3 * grams(peg)
+
+
+def test_layers_cover_the_part_from_the_bed_up():
+    process = PROCESS.model_copy(update={"first_layer_mm": 0.3})
+    found = sliced(BOX.moved(z_mm=1.0), process)
+    assert (found[0].z0_mm, found[0].z1_mm) == pytest.approx((1.0, 1.3))
+    assert found[-1].z1_mm == pytest.approx(5.0, abs=0.1)
+    assert len({layer.section.outline for layer in found}) == 1
+
+
+def test_what_is_known_of_a_shape_is_kept_as_long_as_the_shape():
+    shape = Stack.of([(0, 4, disc(12.0))])
+    assert mass_properties(shape, 1.0, PROCESS, 0.4) is mass_properties(shape, 1.0, PROCESS, 0.4)
+    assert grams(shape, infill=1.0) > grams(shape)
+    gone = weakref.ref(shape)
+    del shape
+    gc.collect()
+    assert gone() is None
+
+
+class Turned:
+    """A shape turned about z and moved."""
+
+    def __init__(self, shape, angle_deg):
+        self.shape, self.angle_deg = shape, angle_deg
+        self.bounds_mm = shape.bounds_mm
+
+    def sections_at(self, heights_mm):
+        regions = [section.outline for section in self.shape.sections_at(heights_mm)]
+        turned = {r: Section(r.rotate(self.angle_deg).translate((1.234567, -0.7654321))) for r in regions}
+        return [turned[r] for r in regions]
+
+
+def test_a_part_weighs_the_same_however_it_lies_on_the_bed():
+    # where sloping sides make every layer another, clipping leaves slivers that must not count as lines
+    toe = Finger(np.array([0.0, 8.0]), 7.0, 7.5, np.array([-70.0, 60.0]), 5.0, 4.5)
+    shape = Blocks((toe, Bar(tapered_bar((0.0, 5.0), (70.0, 5.0), 10.0, 7.0), ((5.0, 9.0),))))
+    masses = [grams(Turned(shape, angle)) for angle in (0.0, 17.0, 33.3, 71.0)]
+    assert masses == pytest.approx([masses[0]] * 4, rel=3e-4)
+
+
+@pytest.mark.parametrize("top_layers", [2, 5])
+@pytest.mark.parametrize("slope_mm", [0.3, 3.0, 9.0])
+def test_layers_that_change_little_by_little_are_as_if_each_were_taken_by_itself(slope_mm, top_layers, monkeypatch):
+    process = PROCESS.model_copy(update={"top_layers": top_layers, "layer_height_mm": 0.1})
+    toe = Finger(np.array([0.0, 8.0]), 7.0, 9.5, np.array([-70.0, 60.0]), 5.0, 9.5 - slope_mm)
+    rail = tapered_bar((0.0, 5.0), (70.0, 4.0), 10.0, 7.0) - disc(3.2, (0.0, 5.0))
+    shape = Blocks((toe, Bar(rail, ((5.0, 9.0),))))
+    together = mass_properties(shape, 1.0, process, 0.4)
+    monkeypatch.setattr(runs, "ALIKE_LAYERS", 1)
+    apart = mass_properties(Turned(shape, 0.0), 1.0, process, 0.4)
+    assert together.mass_kg == pytest.approx(apart.mass_kg, rel=6e-3)
+    assert np.diag(together.inertia_kg_m2) == pytest.approx(np.diag(apart.inertia_kg_m2), rel=1e-2)
+
+
+def test_a_chamfer_weighs_as_much_as_slabs_that_are_narrower():
+    outline = tapered_bar((0.0, 0.0), (60.0, 0.0), 14.0, 9.0) - disc(5.0)
+    slabs = Stack.of([(0, 5, outline)]).chamfered(0.35, 0.2).slabs
+    chamfered, stepped = Stack(slabs), Stack.of([(slab.z0_mm, slab.z1_mm, slab.region) for slab in slabs])
+    assert grams(chamfered) == pytest.approx(grams(stepped), rel=1e-3)
+    assert grams(chamfered) < grams(Stack.of([(0, 5, outline)]))
+
+
+def test_a_cavity_of_one_layer_makes_the_layers_around_it_solid():
+    wide, hollow = rectangle((40.0, 30.0)), rectangle((40.0, 30.0)) - disc(16.0)
+    cavity = Stack.of([(0, 4, wide), (4, 4.2, hollow), (4.2, 8.2, wide)])
+    s, r, shell = 0.45 - 0.2 * (1.0 - math.pi / 4.0), 8.0, 2.0 * 0.407 + 0.0215
+    area, border = math.pi * r**2, 2.0 * math.pi * r
+    # three layers below it and two above are solid there instead of sparse, the lowest of them is bridged
+    solid = 5.0 * (0.8 * area + s * border * (0.5 + 0.8 * 0.25)) + (math.pi * 0.4**2 / 4.0 / 0.09 - 1.0) * area
+    walls = 0.8 * math.pi * ((r + shell) ** 2 - r**2) - 0.0215 * border + 0.8 * 0.25 * s * 2.0 * math.pi * (r + shell)
+    more = 0.2 * (solid + walls - 0.2 * area)
+    assert grams(cavity) - grams(Stack.of([(0, 8.2, wide)])) == pytest.approx(more / 1000.0, rel=0.01)

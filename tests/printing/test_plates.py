@@ -1,0 +1,81 @@
+"""Packing: everything on the bed, nothing on top of anything else."""
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+import pytest
+import trimesh
+
+from jumpcad.errors import CannotBuildError
+from jumpcad.printing.plates import packed
+
+
+@dataclass(frozen=True)
+class Part:
+    name: str
+    mesh: trimesh.Trimesh
+    material: str
+    quantity: int = 1
+
+
+def box(name, size, material="PLA", quantity=1):
+    return Part(name, trimesh.creation.box(size), material, quantity)
+
+
+def corners(item):
+    points = trimesh.transform_points(item.part.mesh.vertices, item.T_bed_part)
+    return points.min(axis=0), points.max(axis=0)
+
+
+PARTS = [
+    box("plate", (120, 70, 3), quantity=2),
+    box("tray", (60, 31.37, 2)),
+    box("spacer", (7, 7, 9.5), quantity=12),
+    box("leg", (130, 14, 8), "PETG"),
+    box("gear", (33, 33, 5), "PETG", 3),
+]
+BED = (180.0, 160.0, 100.0)
+
+
+def test_every_copy_lies_on_the_bed_apart_from_the_others():
+    plates = packed(PARTS, BED, 5.0)
+    assert sorted(item.part.name for plate in plates for item in plate.items) == sorted(
+        part.name for part in PARTS for _ in range(part.quantity)
+    )
+    for plate in plates:
+        boxes = [corners(item) for item in plate.items]
+        assert {item.part.material for item in plate.items} == {plate.material}
+        for low, high in boxes:
+            assert np.all(low >= -1e-6)
+            assert low[2] == pytest.approx(0.0, abs=1e-9)
+            assert np.all(high <= np.array(BED) + 1e-6)
+        for (low_a, high_a), (low_b, high_b) in combinations(boxes, 2):
+            assert np.max(np.maximum(low_a - high_b, low_b - high_a)[:2]) >= 5.0 - 1e-6
+
+
+def test_a_full_plate_is_followed_by_another():
+    plates = packed([box("slab", (100, 100, 5), quantity=3)], (120.0, 120.0, 50.0), 5.0)
+    assert [plate.name for plate in plates] == ["plate-1-PLA", "plate-2-PLA", "plate-3-PLA"]
+
+
+def test_a_long_part_lies_askew():
+    (plate,) = packed([box("leg", (230, 10, 6))], (180.0, 180.0, 180.0), 5.0)
+    low, high = corners(plate.items[0])
+    assert np.all(high - low <= 180.0 + 1e-6)
+    turn = plate.items[0].T_bed_part[:3, :3]
+    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(turn) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("size", [(300, 10, 6), (170, 170, 200)])
+def test_a_part_larger_than_the_bed_is_refused(size):
+    with pytest.raises(CannotBuildError, match=r"part giant of .* does not fit the bed of 180\.0×180\.0×180\.0 mm"):
+        packed([box("giant", size)], (180.0, 180.0, 180.0), 5.0)
+
+
+def test_the_order_of_parts_does_not_matter():
+    def poses(parts):
+        return [(p.name, i.part.name, i.T_bed_part.tolist()) for p in packed(parts, BED, 5.0) for i in p.items]
+
+    assert poses(PARTS) == poses(PARTS[::-1])

@@ -1,0 +1,96 @@
+"""Fronts against brute force and against PyGAD's own hypervolume."""
+
+import numpy as np
+import pytest
+from pygad.utils.quality_indicators import hypervolume as reference_hypervolume
+from support.hills import SMALL, Hill
+
+from jumpcad.design import Design
+from jumpcad.search.methods.pareto import (
+    REFERENCE_ENERGY_J,
+    energy_caps_j,
+    energy_j,
+    front,
+    hypervolume,
+    run_nsga2,
+    run_pareto,
+)
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.space import Space
+from jumpcad.search.store import Row
+
+
+@pytest.fixture
+def rows():
+    generator = np.random.default_rng(0)
+    found = []
+    for place, point in enumerate(Space.default().spread(200, generator)):
+        design = Space.default().to_design(point)
+        score = float(generator.random()) if place % 5 else None
+        if np.isfinite(energy_j(design)):
+            found.append(Row("pareto", 0, place, design, Evaluation("jump"), score, "m", 0.0))
+    return found
+
+
+def test_front_is_what_nothing_dominates(rows):
+    points = [(row.score, energy_j(row.design)) for row in rows if row.score is not None]
+    brute = {
+        (score, energy)
+        for score, energy in points
+        if not any((s >= score and e <= energy) and (s, e) != (score, energy) for s, e in points)
+    }
+    assert {(row.score, energy_j(row.design)) for row in front(rows)} == brute
+
+
+def test_hypervolume_is_pygads(rows):
+    points = np.array([[row.score, -energy_j(row.design)] for row in rows if row.score is not None])
+    assert hypervolume(rows) == pytest.approx(reference_hypervolume(points, [0.0, -REFERENCE_ENERGY_J]), rel=1e-12)
+    assert hypervolume([]) == 0.0
+
+
+def test_caps_end_at_the_largest_energy():
+    # At c = 1 there is no tilt: half of 30 N·mm/deg times the square of 0.8 of 70°; c = 1.2 tilts the body and adds.
+    plain = Space.parse(fix=["c_coef=1"])
+    largest = 0.5 * 30e-3 * np.degrees(1.0) * np.radians(0.8 * 70.0) ** 2
+    assert energy_caps_j(plain)[-1] == pytest.approx(largest, rel=1e-12)
+    assert energy_caps_j(Space.default())[-1] > 1.1 * largest
+
+
+def test_a_design_without_a_pose_has_no_energy():
+    design = Design.from_vector([100, 3.0, 0.1, 1, 0.5, 80, 10, 40])
+    assert energy_j(design) == np.inf
+
+
+def dominated_share(campaign):
+    """Return the area under the true front that a campaign's front misses, as a share."""
+    grid = np.array(np.meshgrid(*[np.linspace(0, 1, 21)] * 3)).reshape(3, -1).T
+    true = []
+    for place, point in enumerate(grid):
+        design = SMALL.to_design(point)
+        score = Hill()(design).metrics.get("fitness")
+        true.append(Row("pareto", 0, place, design, Evaluation("jump"), score, "m", 0.0))
+    return hypervolume(campaign.rows) / hypervolume(true)
+
+
+def test_constrained_improvement_finds_the_front(campaign):
+    one = campaign()
+    run_pareto(one, 57, 0, initial=9)
+    assert len(one.rows) == 57
+    assert dominated_share(one) > 0.99
+
+
+def test_nsga2_finds_most_of_it(campaign):
+    one = campaign()
+    run_nsga2(one, 300, 0)
+    assert len(one.rows) == 300
+    assert dominated_share(one) > 0.95
+
+
+def test_a_front_resumes(campaign, tmp_path):
+    whole, first = campaign(), campaign(tmp_path / "s.db")
+    run_pareto(whole, 30, 0, initial=9)
+    run_pareto(first, 20, 0, initial=9)
+    first.ledger.close()
+    longer = campaign(tmp_path / "s.db")
+    run_pareto(longer, 30, 0, initial=9)
+    assert [row.key for row in longer.rows] == [row.key for row in whole.rows]

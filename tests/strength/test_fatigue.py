@@ -1,0 +1,28 @@
+"""Fatigue limits against the handbook's tables and worked relations."""
+
+import math
+
+import pytest
+
+from jumpcad.strength.fatigue import pin_limit_mpa, spring_jumps, spring_share
+
+
+def test_springs_bear_what_the_handbooks_table_says() -> None:
+    """Music wire, not shot-peened: 53 % of the tensile strength for 1e5 jumps, 50 % for 1e6; yield is at 78 %."""
+    assert [spring_share(jumps) for jumps in (1.0, 1e3, 1e5, 1e6, 1e9)] == pytest.approx([0.78, 0.78, 0.53, 0.50, 0.50])
+    assert spring_share(1e4) == pytest.approx(math.sqrt(0.78 * 0.53))  # half way in logarithms
+
+
+@pytest.mark.parametrize("jumps", [1e3, 4e3, 1e5, 3e5, 9e5])
+def test_lives_and_limits_are_inverse(jumps: float) -> None:
+    assert spring_jumps(spring_share(jumps)) == pytest.approx(jumps)
+    assert spring_jumps(0.5) == math.inf
+
+
+def test_pins_that_last_obey_goodman() -> None:
+    """Half mean and half amplitude: s/2/Se + s/2/Su = 1, with Se = 700 MPa times the surface factor of drawn wire."""
+    endless = 700.0 * 4.51 * 1760.0**-0.265
+    limit = pin_limit_mpa(1760.0, 1e6)
+    assert limit / 2.0 / endless + limit / 2.0 / 1760.0 == pytest.approx(1.0)
+    assert pin_limit_mpa(1760.0, 1e8) == limit
+    assert pin_limit_mpa(1760.0, 1.0) == pytest.approx(0.78 * 1760.0)  # yields before it tires

@@ -1,0 +1,92 @@
+"""Forces of the push-off against mechanics that can be written down, and against momentum."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.design import Design, load_design
+from jumpcad.strength.loads import (
+    GRAVITY_M_S2,
+    MovingMass,
+    landing_force_n,
+    push_off,
+    rail_moment_nmm,
+    reflected_share,
+    toe_moment_nmm,
+)
+
+BODY = MovingMass(0.1, np.array([4.0, 17.0]), 42.0)
+TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
+
+
+@pytest.mark.parametrize("c_coef", [0.8, 0.9, 1.0, 1.1, 1.2])
+def test_forces_and_torques_on_the_body_balance(c_coef: float) -> None:
+    # two forces are solved from three equations of motion; what is left over shows any wrong arm or sign
+    design = load_design("best-ga").model_copy(update={"c_coef": c_coef, "compression_ratio": 0.3})
+    forces = push_off(design, BODY, 5.2)
+    assert forces.residual_n.max() < 0.001 * np.linalg.norm(forces.ground_n, axis=1).max()
+
+
+def test_parallel_legs_swing_the_body_like_a_pendulum() -> None:
+    # equal parallel links: the body does not turn, each of its points goes round a circle of radius l2
+    design = load_design("kenan-2.0")
+    assert design.c_coef == 1.0
+    forces = push_off(design, BODY, 5.2)
+    wound = math.radians(design.rest_angle_deg) - design.compression_rad
+    angle = wound + (forces.leg_rad - forces.leg_rad[0])  # of the legs above the ground
+    outward = np.stack([-np.cos(angle), np.sin(angle)], axis=-1)
+    onward = np.stack([np.sin(angle), np.cos(angle)], axis=-1)
+    weight = BODY.mass_kg * GRAVITY_M_S2
+    torque = -1000.0 * design.stiffness_nm_per_rad * forces.leg_rad
+    rise_mm = design.l2_mm * (np.sin(angle) - math.sin(wound))
+    spring_nmm = 500.0 * design.stiffness_nm_per_rad * (design.compression_rad**2 - forces.leg_rad**2)
+    centripetal = 2.0 * (spring_nmm - weight * rise_mm) / design.l2_mm
+    stands = np.linalg.norm(forces.ground_n, axis=1) > 0
+    along = np.einsum("ij,ij->i", forces.ground_n, onward)
+    inward = -np.einsum("ij,ij->i", forces.ground_n, outward)
+    assert np.count_nonzero(stands) > 5
+    assert along[stands] == pytest.approx((torque / design.l2_mm)[stands], abs=0.02)
+    assert inward[stands] == pytest.approx((centripetal - weight * np.sin(angle))[stands], abs=0.02)
+
+
+def test_leg_carries_the_springs_torque_to_the_ankle() -> None:
+    design = load_design("best-bo")
+    forces = push_off(design, BODY, 5.2)
+    shear = 1000.0 * design.peak_spring_torque_nm / design.l2_mm
+    squared = np.sum(forces.ankle_n[0] ** 2) - forces.leg_axial_n[0] ** 2
+    assert math.sqrt(squared) == pytest.approx(shear)
+
+
+def test_heavier_robots_leave_the_ground_later() -> None:
+    design = load_design("kenan-2.0")
+    light, heavy = (push_off(design, MovingMass(mass, BODY.com_mm, 42.0), 5.2) for mass in (0.05, 0.2))
+    assert np.count_nonzero(light.ground_n[:, 1]) < np.count_nonzero(heavy.ground_n[:, 1])
+
+
+def test_feet_never_bear_more_than_the_ground_gives() -> None:
+    for name in TEMPLATES:
+        forces = push_off(load_design(name), BODY, 5.2)
+        assert np.all(forces.toes_n <= forces.ground_n[:, 1] + 1e-9)
+        assert np.all(forces.toes_n >= 0)
+
+
+def test_landing_takes_up_the_energy_of_the_fall() -> None:
+    design = load_design("kenan-2.0")
+    force = landing_force_n(design, 0.1, 20.0, rise_m=0.3)
+    assert force * 0.020 == pytest.approx(0.1 * GRAVITY_M_S2 * (0.3 + 0.020))
+    highest = design.spring_energy_j / (0.1 * GRAVITY_M_S2)
+    assert landing_force_n(design, 0.1, 20.0) == pytest.approx(landing_force_n(design, 0.1, 20.0, rise_m=highest))
+
+
+def test_a_rod_struck_at_its_end_meets_the_blow_with_a_quarter_of_its_mass() -> None:
+    # textbook: k² = l²/12, so 1/(1 + (l/2)²/k²) = 1/4
+    assert reflected_share((50.0, 0.0), (1.0, 100.0 / math.sqrt(12.0))) == pytest.approx(0.25)
+    assert reflected_share((0.0, 0.0), (30.0, 40.0)) == 1.0
+
+
+def test_toes_and_rails_balance_about_the_ankle() -> None:
+    # both rails together bear the moment of the tips' forces about the ankle axle
+    design = Design(**{**load_design("kenan-2.0").model_dump(), "ground_link_angle_deg": 60.0})
+    assert 2.0 * rail_moment_nmm(design, 10.0) == pytest.approx(10.0 * design.l5_mm * 0.5)
+    assert toe_moment_nmm(design, 10.0) == pytest.approx(5.0 * design.l5_mm)

@@ -1,0 +1,59 @@
+"""Sections that hold: judged with a solid rectangle's textbook formula, and against the issue's own example."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.design import load_design
+from jumpcad.strength.sizing import leg_flex_share, sections
+from jumpcad.strength.stress import Bar
+from jumpcad.workshop import Workshop, load_workshop
+
+TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
+
+
+def with_links(workshop: Workshop, **changes: float) -> Workshop:
+    links = workshop.material("links").model_copy(update=changes)
+    return workshop.model_copy(update={"materials": {**workshop.materials, workshop.material_name("links"): links}})
+
+
+def test_ten_by_six_millimetres_of_petg_flex_as_the_hand_calculation_says() -> None:
+    # U = T²·l/(6·E·I) for a uniform cantilever: 5.6 % of the springs' 0.72 J, at 15.6 MPa
+    design = load_design("best-bo")
+    share = leg_flex_share(design, Bar(6.0, np.full(201, 10.0)), 2000.0)
+    torque = 1000.0 * design.peak_spring_torque_nm
+    by_hand = torque**2 * design.l2_mm / (6.0 * 2000.0 * 500.0) / (1000.0 * design.spring_energy_j)
+    assert share == pytest.approx(by_hand, rel=1e-3)
+    assert share == pytest.approx(0.056, abs=0.001)
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_no_section_exceeds_the_design_stress_even_as_a_solid_bar(name: str) -> None:
+    design, workshop = load_design(name), load_workshop()
+    sizes = sections(design, workshop)
+    torque = 1000.0 * design.peak_spring_torque_nm
+    for along in np.linspace(0.0, 1.0, 50):
+        height = sizes.leg_root_mm + along * (sizes.leg_tip_mm - sizes.leg_root_mm)
+        assert 6.0 * torque * (1.0 - along) / (sizes.thickness_mm * height**2) < 15.0
+    assert 6.0 * torque / (sizes.thickness_mm * sizes.lever_root_mm**2) < 15.0
+
+
+def test_weaker_or_softer_links_grow() -> None:
+    design, workshop = load_design("best-bo"), load_workshop()
+    usual = sections(design, workshop)
+    weak = sections(design, with_links(workshop, strength_in_plane_mpa=30.0))
+    soft = sections(design, with_links(workshop, modulus_mpa=1000.0))
+    for name in ("lever_root_mm", "toe_root_mm", "rail_root_mm"):
+        assert getattr(weak, name) > 1.1 * getattr(usual, name)
+        # a thicker leg changes the foot's depth a little, and with it the toes' loads
+        assert getattr(soft, name) == pytest.approx(getattr(usual, name), rel=5e-3)
+    assert soft.leg_root_mm > 1.1 * usual.leg_root_mm
+
+
+def test_hollow_links_are_higher_than_solid_ones() -> None:
+    design, workshop = load_design("best-bo"), load_workshop()
+    solid = workshop.model_copy(update={"process": workshop.process.model_copy(update={"infill": 1.0})})
+    by_hand = math.sqrt(6.0 * 1.15 * 1000.0 * design.peak_spring_torque_nm / (8.0 * 15.0))
+    assert sections(design, solid).lever_root_mm == pytest.approx(math.ceil(100.0 * by_hand) / 100.0)
+    assert sections(design, workshop).lever_root_mm > 1.05 * by_hand
