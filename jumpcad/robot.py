@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
     from jumpcad.layout.plan import Plan
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from jumpcad.parts.purchased import Bought
     from jumpcad.workshop import Workshop
 
-Array = npt.NDArray[np.float64]
 
 Surface = Literal["foot", "body"]
 

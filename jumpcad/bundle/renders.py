@@ -8,14 +8,14 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.poses import body_poses, transform
-from jumpcad.parts.part import Array
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.camera import View
 from jumpcad.scene.renderer import Studio
 from jumpcad.scene.shapes import Shape, shapes
 from jumpcad.simulation.jump import Trajectory
+from jumpcad.transforms import Array, pose_at
 
 STILLS = ("rest", "compressed", "exploded")
 STILL_SIZE = (600, 450)
@@ -81,7 +81,7 @@ def exploded(things: Sequence[Shape], poses: Sequence[Array]) -> list[Array]:
         y = _corners([thing], [pose])[:, 1]
         centre = float((pose[:3, :3] @ thing.mesh.centroid)[1] / 1000.0 + pose[1, 3])
         outer = float(y.max() if centre > 0.0 else y.min()) if abs(centre) > CENTRED_M else 0.0
-        moved.append(transform(pose[:3, :3], pose[:3, 3] + [0.0, EXPLOSION * outer, 0.0]))
+        moved.append(pose_at(pose[:3, :3], pose[:3, 3] + [0.0, EXPLOSION * outer, 0.0]))
     return moved
 
 
@@ -127,9 +127,7 @@ def _poses(things: Sequence[Shape], bodies: dict[str, Array]) -> list[Array]:
 def _recorded(trajectory: Trajectory, moment: int) -> dict[str, Array]:
     turns = Rotation.from_quat(trajectory.quaternion_xyzw[moment]).as_matrix()
     places = trajectory.position_m[moment]
-    return {
-        name: transform(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)
-    }
+    return {name: pose_at(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)}
 
 
 def _corners(things: Sequence[Shape], poses: Sequence[Array]) -> Array:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import trimesh
 from manifold3d import Manifold, Mesh64
 
@@ -20,9 +19,8 @@ from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Section
+from jumpcad.transforms import Array
 from jumpcad.workshop import Material, Workshop, load_workshop
-
-Array = npt.NDArray[np.float64]
 
 STRAIGHT_MM = 1e-4
 """Corners nearer than this to a straight line come from the triangles of a wall."""

@@ -5,10 +5,11 @@ from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
 from jumpcad.findings import Finding, limit
-from jumpcad.mechanism.linkage import Linkage, direction
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.body_plate import PAD_WALL_MM, STANDOFF_PAD_MM
 from jumpcad.parts.small import COLLAR_RADIUS_MM
-from jumpcad.robot import BODY, FOOT, Array, Robot
+from jumpcad.robot import BODY, FOOT, Robot
+from jumpcad.transforms import Array, direction
 
 GROUND_GAP_MM = FOOT_GAP_MM = 0.5
 """Least gaps to the ground and to the foot; judgement: play of the joints and the flexing of legs and foot."""

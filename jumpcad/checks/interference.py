@@ -17,8 +17,9 @@ from jumpcad.findings import Finding
 from jumpcad.layout.plan import Plan
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.part import Shape
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Robot
+from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Robot
 from jumpcad.solids.stack import Stack, overlap_volume_mm3
+from jumpcad.transforms import Array, pose_about_y
 
 WINDING_POSITIONS = 13
 DROP_POSITIONS = 13
@@ -148,11 +149,11 @@ def pose_of(piece: Component, plan: Plan, linkage: Linkage, moment: Moment) -> A
         FOOT: (pose.ankle_mm[0], float(pose.foot_rad[0])),
     }
     origin, angle = places[piece.body]
-    T_world_piece = _turned(origin, angle) @ piece.T_body_part
+    T_world_piece = pose_about_y(angle, origin) @ piece.T_body_part
     if piece.name not in TURNING:
         return T_world_piece
     centre, turn = _train_turn(piece.name, plan, moment.cam_rad)
-    return _turned(centre, turn) @ _turned(-centre, 0.0) @ T_world_piece
+    return pose_about_y(turn, centre) @ pose_about_y(0.0, -centre) @ T_world_piece
 
 
 def _train_turn(name: str, plan: Plan, cam_rad: float) -> tuple[Array, float]:
@@ -164,13 +165,6 @@ def _train_turn(name: str, plan: Plan, cam_rad: float) -> tuple[Array, float]:
     if name == "idler" and plan.idler_mm is not None:
         return plan.idler_mm, idler
     return plan.motor_mm, idler if len(stages) == 1 else -idler * stages[0].ratio
-
-
-def _turned(place_mm: Array, angle_rad: float) -> Array:
-    """Return a pose (4, 4): turned about +y by an angle, then moved to x-z."""
-    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
-    x, z = place_mm
-    return np.array([[cos, 0.0, sin, x], [0.0, 1.0, 0.0, 0.0], [-sin, 0.0, cos, z], [0.0, 0.0, 0.0, 1.0]])
 
 
 def _box(piece: Component, pose: Array) -> Array:

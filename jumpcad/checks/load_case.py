@@ -9,10 +9,11 @@ import numpy as np
 from jumpcad.findings import Finding, limit
 from jumpcad.layout.plan import Plan
 from jumpcad.parts.holes import Bores
-from jumpcad.robot import BODY, Array, Robot
+from jumpcad.robot import BODY, Robot
 from jumpcad.strength.bearings import wound_forces_n
 from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_tip_mm
 from jumpcad.strength.stress import Skin, pin_stress_mpa
+from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop
 
 

@@ -17,8 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.findings import Finding
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array, turned_about_y
 
 
 @dataclass(frozen=True)
@@ -118,11 +117,11 @@ class CamGeometry:
 
     def in_cam(self, point_mm: npt.ArrayLike, cam_rad: npt.ArrayLike) -> Array:
         """Return points (n, 2), given from the hub, in the cam's frame at cam angles (n,)."""
-        return _turned(np.asarray(point_mm, dtype=float) - self.axis_mm, cam_rad)
+        return turned_about_y(np.asarray(point_mm, dtype=float) - self.axis_mm, -np.asarray(cam_rad, dtype=float))
 
     def in_body(self, point_mm: npt.ArrayLike, cam_rad: npt.ArrayLike) -> Array:
         """Return points (n, 2) of the cam's frame, seen from the hub at cam angles (n,)."""
-        return self.axis_mm + _turned(np.asarray(point_mm, dtype=float), -np.asarray(cam_rad, dtype=float))
+        return self.axis_mm + turned_about_y(point_mm, cam_rad)
 
     def pitch_mm(self, cam_rad: npt.ArrayLike) -> Array:
         """Return the pitch curve (n, 2), the roller's centre in the cam's frame, at cam angles (n,) of the lift."""
@@ -141,7 +140,9 @@ class CamGeometry:
 
     def contact_mm(self, cam_rad: npt.ArrayLike) -> Array:
         """Return the profile (n, 2) of the lift in the cam's frame: where the roller touches at cam angles (n,)."""
-        return self.pitch_mm(cam_rad) - self.roller_radius_mm * _turned(self.normal(cam_rad), cam_rad)
+        return self.pitch_mm(cam_rad) - self.roller_radius_mm * turned_about_y(
+            self.normal(cam_rad), -np.asarray(cam_rad, dtype=float)
+        )
 
     @cached_property
     def tip_mm(self) -> Array:
@@ -277,11 +278,3 @@ def _unit(angle_rad: npt.ArrayLike) -> Array:
     """Return unit vectors (..., 2) counter-clockwise from x by angles (...)."""
     angle = np.asarray(angle_rad, dtype=float)
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-
-
-def _turned(vector: Array, angle_rad: npt.ArrayLike) -> Array:
-    """Return vectors (..., 2) turned counter-clockwise by angles (...)."""
-    angle = np.asarray(angle_rad, dtype=float)
-    cos, sin = np.cos(angle), np.sin(angle)
-    x, z = vector[..., 0], vector[..., 1]
-    return np.stack([cos * x - sin * z, sin * x + cos * z], axis=-1)

@@ -10,7 +10,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.drive.cam import Array, CamLaw
+from jumpcad.drive.cam import CamLaw
+from jumpcad.transforms import Array
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.errors import JumpcadError
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 PRESSURE_ANGLE_RAD = math.radians(20)
 _SIN, _COS, _TAN = math.sin(PRESSURE_ANGLE_RAD), math.cos(PRESSURE_ANGLE_RAD), math.tan(PRESSURE_ANGLE_RAD)

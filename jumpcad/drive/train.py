@@ -17,8 +17,8 @@ from jumpcad.drive.cam import CamLaw
 from jumpcad.drive.gears import Gear, GearPair, centre_distance_mm, gear_pair, least_shift
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
+from jumpcad.transforms import Array
 
-Array = npt.NDArray[np.float64]
 Pairs = npt.NDArray[np.void]
 """A table of gear pairs with named columns."""
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 ON_CIRCLE_MM = 2e-3
 """How far corners may be from their circle: outlines are cut and grown on a grid of about a tenth of that."""

@@ -6,12 +6,13 @@ Loading key frame `wound` and stepping is the whole jump. The cam is not modelle
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
-from jumpcad.exporters.xml import about_y, add, document, wxyz
+from jumpcad.exporters.xml import add, document, wxyz
 from jumpcad.mechanism.poses import body_poses, standing
 from jumpcad.robot import BODY, Body, Joint, Robot
 from jumpcad.scene.shapes import Shape, shapes
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.mujoco import IMPEDANCE, SOFTNESS_STEPS, SUBSTEPS
+from jumpcad.transforms import rotation_about_y
 
 MESH_FOLDER = "../urdf/meshes"
 """Folder of the meshes, seen from that of the MJCF file."""
@@ -54,7 +55,9 @@ def _children(parent: ET.Element, robot: Robot, name: str, settings: Settings, t
     """Append the bodies that hang on a body; return their joints in the order in which MuJoCo numbers them."""
     order: list[str] = []
     for joint in (joint for joint in robot.joints if joint.parent == name):
-        node = add(parent, "body", name=joint.child, pos=joint.origin_m, quat=wxyz(about_y(joint.rest_angle_rad)))
+        node = add(
+            parent, "body", name=joint.child, pos=joint.origin_m, quat=wxyz(rotation_about_y(joint.rest_angle_rad))
+        )
         _hinge(node, joint, robot, settings)
         _fill(node, robot.bodies[joint.child], things)
         order += [joint.name, *_children(node, robot, joint.child, settings, things)]
@@ -140,7 +143,7 @@ def _loop(root: ET.Element, robot: Robot, settings: Settings) -> None:
 
 def _wound(root: ET.Element, robot: Robot, order: list[str]) -> None:
     release = standing(robot, 1.0)
-    attitude = wxyz(about_y(release.body_pitch_rad))
+    attitude = wxyz(rotation_about_y(release.body_pitch_rad))
     angles = [release.joint_rad[name] for name in order]
     add(add(root, "keyframe"), "key", name="wound", qpos=(*release.body_position_m, *attitude, *angles))
 

@@ -6,11 +6,12 @@ The model stands with springs at rest. Links' frames are the body frames of `Rob
 import xml.etree.ElementTree as ET
 
 from jumpcad.exporters.urdf import SWING_RAD
-from jumpcad.exporters.xml import Array, add, document, rpy
+from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Body, Joint, Robot
 from jumpcad.scene.shapes import Shape, shapes
 from jumpcad.settings import Settings, surface_friction
+from jumpcad.transforms import Array
 
 MESH_FOLDER = "../urdf/meshes"
 """Folder of the meshes, seen from that of the SDF file."""

@@ -7,7 +7,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
+
 Value: TypeAlias = str | float | npt.ArrayLike
 
 
@@ -40,8 +41,3 @@ def rpy(rotation: Array) -> Array:
 def wxyz(rotation: Array) -> Array:
     """Return the quaternion (4,), scalar first, of a rotation (3, 3), as MJCF wants it."""
     return Rotation.from_matrix(rotation).as_quat(scalar_first=True)
-
-
-def about_y(angle_rad: float) -> Array:
-    """Return the rotation (3, 3) about y."""
-    return Rotation.from_euler("y", angle_rad).as_matrix()

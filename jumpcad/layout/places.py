@@ -11,7 +11,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.room import Array, Cloud, Obstacle, clearance
+from jumpcad.layout.room import Cloud, Obstacle, clearance
+from jumpcad.transforms import Array
 
 TURN_STEPS = 72
 BATCH = 24

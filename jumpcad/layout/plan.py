@@ -14,10 +14,11 @@ from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import GAP_MM, Lateral, lateral_stack
 from jumpcad.layout.places import around, best_place, grid_candidates, ring_candidates
-from jumpcad.layout.room import EVERYWHERE, Array, Obstacle, bar, box_obstacle, clearance, disc
+from jumpcad.layout.room import EVERYWHERE, Obstacle, bar, box_obstacle, clearance, disc
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import Sections
+from jumpcad.transforms import Array
 
 SPACER_RADIUS_MM = 3.2
 """Outside of the printed tubes that hold things apart on the 3 mm axles."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 EVERYWHERE = (-1e3, 1e3)
 

@@ -7,9 +7,10 @@ import math
 
 import numpy as np
 
-from jumpcad.layout.room import EVERYWHERE, Array, Obstacle, bar
-from jumpcad.mechanism.linkage import Linkage, direction
+from jumpcad.layout.room import EVERYWHERE, Obstacle, bar
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import Sections
+from jumpcad.transforms import Array, direction
 
 POSITIONS = 13
 ALONG = 41

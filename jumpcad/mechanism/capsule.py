@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Body, ContactSphere, Robot, five_bar
+from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Robot, five_bar
+from jumpcad.transforms import Array
 
 DENSITY_KG_M3 = 1200.0
 """Density of the published links."""

@@ -12,7 +12,8 @@ import numpy.typing as npt
 from jumpcad.design import Design
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage, Pose
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Robot
+from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Robot
+from jumpcad.transforms import Array
 
 GRAVITY_M_S2 = 9.81
 TAKEOFF_ENERGY_FACTOR = 1.3

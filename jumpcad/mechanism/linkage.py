@@ -13,15 +13,9 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
+from jumpcad.transforms import Array, direction, velocity_about_y
 
-Array = npt.NDArray[np.float64]
 Complex = npt.NDArray[np.complex128]
-
-
-def direction(angle_rad: npt.ArrayLike) -> Array:
-    """Return unit vectors (..., 2) in x-z that point `angle_rad` (...) below the x axis."""
-    angle = np.asarray(angle_rad, dtype=float)
-    return np.stack([np.cos(angle), -np.sin(angle)], axis=-1)
 
 
 @dataclass(frozen=True)
@@ -116,9 +110,9 @@ class Linkage:
         seen along main leg and foot as along the front link.
         """
         pose = self.pose(leg_rad)
-        ankle_rate = self.l2 * _turn(direction(self.rest_rad + pose.leg_rad))
-        foot_arm = _turn(pose.front_eye_mm - pose.ankle_mm)
-        front_arm = _turn(pose.front_eye_mm - self.front_pivot_mm)
+        ankle_rate = self.l2 * velocity_about_y(direction(self.rest_rad + pose.leg_rad))
+        foot_arm = velocity_about_y(pose.front_eye_mm - pose.ankle_mm)
+        front_arm = velocity_about_y(pose.front_eye_mm - self.front_pivot_mm)
         matrix = np.stack([foot_arm, -front_arm], axis=-1)
         rates = np.linalg.solve(matrix, -ankle_rate[..., None])[..., 0]
         return np.column_stack([ankle_rate, rates[:, 0]])
@@ -159,8 +153,3 @@ def _points(vector: Complex) -> Array:
 def _below(vector: Complex) -> Array:
     """Return the angle (n,) of vectors x + iz (n,) below the x axis."""
     return -np.angle(vector)
-
-
-def _turn(vector: Array) -> Array:
-    """Return the velocity (n, 2) of points at `vector` (n, 2) from a pivot, per unit turn about +y."""
-    return np.stack([vector[:, 1], -vector[:, 0]], axis=-1)

@@ -12,7 +12,7 @@ from typing import Self
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 
 @dataclass(frozen=True)

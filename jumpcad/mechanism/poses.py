@@ -2,12 +2,9 @@
 
 from dataclasses import replace
 
-import numpy as np
-
-from jumpcad.exporters.xml import about_y
-from jumpcad.parts.part import Array
 from jumpcad.robot import BODY, Robot
 from jumpcad.simulation.mechanics import Release, release_pose
+from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
 
 
 def standing(robot: Robot, wound: float) -> Release:
@@ -18,16 +15,9 @@ def standing(robot: Robot, wound: float) -> Release:
 
 def body_poses(robot: Robot, wound: float = 0.0) -> dict[str, Array]:
     """Return the pose (4, 4) of every body's frame in the world (m) of a standing robot."""
-    pose = standing(robot, wound)
-    poses = {BODY: transform(about_y(pose.body_pitch_rad), pose.body_position_m)}
+    stance = standing(robot, wound)
+    poses = {BODY: pose_at(rotation_about_y(stance.body_pitch_rad), stance.body_position_m)}
     for joint in robot.joints:
-        turn = about_y(joint.rest_angle_rad + pose.joint_rad[joint.name])
-        poses[joint.child] = np.einsum("ij,jk->ik", poses[joint.parent], transform(turn, joint.origin_m))
+        turn = rotation_about_y(joint.rest_angle_rad + stance.joint_rad[joint.name])
+        poses[joint.child] = chained(poses[joint.parent], pose_at(turn, joint.origin_m))
     return poses
-
-
-def transform(rotation: Array, translation: Array) -> Array:
-    """Return the pose (4, 4) of a rotation (3, 3) and a translation (3,)."""
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = rotation, translation
-    return pose

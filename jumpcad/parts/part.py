@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 from manifold3d import Manifold
 
 from jumpcad.mechanism.mass import MassProperties
@@ -18,11 +17,11 @@ from jumpcad.printing.bed import Lie, lie, require_bed
 from jumpcad.solids.blocks import Blocks
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
+from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
     import trimesh
 
-Array = npt.NDArray[np.float64]
 Shape: TypeAlias = Stack | Blocks
 Face = Literal["left", "right"]
 
@@ -106,13 +105,6 @@ def upright(z_mm: float, x_mm: float = 0.0, y_mm: float = 0.0) -> Array:
     """Return the pose (4, 4) of a part that stands on the robot as it does on the bed."""
     pose = np.eye(4)
     pose[:3, 3] = x_mm, y_mm, z_mm
-    return pose
-
-
-def about_z(angle_rad: float) -> Array:
-    """Return the pose (4, 4) of a part turned counter-clockwise about z."""
-    pose = np.eye(4)
-    pose[:2, :2] = [[np.cos(angle_rad), -np.sin(angle_rad)], [np.sin(angle_rad), np.cos(angle_rad)]]
     return pose
 
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
-import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.mechanism.mass import MassProperties
-from jumpcad.parts.part import UNSEEN_MM, Array, about_z, laid, lying_on_left
+from jumpcad.parts.part import UNSEEN_MM, laid, lying_on_left
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
+from jumpcad.transforms import Array, chained, in_metres, pose_about_z
 
 if TYPE_CHECKING:
     import trimesh
@@ -41,7 +41,7 @@ class Bought:
 
     def moved(self, T_body_frame: Array) -> "Bought":
         """Return the part drawn in a frame of its body instead of the body's own; that frame's pose (4, 4) in mm."""
-        T_body_part = np.einsum("ij,jk->ik", T_body_frame, self.T_body_part)
+        T_body_part = chained(T_body_frame, self.T_body_part)
         return replace(self, T_body_part=T_body_part, mass=self.mass.placed(in_metres(T_body_frame)))
 
     @cached_property
@@ -71,7 +71,7 @@ def bought(
     """
     shape, top, uniform = _drawn(tuple(slabs))
     x, y, z = at_mm
-    pose = lying_on_left(top + y, x, z) @ about_z(turn_rad)
+    pose = lying_on_left(top + y, x, z) @ pose_about_z(turn_rad)
     return Bought(name, article, body, shape, pose, uniform.scaled_to(mass_g / 1000.0).placed(in_metres(pose)), units)
 
 
@@ -88,10 +88,3 @@ def _look(shape: Stack) -> "trimesh.Trimesh":
     from jumpcad.solids.finish import to_trimesh
 
     return to_trimesh(shape.solid().simplify(UNSEEN_MM))
-
-
-def in_metres(pose_mm: Array) -> Array:
-    """Return a pose (4, 4) with its translation in metres instead of millimetres."""
-    pose = pose_mm.copy()
-    pose[:3, 3] /= 1000.0
-    return pose

@@ -15,8 +15,9 @@ from jumpcad.parts.holes import Bores
 from jumpcad.parts.purchased import Bought, bought
 from jumpcad.parts.small import COLLAR_MM
 from jumpcad.parts.train import gear_turns
-from jumpcad.robot import BODY, FOOT, MAIN_LEG, Array
+from jumpcad.robot import BODY, FOOT, MAIN_LEG
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, ring, stadium
+from jumpcad.transforms import Array
 from jumpcad.workshop import BoughtParts
 
 TOE_THREAD_MM = 4.0

@@ -9,10 +9,11 @@ from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import SPACER_RADIUS_MM, TRAY_MM, Plan
 from jumpcad.parts.body_plate import TAB_MM, ear_reach_mm, socket_about_axis, tray_slots
 from jumpcad.parts.holes import Bores
-from jumpcad.parts.part import Drawing, Placement, about_z, lying_on_left, lying_on_right, upright
+from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right, upright
 from jumpcad.robot import BODY
 from jumpcad.solids.outline import disc, hole, rectangle, ring, union
 from jumpcad.solids.stack import Stack
+from jumpcad.transforms import pose_about_z
 from jumpcad.workshop import Workshop
 
 COLLAR_MM = 3.0
@@ -31,7 +32,7 @@ def motor_cap(plan: Plan, bores: Bores) -> Drawing:
     """Return the cap that closes the motor's socket in front of the gearbox."""
     y0, y1 = plan.lateral.motor_cap
     motor = plan.drive.train.motor
-    pose = lying_on_right(y0, *plan.motor_mm) @ about_z(-plan.motor_angle_rad)
+    pose = lying_on_right(y0, *plan.motor_mm) @ pose_about_z(-plan.motor_angle_rad)
     stack = _cap(motor.width_mm, motor.height_mm, y1 - y0, bores.fits.m2_clearance_mm)
     return Drawing("motor_cap", "body", stack, (Placement(BODY, pose),))
 

@@ -15,10 +15,11 @@ from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import Plan
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Placement, upright
-from jumpcad.robot import FOOT, Array
+from jumpcad.robot import FOOT
 from jumpcad.solids.blocks import Bar, Block, Blocks, Finger, Turned
 from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
 from jumpcad.strength.sizing import TOE_TIP_WIDTH_MM
+from jumpcad.transforms import Array
 
 JOINT_MM = (12.0, 34.0)
 """Where a toe of its own and its stub overlap, from the root."""

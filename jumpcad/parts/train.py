@@ -12,10 +12,11 @@ import numpy as np
 from jumpcad.drive.gears import Gear
 from jumpcad.layout.plan import Plan
 from jumpcad.parts.holes import Bores
-from jumpcad.parts.part import Drawing, Placement, about_z, laid, lying_on_left
+from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left
 from jumpcad.robot import BODY
 from jumpcad.solids.outline import Point, Region, d_bore, disc, hole, polygon, rectangle, rounded, union
 from jumpcad.solids.stack import Stack
+from jumpcad.transforms import pose_about_z
 
 WEB_RIM_MM = 3.0
 """Material kept inside the root circle and around the hub of a gear with web holes."""
@@ -82,7 +83,7 @@ def mesh_turn(wheel: Gear, pinion: Gear, wheel_mm: np.ndarray, pinion_mm: np.nda
 
 def _placed(top_mm: float, centre_mm: np.ndarray, turn_rad: float) -> Placement:
     """Return the place of a gear that lies on its left face, turned about its axis."""
-    return Placement(BODY, lying_on_left(top_mm, *centre_mm) @ about_z(turn_rad))
+    return Placement(BODY, lying_on_left(top_mm, *centre_mm) @ pose_about_z(turn_rad))
 
 
 @lru_cache(maxsize=64)

@@ -4,11 +4,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from jumpcad.errors import CannotBuildError
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 ROUND_OFF_MM = 1e-6
 

@@ -5,11 +5,9 @@ import re
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from jumpcad.solids.moments import point_moments
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 WORD = re.compile(r"([A-Z])(-?\d*\.?\d+)")
 SETTING = re.compile(r"^; ([\w \[\]()]+?) = (.*)$")

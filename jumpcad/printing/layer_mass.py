@@ -12,7 +12,6 @@ from typing import Literal, NamedTuple, Protocol, TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
-import numpy.typing as npt
 from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.mechanism.mass import MassProperties
@@ -20,9 +19,9 @@ from jumpcad.printing.runs import Run, jumps_of, runs_of
 from jumpcad.solids.moments import areas_and_borders, border_mm, mass_of, prism_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2, Section
+from jumpcad.transforms import Array
 from jumpcad.workshop import Process
 
-Array = npt.NDArray[np.float64]
 T = TypeVar("T")
 MassModel = Literal["printed", "solid"]
 

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 import rectpack
 import trimesh
 
 from jumpcad.printing.bed import require_bed
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend on rounding
 

@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.solids.stack import SMALLEST_AREA_MM2
+from jumpcad.transforms import Array
 from jumpcad.workshop import Process
 
-Array = npt.NDArray[np.float64]
 Numbers = npt.NDArray[np.int64]
 
 ALIKE_LAYERS = 5

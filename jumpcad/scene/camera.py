@@ -4,9 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 FIELD_OF_VIEW_DEG = 14.0
 """A long lens: nearly parallel lines."""

@@ -7,7 +7,8 @@ pixels. An edge that two triangles share is cut at the same place in both, so th
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
+
 Ints = npt.NDArray[np.int64]
 
 X, Y, NEARNESS, SHADE = range(4)

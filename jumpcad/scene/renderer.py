@@ -13,10 +13,11 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from jumpcad.scene.camera import Array, Camera, View, aimed, turned
+from jumpcad.scene.camera import Camera, View, aimed, turned
 from jumpcad.scene.raster import drawn
 from jumpcad.scene.shading import CREASE_RAD, creased
 from jumpcad.scene.shapes import Colour
+from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
     import trimesh

@@ -7,10 +7,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from jumpcad.transforms import Array
+
 if TYPE_CHECKING:
     import trimesh
 
-Array = npt.NDArray[np.float64]
 
 CREASE_RAD = 0.5
 """Faces that meet at less than this look smooth."""

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from jumpcad.parts.part import Array, Part
-from jumpcad.parts.purchased import Bought, in_metres
+from jumpcad.parts.part import Part
+from jumpcad.parts.purchased import Bought
 from jumpcad.robot import Robot
+from jumpcad.transforms import Array, in_metres
 
 if TYPE_CHECKING:
     import trimesh

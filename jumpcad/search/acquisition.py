@@ -8,8 +8,9 @@ import numpy.typing as npt
 from scipy.optimize import minimize
 
 from jumpcad.design import Design
-from jumpcad.search.space import Array, Space
+from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Belief
+from jumpcad.transforms import Array
 
 CANDIDATES = 1024
 LOCAL = 128

@@ -9,9 +9,10 @@ from threadpoolctl import threadpool_limits
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Campaign
-from jumpcad.search.space import Array, Parameter
+from jumpcad.search.space import Parameter
 from jumpcad.search.store import Row
 from jumpcad.search.surrogate import Surrogate, warped
+from jumpcad.transforms import Array
 
 ELITE_SHARE = 0.1
 ELITE_LEAST = 20

@@ -13,9 +13,10 @@ from threadpoolctl import threadpool_limits
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Campaign
 from jumpcad.search.methods.bayesian import incumbent, unproposed
-from jumpcad.search.space import Array, Space
+from jumpcad.search.space import Space
 from jumpcad.search.store import Row
 from jumpcad.search.surrogate import Belief
+from jumpcad.transforms import Array
 
 CONFIDENCES = (0.95, 0.99, 0.999)
 """Probabilities that a neighbour is feasible: one proposal for each."""

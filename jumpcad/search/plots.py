@@ -11,9 +11,10 @@ from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.methods.pareto import energy_j, front
 from jumpcad.search.objective import Objective
-from jumpcad.search.space import Array, Space
+from jumpcad.search.space import Space
 from jumpcad.search.store import Row
 from jumpcad.search.surrogate import Belief, unwarped, warped
+from jumpcad.transforms import Array
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
 ACQUISITION = "log10 of EI × P(feasible)"

@@ -14,8 +14,9 @@ from scipy.stats import qmc
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.search.evaluator import Campaign
 from jumpcad.search.margin import keep_off
-from jumpcad.search.space import Array, Space, physical_limits
+from jumpcad.search.space import Space, physical_limits
 from jumpcad.search.store import Row
+from jumpcad.transforms import Array
 
 TENS = 3
 """How many times ten of the best rows are tried at most."""

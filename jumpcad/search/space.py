@@ -11,14 +11,12 @@ from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
-import numpy.typing as npt
 from scipy.stats import qmc
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 
 @dataclass(frozen=True)

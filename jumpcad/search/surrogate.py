@@ -16,8 +16,9 @@ from scipy.linalg import solve_triangular
 from scipy.optimize import minimize
 from scipy.special import erfcx, log_ndtr
 
-from jumpcad.search.space import Array, Space
+from jumpcad.search.space import Space
 from jumpcad.search.store import Row
+from jumpcad.transforms import Array
 
 VERDICT = "verdict"
 """Stands among the constraints for all refusals together, also those that leave no margin: +1 for a jump, else -1."""

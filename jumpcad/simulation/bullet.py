@@ -5,7 +5,6 @@ for each, and the whole world is made anew every `RESET_EVERY` robots, which als
 robot does not.
 """
 
-import math
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,6 +18,7 @@ from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Robot
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.engines import import_pybullet
 from jumpcad.simulation.mechanics import Release, State, release_pose
+from jumpcad.transforms import quaternion_about_y
 
 RESET_EVERY = 500
 UNCLAMPED_RAD_S = 1e6
@@ -156,14 +156,14 @@ class BulletWorld:
                 shapes[0],
                 box,
                 basePosition=release.body_position_m.tolist(),
-                baseOrientation=_about_y(release.body_pitch_rad),
+                baseOrientation=_xyzw_about_y(release.body_pitch_rad),
                 baseInertialFramePosition=positions[0],
                 baseInertialFrameOrientation=orientations[0],
                 linkMasses=[body.mass_kg for body in bodies[1:]],
                 linkCollisionShapeIndices=shapes[1:],
                 linkVisualShapeIndices=[box] * len(LINKS),
                 linkPositions=[joint.origin_m.tolist() for joint in joints],
-                linkOrientations=[_about_y(joint.rest_angle_rad) for joint in joints],
+                linkOrientations=[_xyzw_about_y(joint.rest_angle_rad) for joint in joints],
                 linkInertialFramePositions=positions[1:],
                 linkInertialFrameOrientations=orientations[1:],
                 linkParentIndices=[0, 1, 0],
@@ -238,5 +238,7 @@ def _joints(robot: Robot) -> list[Joint]:
     return [next(joint for joint in robot.joints if joint.child == name) for name in LINKS]
 
 
-def _about_y(angle_rad: float) -> list[float]:
-    return [0.0, math.sin(angle_rad / 2), 0.0, math.cos(angle_rad / 2)]
+def _xyzw_about_y(angle_rad: float) -> list[float]:
+    """Return the quaternion of a turn about y as Bullet wants it: scalar last."""
+    w, *vector = quaternion_about_y(angle_rad)
+    return [*vector, w]

@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from jumpcad.findings import Finding
-from jumpcad.robot import Array
+from jumpcad.transforms import Array
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.robot import BODY_NAMES, Array, Robot
+from jumpcad.robot import BODY_NAMES, Robot
+from jumpcad.transforms import Array
 
 
 @dataclass(frozen=True)

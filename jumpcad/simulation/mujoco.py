@@ -4,7 +4,6 @@ MuJoCo's constraints are springs; here contacts and the loop are as stiff as the
 a fraction of that in the settings.
 """
 
-import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -16,6 +15,7 @@ from jumpcad.robot import BODY, BODY_NAMES, Robot
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.engines import import_mujoco
 from jumpcad.simulation.mechanics import Release, State, release_pose
+from jumpcad.transforms import quaternion_about_y
 
 SUBSTEPS = 4
 """MuJoCo's own steps in one of the settings': what makes its stiffest constraints as exact as Bullet's rigid ones."""
@@ -106,7 +106,7 @@ class MujocoWorld:
 
     def _place(self, release: Release) -> None:
         """Put the body's frame and every joint where they are before release."""
-        self.data.joint("free").qpos = [*release.body_position_m, *_about_y(release.body_pitch_rad)]
+        self.data.joint("free").qpos = [*release.body_position_m, *quaternion_about_y(release.body_pitch_rad)]
         for name, angle in release.joint_rad.items():
             self.data.joint(name).qpos = angle
         self._mujoco.mj_forward(self.model, self.data)
@@ -130,7 +130,7 @@ def model_spec(mujoco: Any, robot: Robot, settings: Settings) -> Any:
     bodies[BODY].add_freejoint(name="free")
     for joint in robot.joints:
         bodies[joint.child] = child = bodies[joint.parent].add_body(
-            name=joint.child, pos=joint.origin_m, quat=_about_y(joint.rest_angle_rad)
+            name=joint.child, pos=joint.origin_m, quat=quaternion_about_y(joint.rest_angle_rad)
         )
         child.add_joint(
             name=joint.name,
@@ -185,8 +185,3 @@ def _fill(mujoco: Any, spec: Any, node: Any, robot: Robot, settings: Settings, s
             solref=stiff,
             solimp=IMPEDANCE,
         )
-
-
-def _about_y(angle_rad: float) -> list[float]:
-    """Return the quaternion (w, x, y, z) of a turn about y."""
-    return [math.cos(angle_rad / 2), 0.0, math.sin(angle_rad / 2), 0.0]

@@ -11,10 +11,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.findings import Finding
-from jumpcad.robot import BODY, BODY_NAMES, Array, Robot
+from jumpcad.robot import BODY, BODY_NAMES, Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
 from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics
+from jumpcad.transforms import Array
 
 AUDIT_EVERY_S = 0.008
 AIRBORNE_S = 0.004

@@ -18,8 +18,8 @@ from jumpcad.solids.finish import finished
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region, circle_points
 from jumpcad.solids.stack import NOTHING, Section
+from jumpcad.transforms import Array
 
-Array = npt.NDArray[np.float64]
 Contours = list[Array]
 
 

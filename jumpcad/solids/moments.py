@@ -12,8 +12,7 @@ import numpy.typing as npt
 from manifold3d import CrossSection, Manifold
 
 from jumpcad.mechanism.mass import MassProperties
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 MM = 1e-3
 """One millimetre in metres."""

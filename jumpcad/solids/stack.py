@@ -19,8 +19,7 @@ from jumpcad.mechanism.mass import MassProperties
 from jumpcad.solids.moments import areas_moments, mass_of, prism_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.skin import skin
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array
 
 Z_DIGITS = 4  # heights are rounded to this many decimals of a mm: faces meant to meet do, in 32-bit floats too
 SLIVER_MM = 0.01

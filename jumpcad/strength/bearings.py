@@ -7,17 +7,14 @@ roller is, so that the leg tilts against them and the nearer one bears more than
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from jumpcad.catalogue import Bearing, load_catalogue
 from jumpcad.design import Design
 from jumpcad.drive import Drive
 from jumpcad.errors import JumpcadError
 from jumpcad.layout.lateral import ROLLER_WASHER_MM
-from jumpcad.mechanism.linkage import direction
+from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
-
-Array = npt.NDArray[np.float64]
 
 ANY = "any"
 """In a workshop's place for a bearing: the lightest of the catalogue that bears its load."""

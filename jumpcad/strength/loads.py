@@ -9,12 +9,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.mechanism.linkage import Linkage
-
-Array = npt.NDArray[np.float64]
+from jumpcad.transforms import Array, turned_about_y
 
 GRAVITY_M_S2 = 9.81
 POSITIONS = 17
@@ -70,7 +68,7 @@ def push_off(design: Design, mass: MovingMass, foot_depth_mm: float) -> PushOff:
     stiffness, weight = 1000.0 * design.stiffness_nm_per_rad, mass.mass_kg * GRAVITY_M_S2
 
     def on_foot(point_mm: Array) -> Array:
-        return _turned(point_mm - pose.ankle_mm, -pose.foot_rad)
+        return turned_about_y(point_mm - pose.ankle_mm, -pose.foot_rad)
 
     def by_leg(values: Array) -> Array:
         return np.gradient(values, leg, axis=0, edge_order=2)
@@ -124,13 +122,6 @@ def push_off(design: Design, mass: MovingMass, foot_depth_mm: float) -> PushOff:
         toes_n=share * up * stands,
         residual_n=residual * stands,
     )
-
-
-def _turned(vector: Array, angle_rad: Array) -> Array:
-    """Return x-z vectors (n, 2) turned about +y by angles (n,)."""
-    x, z = vector[:, 0], vector[:, 1]
-    cos, sin = np.cos(angle_rad), np.sin(angle_rad)
-    return np.stack([cos * x + sin * z, cos * z - sin * x], axis=-1)
 
 
 def _moment(arm: Array, force: Array) -> Array:

@@ -8,11 +8,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from jumpcad.transforms import Array
 from jumpcad.workshop import Process
-
-Array = npt.NDArray[np.float64]
 
 VON_MISES = math.sqrt(3.0)
 """Tension that is as bad as a shear stress of 1 (distortion energy)."""

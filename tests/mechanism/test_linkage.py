@@ -7,7 +7,8 @@ import pytest
 
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.linkage import Array, Linkage, Pose
+from jumpcad.mechanism.linkage import Linkage, Pose
+from jumpcad.transforms import Array
 
 LOWER, UPPER = np.array([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()]).T
 

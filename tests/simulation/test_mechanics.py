@@ -10,10 +10,11 @@ from scipy.spatial.transform import Rotation
 from support.flights import Flight
 
 from jumpcad.mechanism.mass import principal_axes
-from jumpcad.robot import BODY, BODY_NAMES, FOOT, Array, Robot
+from jumpcad.robot import BODY, BODY_NAMES, FOOT, Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import _engine
 from jumpcad.simulation.mechanics import Mechanics, State, ballistics, release_pose
+from jumpcad.transforms import Array
 
 
 def frames(robot: Robot) -> dict[str, Array]:

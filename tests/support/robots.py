@@ -7,10 +7,11 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.mass import combined
 from jumpcad.parts.part import Drawing, Part, Placement, laid, lying_on_left, lying_on_right
-from jumpcad.parts.purchased import bought, in_metres
+from jumpcad.parts.purchased import bought
 from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Robot
 from jumpcad.solids.outline import disc, hole, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
+from jumpcad.transforms import in_metres
 
 DENSITY_G_CM3 = 1.24
 

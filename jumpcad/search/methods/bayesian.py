@@ -14,9 +14,10 @@ from threadpoolctl import threadpool_limits
 from jumpcad.design import Design
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Campaign
-from jumpcad.search.space import Array, Space
+from jumpcad.search.space import Space
 from jumpcad.search.store import Row
 from jumpcad.search.surrogate import Belief
+from jumpcad.transforms import Array
 
 REFIT_AFTER, REFIT_EVERY = 80, 5
 ELITE = 4

@@ -15,7 +15,8 @@ import numpy as np
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.search.evaluator import Campaign
-from jumpcad.search.space import Array, Space
+from jumpcad.search.space import Space
+from jumpcad.transforms import Array
 
 PATIENCE = 50
 """Generations without a single new design after which the search has run dry."""

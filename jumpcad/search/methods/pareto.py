@@ -15,9 +15,10 @@ from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Campaign
 from jumpcad.search.methods.bayesian import incumbent, run_steps, unproposed
 from jumpcad.search.methods.genetic import Fitness, evolve
-from jumpcad.search.space import Array, Space
+from jumpcad.search.space import Space
 from jumpcad.search.store import Row
 from jumpcad.search.surrogate import Belief
+from jumpcad.transforms import Array
 
 CAPS = 8
 REFERENCE_ENERGY_J = 1.5

@@ -1,0 +1,78 @@
+"""Arrays, rotations and poses: one sign convention for everything that turns.
+
+Frames follow REP-103 (x forward, y left, z up). The mechanism is planar: a positive angle turns about +y, from z
+towards x, so that what points forwards turns downwards. Poses are (4, 4) matrices `T_a_b` that take points of frame b
+to frame a. Products of small matrices are sums (`einsum`) and not calls to BLAS, whose last digits depend on the
+processor: the same robot has the same bytes everywhere.
+"""
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+
+def direction(angle_rad: npt.ArrayLike) -> Array:
+    """Return unit vectors (..., 2) in x-z that point `angle_rad` (...) below the x axis."""
+    angle = np.asarray(angle_rad, dtype=float)
+    return np.stack([np.cos(angle), -np.sin(angle)], axis=-1)
+
+
+def turned_about_y(vector: npt.ArrayLike, angle_rad: npt.ArrayLike) -> Array:
+    """Return x-z vectors (..., 2) turned about +y by angles (...)."""
+    vector, angle = np.asarray(vector, dtype=float), np.asarray(angle_rad, dtype=float)
+    cos, sin = np.cos(angle), np.sin(angle)
+    x, z = vector[..., 0], vector[..., 1]
+    return np.stack([cos * x + sin * z, cos * z - sin * x], axis=-1)
+
+
+def velocity_about_y(vector: Array) -> Array:
+    """Return the velocity (n, 2) of points at x-z vectors (n, 2) from a pivot, per unit turn about +y."""
+    return np.stack([vector[:, 1], -vector[:, 0]], axis=-1)
+
+
+def rotation_about_y(angle_rad: float) -> Array:
+    """Return the rotation (3, 3) about y, from its quaternion."""
+    w, _, y, _ = quaternion_about_y(angle_rad)
+    cos, sin = w * w - y * y, 2.0 * y * w
+    return np.array([[cos, 0.0, sin], [0.0, w * w + y * y, 0.0], [-sin, 0.0, cos]])
+
+
+def quaternion_about_y(angle_rad: float) -> tuple[float, float, float, float]:
+    """Return the quaternion (w, x, y, z) of a turn about y."""
+    return math.cos(angle_rad / 2), 0.0, math.sin(angle_rad / 2), 0.0
+
+
+def pose_at(rotation: Array, translation: npt.ArrayLike) -> Array:
+    """Return the pose (4, 4) of a rotation (3, 3) and a translation (3,)."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = rotation, translation
+    return matrix
+
+
+def pose_about_y(angle_rad: float, place: npt.ArrayLike) -> Array:
+    """Return the pose (4, 4) of what is turned about +y and then moved to a place (2,) in x-z."""
+    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    x, z = np.asarray(place, dtype=float)
+    return np.array([[cos, 0.0, sin, x], [0.0, 1.0, 0.0, 0.0], [-sin, 0.0, cos, z], [0.0, 0.0, 0.0, 1.0]])
+
+
+def pose_about_z(angle_rad: float) -> Array:
+    """Return the pose (4, 4) of what is turned about +z, counter-clockwise seen from above."""
+    matrix = np.eye(4)
+    matrix[:2, :2] = [[np.cos(angle_rad), -np.sin(angle_rad)], [np.sin(angle_rad), np.cos(angle_rad)]]
+    return matrix
+
+
+def chained(T_a_b: Array, T_b_c: Array) -> Array:
+    """Return the pose `T_a_c` (4, 4) of two poses, one after the other."""
+    return np.einsum("ij,jk->ik", T_a_b, T_b_c)
+
+
+def in_metres(pose_mm: Array) -> Array:
+    """Return a pose (4, 4) with its translation in metres instead of millimetres."""
+    metres = pose_mm.copy()
+    metres[:3, 3] /= 1000.0
+    return metres
