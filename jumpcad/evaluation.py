@@ -64,7 +64,6 @@ def evaluate(
 
 def _metrics(robot: Robot) -> dict[str, float]:
     """Return what winding takes, and the masses."""
-    assert robot.plan is not None
     train = robot.plan.drive.train
     masses = {f"{name}_mass_kg": body.mass_kg for name, body in robot.bodies.items()}
     return {

@@ -1,164 +1,22 @@
-"""`Robot`: what exporters, simulation and checks read. Plain data, SI units, engine-free.
+"""`Robot`: a mechanism with the printed and bought parts that it is made of, its layout, and the workshop."""
 
-Frames follow REP-103: x forward (the jump), y left, z up; all joint axes are +y, so a positive angle turns a link's
-nose downwards. The frame of `body` lies midway between its two pivots with x through both, from the main leg's to the
-front link's. Each leg's frame lies at its pivot with x along the link; the foot's frame lies at the ankle with x
-towards the front eye. All joint angles are zero in the assembled pose (springs at rest), where the foot is flat.
-Winding the springs turns the legs flat: negative angles of the `leg` joint.
-"""
-
-import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
 
-import numpy as np
-
-from jumpcad.design import Design
-from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.linkage import Linkage
-from jumpcad.transforms import Array
-
-if TYPE_CHECKING:
-    from jumpcad.layout.plan import Plan
-    from jumpcad.parts.part import Part
-    from jumpcad.parts.purchased import Bought
-    from jumpcad.workshop import Workshop
+from jumpcad.layout.plan import Plan
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.parts.part import Part
+from jumpcad.parts.purchased import Bought
+from jumpcad.workshop import Workshop
 
 
-Surface = Literal["foot", "body"]
+@dataclass(frozen=True, repr=False)
+class Robot(Mechanism):
+    """One printed robot; its bodies have the mass and inertia of its parts.
 
-BODY, MAIN_LEG, FRONT_LINK, FOOT = BODY_NAMES = ("body", "main_leg", "front_link", "foot")
-RANGE_POINTS = 33
-"""Leg angles at which the ranges of the other joints are looked for."""
-
-
-@dataclass(frozen=True)
-class ContactSphere:
-    """A sphere that may touch the ground, in its body's frame; `surface` chooses the friction in the settings."""
-
-    name: str
-    centre_m: Array
-    radius_m: float
-    surface: Surface
-
-
-@dataclass(frozen=True)
-class Body:
-    """A rigid body: mass, centre of mass (3,) and inertia tensor (3, 3) about it, both along the body frame's axes."""
-
-    name: str
-    mass_kg: float
-    com_m: Array
-    inertia_kg_m2: Array
-    contacts: tuple[ContactSphere, ...] = ()
-
-
-@dataclass(frozen=True)
-class Joint:
-    """A hinge about +y: the child frame sits at `origin_m` in the parent frame, turned by `rest_angle_rad` + q.
-
-    `lower_rad` and `upper_rad` bound q as far as the mechanism goes (information for exporters, not a stop).
-    `effort_nm` and `velocity_rad_s` are what the joint sees at most, for the URDF's limits.
+    `parts` are printed, `hardware` is bought, `plan` says where everything goes, and `workshop` what it is made with.
     """
 
-    name: str
-    parent: str
-    child: str
-    origin_m: Array
-    rest_angle_rad: float
-    lower_rad: float
-    upper_rad: float
-    effort_nm: float
-    velocity_rad_s: float
-
-
-@dataclass(frozen=True)
-class Loop:
-    """The closure of the five-bar: `point_a_m` of `body_a` is at `point_b_m` of `body_b`, each in its frame."""
-
-    body_a: str
-    point_a_m: Array
-    body_b: str
-    point_b_m: Array
-
-
-@dataclass(frozen=True)
-class Spring:
-    """Both torsion springs together on one joint; torque -stiffness·q, wound to q = -wind_rad before release."""
-
-    joint: str
-    stiffness_nm_per_rad: float
-    wind_rad: float
-
-    @property
-    def energy_j(self) -> float:
-        """Energy of the wound springs, ½·k·δ² (J)."""
-        return 0.5 * self.stiffness_nm_per_rad * self.wind_rad**2
-
-
-@dataclass(frozen=True)
-class Robot:
-    """One jumping robot: printed parts, bought parts, and the rigid-body mechanism that they make.
-
-    `parts` and `hardware` are empty on a robot that is only a mechanism (`capsule_robot`). `foot_depth_m` is the
-    distance from the line through ankle and front eye down to the ground on a flat foot.
-    """
-
-    name: str
-    design: Design
-    bodies: Mapping[str, Body]
-    joints: tuple[Joint, ...]
-    loop: Loop
-    spring: Spring
-    foot_depth_m: float
-    parts: "tuple[Part, ...]" = ()
-    hardware: "tuple[Bought, ...]" = ()
-    workshop: "Workshop | None" = None
-    plan: "Plan | None" = None
-
-    @property
-    def mass_kg(self) -> float:
-        """Total mass (kg)."""
-        return math.fsum(body.mass_kg for body in self.bodies.values())
-
-    def joint(self, name: str) -> Joint:
-        """Return a joint by its name."""
-        return next(joint for joint in self.joints if joint.name == name)
-
-
-def five_bar(
-    design: Design, leg_range_rad: tuple[float, float], effort_nm: float = 0.0
-) -> tuple[tuple[Joint, ...], Loop, Spring]:
-    """Return joints, loop and spring of a design's mechanism; they do not depend on how its bodies are made."""
-    l1, l2, l3, l4 = (length / 1000.0 for length in (design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm))
-    rest = math.radians(design.rest_angle_deg)
-    speed = 100.0  # rad/s; measured releases of light designs reach the 100 rad/s at which PyBullet clamps joints
-    leg, front, ankle = _ranges(design, leg_range_rad)
-
-    def hinge(
-        name: str, parent: str, child: str, x: float, angle: float, reach: tuple[float, float], effort: float
-    ) -> Joint:
-        return Joint(name, parent, child, np.array([x, 0.0, 0.0]), angle, *reach, effort, speed)
-
-    joints = (
-        hinge("leg", BODY, MAIN_LEG, -l1 / 2, rest, leg, effort_nm),
-        hinge("front", BODY, FRONT_LINK, l1 / 2, rest, front, 0.0),
-        hinge("ankle", MAIN_LEG, FOOT, l2, design.beta_rad - rest, ankle, 0.0),
-    )
-    loop = Loop(FRONT_LINK, np.array([l3, 0.0, 0.0]), FOOT, np.array([l4, 0.0, 0.0]))
-    spring = Spring("leg", design.stiffness_nm_per_rad, design.compression_rad)
-    return joints, loop, spring
-
-
-def _ranges(design: Design, leg_range_rad: tuple[float, float]) -> list[tuple[float, float]]:
-    """Return how far leg, front and ankle joint turn while the leg goes through its range.
-
-    A mechanism that does not close all the way (the gate refuses it) has no such ranges; its joints get the leg's.
-    """
-    try:
-        pose = Linkage(design).pose(np.linspace(*leg_range_rad, RANGE_POINTS))
-    except CannotBuildError:
-        return [leg_range_rad] * 3
-    turns = (pose.leg_rad, pose.front_rad, pose.ankle_rad)
-    return [(float(turn.min()), float(turn.max())) for turn in turns]
+    parts: tuple[Part, ...]
+    hardware: tuple[Bought, ...]
+    workshop: Workshop
+    plan: Plan

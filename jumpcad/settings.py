@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from jumpcad.files import Record, find_template
-from jumpcad.robot import Body
+from jumpcad.mechanism.model import Body
 
 NonNegative = Annotated[float, Field(ge=0)]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from support.loaded import loaded_range_m
+from support.places import ROOT
 
 from jumpcad.building import build
 from jumpcad.bundle.export import export
@@ -127,7 +128,7 @@ def test_the_same_document_in_another_process() -> None:
     code = "import json, jumpcad; print(json.dumps(jumpcad.evaluate(jumpcad.load_design('best-bo')).to_dict()))"
     there = subprocess.run(
         [sys.executable, "-c", code],
-        check=True, capture_output=True, text=True, cwd=Path(__file__).parents[1],
+        check=True, capture_output=True, text=True, cwd=ROOT,
         env={**os.environ, "PYTHONHASHSEED": "7"},
     ).stdout  # fmt: skip
     assert json.loads(there) == json.loads(json.dumps(evaluate(load_design("best-bo")).to_dict()))

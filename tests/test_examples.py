@@ -4,11 +4,10 @@ import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from support.places import ROOT
 
-ROOT = Path(__file__).parents[1]
 EXAMPLES = {
     "paper_pipeline": ["--model", "capsule", "--evaluations", "40", "--points", "3", "--folder", "out"],
     "one_spring": ["--model", "capsule", "--evaluations", "45"],

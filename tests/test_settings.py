@@ -6,7 +6,8 @@ import pytest
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names
-from jumpcad.robot import BODY, FOOT, Robot
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.robot import Robot
 from jumpcad.settings import surface_friction
 from jumpcad.simulation import Settings, load_settings
 

@@ -12,12 +12,13 @@ from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimi
 from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import CLEAR_MM, SPACER_RADIUS_MM, Electronics, Plan, make_plan
 from jumpcad.mechanism.mass import MassProperties, combined
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Surface, five_bar
 from jumpcad.parts import body_plate, foot, links, shopping, small, toes, train
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import Bought
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.robot import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Robot, Surface, five_bar
+from jumpcad.robot import Robot
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, first_guess, hub_bearings, hub_width_mm, wound_forces_n
 from jumpcad.strength.fatigue import spring_share
 from jumpcad.strength.sizing import Growth, Sections, sections

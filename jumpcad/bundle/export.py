@@ -61,31 +61,28 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     """Yield path and content of every file of a bundle but its manifest."""
     name = robot.name
     yield "design.toml", robot.design.to_toml()
-    if robot.workshop is not None:
-        yield "workshop.toml", robot.workshop.to_toml()
+    yield "workshop.toml", robot.workshop.to_toml()
     for part in robot.parts:
         stl = write_stl(part.mesh)
         require_part(part.name, stl)
         yield f"stl/{part.name}.stl", stl
         if step:
             yield f"step/{part.name}.step", write_step(part.drawing)
-    if robot.parts and robot.workshop is not None:
-        spacing = robot.workshop.process.part_spacing_mm
-        for plate in packed(robot.parts, robot.workshop.printer.bed_mm, spacing):
-            yield f"print/{plate.name}.3mf", write_threemf(plate)
-    for mesh_name, mesh in {shape.mesh_name: shape.mesh for shape in shapes(robot)}.items():
+    for plate in packed(robot.parts, robot.workshop.printer.bed_mm, robot.workshop.process.part_spacing_mm):
+        yield f"print/{plate.name}.3mf", write_threemf(plate)
+    visible = shapes(robot)
+    for mesh_name, mesh in {shape.mesh_name: shape.mesh for shape in visible}.items():
         yield f"urdf/{MESH_FOLDER}/{mesh_name}.stl", write_stl(mesh)
-    yield f"urdf/{name}.urdf", write_urdf(robot)
+    yield f"urdf/{name}.urdf", write_urdf(robot, visible)
     yield f"urdf/{name}.loop.json", write_loop(robot)
-    yield f"mjcf/{name}.xml", write_mjcf(robot)
-    yield f"sdf/{name}.sdf", write_sdf(robot)
+    yield f"mjcf/{name}.xml", write_mjcf(robot, visible)
+    yield f"sdf/{name}.sdf", write_sdf(robot, visible)
     yield f"{name}.glb", write_glb(robot)
     for outline, dxf in write_dxfs(robot).items():
         yield f"dxf/{outline}.dxf", dxf
     yield "bom.csv", write_bom(bill_of_materials(robot))
-    drawn = pictures and bool(robot.parts)
-    yield "assembly.md", write_guide(robot, drawn)
-    seen = all_pictures(robot) if drawn else {}
+    yield "assembly.md", write_guide(robot, pictures)
+    seen = all_pictures(robot) if pictures else {}
     for picture, png in seen.items():
         yield f"pictures/{picture}.png", png
     yield "report.html", write_report(robot, {name: seen[name] for name in STILLS if name in seen})

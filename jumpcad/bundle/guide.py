@@ -67,8 +67,6 @@ def _table(head: str, items: Sequence[Item], printed: bool) -> Iterator[str]:
 
 def _springs(robot: Robot) -> Iterator[str]:
     """Yield the order for the spring maker."""
-    if robot.plan is None:
-        return
     spring = robot.plan.drive.spring
     rate = 1000.0 * spring.stiffness_nm_per_rad * math.pi / 180.0
     wind = math.degrees(robot.spring.wind_rad)

@@ -67,14 +67,13 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
         yield f"mass of the {name.replace('_', ' ')}", f"{1000.0 * body.mass_kg:.1f}", "g"
     yield "springs, wound", f"{robot.spring.energy_j:.4f}", "J"
     yield "springs' angle", f"{math.degrees(robot.spring.wind_rad):.1f}", "°"
-    if robot.plan is not None:
-        train = robot.plan.drive.train
-        yield "gear motor", train.motor.name, ""
-        yield "gear ratio", f"{train.ratio:.2f}", ": 1"
-        yield "winding time", f"{train.winding_s:.2f}", "s"
-        yield "electrical energy of a jump", f"{train.electrical_j:.2f}", "J"
-        yield "current, mean", f"{1000.0 * train.mean_current_a:.0f}", "mA"
-        yield "current, peak", f"{1000.0 * train.peak_current_a:.0f}", "mA"
+    train = robot.plan.drive.train
+    yield "gear motor", train.motor.name, ""
+    yield "gear ratio", f"{train.ratio:.2f}", ": 1"
+    yield "winding time", f"{train.winding_s:.2f}", "s"
+    yield "electrical energy of a jump", f"{train.electrical_j:.2f}", "J"
+    yield "current, mean", f"{1000.0 * train.mean_current_a:.0f}", "mA"
+    yield "current, peak", f"{1000.0 * train.peak_current_a:.0f}", "mA"
 
 
 def _limits(robot: Robot) -> Iterator[str]:

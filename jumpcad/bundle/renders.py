@@ -7,7 +7,6 @@ import numpy as np
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
-from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
@@ -43,7 +42,7 @@ def stills(robot: Robot, size: tuple[int, int] = STILL_SIZE) -> dict[str, bytes]
     JumpcadError
         If the robot has no parts to be seen.
     """
-    things = _things(robot)
+    things = shapes(robot)
     return _stills(_studio(things), robot, things, size)
 
 
@@ -55,14 +54,14 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
     JumpcadError
         As `stills`.
     """
-    things = _things(robot)
+    things = shapes(robot)
     scene = _studio(things)
     return _stills(scene, robot, things, STILL_SIZE) | _step_pictures(scene, robot, things, STEP_SIZE)
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
     """Return an animated GIF of a recorded jump, at an even pace from release on."""
-    things = _things(robot)
+    things = shapes(robot)
     times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
     frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
@@ -111,13 +110,6 @@ def _step_pictures(scene: Studio, robot: Robot, things: Sequence[Shape], size: t
 
 def _studio(things: Sequence[Shape]) -> Studio:
     return Studio([(thing.mesh, thing.colour) for thing in things])
-
-
-def _things(robot: Robot) -> tuple[Shape, ...]:
-    things = shapes(robot)
-    if not things:
-        raise JumpcadError(f"{robot.name}: has no parts to be seen; jumpcad build makes them")
-    return things
 
 
 def _poses(things: Sequence[Shape], bodies: dict[str, Array]) -> list[Array]:

@@ -15,16 +15,19 @@ from jumpcad.checks.printability import bed_findings, printability_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.findings import Finding
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
+from jumpcad.mechanism.model import Mechanism
 from jumpcad.robot import Robot
 
 __all__ = ["check", "constraint_findings"]
 
 
-def check(robot: Robot) -> list[Finding]:
-    """Return the findings of every check on a robot, kept limits included."""
+def check(robot: Mechanism) -> list[Finding]:
+    """Return the findings of every check on a robot, kept limits included; a mechanism alone has the gate's only."""
+    feasibility = [*geometry_findings(robot.design), *statics_findings(robot)]
+    if not isinstance(robot, Robot):
+        return feasibility
     return [
-        *geometry_findings(robot.design),
-        *statics_findings(robot),
+        *feasibility,
         *constraint_findings(robot),
         *foot_findings(robot),
         *printability_findings(robot),

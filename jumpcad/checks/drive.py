@@ -6,8 +6,6 @@ from jumpcad.robot import Robot
 
 def drive_findings(robot: Robot) -> list[Finding]:
     """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*` and `motor_*` by what they limit."""
-    if robot.plan is None:
-        return []
     return [
         limit(found.name, _rounded(found.margin), found.unit, found.message, found.remedy)
         for found in robot.plan.drive.findings

@@ -6,9 +6,10 @@ from manifold3d import Manifold
 from jumpcad.checks.interference import Component, Moment, components, pose_of
 from jumpcad.findings import Finding, limit
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.parts.body_plate import PAD_WALL_MM, STANDOFF_PAD_MM
 from jumpcad.parts.small import COLLAR_RADIUS_MM
-from jumpcad.robot import BODY, FOOT, Robot
+from jumpcad.robot import Robot
 from jumpcad.transforms import Array, direction
 
 GROUND_GAP_MM = FOOT_GAP_MM = 0.5
@@ -21,8 +22,6 @@ SEARCH_MM = 3.0
 def ground_findings(robot: Robot) -> list[Finding]:
     """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from wound to rest."""
     plan = robot.plan
-    if plan is None:
-        return []
     linkage, sections, cam = Linkage(robot.design), plan.sections, plan.drive.cam
     leg = np.linspace(-robot.design.compression_rad, 0.0, POSITIONS)
     pose = linkage.pose(leg)
@@ -48,8 +47,6 @@ def ground_findings(robot: Robot) -> list[Finding]:
 def foot_findings(robot: Robot) -> list[Finding]:
     """Return `foot_clearance`: the gap between the foot and what the body carries, springs wound (exact)."""
     plan = robot.plan
-    if plan is None:
-        return []
     linkage = Linkage(robot.design)
     wound = Moment("wound", -robot.design.compression_rad, plan.drive.cam.law.lift_rad)
 
@@ -81,7 +78,6 @@ def _along(vector: Array, unit: Array) -> Array:
 def _body_discs(robot: Robot) -> tuple[Array, Array]:
     """Return what hangs lowest on the body as discs: middles (n, 2) in its frame and radii (n,)."""
     plan = robot.plan
-    assert plan is not None
     pad = max(plan.axle_mm / 2.0 + PAD_WALL_MM, COLLAR_RADIUS_MM)
     discs = [(place, pad) for place in plan.axles.values()]
     discs += [(place, STANDOFF_PAD_MM / 2.0) for place in plan.standoffs_mm]

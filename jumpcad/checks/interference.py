@@ -16,8 +16,9 @@ from manifold3d import Manifold
 from jumpcad.findings import Finding
 from jumpcad.layout.plan import Plan
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Shape
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Robot
+from jumpcad.robot import Robot
 from jumpcad.solids.stack import Stack, overlap_volume_mm3
 from jumpcad.transforms import Array, pose_about_y
 
@@ -92,8 +93,6 @@ def moments(plan: Plan) -> list[Moment]:
 def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
     """Yield pairs of pieces that share more than the tolerance: names, position, volume (mm³); each pair's worst."""
     plan = robot.plan
-    if plan is None:
-        return
     linkage = Linkage(robot.design)
     pieces = components(robot)
     worst: dict[tuple[int, int], tuple[float, str]] = {}
@@ -115,9 +114,7 @@ def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
 
 
 def interference_findings(robot: Robot) -> list[Finding]:
-    """Return a finding a pair of pieces that meet, or one that says that none do; none where nothing is placed."""
-    if robot.plan is None:
-        return []
+    """Return a finding a pair of pieces that meet, or one that says that none do."""
     found = [
         Finding(
             "interference", "error", -volume, "mm³", f"{a} and {b} share {volume:.2f} mm³, {label}",

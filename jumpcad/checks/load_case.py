@@ -8,8 +8,9 @@ import numpy as np
 
 from jumpcad.findings import Finding, limit
 from jumpcad.layout.plan import Plan
+from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import Bores
-from jumpcad.robot import BODY, Robot
+from jumpcad.robot import Robot
 from jumpcad.strength.bearings import wound_forces_n
 from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_tip_mm
 from jumpcad.strength.stress import Skin, pin_stress_mpa
@@ -22,8 +23,16 @@ class Case:
     """A robot under load."""
 
     robot: Robot
-    plan: Plan
-    workshop: Workshop
+
+    @property
+    def plan(self) -> Plan:
+        """Where everything is."""
+        return self.robot.plan
+
+    @property
+    def workshop(self) -> Workshop:
+        """What the robot is made with."""
+        return self.robot.workshop
 
     @cached_property
     def torque_nmm(self) -> float:

@@ -38,8 +38,6 @@ Fails = Callable[[Region, float], bool]
 
 def bed_findings(robot: Robot) -> list[Finding]:
     """Return `bed_fit`: every part within the printer's bed, along it or askew."""
-    if robot.workshop is None or not robot.parts:
-        return []
     bed = robot.workshop.printer.bed_mm
     margin, part = min(((part.drawing.lie(bed).margin_mm, part) for part in robot.parts), key=lambda item: item[0])
     size = np.ptp(part.drawing.shape.bounds_mm, axis=0)
@@ -55,8 +53,6 @@ def bed_findings(robot: Robot) -> list[Finding]:
 
 def printability_findings(robot: Robot) -> list[Finding]:
     """Return those that need outlines and meshes: walls, holes, pins, overhangs, bridges, solid."""
-    if robot.workshop is None or not robot.parts:
-        return []
     fits, process = robot.workshop.fits, robot.workshop.process
     drawings = [part.drawing for part in robot.parts]
     regions = [(drawing.name, *tall) for drawing in drawings for tall in _tall_regions(drawing, fits.wall_min_mm)]

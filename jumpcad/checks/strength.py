@@ -37,9 +37,7 @@ WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger
 
 def strength_findings(robot: Robot) -> list[Finding]:
     """Return a finding for every way in which a generated robot could break."""
-    if robot.plan is None or robot.workshop is None:
-        return []
-    case = Case(robot, robot.plan, robot.workshop)
+    case = Case(robot)
     return [
         *_leg(case),
         *_front_link(case),

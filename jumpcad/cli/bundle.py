@@ -125,7 +125,6 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
     from jumpcad.checks.strength import strength_findings
     from jumpcad.findings import errors
 
-    assert robot.plan is not None
     train = robot.plan.drive.train
     energy = robot.spring.energy_j
     return {

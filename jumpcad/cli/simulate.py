@@ -16,7 +16,7 @@ from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
-    from jumpcad.robot import Robot
+    from jumpcad.mechanism.model import Mechanism
     from jumpcad.simulation import Jump, Settings
 
 TRAJECTORY_SUFFIXES = (".csv", ".json")
@@ -123,7 +123,7 @@ def _settings(name: str, flight: bool, trajectory: bool) -> "Settings":
     return settings.model_copy(update=changes)
 
 
-def _jumps(robot: "Robot", settings: "Settings", engines: list[str]) -> "list[Jump]":
+def _jumps(robot: "Mechanism", settings: "Settings", engines: list[str]) -> "list[Jump]":
     from jumpcad.simulation import simulate as simulate_jump
 
     return [simulate_jump(robot, settings, engine) for engine in engines]

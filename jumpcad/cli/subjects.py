@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from jumpcad.mechanism.model import Mechanism
     from jumpcad.robot import Robot
 
 
@@ -22,8 +23,8 @@ def designed(subject: str, workshop: str) -> "Robot":
     return build_robot(load_design(subject), load_workshop(workshop), name)
 
 
-def written_robot(subject: str) -> "Robot | None":
-    """Return the robot of a bundle or a URDF file, read from that file; None for anything else."""
+def written_robot(subject: str) -> "Mechanism | None":
+    """Return the mechanism of a bundle or a URDF file, read from that file; None for anything else."""
     from jumpcad.bundle.manifest import is_bundle, open_bundle
     from jumpcad.simulation.from_urdf import robot_from_urdf
 

@@ -7,9 +7,9 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
 from jumpcad.exporters.xml import add, document, wxyz
+from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses, standing
-from jumpcad.robot import BODY, Body, Joint, Robot
-from jumpcad.scene.shapes import Shape, shapes
+from jumpcad.scene.shapes import Shape
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.mujoco import IMPEDANCE, SOFTNESS_STEPS, SUBSTEPS
 from jumpcad.transforms import rotation_about_y
@@ -18,10 +18,10 @@ MESH_FOLDER = "../urdf/meshes"
 """Folder of the meshes, seen from that of the MJCF file."""
 
 
-def write_mjcf(robot: Robot, settings: Settings | None = None) -> str:
+def write_mjcf(mechanism: Mechanism, visible: Sequence[Shape] = (), settings: Settings | None = None) -> str:
     """Return the MJCF document of a robot, with the settings' time step, friction and damping."""
     settings = settings or Settings()
-    root = ET.Element("mujoco", model=robot.name)
+    root = ET.Element("mujoco", model=mechanism.name)
     add(root, "compiler", angle="radian", meshdir=MESH_FOLDER, inertiafromgeom="false")
     add(
         root,
@@ -33,39 +33,40 @@ def write_mjcf(robot: Robot, settings: Settings | None = None) -> str:
         impratio=10.0,
         tolerance=1e-12,
     )
-    things = shapes(robot)
     asset = add(root, "asset")
-    for name in dict.fromkeys(shape.mesh_name for shape in things):
+    for name in dict.fromkeys(shape.mesh_name for shape in visible):
         add(asset, "mesh", name=name, file=f"{name}.stl", scale="0.001 0.001 0.001")
     world = add(root, "worldbody")
     add(world, "light", pos="0.2 -0.5 1", dir="-0.2 0.5 -1", directional="true")
     add(world, "geom", name="ground", type="plane", size="2 2 0.1", rgba="0.9 0.9 0.9 1", contype="0", conaffinity="0")
-    rest = body_poses(robot)[BODY]
+    rest = body_poses(mechanism)[BODY]
     base = add(world, "body", name=BODY, pos=rest[:3, 3], quat=wxyz(rest[:3, :3]))
     add(base, "freejoint", name="free")
-    _fill(base, robot.bodies[BODY], things)
-    order = _children(base, robot, BODY, settings, things)
-    _contacts(root, robot, settings)
-    _loop(root, robot, settings)
-    _wound(root, robot, order)
+    _fill(base, mechanism.bodies[BODY], visible)
+    order = _children(base, mechanism, BODY, settings, visible)
+    _contacts(root, mechanism, settings)
+    _loop(root, mechanism, settings)
+    _wound(root, mechanism, order)
     return document(root)
 
 
-def _children(parent: ET.Element, robot: Robot, name: str, settings: Settings, things: tuple[Shape, ...]) -> list[str]:
+def _children(
+    parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, visible: Sequence[Shape]
+) -> list[str]:
     """Append the bodies that hang on a body; return their joints in the order in which MuJoCo numbers them."""
     order: list[str] = []
-    for joint in (joint for joint in robot.joints if joint.parent == name):
+    for joint in (joint for joint in mechanism.joints if joint.parent == name):
         node = add(
             parent, "body", name=joint.child, pos=joint.origin_m, quat=wxyz(rotation_about_y(joint.rest_angle_rad))
         )
-        _hinge(node, joint, robot, settings)
-        _fill(node, robot.bodies[joint.child], things)
-        order += [joint.name, *_children(node, robot, joint.child, settings, things)]
+        _hinge(node, joint, mechanism, settings)
+        _fill(node, mechanism.bodies[joint.child], visible)
+        order += [joint.name, *_children(node, mechanism, joint.child, settings, visible)]
     return order
 
 
-def _hinge(node: ET.Element, joint: Joint, robot: Robot, settings: Settings) -> None:
-    spring = {"stiffness": robot.spring.stiffness_nm_per_rad} if joint.name == robot.spring.joint else {}
+def _hinge(node: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> None:
+    spring = {"stiffness": mechanism.spring.stiffness_nm_per_rad} if joint.name == mechanism.spring.joint else {}
     add(
         node,
         "joint",
@@ -78,12 +79,12 @@ def _hinge(node: ET.Element, joint: Joint, robot: Robot, settings: Settings) -> 
     )
 
 
-def _fill(node: ET.Element, body: Body, things: tuple[Shape, ...]) -> None:
+def _fill(node: ET.Element, body: Body, visible: Sequence[Shape]) -> None:
     """Give a body its mass properties, what is seen of it, its contact spheres."""
     tensor = body.inertia_kg_m2
     six = (*tensor.diagonal(), tensor[0, 1], tensor[0, 2], tensor[1, 2])
     add(node, "inertial", pos=body.com_m, mass=body.mass_kg, fullinertia=six)
-    for shape in (shape for shape in things if shape.body == body.name):
+    for shape in (shape for shape in visible if shape.body == body.name):
         pose = shape.T_body_mesh
         add(
             node,
@@ -112,12 +113,12 @@ def _fill(node: ET.Element, body: Body, things: tuple[Shape, ...]) -> None:
         )
 
 
-def _contacts(root: ET.Element, robot: Robot, settings: Settings) -> None:
+def _contacts(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
     """Pair every contact sphere with the ground alone."""
     node = add(root, "contact")
     spin = settings.ground_friction * settings.spinning_friction_m
     roll = settings.ground_friction * settings.rolling_friction_m
-    for body in robot.bodies.values():
+    for body in mechanism.bodies.values():
         slide = settings.ground_friction * surface_friction(body, settings)
         for contact in body.contacts:
             add(
@@ -131,9 +132,9 @@ def _contacts(root: ET.Element, robot: Robot, settings: Settings) -> None:
             )
 
 
-def _loop(root: ET.Element, robot: Robot, settings: Settings) -> None:
+def _loop(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
     """Tie the loop's two points, a site on each body."""
-    loop = robot.loop
+    loop = mechanism.loop
     for name, point in ((loop.body_a, loop.point_a_m), (loop.body_b, loop.point_b_m)):
         body = next(node for node in root.iter("body") if node.get("name") == name)
         add(body, "site", name=f"{name}_loop", pos=point)
@@ -141,8 +142,8 @@ def _loop(root: ET.Element, robot: Robot, settings: Settings) -> None:
     add(add(root, "equality"), "connect", name="loop", **sites, **_stiff(settings))
 
 
-def _wound(root: ET.Element, robot: Robot, order: list[str]) -> None:
-    release = standing(robot, 1.0)
+def _wound(root: ET.Element, mechanism: Mechanism, order: list[str]) -> None:
+    release = standing(mechanism, 1.0)
     attitude = wxyz(rotation_about_y(release.body_pitch_rad))
     angles = [release.joint_rad[name] for name in order]
     add(add(root, "keyframe"), "key", name="wound", qpos=(*release.body_position_m, *attitude, *angles))

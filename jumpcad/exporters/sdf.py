@@ -4,12 +4,13 @@ The model stands with springs at rest. Links' frames are the body frames of `Rob
 """
 
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 
 from jumpcad.exporters.urdf import SWING_RAD
 from jumpcad.exporters.xml import add, document, rpy
+from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import Body, Joint, Robot
-from jumpcad.scene.shapes import Shape, shapes
+from jumpcad.scene.shapes import Shape
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.transforms import Array
 
@@ -17,19 +18,18 @@ MESH_FOLDER = "../urdf/meshes"
 """Folder of the meshes, seen from that of the SDF file."""
 
 
-def write_sdf(robot: Robot, settings: Settings | None = None) -> str:
+def write_sdf(mechanism: Mechanism, visible: Sequence[Shape] = (), settings: Settings | None = None) -> str:
     """Return the SDF document of a robot, with the settings' friction and damping."""
     settings = settings or Settings()
     root = ET.Element("sdf", version="1.9")
-    model = add(root, "model", name=robot.name)
-    things = shapes(robot)
-    for name, pose in body_poses(robot).items():
+    model = add(root, "model", name=mechanism.name)
+    for name, pose in body_poses(mechanism).items():
         link = add(model, "link", name=name)
         add(link, "pose", _six(pose))
-        _fill(link, robot.bodies[name], [shape for shape in things if shape.body == name], settings)
-    for joint in robot.joints:
-        _hinge(model, joint, robot, settings)
-    loop = robot.loop
+        _fill(link, mechanism.bodies[name], [shape for shape in visible if shape.body == name], settings)
+    for joint in mechanism.joints:
+        _hinge(model, joint, mechanism, settings)
+    loop = mechanism.loop
     closure = add(model, "joint", name="loop", type="ball")
     add(closure, "pose", (*loop.point_b_m, 0.0, 0.0, 0.0))
     add(closure, "parent", loop.body_a)
@@ -62,7 +62,7 @@ def _fill(link: ET.Element, body: Body, visible: list[Shape], settings: Settings
             add(ode, direction, settings.ground_friction * surface_friction(body, settings))
 
 
-def _hinge(model: ET.Element, joint: Joint, robot: Robot, settings: Settings) -> None:
+def _hinge(model: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> None:
     node = add(model, "joint", name=joint.name, type="revolute")
     add(node, "parent", joint.parent)
     add(node, "child", joint.child)
@@ -76,9 +76,9 @@ def _hinge(model: ET.Element, joint: Joint, robot: Robot, settings: Settings) ->
     dynamics = add(axis, "dynamics")
     add(dynamics, "damping", settings.joint_damping_nms_per_rad)
     add(dynamics, "friction", settings.joint_friction_nm)
-    if joint.name == robot.spring.joint:
+    if joint.name == mechanism.spring.joint:
         add(dynamics, "spring_reference", 0.0)
-        add(dynamics, "spring_stiffness", robot.spring.stiffness_nm_per_rad)
+        add(dynamics, "spring_stiffness", mechanism.spring.stiffness_nm_per_rad)
 
 
 def _six(pose: Array) -> tuple[float, ...]:

@@ -8,13 +8,14 @@ metres); what touches the ground are spheres.
 import json
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 
 from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.mass import principal_axes
-from jumpcad.robot import Body, Joint, Robot
-from jumpcad.scene.shapes import Shape, shapes
+from jumpcad.mechanism.model import Body, Joint, Mechanism
+from jumpcad.mechanism.poses import release_pose
+from jumpcad.scene.shapes import Shape
 from jumpcad.settings import Settings
-from jumpcad.simulation.mechanics import release_pose
 
 MESH_FOLDER = "meshes"
 """Folder of the meshes, beside the URDF file."""
@@ -22,28 +23,29 @@ SWING_RAD = math.pi / 2
 """Limits leave this much on either side of the travel: simulators make stops of them, and legs swing past rest."""
 
 
-def write_urdf(robot: Robot, settings: Settings | None = None) -> str:
-    """Return the URDF document of a robot; its joints have the settings' damping and dry friction.
+def write_urdf(mechanism: Mechanism, visible: Sequence[Shape] = (), settings: Settings | None = None) -> str:
+    """Return the URDF document of a mechanism; its joints have the settings' damping and dry friction.
+
+    `visible` is what is seen of it, from `jumpcad.scene.shapes`.
 
     MuJoCo's own element keeps it from dropping the root link's mass and the folder of the meshes.
     """
     settings = settings or Settings()
-    root = ET.Element("robot", name=robot.name)
+    root = ET.Element("robot", name=mechanism.name)
     add(add(root, "mujoco"), "compiler", fusestatic="false", strippath="false", discardvisual="false")
-    things = shapes(robot)
-    for body in robot.bodies.values():
-        _link(root, body, [shape for shape in things if shape.body == body.name])
-    for joint in robot.joints:
+    for body in mechanism.bodies.values():
+        _link(root, body, [shape for shape in visible if shape.body == body.name])
+    for joint in mechanism.joints:
         _joint(root, joint, settings)
     return document(root)
 
 
-def write_loop(robot: Robot) -> str:
+def write_loop(mechanism: Mechanism) -> str:
     """Return the JSON document beside the URDF: loop closure, spring, pose at release, what may touch the ground."""
-    release = release_pose(robot)
-    loop, spring = robot.loop, robot.spring
+    release = release_pose(mechanism)
+    loop, spring = mechanism.loop, mechanism.spring
     data = {
-        "design": robot.design.model_dump(),
+        "design": mechanism.design.model_dump(),
         "loop": {
             "body_a": loop.body_a,
             "point_a_m": loop.point_a_m.tolist(),
@@ -56,14 +58,14 @@ def write_loop(robot: Robot) -> str:
             "rest_rad": 0.0,
             "wind_rad": spring.wind_rad,
         },
-        "travel_rad": {joint.name: [joint.lower_rad, joint.upper_rad] for joint in robot.joints},
+        "travel_rad": {joint.name: [joint.lower_rad, joint.upper_rad] for joint in mechanism.joints},
         "release": {
             "joint_rad": release.joint_rad,
             "body_position_m": release.body_position_m.tolist(),
             "body_pitch_rad": release.body_pitch_rad,
         },
-        "foot_depth_m": robot.foot_depth_m,
-        "surfaces": {contact.name: contact.surface for body in robot.bodies.values() for contact in body.contacts},
+        "foot_depth_m": mechanism.foot_depth_m,
+        "surfaces": {contact.name: contact.surface for body in mechanism.bodies.values() for contact in body.contacts},
     }
     return json.dumps(data, indent=2, allow_nan=False) + "\n"
 

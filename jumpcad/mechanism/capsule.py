@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Robot, five_bar
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Mechanism, five_bar
 from jumpcad.transforms import Array
 
 DENSITY_KG_M3 = 1200.0
@@ -22,7 +22,7 @@ LENGTH_PER_RADIUS = 25.0
 """Longest link over the radius of every capsule in the published model."""
 
 
-def capsule_robot(design: Design) -> Robot:
+def capsule_robot(design: Design) -> Mechanism:
     """Return the robot of a design that has the published masses and no parts.
 
     Raises
@@ -60,7 +60,7 @@ def capsule_robot(design: Design) -> Robot:
         _body(FOOT, foot, foot_contacts),
     )
     joints, loop, spring = five_bar(design, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
-    return Robot("capsule", design, {body.name: body for body in bodies}, joints, loop, spring, foot_depth_m=radius)
+    return Mechanism("capsule", design, {body.name: body for body in bodies}, joints, loop, spring, foot_depth_m=radius)
 
 
 def capsule(mass_kg: float, radius_m: float, start_m: npt.ArrayLike, end_m: npt.ArrayLike) -> MassProperties:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from jumpcad.design import Design
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage, Pose
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Robot
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism
 from jumpcad.transforms import Array
 
 GRAVITY_M_S2 = 9.81
@@ -39,12 +39,12 @@ def geometry_findings(design: Design) -> list[Finding]:
     return [loop, below]
 
 
-def statics_findings(robot: Robot, gravity_m_s2: float = GRAVITY_M_S2) -> list[Finding]:
+def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -> list[Finding]:
     """Return the findings `tips` and `too_weak` of a robot whose geometry passes."""
-    linkage = Linkage(robot.design)
-    pose = linkage.pose([-robot.spring.wind_rad, 0.0])
-    com = centre_of_mass_on_foot_mm(robot, linkage, pose)
-    back, front = support_span_mm(robot.design)
+    linkage = Linkage(mechanism.design)
+    pose = linkage.pose([-mechanism.spring.wind_rad, 0.0])
+    com = centre_of_mass_on_foot_mm(mechanism, linkage, pose)
+    back, front = support_span_mm(mechanism.design)
     x = float(com[0, 0])
     stability = min(x - back, front - x)
     tips = Finding(
@@ -52,12 +52,12 @@ def statics_findings(robot: Robot, gravity_m_s2: float = GRAVITY_M_S2) -> list[F
         f"centre of mass, springs wound, is at {x:.1f} mm from the ankle; the feet span {back:.1f} to {front:.1f} mm",
         "lengthen the toes (e_coef) or turn them back (smaller ground_link_angle_deg), or wind less",
     )  # fmt: skip
-    work = robot.mass_kg * gravity_m_s2 * float(com[1, 1] - com[0, 1]) / 1000.0
-    surplus = robot.spring.energy_j - TAKEOFF_ENERGY_FACTOR * work
+    work = mechanism.mass_kg * gravity_m_s2 * float(com[1, 1] - com[0, 1]) / 1000.0
+    surplus = mechanism.spring.energy_j - TAKEOFF_ENERGY_FACTOR * work
     weak = Finding(
         "too_weak", "error" if surplus < 0 else "info", surplus, "J",
-        f"the springs hold {robot.spring.energy_j:.4f} J; standing up against gravity takes {work:.4f} J, and a jump "
-        f"needs {TAKEOFF_ENERGY_FACTOR} times that",
+        f"the springs hold {mechanism.spring.energy_j:.4f} J; standing up against gravity takes {work:.4f} J, "
+        f"and a jump needs {TAKEOFF_ENERGY_FACTOR} times that",
         "raise stiffness_nmm_per_deg or compression_ratio, or lower carrying_link_mm",
     )  # fmt: skip
     return [tips, weak]
@@ -69,7 +69,7 @@ def support_span_mm(design: Design) -> tuple[float, float]:
     return min(0.0, toes), max(0.0, design.l4_mm)
 
 
-def centre_of_mass_on_foot_mm(robot: Robot, linkage: Linkage, pose: Pose) -> Array:
+def centre_of_mass_on_foot_mm(mechanism: Mechanism, linkage: Linkage, pose: Pose) -> Array:
     """Return the robot's centre of mass (n, 2) in the foot's x-z frame at n poses (mm)."""
     still = np.zeros_like(pose.leg_rad)
     places = {
@@ -80,9 +80,9 @@ def centre_of_mass_on_foot_mm(robot: Robot, linkage: Linkage, pose: Pose) -> Arr
     }
     moment = still + 0j
     for name, (origin, angle) in places.items():
-        body = robot.bodies[name]
+        body = mechanism.bodies[name]
         moment += body.mass_kg * (origin + 1000.0 * _complex(body.com_m[::2]) * np.exp(-1j * angle))
-    centre = (moment / robot.mass_kg - _complex(pose.ankle_mm)) * np.exp(1j * pose.foot_rad)
+    centre = (moment / mechanism.mass_kg - _complex(pose.ankle_mm)) * np.exp(1j * pose.foot_rad)
     return np.stack([centre.real, centre.imag], axis=-1)
 
 

@@ -1,23 +1,56 @@
-"""Where the bodies of a standing robot are, at any winding of its springs."""
+"""Where the bodies of a standing robot are, at any winding of its springs, and before release."""
 
-from dataclasses import replace
+import math
+from dataclasses import dataclass, replace
 
-from jumpcad.robot import BODY, Robot
-from jumpcad.simulation.mechanics import Release, release_pose
+import numpy as np
+
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
 
 
-def standing(robot: Robot, wound: float) -> Release:
+@dataclass(frozen=True)
+class Release:
+    """The robot before release: loop exactly closed, foot flat on the ground, ankle above the world's origin.
+
+    `joint_rad` holds the coordinate of every joint by name; the frame of `body` lies at `body_position_m` (3,), turned
+    about the world's y axis by `body_pitch_rad`.
+    """
+
+    joint_rad: dict[str, float]
+    body_position_m: Array
+    body_pitch_rad: float
+
+
+def release_pose(mechanism: Mechanism) -> Release:
+    """Return the pose of a robot with wound springs.
+
+    Raises
+    ------
+    CannotBuildError
+        If the loop does not close there.
+    """
+    pose = Linkage(mechanism.design).pose([-mechanism.spring.wind_rad])
+    pitch = -float(pose.foot_rad[0])
+    cos, sin = math.cos(pitch), math.sin(pitch)
+    x, z = pose.ankle_mm[0] / 1000.0
+    position = np.array([-cos * x - sin * z, 0.0, mechanism.foot_depth_m + sin * x - cos * z])
+    joints = {"leg": pose.leg_rad, "front": pose.front_rad, "ankle": pose.ankle_rad}
+    return Release({name: float(angle[0]) for name, angle in joints.items()}, position, pitch)
+
+
+def standing(mechanism: Mechanism, wound: float) -> Release:
     """Return the pose, foot flat on the ground, with the springs wound by a share (0 at rest … 1)."""
-    spring = replace(robot.spring, wind_rad=wound * robot.spring.wind_rad)
-    return release_pose(replace(robot, spring=spring))
+    spring = replace(mechanism.spring, wind_rad=wound * mechanism.spring.wind_rad)
+    return release_pose(replace(mechanism, spring=spring))
 
 
-def body_poses(robot: Robot, wound: float = 0.0) -> dict[str, Array]:
+def body_poses(mechanism: Mechanism, wound: float = 0.0) -> dict[str, Array]:
     """Return the pose (4, 4) of every body's frame in the world (m) of a standing robot."""
-    stance = standing(robot, wound)
+    stance = standing(mechanism, wound)
     poses = {BODY: pose_at(rotation_about_y(stance.body_pitch_rad), stance.body_position_m)}
-    for joint in robot.joints:
+    for joint in mechanism.joints:
         turn = rotation_about_y(joint.rest_angle_rad + stance.joint_rad[joint.name])
         poses[joint.child] = chained(poses[joint.parent], pose_at(turn, joint.origin_m))
     return poses

@@ -10,9 +10,9 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from jumpcad.layout.plan import CAP_EAR_MM, SOCKET_WALL_MM, TRAY_MM, Plan
+from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Face, Placement, laid
-from jumpcad.robot import BODY
 from jumpcad.solids.outline import (
     SAGITTA_MM,
     Region,

@@ -11,11 +11,11 @@ import numpy as np
 from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import Plan
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Placement, upright
 from jumpcad.parts.toes import lying_hole, on_the_foot, toe_tip_mm
 from jumpcad.printing.bed import lie
-from jumpcad.robot import FOOT
 from jumpcad.solids.blocks import Bar, Block, Blocks
 from jumpcad.solids.outline import Region, circle_points, disc, hull, polygon, rectangle, union
 from jumpcad.strength.sizing import TOE_TIP_WIDTH_MM

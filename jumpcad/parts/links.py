@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from jumpcad.layout.plan import Plan
+from jumpcad.mechanism.model import FRONT_LINK, MAIN_LEG
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Placement, laid
-from jumpcad.robot import FRONT_LINK, MAIN_LEG
 from jumpcad.solids.outline import disc, filleted, hole, stadium, tapered_bar, union
 
 LEVER_EYE_RADIUS_MM = 4.5

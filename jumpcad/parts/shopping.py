@@ -9,13 +9,13 @@ import numpy as np
 from jumpcad.catalogue import Bearing, Catalogue, Screw
 from jumpcad.layout.lateral import GAP_MM, ROLLER_WASHER_MM, Interval
 from jumpcad.layout.plan import TRAY_MM, Plan
+from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
 from jumpcad.parts import toes
 from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.purchased import Bought, bought
 from jumpcad.parts.small import COLLAR_MM
 from jumpcad.parts.train import gear_turns
-from jumpcad.robot import BODY, FOOT, MAIN_LEG
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, ring, stadium
 from jumpcad.transforms import Array
 from jumpcad.workshop import BoughtParts

@@ -7,10 +7,10 @@ import numpy as np
 from jumpcad.errors import JumpcadError
 from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import SPACER_RADIUS_MM, TRAY_MM, Plan
+from jumpcad.mechanism.model import BODY
 from jumpcad.parts.body_plate import TAB_MM, ear_reach_mm, socket_about_axis, tray_slots
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right, upright
-from jumpcad.robot import BODY
 from jumpcad.solids.outline import disc, hole, rectangle, ring, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z

@@ -13,9 +13,9 @@ import numpy as np
 
 from jumpcad.layout.lateral import GAP_MM
 from jumpcad.layout.plan import Plan
+from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Placement, upright
-from jumpcad.robot import FOOT
 from jumpcad.solids.blocks import Bar, Block, Blocks, Finger, Turned
 from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
 from jumpcad.strength.sizing import TOE_TIP_WIDTH_MM

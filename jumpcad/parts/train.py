@@ -11,9 +11,9 @@ import numpy as np
 
 from jumpcad.drive.gears import Gear
 from jumpcad.layout.plan import Plan
+from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import Bores
 from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left
-from jumpcad.robot import BODY
 from jumpcad.solids.outline import Point, Region, d_bore, disc, hole, polygon, rectangle, rounded, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z

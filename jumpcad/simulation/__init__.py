@@ -11,7 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.robot import Robot
+from jumpcad.mechanism.model import Mechanism
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import ENGINES
 from jumpcad.simulation.jump import Jump
@@ -23,11 +23,11 @@ __all__ = ["Jump", "Settings", "load_settings", "simulate"]
 class Engine(Protocol):
     """Makes worlds for robots."""
 
-    def world(self, robot: Robot, settings: Settings) -> AbstractContextManager[World]:
+    def world(self, mechanism: Mechanism, settings: Settings) -> AbstractContextManager[World]:
         """Put a robot on the ground, ready for release, and take it away afterwards."""
 
 
-def simulate(robot: Robot, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
+def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
     """Let a robot jump.
 
     Parameters
@@ -52,14 +52,14 @@ def simulate(robot: Robot, settings: Settings | None = None, engine: str = "pybu
     """
     settings = settings or Settings()
     maker = _engine(engine)
-    findings = geometry_findings(robot.design)
+    findings = geometry_findings(mechanism.design)
     if not errors(findings):
-        findings += statics_findings(robot, settings.gravity_m_s2)
+        findings += statics_findings(mechanism, settings.gravity_m_s2)
     refused = errors(findings)
     if refused:
-        return Jump(refused[0].name, engine, robot.mass_kg, robot.spring.energy_j, findings=tuple(findings))
-    with maker.world(robot, settings) as world:
-        run = Run(world, robot, settings)
+        return Jump(refused[0].name, engine, mechanism.mass_kg, mechanism.spring.energy_j, findings=tuple(findings))
+    with maker.world(mechanism, settings) as world:
+        run = Run(world, mechanism, settings)
         run.go()
         return _jump(run, engine, tuple(findings))
 
@@ -79,7 +79,7 @@ def _engine(name: str) -> Engine:
 
 
 def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
-    robot, takeoff = run.robot, run.takeoff
+    mechanism, takeoff = run.mechanism, run.takeoff
     audit = run.findings()
     findings = (*findings, *audit)
     failed = errors(audit)
@@ -88,8 +88,8 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
         return Jump(
             verdict,
             engine,
-            robot.mass_kg,
-            robot.spring.energy_j,
+            mechanism.mass_kg,
+            mechanism.spring.energy_j,
             trajectory=run.trajectory(),
             findings=findings,
         )
@@ -97,9 +97,9 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
     return Jump(
         "jump",
         engine,
-        robot.mass_kg,
-        robot.spring.energy_j,
-        fitness=flight.range_m / (robot.design.l_max_mm / 1000.0),
+        mechanism.mass_kg,
+        mechanism.spring.energy_j,
+        fitness=flight.range_m / (mechanism.design.l_max_mm / 1000.0),
         ballistic_range_m=flight.range_m,
         com_rise_m=flight.rise_m,
         takeoff_energy_ratio=takeoff.energy_ratio,

@@ -14,10 +14,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.mechanism.mass import principal_axes
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Robot
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Mechanism
+from jumpcad.mechanism.poses import Release, release_pose
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.engines import import_pybullet
-from jumpcad.simulation.mechanics import Release, State, release_pose
+from jumpcad.simulation.mechanics import State
 from jumpcad.transforms import quaternion_about_y
 
 RESET_EVERY = 500
@@ -45,11 +46,11 @@ class BulletEngine:
         self._ground = -1
 
     @contextmanager
-    def world(self, robot: Robot, settings: Settings) -> Iterator["BulletWorld"]:
+    def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["BulletWorld"]:
         """Put a robot on the ground, ready for release, and take it away afterwards."""
         with self._lock:
             self._prepare(settings)
-            world = BulletWorld(self._bullet, self._client, self._ground, robot, settings)
+            world = BulletWorld(self._bullet, self._client, self._ground, mechanism, settings)
             try:
                 yield world
             finally:
@@ -83,32 +84,32 @@ class BulletEngine:
 class BulletWorld:
     """One robot on the ground; a `World` for `Run`."""
 
-    def __init__(self, bullet: Any, client: int, ground: int, robot: Robot, settings: Settings) -> None:
+    def __init__(self, bullet: Any, client: int, ground: int, mechanism: Mechanism, settings: Settings) -> None:
         self._bullet, self._client, self._ground = bullet, client, ground
-        self._stiffness = robot.spring.stiffness_nm_per_rad
+        self._stiffness = mechanism.spring.stiffness_nm_per_rad
         self._damping_dt = settings.joint_damping_nms_per_rad * settings.dt_s
         self.joint_damping_j = 0.0
-        bodies = [robot.bodies[name] for name in (BODY, *LINKS)]
+        bodies = [mechanism.bodies[name] for name in (BODY, *LINKS)]
         principal = [principal_axes(body.inertia_kg_m2) for body in bodies]
         self._moments, self._axes = (np.stack(arrays) for arrays in zip(*principal, strict=True))
         self._body_in_principal = self._axes[BODY_ORDER].transpose(0, 2, 1)
-        release = release_pose(robot)
-        self.robot_id = self._create(robot, bodies, release)
+        release = release_pose(mechanism)
+        self.robot_id = self._create(mechanism, bodies, release)
         self._set_dynamics(settings, bodies)
-        for link, joint in enumerate(_joints(robot)):
+        for link, joint in enumerate(_joints(mechanism)):
             bullet.resetJointState(self.robot_id, link, release.joint_rad[joint.name], physicsClientId=client)
-        self._close_loop(robot)
+        self._close_loop(mechanism)
 
     def advance(self, steps: int) -> float:
         """Go on by a number of time steps with the springs' torque of each step's beginning."""
-        bullet, robot, client, stiffness = self._bullet, self.robot_id, self._client, self._stiffness
+        bullet, mechanism, client, stiffness = self._bullet, self.robot_id, self._client, self._stiffness
         joint_states, set_motor, torque = bullet.getJointStates, bullet.setJointMotorControl2, bullet.TORQUE_CONTROL
         step = bullet.stepSimulation
         squares = 0.0
         for _ in range(steps):
-            leg, foot, front = joint_states(robot, JOINTS, client)
+            leg, foot, front = joint_states(mechanism, JOINTS, client)
             squares += leg[1] * leg[1] + foot[1] * foot[1] + front[1] * front[1]
-            set_motor(robot, LEG, torque, force=-stiffness * leg[0], physicsClientId=client)
+            set_motor(mechanism, LEG, torque, force=-stiffness * leg[0], physicsClientId=client)
             step(client)
         self.joint_damping_j += self._damping_dt * squares
         return float(leg[0])
@@ -125,11 +126,11 @@ class BulletWorld:
 
         Bullet's poses are of the principal axes; those of the links' frames, which it also gives, are single precision.
         """
-        bullet, robot, client = self._bullet, self.robot_id, self._client
-        position, quaternion = bullet.getBasePositionAndOrientation(robot, client)
-        velocity, spin = bullet.getBaseVelocity(robot, client)
+        bullet, mechanism, client = self._bullet, self.robot_id, self._client
+        position, quaternion = bullet.getBasePositionAndOrientation(mechanism, client)
+        velocity, spin = bullet.getBaseVelocity(mechanism, client)
         links = bullet.getLinkStates(
-            robot, JOINTS, computeLinkVelocity=1, computeForwardKinematics=1, physicsClientId=client
+            mechanism, JOINTS, computeLinkVelocity=1, computeForwardKinematics=1, physicsClientId=client
         )
         matrix = bullet.getMatrixFromQuaternion
         rows = [
@@ -139,17 +140,17 @@ class BulletWorld:
         values = np.array([rows[index] for index in BODY_ORDER])
         rotation = values[:, 9:].reshape(-1, 3, 3) @ self._body_in_principal
         return State(
-            values[:, 0:3], rotation, values[:, 3:6], values[:, 6:9], bullet.getJointState(robot, LEG, client)[0]
+            values[:, 0:3], rotation, values[:, 3:6], values[:, 6:9], bullet.getJointState(mechanism, LEG, client)[0]
         )
 
-    def _create(self, robot: Robot, bodies: list[Body], release: Release) -> int:
+    def _create(self, mechanism: Mechanism, bodies: list[Body], release: Release) -> int:
         bullet, client = self._bullet, self._client
         # A link without a visual gets one made from its collision shape, which costs more than the whole robot.
         box = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=[0.001] * 3, physicsClientId=client)
         orientations = Rotation.from_matrix(self._axes).as_quat().tolist()
         positions = [body.com_m.tolist() for body in bodies]
         shapes = [self._contact_shape(body) for body in bodies]
-        joints = _joints(robot)
+        joints = _joints(mechanism)
         return int(
             bullet.createMultiBody(
                 bodies[0].mass_kg,
@@ -189,10 +190,10 @@ class BulletWorld:
 
     def _set_dynamics(self, settings: Settings, bodies: list[Body]) -> None:
         """Set inertia and friction of every link, then what Bullet would apply to the base if set with these."""
-        bullet, robot, client = self._bullet, self.robot_id, self._client
+        bullet, mechanism, client = self._bullet, self.robot_id, self._client
         for link, (body, moments) in enumerate(zip(bodies, self._moments, strict=True), start=-1):
             bullet.changeDynamics(
-                robot,
+                mechanism,
                 link,
                 localInertiaDiagonal=moments.tolist(),
                 lateralFriction=surface_friction(body, settings),
@@ -203,22 +204,22 @@ class BulletWorld:
                 physicsClientId=client,
             )
         bullet.changeDynamics(
-            robot, -1, linearDamping=settings.drag_per_s, angularDamping=settings.drag_per_s, physicsClientId=client
+            mechanism, -1, linearDamping=settings.drag_per_s, angularDamping=settings.drag_per_s, physicsClientId=client
         )
-        bullet.changeDynamics(robot, -1, maxJointVelocity=UNCLAMPED_RAD_S, physicsClientId=client)
+        bullet.changeDynamics(mechanism, -1, maxJointVelocity=UNCLAMPED_RAD_S, physicsClientId=client)
         # Every joint is born with a motor that holds it.
         bullet.setJointMotorControlArray(
-            robot,
+            mechanism,
             JOINTS,
             bullet.VELOCITY_CONTROL,
             forces=[settings.joint_friction_nm] * len(JOINTS),
             physicsClientId=client,
         )
 
-    def _close_loop(self, robot: Robot) -> None:
+    def _close_loop(self, mechanism: Mechanism) -> None:
         """Tie front link and foot together; Bullet wants the points in their principal axes."""
-        front, foot = robot.bodies[FRONT_LINK], robot.bodies[FOOT]
-        points = {robot.loop.body_a: robot.loop.point_a_m, robot.loop.body_b: robot.loop.point_b_m}
+        front, foot = mechanism.bodies[FRONT_LINK], mechanism.bodies[FOOT]
+        points = {mechanism.loop.body_a: mechanism.loop.point_a_m, mechanism.loop.body_b: mechanism.loop.point_b_m}
         front_axes, foot_axes = self._axes[1 + FRONT], self._axes[1 + FOOT_LINK]
         self._bullet.createConstraint(
             self.robot_id,
@@ -233,9 +234,9 @@ class BulletWorld:
         )
 
 
-def _joints(robot: Robot) -> list[Joint]:
+def _joints(mechanism: Mechanism) -> list[Joint]:
     """Return the joints in the order of Bullet's links."""
-    return [next(joint for joint in robot.joints if joint.child == name) for name in LINKS]
+    return [next(joint for joint in mechanism.joints if joint.child == name) for name in LINKS]
 
 
 def _xyzw_about_y(angle_rad: float) -> list[float]:

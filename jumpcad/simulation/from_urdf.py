@@ -9,10 +9,10 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.robot import Body, ContactSphere, Joint, Loop, Robot, Spring
+from jumpcad.mechanism.model import Body, ContactSphere, Joint, Loop, Mechanism, Spring
 
 
-def robot_from_urdf(path: Path) -> Robot:
+def robot_from_urdf(path: Path) -> Mechanism:
     """Return the mechanism of a URDF file that `jumpcad build` wrote.
 
     Raises
@@ -34,7 +34,7 @@ def robot_from_urdf(path: Path) -> Robot:
         extra = json.loads(beside.read_text(encoding="utf-8"))
         bodies = {link.name: _body(link, extra["surfaces"]) for link in model.links}
         loop, spring = extra["loop"], extra["spring"]
-        return Robot(
+        return Mechanism(
             name=model.name,
             design=Design(**extra["design"]),
             bodies=bodies,

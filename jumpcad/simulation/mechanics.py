@@ -5,22 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.mechanism.linkage import Linkage
-from jumpcad.robot import BODY_NAMES, Robot
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.transforms import Array
-
-
-@dataclass(frozen=True)
-class Release:
-    """The robot before release: loop exactly closed, foot flat on the ground, ankle above the world's origin.
-
-    `joint_rad` holds the coordinate of every joint by name; the frame of `body` lies at `body_position_m` (3,), turned
-    about the world's y axis by `body_pitch_rad`.
-    """
-
-    joint_rad: dict[str, float]
-    body_position_m: Array
-    body_pitch_rad: float
 
 
 @dataclass(frozen=True)
@@ -52,35 +38,18 @@ class Energies:
         return self.kinetic_j + self.potential_j + self.spring_j
 
 
-def release_pose(robot: Robot) -> Release:
-    """Return the pose of a robot with wound springs.
-
-    Raises
-    ------
-    CannotBuildError
-        If the loop does not close there.
-    """
-    pose = Linkage(robot.design).pose([-robot.spring.wind_rad])
-    pitch = -float(pose.foot_rad[0])
-    cos, sin = math.cos(pitch), math.sin(pitch)
-    x, z = pose.ankle_mm[0] / 1000.0
-    position = np.array([-cos * x - sin * z, 0.0, robot.foot_depth_m + sin * x - cos * z])
-    joints = {"leg": pose.leg_rad, "front": pose.front_rad, "ankle": pose.ankle_rad}
-    return Release({name: float(angle[0]) for name, angle in joints.items()}, position, pitch)
-
-
 class Mechanics:
     """Energies, centre of mass and loop gap of one robot under one gravity, from its state."""
 
-    def __init__(self, robot: Robot, gravity_m_s2: float) -> None:
-        bodies = [robot.bodies[name] for name in BODY_NAMES]
+    def __init__(self, mechanism: Mechanism, gravity_m_s2: float) -> None:
+        bodies = [mechanism.bodies[name] for name in BODY_NAMES]
         self.mass_kg = np.array([body.mass_kg for body in bodies])
         self.total_mass_kg = float(self.mass_kg.sum())
         self.weight_n = self.total_mass_kg * gravity_m_s2
         self.inertia_kg_m2 = np.stack([body.inertia_kg_m2 for body in bodies])
         self.com_in_body_m = np.stack([body.com_m for body in bodies])
-        self.stiffness_nm_per_rad = robot.spring.stiffness_nm_per_rad
-        loop = robot.loop
+        self.stiffness_nm_per_rad = mechanism.spring.stiffness_nm_per_rad
+        loop = mechanism.loop
         self._ends = BODY_NAMES.index(loop.body_a), BODY_NAMES.index(loop.body_b)
         self._arms_m = np.stack([loop.point_a_m, loop.point_b_m]) - self.com_in_body_m[list(self._ends)]
 

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 
 from jumpcad.errors import JumpcadError
-from jumpcad.robot import BODY, BODY_NAMES, Robot
+from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
+from jumpcad.mechanism.poses import Release, release_pose
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.engines import import_mujoco
-from jumpcad.simulation.mechanics import Release, State, release_pose
+from jumpcad.simulation.mechanics import State
 from jumpcad.transforms import quaternion_about_y
 
 SUBSTEPS = 4
@@ -32,7 +33,7 @@ class MujocoEngine:
         self._mujoco = import_mujoco()
 
     @contextmanager
-    def world(self, robot: Robot, settings: Settings) -> Iterator["MujocoWorld"]:
+    def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["MujocoWorld"]:
         """Put a robot on the ground, ready for release.
 
         Raises
@@ -45,24 +46,24 @@ class MujocoEngine:
                 raise JumpcadError(
                     f"{key} = {getattr(settings, key):g}: MuJoCo has none; set it to 0 or use --engine pybullet"
                 )
-        yield MujocoWorld(self._mujoco, robot, settings)
+        yield MujocoWorld(self._mujoco, mechanism, settings)
 
 
 class MujocoWorld:
     """One robot on the ground; a `World` for `Run`."""
 
-    def __init__(self, mujoco: Any, robot: Robot, settings: Settings) -> None:
+    def __init__(self, mujoco: Any, mechanism: Mechanism, settings: Settings) -> None:
         self._mujoco = mujoco
         self._damping_dt = settings.joint_damping_nms_per_rad * settings.dt_s / SUBSTEPS
         self.joint_damping_j = 0.0
         self._loaded = True
         self._force = np.zeros(6)
-        self.model = model_spec(mujoco, robot, settings).compile()
+        self.model = model_spec(mujoco, mechanism, settings).compile()
         self.data = mujoco.MjData(self.model)
         self._bodies = [self.model.body(name).id for name in BODY_NAMES]
-        self._joints = [int(self.model.joint(joint.name).dofadr[0]) for joint in robot.joints]
-        self._leg = int(self.model.joint(robot.spring.joint).qposadr[0])
-        self._place(release_pose(robot))
+        self._joints = [int(self.model.joint(joint.name).dofadr[0]) for joint in mechanism.joints]
+        self._leg = int(self.model.joint(mechanism.spring.joint).qposadr[0])
+        self._place(release_pose(mechanism))
 
     def advance(self, steps: int) -> float:
         """Go on by a number of time steps; MuJoCo's own joint spring acts in each."""
@@ -112,7 +113,7 @@ class MujocoWorld:
         self._mujoco.mj_forward(self.model, self.data)
 
 
-def model_spec(mujoco: Any, robot: Robot, settings: Settings) -> Any:
+def model_spec(mujoco: Any, mechanism: Mechanism, settings: Settings) -> Any:
     """Return the `MjSpec` of a robot above a plane."""
     step = settings.dt_s / SUBSTEPS
     stiff = [SOFTNESS_STEPS * step, 1.0]
@@ -128,7 +129,7 @@ def model_spec(mujoco: Any, robot: Robot, settings: Settings) -> Any:
     spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], contype=0, conaffinity=0)
     bodies = {BODY: spec.worldbody.add_body(name=BODY)}
     bodies[BODY].add_freejoint(name="free")
-    for joint in robot.joints:
+    for joint in mechanism.joints:
         bodies[joint.child] = child = bodies[joint.parent].add_body(
             name=joint.child, pos=joint.origin_m, quat=quaternion_about_y(joint.rest_angle_rad)
         )
@@ -138,27 +139,27 @@ def model_spec(mujoco: Any, robot: Robot, settings: Settings) -> Any:
             axis=[0, 1, 0],
             damping=settings.joint_damping_nms_per_rad,
             frictionloss=settings.joint_friction_nm,
-            stiffness=robot.spring.stiffness_nm_per_rad if joint.name == robot.spring.joint else 0.0,
+            stiffness=mechanism.spring.stiffness_nm_per_rad if joint.name == mechanism.spring.joint else 0.0,
         )
     for node in bodies.values():
-        _fill(mujoco, spec, node, robot, settings, stiff)
-    ends = {robot.loop.body_a: robot.loop.point_a_m, robot.loop.body_b: robot.loop.point_b_m}
+        _fill(mujoco, spec, node, mechanism, settings, stiff)
+    ends = {mechanism.loop.body_a: mechanism.loop.point_a_m, mechanism.loop.body_b: mechanism.loop.point_b_m}
     for name, point in ends.items():
         bodies[name].add_site(name=f"{name}_loop", pos=point)
     spec.add_equality(
         type=mujoco.mjtEq.mjEQ_CONNECT,
         objtype=mujoco.mjtObj.mjOBJ_SITE,
-        name1=f"{robot.loop.body_a}_loop",
-        name2=f"{robot.loop.body_b}_loop",
+        name1=f"{mechanism.loop.body_a}_loop",
+        name2=f"{mechanism.loop.body_b}_loop",
         solref=stiff,
         solimp=IMPEDANCE,
     )
     return spec
 
 
-def _fill(mujoco: Any, spec: Any, node: Any, robot: Robot, settings: Settings, stiff: list[float]) -> None:
+def _fill(mujoco: Any, spec: Any, node: Any, mechanism: Mechanism, settings: Settings, stiff: list[float]) -> None:
     """Give a body its mass properties and its contact spheres, each paired with the ground."""
-    body = robot.bodies[node.name]
+    body = mechanism.bodies[node.name]
     inertia = body.inertia_kg_m2
     node.explicitinertial = True
     node.mass = body.mass_kg

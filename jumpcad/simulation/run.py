@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.findings import Finding
-from jumpcad.robot import BODY, BODY_NAMES, Robot
+from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
 from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics
@@ -61,9 +61,9 @@ class Takeoff:
 class Run:
     """A run in progress; `go` carries it out, the other attributes hold its results."""
 
-    def __init__(self, world: World, robot: Robot, settings: Settings) -> None:
-        self.world, self.robot, self.settings = world, robot, settings
-        self.mechanics = Mechanics(robot, settings.gravity_m_s2)
+    def __init__(self, world: World, mechanism: Mechanism, settings: Settings) -> None:
+        self.world, self.mechanism, self.settings = world, mechanism, settings
+        self.mechanics = Mechanics(mechanism, settings.gravity_m_s2)
         self.steps = 0
         self.takeoff: Takeoff | None = None
         self.touchdown_distance_m: float | None = None
@@ -131,7 +131,7 @@ class Run:
     def _push_off(self) -> Takeoff | None:
         """Go on until the robot has taken off; return None if it does not."""
         world, settings = self.world, self.settings
-        half_wound = -self.robot.spring.wind_rad / 2
+        half_wound = -self.mechanism.spring.wind_rad / 2
         hold = max(1, round(AIRBORNE_S / settings.dt_s))
         deadline = settings.max_time_s
         leg_rad = -math.inf
@@ -193,7 +193,7 @@ class Run:
         A state that is not finite (a run that blew up) counts as infinitely bad.
         """
         gained_j = self.mechanics.energies(state).total_j - self.start_energy_j
-        ratio, gap_m = 1.0 + gained_j / self.robot.spring.energy_j, self.mechanics.loop_gap_m(state)
+        ratio, gap_m = 1.0 + gained_j / self.mechanism.spring.energy_j, self.mechanics.loop_gap_m(state)
         self.worst_energy_ratio = max(self.worst_energy_ratio, ratio if math.isfinite(ratio) else math.inf)
         self.worst_gap_m = max(self.worst_gap_m, gap_m if math.isfinite(gap_m) else math.inf)
         if record and (not self._records or self._records[-1][0] < self.time_s):
@@ -206,7 +206,7 @@ class Run:
         start, here = mechanics.centre_of_mass_m(self.start), mechanics.centre_of_mass_m(state)
         velocity = mechanics.velocity_m_s(state)
         forward, upward = 0.5 * mass * float(velocity[0]) ** 2, 0.5 * mass * float(velocity[2]) ** 2
-        left = energies.total_j - self.start_energy_j + self.robot.spring.energy_j
+        left = energies.total_j - self.start_energy_j + self.mechanism.spring.energy_j
         budget = EnergyBudget(
             forward_j=forward,
             upward_j=upward,
@@ -214,10 +214,10 @@ class Run:
             lift_j=mechanics.weight_n * float(here[2] - start[2]),
             spring_j=energies.spring_j,
             joint_damping_j=joint_damping_j,
-            contact_j=self.robot.spring.energy_j - left - joint_damping_j,
+            contact_j=self.mechanism.spring.energy_j - left - joint_damping_j,
         )
         flight = ballistics(start, here, velocity, self.settings.gravity_m_s2)
-        return Takeoff(time_s, flight, budget, left / self.robot.spring.energy_j)
+        return Takeoff(time_s, flight, budget, left / self.mechanism.spring.energy_j)
 
     def _body_position_m(self, state: State) -> Array:
         return self.mechanics.frame_positions_m(state)[BODY_INDEX]

@@ -4,7 +4,6 @@ import hashlib
 import math
 import subprocess
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,12 +11,14 @@ import pytest
 import trimesh
 from support.built import LONG_TOES, body_in_plane, built, design, geared
 from support.elsewhere import environment
+from support.places import ROOT
 
 from jumpcad.building import build
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.robot import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Robot
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Workshop, load_workshop
@@ -154,7 +155,7 @@ def test_the_same_inputs_give_the_same_files_on_another_machine() -> None:
     )
     there = subprocess.run(
         [sys.executable, "-c", code],
-        check=True, capture_output=True, text=True, cwd=Path(__file__).parents[1],
+        check=True, capture_output=True, text=True, cwd=ROOT,
         env=environment(),
     ).stdout.splitlines()  # fmt: skip
     here = [

@@ -2,11 +2,13 @@
 
 from pathlib import Path
 
+from support.places import ROOT
+
 from jumpcad.building import build
 from jumpcad.bundle.export import export
 from jumpcad.design import load_design
 
-COMMITTED = Path(__file__).parent.parent / "exports" / "kenan-2.0"
+COMMITTED = ROOT / "exports" / "kenan-2.0"
 
 
 def contents(folder: Path) -> dict[str, bytes]:

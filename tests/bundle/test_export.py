@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from support.elsewhere import environment
+from support.places import ROOT, TESTS
 
 from jumpcad.bundle import export as bundle_module
 from jumpcad.bundle.export import export
@@ -51,7 +52,7 @@ def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path) -> No
         "from support.robots import make_small_robot; from jumpcad.bundle.export import export; import sys;"
         "export(make_small_robot(), sys.argv[1])"
     )
-    paths = os.pathsep.join([str(Path(__file__).parents[1]), str(Path(__file__).parents[2])])
+    paths = os.pathsep.join([str(TESTS), str(ROOT)])
     subprocess.run(
         [sys.executable, "-c", code, str(tmp_path / "there")],
         check=True,

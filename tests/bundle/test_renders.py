@@ -3,13 +3,9 @@
 import io
 
 import numpy as np
-import pytest
 from PIL import Image
 
 from jumpcad.bundle.renders import exploded, jump_gif, stills
-from jumpcad.design import load_design
-from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.shapes import shapes
@@ -47,8 +43,3 @@ def test_the_jump_is_an_endless_gif_of_few_colours(small_robot: Robot) -> None:
         dark = np.asarray(gif.convert("L")) < 200
         centres.append(np.nonzero(dark.any(axis=0))[0].mean())
     assert centres[1] > centres[0] + 20, "x points to the right, and the robot jumps along x"
-
-
-def test_a_robot_without_parts_cannot_be_drawn() -> None:
-    with pytest.raises(JumpcadError, match="has no parts"):
-        stills(capsule_robot(load_design("kenan-2.0")))

@@ -51,7 +51,6 @@ def test_drive_reports_what_its_synthesis_found(kenan: Robot) -> None:
 
 def test_a_mechanism_without_parts_has_only_the_gates_findings() -> None:
     robot = capsule_robot(load_design("kenan-2.0"))
-    assert constraint_findings(robot) == []
     assert {finding.name for finding in jumpcad.check(robot)} == {"loop", "below_ground", "tips", "too_weak"}
 
 

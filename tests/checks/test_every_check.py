@@ -5,12 +5,12 @@ Limits of the drive are those of its synthesis, which keeps them; a finished dri
 
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from support.built import LONG_TOES, built
+from support.places import TESTS
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
@@ -30,7 +30,7 @@ DRIVE = synthesise(built("kenan-2.0").design, DriveLimits())
 
 def test_every_name_stands_in_a_test() -> None:
     names = {finding.name for robot in (built("kenan-2.0"), built(LONG_TOES)) for finding in check(robot)}
-    tests = Path(__file__).parents[1]
+    tests = TESTS
     texts = "\n".join(path.read_text() for path in (*tests.glob("*.py"), *tests.glob("checks/*.py")))
     assert len(names) > 45
     assert {name for name in names if name not in texts} == set()

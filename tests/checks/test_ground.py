@@ -9,7 +9,8 @@ from manifold3d import Manifold
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import Moment, components, pose_of
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.robot import FOOT, FRONT_LINK, MAIN_LEG, Robot
+from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.robot import Robot
 
 
 def lowest_above_ground_mm(robot: Robot, leg_rad: float, without: tuple[str, ...] = (FOOT,)) -> float:

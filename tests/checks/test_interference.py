@@ -7,7 +7,8 @@ import pytest
 
 from jumpcad.checks.interference import Component, interference_findings, shared_volume_mm3
 from jumpcad.findings import errors
-from jumpcad.robot import BODY, Robot
+from jumpcad.mechanism.model import BODY
+from jumpcad.robot import Robot
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
 

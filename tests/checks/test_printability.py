@@ -8,8 +8,9 @@ import pytest
 from jumpcad.checks.printability import bed_findings, printability_findings
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.mass import MassProperties
+from jumpcad.mechanism.model import BODY
 from jumpcad.parts.part import Drawing, Part, Placement
-from jumpcad.robot import BODY, Robot
+from jumpcad.robot import Robot
 from jumpcad.solids.blocks import Bar, Blocks
 from jumpcad.solids.outline import Region, disc, hole, rectangle
 from jumpcad.solids.stack import Stack

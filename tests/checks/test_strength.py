@@ -133,7 +133,7 @@ def test_sideways_stress_by_hand(kenan: Robot) -> None:
     assert kenan.plan is not None
     upright = kenan.design.model_copy(update={"rest_angle_deg": 90.0})
     solid = changed(replace(kenan, design=upright), "process", infill=1.0)
-    case = Case(solid, kenan.plan, solid.workshop)  # type: ignore[arg-type]
+    case = Case(solid)
     aside = upright.l5_mm * math.sin(math.radians(upright.ground_link_angle_deg))
     by_hand = 6.0 * case.toe_blow_n * aside / (kenan.plan.sections.leg_tip_mm * 6.0**2)
     assert 15.0 - margins(solid)["leg_sideways"] == pytest.approx(by_hand)

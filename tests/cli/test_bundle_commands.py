@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from jumpcad.cli import main
-from jumpcad.robot import BODY_NAMES
+from jumpcad.mechanism.model import BODY_NAMES
 
 
 def run(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:

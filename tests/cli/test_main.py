@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Run
+from support.places import ROOT
 
 from jumpcad import cli
 from jumpcad.design import load_design
@@ -109,7 +110,7 @@ def test_every_command_has_json_and_help(run: Run) -> None:
 
 
 def test_readme_names_every_command_and_no_other() -> None:
-    table = re.findall(r"^\| `jumpcad (\w+)", (Path(__file__).parents[2] / "README.md").read_text(), re.MULTILINE)
+    table = re.findall(r"^\| `jumpcad (\w+)", (ROOT / "README.md").read_text(), re.MULTILINE)
     assert sorted(table) == sorted(
         command.name or command.callback.__name__ for command in cli.app.registered_commands if command.callback
     )

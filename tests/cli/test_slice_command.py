@@ -229,8 +229,11 @@ def test_changed_and_missing_files_are_named(run: Run, bundle: Path, tmp_path: P
     assert err.count("\n") == 1
 
 
-def test_what_is_no_bundle_of_parts_is_refused(run: Run, small_robot: Robot, tmp_path: Path) -> None:
-    export(replace(small_robot, parts=()), tmp_path / "bare", pictures=False)
+def test_what_is_no_bundle_of_parts_is_refused(run: Run, bundle: Path, tmp_path: Path) -> None:
+    shutil.copytree(bundle, tmp_path / "bare")
+    manifest = json.loads((bundle / "manifest.json").read_text())
+    manifest["masses"] = [line for line in manifest["masses"] if line["kind"] != "printed"]
+    (tmp_path / "bare" / "manifest.json").write_text(json.dumps(manifest))
     assert run("slice", "bare") == (2, "", "jumpcad: bare: has no printed parts to slice\n")
     code, _, err = run("slice", "nowhere")
     assert (code, err.count("\n")) == (2, 1)

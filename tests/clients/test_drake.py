@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from support.clients import Case, same_tensor
 
+from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.robot import BODY
 
 pytest.importorskip("pydrake")
 

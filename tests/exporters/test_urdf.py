@@ -13,7 +13,8 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.robot import BODY_NAMES, Robot
+from jumpcad.mechanism.model import BODY_NAMES
+from jumpcad.robot import Robot
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
 

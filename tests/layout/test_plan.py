@@ -17,7 +17,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout.plan import CLEAR_MM, TRAY_MM, Electronics, Plan, make_plan
 from jumpcad.mechanism.feasibility import geometry_findings
-from jumpcad.robot import FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop
 
 LARGE_CAM = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 28.683, 36.353])

@@ -8,7 +8,8 @@ from support.built import LONG_TOES, body_in_plane, built, in_body
 from jumpcad.layout.room import EVERYWHERE, Obstacle
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.robot import FOOT, FRONT_LINK, MAIN_LEG, Robot
+from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.robot import Robot
 
 NAMES = ["kenan-2.0", "best-bo", LONG_TOES]
 POSITIONS = 60

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.capsule import capsule, capsule_robot
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 
 
 def test_capsule_without_length_is_a_ball() -> None:

@@ -3,10 +3,10 @@
 import csv
 import math
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 import pytest
+from support.places import DATA
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, load_design
 from jumpcad.findings import errors
@@ -19,7 +19,7 @@ from jumpcad.mechanism.feasibility import (
     support_span_mm,
 )
 
-with (Path(__file__).parent / "data/reference_flights.csv").open(encoding="utf-8") as stream:
+with (DATA / "reference_flights.csv").open(encoding="utf-8") as stream:
     ROWS = list(csv.DictReader(stream))
 
 

@@ -2,15 +2,15 @@
 
 import csv
 import sys
-from pathlib import Path
 
 import pytest
+from support.places import DATA
 
 from jumpcad import published
 from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 
-with (Path(__file__).parent / "data/reference_jumps.csv").open(encoding="utf-8") as stream:
+with (DATA / "reference_jumps.csv").open(encoding="utf-8") as stream:
     ROWS = {row["name"]: row for row in csv.DictReader(stream)}
 CHAOTIC = ("artefact-a", "artefact-b")
 

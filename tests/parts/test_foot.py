@@ -7,7 +7,8 @@ import pytest
 import trimesh
 from support.built import LONG_TOES, built, cut, hole_centres, part, placed
 
-from jumpcad.robot import FOOT, Robot
+from jumpcad.mechanism.model import FOOT
+from jumpcad.robot import Robot
 
 ONE_PIECE = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
 TIP_RADIUS_MM = 2.5

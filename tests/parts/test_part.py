@@ -5,8 +5,8 @@ import pytest
 from support.built import LONG_TOES, built, geared
 
 from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.model import BODY
 from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left, lying_on_right, upright
-from jumpcad.robot import BODY
 from jumpcad.solids.outline import rectangle
 
 WEDGE = [(2.0, 5.0, rectangle((8.0, 3.0), (4.0, 1.5))), (5.0, 7.0, rectangle((2.0, 3.0), (1.0, 1.5)))]

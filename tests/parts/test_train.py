@@ -10,7 +10,8 @@ from scipy.optimize import brentq
 from shapely import affinity
 from support.built import built, cut, geared, hole_centres, in_body, placed, region
 
-from jumpcad.robot import MAIN_LEG, Robot
+from jumpcad.mechanism.model import MAIN_LEG
+from jumpcad.robot import Robot
 
 ALPHA = math.radians(20)
 BACKLASH_MM = 0.15

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
+from support.places import ROOT
 from typer.testing import CliRunner
 
 from jumpcad.cli import app
@@ -22,7 +23,7 @@ QUICK = ["--model", "capsule", "--workers", "0", "--settings", "screening"]
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2]))
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

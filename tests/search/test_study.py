@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from support.hills import SMALL, Hill
+from support.places import TESTS
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.pool import local_pool
@@ -19,7 +20,7 @@ from jumpcad.search.store import Ledger
 from jumpcad.search.study import Request, plan_stages, run_study
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4)
-SCRIPT = Path(__file__).parents[1] / "support" / "study_script.py"
+SCRIPT = TESTS / "support" / "study_script.py"
 
 
 def contents(path):

@@ -1,16 +1,16 @@
 """The reference flights, and robots to try things on."""
 
 import csv
-from pathlib import Path
 
 import pytest
 from support.flights import Flight, make_lopsided
+from support.places import DATA
 
 from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 
-TABLE = Path(__file__).parents[1] / "data" / "reference_flights.csv"
+TABLE = DATA / "reference_flights.csv"
 
 
 @pytest.fixture(scope="session")

@@ -9,7 +9,8 @@ from support.flights import Flight
 
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.robot import BODY, BODY_NAMES, Robot
+from jumpcad.mechanism.model import BODY, BODY_NAMES
+from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, _engine, simulate
 from jumpcad.simulation.bullet import LINKS
 from jumpcad.simulation.engines import default_engine

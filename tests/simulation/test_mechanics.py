@@ -10,10 +10,12 @@ from scipy.spatial.transform import Rotation
 from support.flights import Flight
 
 from jumpcad.mechanism.mass import principal_axes
-from jumpcad.robot import BODY, BODY_NAMES, FOOT, Robot
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.poses import release_pose
+from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import _engine
-from jumpcad.simulation.mechanics import Mechanics, State, ballistics, release_pose
+from jumpcad.simulation.mechanics import Mechanics, State, ballistics
 from jumpcad.transforms import Array
 
 

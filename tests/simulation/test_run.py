@@ -9,9 +9,10 @@ from support.flights import Flight, make_lopsided
 
 from jumpcad.design import Design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.robot import BODY, FOOT, Robot
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.mechanism.poses import release_pose
+from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.mechanics import release_pose
 
 pytest.importorskip("pybullet")
 

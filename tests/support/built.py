@@ -8,8 +8,9 @@ import trimesh
 
 from jumpcad.building import build
 from jumpcad.design import Design, load_design
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Part
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Robot
+from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
 LONG_TOES = "long toes"

@@ -1,17 +1,19 @@
 """Robots for the tests of several rooms."""
 
 from collections import defaultdict
-from dataclasses import replace
 
+from jumpcad.building.assembly import plan_of
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.mass import combined
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body
 from jumpcad.parts.part import Drawing, Part, Placement, laid, lying_on_left, lying_on_right
 from jumpcad.parts.purchased import bought
-from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Robot
+from jumpcad.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import in_metres
+from jumpcad.workshop import load_workshop
 
 DENSITY_G_CM3 = 1.24
 
@@ -78,4 +80,9 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
         whole = combined(items)
         contacts = capsules.bodies[title].contacts
         bodies[title] = Body(title, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
-    return replace(capsules, name=name, bodies=bodies, parts=parts, hardware=hardware)
+    workshop = load_workshop()
+    plan, _ = plan_of(design, workshop)
+    return Robot(
+        name, design, bodies, capsules.joints, capsules.loop, capsules.spring, capsules.foot_depth_m,
+        parts, hardware, workshop, plan,
+    )  # fmt: skip
