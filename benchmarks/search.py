@@ -14,14 +14,14 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.search.evaluator import Campaign
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods.bayesian import default_initial, run_bayesian
 from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import Ledger
+from jumpcad.search.store import StudyStore
 
 MARKS = (60, 100, 200, 250, 500, 1000)
 SPACE = Space.default()
@@ -29,48 +29,48 @@ SPACE = Space.default()
 Scores = list[float]
 
 
-def random_search(campaign: Campaign, seed: int, evaluations: int) -> None:
+def random_search(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Evaluate uniformly random designs."""
     points = np.random.default_rng(seed).random((evaluations, SPACE.dimension))
-    campaign.evaluate([SPACE.to_design(point) for point in points], "sample", 0)
+    evaluator.evaluate([SPACE.to_design(point) for point in points], "sample", 0)
 
 
-def genetic(campaign: Campaign, seed: int, evaluations: int, preset: str = "recommended") -> None:
+def genetic(evaluator: Evaluator, seed: int, evaluations: int, preset: str = "recommended") -> None:
     """Run PyGAD."""
-    run_genetic(campaign, evaluations, seed, preset)
+    run_genetic(evaluator, evaluations, seed, preset)
 
 
-def bayesian(campaign: Campaign, seed: int, evaluations: int) -> None:
+def bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run GP-EI."""
-    run_bayesian(campaign, evaluations, seed, default_initial(SPACE, evaluations))
+    run_bayesian(evaluator, evaluations, seed, default_initial(SPACE, evaluations))
 
 
-def genetic_then_bayesian(campaign: Campaign, seed: int, evaluations: int) -> None:
+def genetic_then_bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run PyGAD, then 50 evaluations of GP-EI on all that it saw."""
-    run_genetic(campaign, evaluations - 50, seed)
-    run_bayesian(campaign, 50, seed, initial=0)
+    run_genetic(evaluator, evaluations - 50, seed)
+    run_bayesian(evaluator, 50, seed, initial=0)
 
 
-def score_of(campaign: Campaign, step: int, point: npt.ArrayLike) -> float:
+def score_of(evaluator: Evaluator, step: int, point: npt.ArrayLike) -> float:
     """Evaluate one point of the unit cube for an outside optimiser."""
-    (row,) = campaign.evaluate([SPACE.to_design(np.asarray(point, dtype=float))], "sample", step)
+    (row,) = evaluator.evaluate([SPACE.to_design(np.asarray(point, dtype=float))], "sample", step)
     return row.score or 0.0 if row is not None else 0.0
 
 
-def cma_es(campaign: Campaign, seed: int, evaluations: int) -> None:
+def cma_es(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run pycma from the middle of the box."""
     import cma
 
     options = {"bounds": [0, 1], "seed": seed + 1, "maxfevals": evaluations, "verbose": -9}
     search = cma.CMAEvolutionStrategy([0.5] * SPACE.dimension, 0.3, options)
     step = 0
-    while len(campaign.rows) < evaluations and step < 2 * evaluations:
+    while len(evaluator.rows) < evaluations and step < 2 * evaluations:
         points = search.ask()
-        search.tell(points, [-score_of(campaign, step + index, point) for index, point in enumerate(points)])
+        search.tell(points, [-score_of(evaluator, step + index, point) for index, point in enumerate(points)])
         step += len(points)
 
 
-def tpe(campaign: Campaign, seed: int, evaluations: int) -> None:
+def tpe(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run Optuna's tree-structured Parzen estimator."""
     import optuna
 
@@ -79,7 +79,7 @@ def tpe(campaign: Campaign, seed: int, evaluations: int) -> None:
 
     def objective(trial: optuna.Trial) -> float:
         point = [trial.suggest_float(parameter.name, 0.0, 1.0) for parameter in SPACE.free]
-        return score_of(campaign, trial.number, point)
+        return score_of(evaluator, trial.number, point)
 
     study.optimize(objective, n_trials=evaluations)
 
@@ -97,10 +97,10 @@ METHODS: dict[str, tuple[Callable[..., None], int]] = {
 
 def climb(method: Callable[..., None], seed: int, evaluations: int) -> Scores:
     """Return the best score so far after each evaluation."""
-    with Ledger.write(None, {}) as ledger, local_pool(0) as pool:
-        campaign = Campaign(SPACE, find_objective("fitness"), RobotModel("capsule"), ledger, pool)
-        method(campaign, seed, evaluations)
-        return np.maximum.accumulate([row.score or 0.0 for row in campaign.rows][:evaluations]).tolist()
+    with StudyStore.write(None, {}) as store, local_pool(0) as pool:
+        evaluator = Evaluator(SPACE, find_objective("fitness"), RobotModel("capsule"), store, pool)
+        method(evaluator, seed, evaluations)
+        return np.maximum.accumulate([row.score or 0.0 for row in evaluator.rows][:evaluations]).tolist()
 
 
 def main() -> None:

@@ -18,12 +18,12 @@ from pathlib import Path
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.search.evaluator import Campaign
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import Ledger, Row
+from jumpcad.search.store import StudyStore, Trial
 from jumpcad.workshop import load_workshop
 
 BATCH, BATCHES = 20, 15
@@ -58,20 +58,20 @@ def batches_cost(model: RobotModel, workers: int, path: Path | None, repeat: int
     """Return what all batches cost with that many workers, started beforehand; 0 computes in the calling process."""
     points = SPACE.spread((BATCHES + 1) * BATCH, np.random.default_rng(repeat))
     designs = [SPACE.to_design(point) for point in points]
-    with Ledger.write(path, {}) as ledger, local_pool(workers) as pool:
-        campaign = Campaign(SPACE, find_objective("fitness"), model, ledger, pool)
-        campaign.evaluate(designs[:BATCH], "sample", 0)
+    with StudyStore.write(path, {}) as store, local_pool(workers) as pool:
+        evaluator = Evaluator(SPACE, find_objective("fitness"), model, store, pool)
+        evaluator.evaluate(designs[:BATCH], "sample", 0)
         wall, caller = time.perf_counter(), time.process_time()
         for step in range(1, BATCHES + 1):
-            campaign.evaluate(designs[step * BATCH : (step + 1) * BATCH], "sample", step)
+            evaluator.evaluate(designs[step * BATCH : (step + 1) * BATCH], "sample", step)
         wall, caller = time.perf_counter() - wall, time.process_time() - caller
-        return Cost(wall, sum(row.duration_s for row in campaign.rows[BATCH:]), caller)
+        return Cost(wall, sum(row.duration_s for row in evaluator.rows[BATCH:]), caller)
 
 
-def contents(path: Path) -> list[Row]:
+def contents(path: Path) -> list[Trial]:
     """Return the rows of a study but for how long they took."""
-    with Ledger.read(path) as ledger:
-        return [replace(row, duration_s=0.0) for row in ledger.rows()]
+    with StudyStore.read(path) as store:
+        return [replace(row, duration_s=0.0) for row in store.rows()]
 
 
 def killed_rows(kills: int, folder: Path) -> tuple[int, int]:

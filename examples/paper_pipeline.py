@@ -9,14 +9,14 @@ from pathlib import Path
 from jumpcad import load_design, load_workshop
 from jumpcad.files import write_text_atomically
 from jumpcad.search import plots
-from jumpcad.search.evaluator import Campaign
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.explore import sweep
 from jumpcad.search.figures import save
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import Ledger
+from jumpcad.search.store import StudyStore
 from jumpcad.search.studies import plot_study
 from jumpcad.search.study import Request, run_study
 
@@ -35,15 +35,15 @@ def main() -> None:
 
     with local_pool() as pool:
         # One parameter at a time, about the design that the study ended with.
-        with Ledger.write(None, {}) as ledger:
-            swept = sweep(Campaign(space, objective, model, ledger, pool), load_design("best-bo"), arguments.points)
+        with StudyStore.write(None, {}) as store:
+            swept = sweep(Evaluator(space, objective, model, store, pool), load_design("best-bo"), arguments.points)
         save(plots.sweeps(swept, objective), arguments.folder, "sweeps")
 
         # GA, then BO on everything that the GA saw. Run it again after an interruption: it goes on.
         path = arguments.folder / "study.db"
         result = run_study(Request(space, model, evaluations=arguments.evaluations), path, pool)
-    with Ledger.read(path) as ledger:
-        plot_study(ledger, arguments.folder)
+    with StudyStore.read(path) as store:
+        plot_study(store, arguments.folder)
 
     if result.winner is None:
         raise SystemExit("no design jumps: allow more evaluations")

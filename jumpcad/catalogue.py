@@ -129,16 +129,16 @@ class Wire(Record):
     tensile_strength_mpa: list[PositiveFloat]
 
 
-Item = TypeVar("Item", bound=Record)
+Article = TypeVar("Article", bound=Record)
 
 
-class Shelf(Mapping[str, Item], Generic[Item]):
+class Shelf(Mapping[str, Article], Generic[Article]):
     """Articles of one kind by name; an unknown name is an error with a hint."""
 
-    def __init__(self, kind: str, items: dict[str, Item]) -> None:
+    def __init__(self, kind: str, items: dict[str, Article]) -> None:
         self._kind, self._items = kind, items
 
-    def __getitem__(self, name: str) -> Item:
+    def __getitem__(self, name: str) -> Article:
         if name not in self._items:
             known = ", ".join(self._items)
             raise JumpcadError(f"no {self._kind} {name!r} in the catalogue ({known}){did_you_mean(name, self._items)}")
@@ -198,5 +198,5 @@ def _read(path: Path) -> dict[str, Any]:
     return data
 
 
-def _shelf(kind: str, model: type[Item], tables: dict[str, Any]) -> Shelf[Item]:
+def _shelf(kind: str, model: type[Article], tables: dict[str, Any]) -> Shelf[Article]:
     return Shelf(kind, {name: model(name=name, **values) for name, values in tables.items()})

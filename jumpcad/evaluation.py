@@ -13,7 +13,7 @@ from jumpcad.workshop import Workshop
 
 
 @dataclass(frozen=True)
-class Evaluated:
+class EvaluationResult:
     """A built, simulated and checked design.
 
     `findings` are those of gate, audit and checks; `metrics` are figures beside the jump's own, by name with unit.
@@ -46,7 +46,7 @@ class Evaluated:
 
 def evaluate(
     design: Design, workshop: Workshop | None = None, settings: Settings | None = None, engine: str = "pybullet"
-) -> Evaluated:
+) -> EvaluationResult:
     """Build a design in a workshop, let it jump with the mass and inertia of its own parts, and check it.
 
     A candidate has no name yet, so none is engraved on its plates.
@@ -59,12 +59,12 @@ def evaluate(
     robot = build(design, workshop, name="")
     jump = simulate(robot, settings, engine)
     findings = (*jump.findings, *constraint_findings(robot))
-    return Evaluated(robot, jump, findings, _metrics(robot))
+    return EvaluationResult(robot, jump, findings, _metrics(robot))
 
 
 def _metrics(robot: Robot) -> dict[str, float]:
     """Return what winding takes, and the masses."""
-    train = robot.plan.drive.train
+    train = robot.layout.drive.train
     masses = {f"{name}_mass_kg": body.mass_kg for name, body in robot.bodies.items()}
     return {
         "mass_kg": robot.mass_kg,

@@ -20,14 +20,14 @@ Contradiction = tuple[tuple[str, ...], Any, str]
 """Where a value stands, the value, and what is wrong with it."""
 
 
-class Section(BaseModel):
+class TomlTable(BaseModel):
     """A validated group of values: no unknown keys, no NaN, no guessing of types, immutable."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True, strict=True)
 
 
-class Record(Section):
-    """A `Section` that users make by name, in Python or as a TOML file; errors are `JumpcadError`."""
+class Record(TomlTable):
+    """A `TomlTable` that users make by name, in Python or as a TOML file; errors are `JumpcadError`."""
 
     def __init__(self, **values: Any) -> None:
         try:

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from jumpcad.layout.plan import Plan
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.parts.part import Part
-from jumpcad.parts.purchased import Bought
+from jumpcad.parts.purchased import BoughtPart
 from jumpcad.workshop import Workshop
 
 
@@ -13,10 +13,10 @@ from jumpcad.workshop import Workshop
 class Robot(Mechanism):
     """One printed robot; its bodies have the mass and inertia of its parts.
 
-    `parts` are printed, `hardware` is bought, `plan` says where everything goes, and `workshop` what it is made with.
+    `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with.
     """
 
     parts: tuple[Part, ...]
-    hardware: tuple[Bought, ...]
+    hardware: tuple[BoughtPart, ...]
     workshop: Workshop
-    plan: Plan
+    layout: Layout

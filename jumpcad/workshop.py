@@ -15,7 +15,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     Contradiction,
     Record,
-    Section,
+    TomlTable,
     did_you_mean,
     find_template,
     read_toml,
@@ -32,7 +32,7 @@ MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one 
 DEFAULT = "default"
 
 
-class Printer(Section):
+class Printer(TomlTable):
     """A machine: usable bed (x, y, z) and nozzle."""
 
     name: str
@@ -41,7 +41,7 @@ class Printer(Section):
     source: str = ""
 
 
-class Process(Section):
+class Process(TomlTable):
     """How the printer is told to print; the printed mass follows from these."""
 
     layer_height_mm: Annotated[float, Field(ge=0.03, le=1.5)]
@@ -56,7 +56,7 @@ class Process(Section):
     part_spacing_mm: Annotated[float, Field(ge=0, le=50)]
 
 
-class Material(Section):
+class Material(TomlTable):
     """What is printed; strengths along the layers and between them, and its price where one is entered."""
 
     density_g_cm3: Annotated[float, Field(ge=0.3, le=10)]
@@ -67,7 +67,7 @@ class Material(Section):
     source: str = ""
 
 
-class Roles(Section):
+class Roles(TomlTable):
     """Which material a kind of part is printed in."""
 
     links: str
@@ -75,7 +75,7 @@ class Roles(Section):
     gears: str
 
 
-class Fits(Section):
+class Fits(TomlTable):
     """Every tolerance offset, as modelled. Fits are added per side; diameters of screw holes are complete."""
 
     press_mm: Fit
@@ -97,7 +97,7 @@ class Fits(Section):
     bridge_mm: Positive
 
 
-class BoughtParts(Section):
+class BoughtParts(TomlTable):
     """Names in the hardware catalogue; an empty list of motors allows every one.
 
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none.
@@ -112,13 +112,13 @@ class BoughtParts(Section):
     axle_mm: Positive
 
 
-class BodyPlates(Section):
+class BodyPlates(TomlTable):
     """The two plates of the body."""
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
 
 
-class Safety(Section):
+class Safety(TomlTable):
     """How far the parts are kept from what they could just bear."""
 
     strength_factor: Annotated[float, Field(ge=1, le=20)]
@@ -134,7 +134,7 @@ class Safety(Section):
     bearing_factor: Annotated[float, Field(ge=0.4, le=20)]
 
 
-class Masses(Section):
+class Masses(TomlTable):
     """Where printed masses come from; a weighed mass (g, by part) overrides the model."""
 
     model: Literal["printed", "solid"]

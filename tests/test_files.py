@@ -11,7 +11,7 @@ from pydantic import Field
 from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     Record,
-    Section,
+    TomlTable,
     did_you_mean,
     find_template,
     read_toml,
@@ -22,7 +22,7 @@ from jumpcad.files import (
 )
 
 
-class Bed(Section):
+class Bed(TomlTable):
     """A nested section."""
 
     width_mm: Annotated[float, Field(gt=0, le=400)]

@@ -10,13 +10,13 @@ from jumpcad.catalogue import Bearing, load_catalogue
 from jumpcad.design import Design
 from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
 from jumpcad.layout.lateral import GAP_MM
-from jumpcad.layout.plan import CLEAR_MM, SPACER_RADIUS_MM, Electronics, Plan, make_plan
+from jumpcad.layout.layout import CLEAR_MM, SPACER_RADIUS_MM, Electronics, Layout, make_layout
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Surface, five_bar
 from jumpcad.parts import body_plate, foot, links, shopping, small, toes, train
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Part
-from jumpcad.parts.purchased import Bought
+from jumpcad.parts.purchased import BoughtPart
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, first_guess, hub_bearings, hub_width_mm, wound_forces_n
@@ -28,48 +28,48 @@ from jumpcad.workshop import Workshop
 
 def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
     """Return the robot of a design with its sections grown by factors."""
-    plan, bores = plan_of(design, workshop, growth)
-    drawn = drawings(plan, bores, name)
+    layout, holes = layout_of(design, workshop, growth)
+    drawn = drawings(layout, holes, name)
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
     parts = tuple(_printed(drawing, workshop) for drawing in drawn)
-    hardware = tuple(shopping.bought_parts(plan, bores, load_catalogue(), workshop.bought))
+    hardware = tuple(shopping.bought_parts(layout, holes, load_catalogue(), workshop.bought))
     joints, loop, spring = five_bar(design, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
     return Robot(
         name=name,
         design=design,
-        bodies=_bodies(plan, parts, hardware),
+        bodies=_bodies(layout, parts, hardware),
         joints=joints,
         loop=loop,
         spring=spring,
-        foot_depth_m=plan.sections.foot_depth_mm / 1000.0,
+        foot_depth_m=layout.sections.foot_depth_mm / 1000.0,
         parts=parts,
         hardware=hardware,
         workshop=workshop,
-        plan=plan,
+        layout=layout,
     )
 
 
-def plan_of(design: Design, workshop: Workshop, growth: Growth | None = None) -> tuple[Plan, Bores]:
+def layout_of(design: Design, workshop: Workshop, growth: Growth | None = None) -> tuple[Layout, HoleSizes]:
     """Return the plan of a design in a workshop, and the bores of its parts."""
     growth = growth or Growth()
     small.require_axle(workshop)
     catalogue = load_catalogue()
     chosen = workshop.bought
     roller = catalogue.bearings[chosen.roller]
-    bores, sizes, drive = _hub_and_drive(design, workshop, roller, growth)
+    holes, sizes, drive = _hub_and_drive(design, workshop, roller, growth)
     electronics = Electronics(
         catalogue.batteries[chosen.battery], catalogue.boards[chosen.controller], catalogue.boards[chosen.driver]
     )
     plate = growth.plate * workshop.body.plate_mm
-    plan = make_plan(design, sizes, drive, electronics, plate, roller.width_mm, chosen.axle_mm)
-    plan = replace(plan, hub_bearing=bores.bearing)
-    return replace(plan, toes_apart=not foot.in_one_piece(plan, workshop.printer.bed_mm)), bores
+    layout = make_layout(design, sizes, drive, electronics, plate, roller.width_mm, chosen.axle_mm)
+    layout = replace(layout, hub_bearing=holes.bearing)
+    return replace(layout, toes_apart=not foot.in_one_piece(layout, workshop.printer.bed_mm)), holes
 
 
 def _hub_and_drive(
     design: Design, workshop: Workshop, roller: Bearing, growth: Growth
-) -> tuple[Bores, Sections, Drive]:
+) -> tuple[HoleSizes, Sections, Drive]:
     """Return the bores, sections and drive with the lightest hub bearing that bears what they put on it.
 
     Where none does, it is the strongest, of which `jumpcad.checks` then warns.
@@ -78,8 +78,8 @@ def _hub_and_drive(
     number, drive, limits = first_guess(bearings, design, workshop), None, None
     while True:
         bearing = bearings[number]
-        bores, sizes = Bores.of(workshop, bearing), sections(design, workshop, hub_width_mm(bearing), growth)
-        wanted = _drive_limits(workshop, sizes, roller, bores)
+        holes, sizes = HoleSizes.of(workshop, bearing), sections(design, workshop, hub_width_mm(bearing), growth)
+        wanted = _drive_limits(workshop, sizes, roller, holes)
         if drive is None or wanted != limits:
             drive, limits = synthesise(design, wanted), wanted
         forces = wound_forces_n(design, drive)
@@ -90,41 +90,41 @@ def _hub_and_drive(
         ]
         stronger = next((index for index in range(number, len(bearings)) if enough[index]), len(bearings) - 1)
         if stronger == number:
-            return bores, sizes, drive
+            return holes, sizes, drive
         number = stronger
 
 
-def drawings(plan: Plan, bores: Bores, name: str) -> list[Drawing]:
+def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     """Return every printed part of a plan."""
-    lateral = plan.lateral
-    half = plan.sections.thickness_mm / 2.0
+    lateral = layout.lateral
+    half = layout.sections.thickness_mm / 2.0
     low, high = lateral.inside
-    front_left = (plan.front_mm, half + GAP_MM / 2.0, high - GAP_MM / 2.0)
-    front_right = (plan.front_mm, low + GAP_MM / 2.0, -half - GAP_MM / 2.0)
-    cam_right = (plan.cam_axis_mm, low + GAP_MM / 2.0, lateral.cam[0] - GAP_MM / 2.0)
+    front_left = (layout.front_mm, half + GAP_MM / 2.0, high - GAP_MM / 2.0)
+    front_right = (layout.front_mm, low + GAP_MM / 2.0, -half - GAP_MM / 2.0)
+    cam_right = (layout.cam_axis_mm, low + GAP_MM / 2.0, lateral.cam[0] - GAP_MM / 2.0)
     made = [
-        links.main_leg(plan, bores),
-        links.front_link(plan, bores),
-        foot.foot(plan, bores),
-        *toes.toes_apart(plan, bores),
-        *body_plate.plates(plan, bores, name),
-        train.cam(plan, bores),
-        *train.gears(plan, bores),
-        small.motor_cap(plan, bores),
-        small.spring_bushing(plan, bores, "left"),
-        small.spring_bushing(plan, bores, "right"),
-        small.spacer(plan, bores, "front_spacer_left", [front_left]),
-        small.spacer(plan, bores, "front_spacer_right", [front_right]),
-        small.spacer(plan, bores, "cam_spacer_right", [cam_right]),
-        small.collars(plan, bores),
-        small.trays(plan, bores),
+        links.main_leg(layout, holes),
+        links.front_link(layout, holes),
+        foot.foot(layout, holes),
+        *toes.toes_apart(layout, holes),
+        *body_plate.plates(layout, holes, name),
+        train.cam(layout, holes),
+        *train.gears(layout, holes),
+        small.motor_cap(layout, holes),
+        small.spring_bushing(layout, holes, "left"),
+        small.spring_bushing(layout, holes, "right"),
+        small.spacer(layout, holes, "front_spacer_left", [front_left]),
+        small.spacer(layout, holes, "front_spacer_right", [front_right]),
+        small.spacer(layout, holes, "cam_spacer_right", [cam_right]),
+        small.collars(layout, holes),
+        small.trays(layout, holes),
     ]
-    if plan.idler_mm is not None:
-        cam_left = (plan.cam_axis_mm, lateral.gears[0][1] + GAP_MM / 2.0, high - GAP_MM / 2.0)
-        idler_right = (plan.idler_mm, low + GAP_MM / 2.0, lateral.gears[0][0] - GAP_MM / 2.0)
+    if layout.idler_mm is not None:
+        cam_left = (layout.cam_axis_mm, lateral.gears[0][1] + GAP_MM / 2.0, high - GAP_MM / 2.0)
+        idler_right = (layout.idler_mm, low + GAP_MM / 2.0, lateral.gears[0][0] - GAP_MM / 2.0)
         made += [
-            small.spacer(plan, bores, "cam_spacer_left", [cam_left]),
-            small.spacer(plan, bores, "idler_spacer_right", [idler_right]),
+            small.spacer(layout, holes, "cam_spacer_left", [cam_left]),
+            small.spacer(layout, holes, "idler_spacer_right", [idler_right]),
         ]
     return made
 
@@ -140,7 +140,7 @@ def _printed(drawing: Drawing, workshop: Workshop) -> Part:
     return Part(drawing, material_name, mass, model)
 
 
-def _bodies(plan: Plan, parts: tuple[Part, ...], hardware: tuple[Bought, ...]) -> dict[str, Body]:
+def _bodies(layout: Layout, parts: tuple[Part, ...], hardware: tuple[BoughtPart, ...]) -> dict[str, Body]:
     """Return the four rigid bodies with everything that they carry."""
     carried: dict[str, list[MassProperties]] = defaultdict(list)
     for part in parts:
@@ -148,7 +148,7 @@ def _bodies(plan: Plan, parts: tuple[Part, ...], hardware: tuple[Bought, ...]) -
             carried[placement.body].append(part.mass.placed(in_metres(placement.T_body_part)))
     for item in hardware:
         carried[item.body].append(item.mass)
-    contacts = _contacts(plan)
+    contacts = _contacts(layout)
     bodies = {}
     for name in BODY_NAMES:
         mass = combined(carried[name])
@@ -156,36 +156,36 @@ def _bodies(plan: Plan, parts: tuple[Part, ...], hardware: tuple[Bought, ...]) -
     return bodies
 
 
-def _contacts(plan: Plan) -> dict[str, tuple[ContactSphere, ...]]:
+def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
     """Return what touches the ground: the foot's round nose, both toe tips, the plates' corners under the pivots."""
-    sections = plan.sections
-    depth, tip_radius = sections.foot_depth_mm, sections.toe_tip_mm / 2.0
-    tip_x, tip_y = toes.toe_tip_mm(plan)
+    sections = layout.sections
+    depth, tip_radius = sections.foot_depth_mm, sections.toe_tip_height_mm / 2.0
+    tip_x, tip_y = toes.toe_tip_mm(layout)
     tip_z = tip_radius - depth
 
     def sphere(name: str, x: float, y: float, z: float, radius: float, surface: Surface) -> ContactSphere:
         return ContactSphere(name, np.array([x, y, z]) / 1000.0, radius / 1000.0, surface)
 
-    pad = plan.axle_mm / 2.0 + body_plate.PAD_WALL_MM
+    pad = layout.axle_mm / 2.0 + body_plate.PAD_WALL_MM
     return {
         FOOT: (
-            sphere("front_eye", plan.design.l4_mm, 0.0, 0.0, depth, "foot"),
+            sphere("front_eye", layout.design.l4_mm, 0.0, 0.0, depth, "foot"),
             sphere("left_toe", tip_x, tip_y, tip_z, tip_radius, "foot"),
             sphere("right_toe", tip_x, -tip_y, tip_z, tip_radius, "foot"),
         ),
         BODY: (
-            sphere("back", plan.hub_mm[0], 0.0, plan.hub_mm[1], pad, "body"),
-            sphere("front", plan.front_mm[0], 0.0, plan.front_mm[1], pad, "body"),
+            sphere("back", layout.hub_mm[0], 0.0, layout.hub_mm[1], pad, "body"),
+            sphere("front", layout.front_mm[0], 0.0, layout.front_mm[1], pad, "body"),
         ),
     }
 
 
-def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, bores: Bores) -> DriveLimits:
+def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, holes: HoleSizes) -> DriveLimits:
     """Return what the drive must respect in this workshop, beside a main leg of this size."""
     fits, safety, process = workshop.fits, workshop.safety, workshop.process
     gears = workshop.material("gears")
     axle_radius = workshop.bought.axle_mm / 2.0 + fits.sliding_mm
-    hub_radius = max(bores.hub_radius_mm, sizes.leg_root_mm / 2.0)
+    hub_radius = max(holes.hub_radius_mm, sizes.leg_root_mm / 2.0)
     lever_eye = max(links.LEVER_EYE_RADIUS_MM, sizes.lever_root_mm / 2.0)
     return DriveLimits(
         spring=SpringLimits(

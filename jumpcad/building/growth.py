@@ -11,7 +11,7 @@ from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 GROWTH_ROUNDS = 10
-FOLLOWS = {
+GROWS_ON_FAILURE = {
     "leg_strength": "leg",
     "leg_flex": "leg",
     "leg_sideways": "thickness",
@@ -48,7 +48,11 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     growth = Growth()
     robot = assembled(design, workshop, name, growth)
     for _ in range(GROWTH_ROUNDS):
-        weak = {FOLLOWS[finding.name] for finding in errors(strength_findings(robot)) if finding.name in FOLLOWS}
+        weak = {
+            GROWS_ON_FAILURE[finding.name]
+            for finding in errors(strength_findings(robot))
+            if finding.name in GROWS_ON_FAILURE
+        }
         if not weak:
             break
         growth = growth.more(weak)

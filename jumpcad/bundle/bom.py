@@ -19,7 +19,7 @@ COLUMNS = (
 
 
 @dataclass(frozen=True)
-class Item:
+class BillLine:
     """One line: `kind` is `printed` or `bought`; mass, price and printing time are those of one piece."""
 
     kind: str
@@ -43,7 +43,7 @@ class Item:
 
 
 @dataclass(frozen=True)
-class Plate:
+class BilledPlate:
     """A plate as it was sliced: its printing time (s)."""
 
     name: str
@@ -55,8 +55,8 @@ class Plate:
 class Bill:
     """All lines, printed parts first, and the plates where a slicer was asked."""
 
-    items: tuple[Item, ...]
-    plates: tuple[Plate, ...] = ()
+    items: tuple[BillLine, ...]
+    plates: tuple[BilledPlate, ...] = ()
 
     @property
     def mass_kg(self) -> float:
@@ -80,7 +80,7 @@ class Bill:
         priced = sum(item.price_eur is not None for item in self.items)
         return f"prices known of {priced} of {len(self.items)} lines"
 
-    def sliced(self, times_s: Mapping[str, float], plates: Iterable[Plate]) -> "Bill":
+    def sliced(self, times_s: Mapping[str, float], plates: Iterable[BilledPlate]) -> "Bill":
         """Return the bill with the printing times of parts, by name, and of plates."""
         items = (
             replace(item, time_s=times_s.get(item.name)) if item.kind == "printed" else item for item in self.items
@@ -91,7 +91,8 @@ class Bill:
 def bill_of_materials(robot: Robot) -> Bill:
     """Return a robot's printed parts, then the bought ones by article, with the prices of its workshop."""
     printed = [
-        Item("printed", part.name, part.quantity, part.material, part.mass_kg, part.mass_source) for part in robot.parts
+        BillLine("printed", part.name, part.quantity, part.material, part.mass_kg, part.mass_source)
+        for part in robot.parts
     ]
     articles = defaultdict(list)
     for thing in robot.hardware:
@@ -100,7 +101,7 @@ def bill_of_materials(robot: Robot) -> Bill:
     for article, things in articles.items():
         quantity = sum(thing.units for thing in things)
         each = sum(thing.mass_kg for thing in things) / quantity
-        bought.append(Item("bought", article, quantity, "", each, "catalogue"))
+        bought.append(BillLine("bought", article, quantity, "", each, "catalogue"))
     return _priced([*printed, *bought], robot.workshop)
 
 
@@ -122,7 +123,7 @@ def mass_facts(bill: Bill) -> list[dict[str, Any]]:
 def bill_of_facts(facts: Iterable[Mapping[str, Any]], workshop: Workshop) -> Bill:
     """Return the bill that a manifest keeps the masses of, with the prices of a workshop."""
     keys = ("kind", "name", "quantity", "material", "mass_kg", "source")
-    return _priced([Item(*(line[key] for key in keys)) for line in facts], workshop)
+    return _priced([BillLine(*(line[key] for key in keys)) for line in facts], workshop)
 
 
 def write_bom(bill: Bill) -> str:
@@ -154,12 +155,12 @@ def _seconds(time_s: float | None) -> str:
     return "" if time_s is None else f"{time_s:.0f}"
 
 
-def _priced(items: Sequence[Item], workshop: Workshop | None) -> Bill:
+def _priced(items: Sequence[BillLine], workshop: Workshop | None) -> Bill:
     """Return the bill of lines with a workshop's prices: of filament by mass, of articles by their names."""
     return Bill(tuple(replace(item, price_eur=_price_eur(item, workshop)) for item in items))
 
 
-def _price_eur(item: Item, workshop: Workshop | None) -> float | None:
+def _price_eur(item: BillLine, workshop: Workshop | None) -> float | None:
     if workshop is None:
         return None
     if item.kind == "printed":

@@ -13,7 +13,7 @@ from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
-from jumpcad.bundle.renders import STILLS, all_pictures
+from jumpcad.bundle.renders import RENDERS, all_pictures
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.dxf import write_dxfs
 from jumpcad.exporters.glb import write_glb
@@ -24,7 +24,7 @@ from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import MESH_FOLDER, write_loop, write_urdf
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
-from jumpcad.scene.shapes import shapes
+from jumpcad.scene.visuals import visuals
 from jumpcad.solids.finish import require_part
 from jumpcad.solids.stl import write_stl
 
@@ -70,7 +70,7 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
             yield f"step/{part.name}.step", write_step(part.drawing)
     for plate in packed(robot.parts, robot.workshop.printer.bed_mm, robot.workshop.process.part_spacing_mm):
         yield f"print/{plate.name}.3mf", write_threemf(plate)
-    visible = shapes(robot)
+    visible = visuals(robot)
     for mesh_name, mesh in {shape.mesh_name: shape.mesh for shape in visible}.items():
         yield f"urdf/{MESH_FOLDER}/{mesh_name}.stl", write_stl(mesh)
     yield f"urdf/{name}.urdf", write_urdf(robot, visible)
@@ -85,7 +85,7 @@ def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple
     seen = all_pictures(robot) if pictures else {}
     for picture, png in seen.items():
         yield f"pictures/{picture}.png", png
-    yield "report.html", write_report(robot, {name: seen[name] for name in STILLS if name in seen})
+    yield "report.html", write_report(robot, {name: seen[name] for name in RENDERS if name in seen})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

@@ -5,11 +5,11 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from jumpcad.bundle.bom import Bill, Item, bill_of_materials, euros
+from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials, euros
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.scene.shapes import Shape
+from jumpcad.scene.visuals import Visual
 
 PRINT, BUY = "## Print", "## Buy"
 
@@ -53,7 +53,7 @@ def _tables(bill: Bill) -> Iterator[str]:
     yield from ("", f"In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.")
 
 
-def _table(head: str, items: Sequence[Item], printed: bool) -> Iterator[str]:
+def _table(head: str, items: Sequence[BillLine], printed: bool) -> Iterator[str]:
     timed = any(item.time_s is not None for item in items)
     priced = any(item.price_eur is not None for item in items)
     yield f"| {head} |{' time each |' * timed}{' € |' * priced}"
@@ -67,7 +67,7 @@ def _table(head: str, items: Sequence[Item], printed: bool) -> Iterator[str]:
 
 def _springs(robot: Robot) -> Iterator[str]:
     """Yield the order for the spring maker."""
-    spring = robot.plan.drive.spring
+    spring = robot.layout.drive.spring
     rate = 1000.0 * spring.stiffness_nm_per_rad * math.pi / 180.0
     wind = math.degrees(robot.spring.wind_rad)
     yield from (
@@ -94,11 +94,11 @@ def _steps(robot: Robot, pictures: bool) -> Iterator[str]:
             yield f"- {count} × {label}"
 
 
-def _label(shape: Shape) -> str:
+def _label(shape: Visual) -> str:
     source = shape.source
     return source.name if isinstance(source, Part) else source.article
 
 
-def _counts(shape: Shape) -> bool:
+def _counts(shape: Visual) -> bool:
     """Tell whether a shape is a thing of its own, not a piece of one that is listed elsewhere."""
     return isinstance(shape.source, Part) or shape.source.units > 0

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 
-from jumpcad.bundle.bom import Item, bill_of_materials, euros
+from jumpcad.bundle.bom import BillLine, bill_of_materials, euros
 from jumpcad.checks import constraint_findings
 from jumpcad.findings import Finding
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
@@ -67,7 +67,7 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
         yield f"mass of the {name.replace('_', ' ')}", f"{1000.0 * body.mass_kg:.1f}", "g"
     yield "springs, wound", f"{robot.spring.energy_j:.4f}", "J"
     yield "springs' angle", f"{math.degrees(robot.spring.wind_rad):.1f}", "°"
-    train = robot.plan.drive.train
+    train = robot.layout.drive.train
     yield "gear motor", train.motor.name, ""
     yield "gear ratio", f"{train.ratio:.2f}", ": 1"
     yield "winding time", f"{train.winding_s:.2f}", "s"
@@ -106,7 +106,7 @@ def _parts(robot: Robot) -> Iterator[str]:
     yield f"<p>In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.</p>"
 
 
-def _line(item: Item) -> Sequence[str]:
+def _line(item: BillLine) -> Sequence[str]:
     return item.name, item.material, str(item.quantity), f"{1000.0 * item.mass_kg:.2f}", euros(item.total_eur)
 
 

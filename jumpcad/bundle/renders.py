@@ -11,13 +11,13 @@ from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.camera import View
-from jumpcad.scene.renderer import Studio
-from jumpcad.scene.shapes import Shape, shapes
+from jumpcad.scene.renderer import Renderer
+from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.transforms import Array, pose_at
 
-STILLS = ("rest", "compressed", "exploded")
-STILL_SIZE = (600, 450)
+RENDERS = ("rest", "compressed", "exploded")
+RENDER_SIZE = (600, 450)
 JUMP_SIZE = (560, 350)
 JUMP_FRAMES = 36
 FRAME_MS = 50
@@ -34,7 +34,7 @@ STEP_ROOM = 1.3
 JUMP_VIEW = View(yaw_deg=-80.0, pitch_deg=6.0)
 
 
-def stills(robot: Robot, size: tuple[int, int] = STILL_SIZE) -> dict[str, bytes]:
+def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> dict[str, bytes]:
     """Return the PNG files of a robot at rest, compressed and exploded, by name.
 
     Raises
@@ -42,8 +42,8 @@ def stills(robot: Robot, size: tuple[int, int] = STILL_SIZE) -> dict[str, bytes]
     JumpcadError
         If the robot has no parts to be seen.
     """
-    things = shapes(robot)
-    return _stills(_studio(things), robot, things, size)
+    things = visuals(robot)
+    return _renders(_renderer(things), robot, things, size)
 
 
 def all_pictures(robot: Robot) -> dict[str, bytes]:
@@ -52,25 +52,25 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
     Raises
     ------
     JumpcadError
-        As `stills`.
+        As `renders`.
     """
-    things = shapes(robot)
-    scene = _studio(things)
-    return _stills(scene, robot, things, STILL_SIZE) | _step_pictures(scene, robot, things, STEP_SIZE)
+    things = visuals(robot)
+    scene = _renderer(things)
+    return _renders(scene, robot, things, RENDER_SIZE) | _step_pictures(scene, robot, things, STEP_SIZE)
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
     """Return an animated GIF of a recorded jump, at an even pace from release on."""
-    things = shapes(robot)
+    things = visuals(robot)
     times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
     frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
     corners = np.concatenate([_corners(things, poses) for poses in frames])
-    scene = _studio(things)
+    scene = _renderer(things)
     return _gif([scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames])
 
 
-def exploded(things: Sequence[Shape], poses: Sequence[Array]) -> list[Array]:
+def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
     """Return poses with everything moved apart across the robot, as far as its outer face is from the middle plane.
 
     What is centred on that plane stays: legs, and what reaches from plate to plate.
@@ -84,16 +84,16 @@ def exploded(things: Sequence[Shape], poses: Sequence[Array]) -> list[Array]:
     return moved
 
 
-def _stills(scene: Studio, robot: Robot, things: Sequence[Shape], size: tuple[int, int]) -> dict[str, bytes]:
+def _renders(scene: Renderer, robot: Robot, things: Sequence[Visual], size: tuple[int, int]) -> dict[str, bytes]:
     rest, wound = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
     scenes = ((rest, View()), (wound, View()), (exploded(things, rest), EXPLODED_VIEW))
     return {
         name: _png(scene.picture(poses, size, view, _corners(things, poses)))
-        for name, (poses, view) in zip(STILLS, scenes, strict=True)
+        for name, (poses, view) in zip(RENDERS, scenes, strict=True)
     }
 
 
-def _step_pictures(scene: Studio, robot: Robot, things: Sequence[Shape], size: tuple[int, int]) -> dict[str, bytes]:
+def _step_pictures(scene: Renderer, robot: Robot, things: Sequence[Visual], size: tuple[int, int]) -> dict[str, bytes]:
     """Return a picture of every step of assembly: what is added in colour, what is already there pale."""
     steps = assembly_steps(robot)
     number = {shape.name: index for index, step in enumerate(steps) for shape in step.added}
@@ -108,11 +108,11 @@ def _step_pictures(scene: Studio, robot: Robot, things: Sequence[Shape], size: t
     return pictures
 
 
-def _studio(things: Sequence[Shape]) -> Studio:
-    return Studio([(thing.mesh, thing.colour) for thing in things])
+def _renderer(things: Sequence[Visual]) -> Renderer:
+    return Renderer([(thing.mesh, thing.colour) for thing in things])
 
 
-def _poses(things: Sequence[Shape], bodies: dict[str, Array]) -> list[Array]:
+def _poses(things: Sequence[Visual], bodies: dict[str, Array]) -> list[Array]:
     return [bodies[thing.body] @ thing.T_body_mesh for thing in things]
 
 
@@ -122,7 +122,7 @@ def _recorded(trajectory: Trajectory, moment: int) -> dict[str, Array]:
     return {name: pose_at(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)}
 
 
-def _corners(things: Sequence[Shape], poses: Sequence[Array]) -> Array:
+def _corners(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
     """Return the corners (8·n, 3) of the things' bounding boxes in the world (m)."""
     corners = []
     for thing, pose in zip(things, poses, strict=True):

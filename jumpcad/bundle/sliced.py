@@ -9,7 +9,7 @@ import numpy as np
 import trimesh
 from manifold3d import Manifold, Mesh64
 
-from jumpcad.bundle.bom import Plate, bill_of_facts, write_bom
+from jumpcad.bundle.bom import BilledPlate, bill_of_facts, write_bom
 from jumpcad.bundle.folder import change_files
 from jumpcad.bundle.guide import with_bill
 from jumpcad.bundle.manifest import Bundle, open_bundle, verify
@@ -18,7 +18,7 @@ from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import Section
+from jumpcad.solids.stack import SlabSection
 from jumpcad.transforms import Array
 from jumpcad.workshop import Material, Workshop, load_workshop
 
@@ -143,7 +143,7 @@ def write_times(found: SlicedBundle) -> Bundle:
     bundle = found.bundle
     bill = bill_of_facts(bundle.manifest["masses"], found.workshop).sliced(
         {part.name: part.time_s for part in found.parts},
-        [Plate(plate.name, plate.material, plate.time_s) for plate in found.plates],
+        [BilledPlate(plate.name, plate.material, plate.time_s) for plate in found.plates],
     )
     guide = (bundle.folder / "assembly.md").read_text(encoding="utf-8")
     changes = {"bom.csv": write_bom(bill), "assembly.md": with_bill(guide, bill)}
@@ -195,11 +195,11 @@ class _Scan:
         """Volume moments (10,)."""
         return mesh_moments(self._solid)
 
-    def sections_at(self, heights_mm: Array) -> list[Section]:
+    def sections_at(self, heights_mm: Array) -> list[SlabSection]:
         """Return the cross-sections at heights (n,); neighbours that do not differ are one object."""
         regions: list[Region] = []
         for height in heights_mm:
             region = self._solid.slice(float(height)).simplify(STRAIGHT_MM)
             same = regions and (region - regions[-1]).area() + (regions[-1] - region).area() < SMALLEST_MM2
             regions.append(regions[-1] if same else region)
-        return [Section(region) for region in regions]
+        return [SlabSection(region) for region in regions]

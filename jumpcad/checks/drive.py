@@ -8,7 +8,7 @@ def drive_findings(robot: Robot) -> list[Finding]:
     """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*` and `motor_*` by what they limit."""
     return [
         limit(found.name, _rounded(found.margin), found.unit, found.message, found.remedy)
-        for found in robot.plan.drive.findings
+        for found in robot.layout.drive.findings
     ]
 
 

@@ -21,13 +21,13 @@ SEARCH_MM = 3.0
 
 def ground_findings(robot: Robot) -> list[Finding]:
     """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from wound to rest."""
-    plan = robot.plan
-    linkage, sections, cam = Linkage(robot.design), plan.sections, plan.drive.cam
+    layout = robot.layout
+    linkage, sections, cam = Linkage(robot.design), layout.sections, layout.drive.cam
     leg = np.linspace(-robot.design.compression_rad, 0.0, POSITIONS)
     pose = linkage.pose(leg)
     down = np.stack([np.sin(pose.foot_rad), np.cos(pose.foot_rad)], axis=-1)  # up, in the body's frame
     fixed, radii = _body_discs(robot)
-    tips = plan.hub_mm + cam.lever_length_mm * direction(-cam.lever_start_rad + leg)
+    tips = layout.hub_mm + cam.lever_length_mm * direction(-cam.lever_start_rad + leg)
     heights = {
         "the body": (down @ fixed.T - _along(pose.ankle_mm, down)[:, None] - radii).min(axis=1),
         "the roller": _along(tips - pose.ankle_mm, down) - cam.roller_radius_mm,
@@ -46,12 +46,12 @@ def ground_findings(robot: Robot) -> list[Finding]:
 
 def foot_findings(robot: Robot) -> list[Finding]:
     """Return `foot_clearance`: the gap between the foot and what the body carries, springs wound (exact)."""
-    plan = robot.plan
+    layout = robot.layout
     linkage = Linkage(robot.design)
-    wound = Moment("wound", -robot.design.compression_rad, plan.drive.cam.law.lift_rad)
+    wound = Moment("wound", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
 
     def placed(piece: Component) -> Manifold:
-        return piece.solid.transform(pose_of(piece, plan, linkage, wound)[:3])
+        return piece.solid.transform(pose_of(piece, layout, linkage, wound)[:3])
 
     pieces = {body: [p for p in components(robot) if p.body == body] for body in (BODY, FOOT)}
     foot = [placed(piece) for piece in pieces[FOOT]]
@@ -77,16 +77,16 @@ def _along(vector: Array, unit: Array) -> Array:
 
 def _body_discs(robot: Robot) -> tuple[Array, Array]:
     """Return what hangs lowest on the body as discs: middles (n, 2) in its frame and radii (n,)."""
-    plan = robot.plan
-    pad = max(plan.axle_mm / 2.0 + PAD_WALL_MM, COLLAR_RADIUS_MM)
-    discs = [(place, pad) for place in plan.axles.values()]
-    discs += [(place, STANDOFF_PAD_MM / 2.0) for place in plan.standoffs_mm]
-    discs.append((plan.hub_mm, plan.drive.spring.outer_diameter_mm / 2.0))
-    discs.append((plan.cam_axis_mm, plan.drive.cam.outer_radius_mm))
-    discs.append((plan.cam_axis_mm, plan.drive.train.stages[-1].wheel.tip_radius_mm))
-    discs.append((plan.motor_mm, plan.drive.train.motor.height_mm))
-    if plan.idler_mm is not None:
-        discs.append((plan.idler_mm, plan.drive.train.stages[0].wheel.tip_radius_mm))
-    half = plan.electronics.length_mm / 2.0
-    discs += [(plan.tray_mm + np.array([x, 0.0]), 0.0) for x in (-half, half)]
+    layout = robot.layout
+    pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, COLLAR_RADIUS_MM)
+    discs = [(place, pad) for place in layout.axles.values()]
+    discs += [(place, STANDOFF_PAD_MM / 2.0) for place in layout.standoffs_mm]
+    discs.append((layout.hub_mm, layout.drive.spring.outer_diameter_mm / 2.0))
+    discs.append((layout.cam_axis_mm, layout.drive.cam.outer_radius_mm))
+    discs.append((layout.cam_axis_mm, layout.drive.train.stages[-1].wheel.tip_radius_mm))
+    discs.append((layout.motor_mm, layout.drive.train.motor.height_mm))
+    if layout.idler_mm is not None:
+        discs.append((layout.idler_mm, layout.drive.train.stages[0].wheel.tip_radius_mm))
+    half = layout.electronics.length_mm / 2.0
+    discs += [(layout.tray_mm + np.array([x, 0.0]), 0.0) for x in (-half, half)]
     return np.array([place for place, _ in discs]), np.array([radius for _, radius in discs])

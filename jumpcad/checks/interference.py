@@ -14,7 +14,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.findings import Finding
-from jumpcad.layout.plan import Plan
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Shape
@@ -76,9 +76,9 @@ def components(robot: Robot) -> list[Component]:
     return printed + [Component(item.name, item.body, item.shape, item.T_body_part) for item in robot.hardware]
 
 
-def moments(plan: Plan) -> list[Moment]:
+def moments(layout: Layout) -> list[Moment]:
     """Return the positions that are looked at: winding with its cam angles, and the roller's drop."""
-    cam, wound = plan.drive.cam, plan.design.compression_rad
+    cam, wound = layout.drive.cam, layout.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [
         Moment(f"wound by {math.degrees(wind):.1f}°", -float(wind), float(turn))
@@ -92,13 +92,13 @@ def moments(plan: Plan) -> list[Moment]:
 
 def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
     """Yield pairs of pieces that share more than the tolerance: names, position, volume (mm³); each pair's worst."""
-    plan = robot.plan
+    layout = robot.layout
     linkage = Linkage(robot.design)
     pieces = components(robot)
     worst: dict[tuple[int, int], tuple[float, str]] = {}
     settled: set[tuple[int, int]] = set()
-    for moment in moments(plan):
-        poses = [pose_of(piece, plan, linkage, moment) for piece in pieces]
+    for moment in moments(layout):
+        poses = [pose_of(piece, layout, linkage, moment) for piece in pieces]
         boxes = [_box(piece, pose) for piece, pose in zip(pieces, poses, strict=True)]
         for i, j in _near(boxes):
             a, b = pieces[i], pieces[j]
@@ -136,7 +136,7 @@ def shared_volume_mm3(a: Component, T_a: Array, b: Component, T_b: Array) -> flo
     return float((a.solid.transform(T_a[:3]) ^ b.solid.transform(T_b[:3])).volume())
 
 
-def pose_of(piece: Component, plan: Plan, linkage: Linkage, moment: Moment) -> Array:
+def pose_of(piece: Component, layout: Layout, linkage: Linkage, moment: Moment) -> Array:
     """Return the pose (4, 4) of a piece in the body's frame (mm)."""
     pose = linkage.pose([moment.leg_rad])
     places = {
@@ -149,19 +149,19 @@ def pose_of(piece: Component, plan: Plan, linkage: Linkage, moment: Moment) -> A
     T_world_piece = pose_about_y(angle, origin) @ piece.T_body_part
     if piece.name not in TURNING:
         return T_world_piece
-    centre, turn = _train_turn(piece.name, plan, moment.cam_rad)
+    centre, turn = _train_turn(piece.name, layout, moment.cam_rad)
     return pose_about_y(turn, centre) @ pose_about_y(0.0, -centre) @ T_world_piece
 
 
-def _train_turn(name: str, plan: Plan, cam_rad: float) -> tuple[Array, float]:
+def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float]:
     """Return a turning piece's axis (2,) and its turn about +y at a cam angle; meshing wheels turn against another."""
-    stages = plan.drive.train.stages
+    stages = layout.drive.train.stages
     if name in ("cam", "cam_gear"):
-        return plan.cam_axis_mm, cam_rad
+        return layout.cam_axis_mm, cam_rad
     idler = -cam_rad * stages[-1].ratio
-    if name == "idler" and plan.idler_mm is not None:
-        return plan.idler_mm, idler
-    return plan.motor_mm, idler if len(stages) == 1 else -idler * stages[0].ratio
+    if name == "idler" and layout.idler_mm is not None:
+        return layout.idler_mm, idler
+    return layout.motor_mm, idler if len(stages) == 1 else -idler * stages[0].ratio
 
 
 def _box(piece: Component, pose: Array) -> Array:

@@ -7,27 +7,27 @@ from functools import cached_property
 import numpy as np
 
 from jumpcad.findings import Finding, limit
-from jumpcad.layout.plan import Plan
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.strength.bearings import wound_forces_n
-from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_tip_mm
-from jumpcad.strength.stress import Skin, pin_stress_mpa
+from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_reach_mm
+from jumpcad.strength.stress import Shell, pin_stress_mpa
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop
 
 
 @dataclass(frozen=True)
-class Case:
+class LoadCase:
     """A robot under load."""
 
     robot: Robot
 
     @property
-    def plan(self) -> Plan:
+    def layout(self) -> Layout:
         """Where everything is."""
-        return self.robot.plan
+        return self.robot.layout
 
     @property
     def workshop(self) -> Workshop:
@@ -39,12 +39,12 @@ class Case:
         return 1000.0 * self.robot.design.peak_spring_torque_nm
 
     @cached_property
-    def skin(self) -> Skin:
-        return Skin.of(self.workshop.process)
+    def shell(self) -> Shell:
+        return Shell.of(self.workshop.process)
 
     @cached_property
-    def bores(self) -> Bores:
-        return Bores.of(self.workshop, self.plan.hub_bearing)
+    def holes(self) -> HoleSizes:
+        return HoleSizes.of(self.workshop, self.layout.hub_bearing)
 
     @cached_property
     def allowable_mpa(self) -> float:
@@ -59,7 +59,7 @@ class Case:
         body = self.robot.bodies[BODY]
         gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
         mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
-        return push_off(self.robot.design, mass, self.plan.sections.foot_depth_mm)
+        return push_off(self.robot.design, mass, self.layout.sections.foot_depth_mm)
 
     @cached_property
     def ankle_n(self) -> float:
@@ -78,25 +78,25 @@ class Case:
         """What one toe's tip bears that lands first: the body turns away from it."""
         body = self.robot.bodies[BODY]
         about_x, about_y = 1000.0 * np.sqrt(np.diag(body.inertia_kg_m2)[:2] / body.mass_kg)
-        return self.landing_n * reflected_share(toe_tip_mm(self.robot.design), (float(about_x), float(about_y)))
+        return self.landing_n * reflected_share(toe_reach_mm(self.robot.design), (float(about_x), float(about_y)))
 
     @cached_property
     def steel_stresses_mpa(self) -> dict[str, float]:
         """Bending stresses of axles and pins: the leg's and the cam's axle, the springs' pin, the foot's pins."""
-        plan, lateral = self.plan, self.plan.lateral
+        layout, lateral = self.layout, self.layout.lateral
         span = (sum(lateral.left_plate) - sum(lateral.right_plate)) / 2.0
         arms, cam = self.wound_forces_n
         at = sum(lateral.cam) / 2.0 - sum(lateral.right_plate) / 2.0
-        arm = self.torque_nmm / plan.leg_pin_mm / 2.0
-        thickness, lug = plan.sections.thickness_mm, plan.sections.lug_thickness_mm
+        arm = self.torque_nmm / layout.leg_pin_mm / 2.0
+        thickness, lug = layout.sections.thickness_mm, layout.sections.lug_thickness_mm
         lever = lateral.lug_left[0] - thickness / 2.0 + lug / 2.0 + thickness / 4.0
         moments = {
             "leg_axle": leg_axle_moment_nmm(arms, cam, span, sum(lateral.spring_left) / 2.0),
-            "cam_axle": plan.drive.cam.peak_contact_n * at * (span - at) / span,
+            "cam_axle": layout.drive.cam.peak_contact_n * at * (span - at) / span,
             "spring_pin": arm * (span / 2.0 - lateral.spring_left[1]),
             "foot_pin": max(self.ankle_n, self.front_n, self.landing_n) / 2.0 * lever,
         }
-        return {name: pin_stress_mpa(moment, plan.axle_mm) for name, moment in moments.items()}
+        return {name: pin_stress_mpa(moment, layout.axle_mm) for name, moment in moments.items()}
 
     @cached_property
     def wound_forces_n(self) -> tuple[tuple[Array, Array], Array]:
@@ -104,10 +104,10 @@ class Case:
 
         In the body's frame, springs wound, roller at the end of the lift; both springs together.
         """
-        plan = self.plan
-        on_leg, on_lever = wound_forces_n(self.robot.design, plan.drive)
-        pin = (plan.spring_pin_mm - plan.hub_mm) / plan.leg_pin_mm
-        on_pin = self.torque_nmm / plan.leg_pin_mm * np.array([-pin[1], pin[0]])
+        layout = self.layout
+        on_leg, on_lever = wound_forces_n(self.robot.design, layout.drive)
+        pin = (layout.spring_pin_mm - layout.hub_mm) / layout.leg_pin_mm
+        on_pin = self.torque_nmm / layout.leg_pin_mm * np.array([-pin[1], pin[0]])
         return (on_leg, on_pin), on_lever
 
 

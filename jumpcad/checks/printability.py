@@ -39,7 +39,9 @@ Fails = Callable[[Region, float], bool]
 def bed_findings(robot: Robot) -> list[Finding]:
     """Return `bed_fit`: every part within the printer's bed, along it or askew."""
     bed = robot.workshop.printer.bed_mm
-    margin, part = min(((part.drawing.lie(bed).margin_mm, part) for part in robot.parts), key=lambda item: item[0])
+    margin, part = min(
+        ((part.drawing.fit_to_bed(bed).margin_mm, part) for part in robot.parts), key=lambda item: item[0]
+    )
     size = np.ptp(part.drawing.shape.bounds_mm, axis=0)
     return [
         limit(

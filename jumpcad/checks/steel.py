@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.checks.load_case import Case, stress_finding
+from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.findings import Finding, limit
 from jumpcad.layout.lateral import ROLLER_WASHER_MM
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
@@ -16,14 +16,14 @@ ROLLER_SCREW_YIELD_MPA = 640.0
 """Property class 8.8, ISO 898-1."""
 
 
-def steel_findings(case: Case) -> Iterator[Finding]:
+def steel_findings(case: LoadCase) -> Iterator[Finding]:
     """Yield a finding for every way in which what is bought could break."""
     yield from (*_pins(case), *_fatigue(case), *_bearings(case))
 
 
-def _pins(case: Case) -> Iterator[Finding]:
+def _pins(case: LoadCase) -> Iterator[Finding]:
     """Yield those of axles, pins and the roller's screw."""
-    plan, lateral = case.plan, case.plan.lateral
+    layout, lateral = case.layout, case.layout.lateral
     remedy = "raise bought.axle_mm with its bearings, or lower stiffness_nmm_per_deg or compression_ratio"
     names = {
         "leg_axle": "the leg's axle, wound",
@@ -34,16 +34,16 @@ def _pins(case: Case) -> Iterator[Finding]:
     for name, stress in case.steel_stresses_mpa.items():
         yield stress_finding(f"{name}_strength", names[name], stress, case.steel_mpa, remedy)
     lever = ROLLER_WASHER_MM + (lateral.cam[1] - lateral.cam[0]) / 2.0
-    stress = pin_stress_mpa(plan.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
+    stress = pin_stress_mpa(layout.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
     allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.steel_factor
     yield stress_finding(
         "roller_screw_strength", "the roller's screw, wound", stress, allowed, "a narrower bought.roller"
     )
 
 
-def _fatigue(case: Case) -> Iterator[Finding]:
+def _fatigue(case: LoadCase) -> Iterator[Finding]:
     """Yield those of what a number of jumps breaks: springs, axles and pins. None of it breaks at the first one."""
-    safety, spring = case.workshop.safety, case.plan.drive.spring
+    safety, spring = case.workshop.safety, case.layout.drive.spring
     lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
     allowed = spring_share(safety.jumps) * spring.tensile_mpa
     yield limit(
@@ -61,13 +61,13 @@ def _fatigue(case: Case) -> Iterator[Finding]:
     )  # fmt: skip
 
 
-def _bearings(case: Case) -> Iterator[Finding]:
+def _bearings(case: LoadCase) -> Iterator[Finding]:
     """Yield that of the hub's bearings: an overload dents their races but does not stop the robot."""
-    hub, cam = case.plan.hub_bearing, case.plan.lateral.cam
+    hub, cam = case.layout.hub_bearing, case.layout.lateral.cam
     if hub is None:
         return
     (arms, _), push = case.wound_forces_n
-    force = bearing_load_n((arms, push), case.plan.sections.thickness_mm, cam[1] - cam[0], hub)
+    force = bearing_load_n((arms, push), case.layout.sections.thickness_mm, cam[1] - cam[0], hub)
     allowed = allowed_n(hub, case.workshop)
     yield limit(
         "hub_bearing_load", allowed - force, "N",

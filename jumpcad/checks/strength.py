@@ -12,18 +12,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.checks.load_case import Case, stress_finding
+from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.checks.steel import steel_findings
 from jumpcad.findings import Finding, limit
 from jumpcad.parts.links import LEVER_EYE_RADIUS_MM
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
 from jumpcad.robot import Robot
-from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm, toe_tip_mm
+from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm, toe_reach_mm
 from jumpcad.strength.sizing import leg_flex_share
 from jumpcad.strength.stress import (
     STATIONS,
     VON_MISES,
-    Bar,
+    Beam,
     bar_shear_mpa,
     bored_stress_mpa,
     buckling_load_n,
@@ -37,7 +37,7 @@ WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger
 
 def strength_findings(robot: Robot) -> list[Finding]:
     """Return a finding for every way in which a generated robot could break."""
-    case = Case(robot)
+    case = LoadCase(robot)
     return [
         *_leg(case),
         *_front_link(case),
@@ -49,27 +49,27 @@ def strength_findings(robot: Robot) -> list[Finding]:
     ]
 
 
-def _leg(case: Case) -> Iterator[Finding]:
+def _leg(case: LoadCase) -> Iterator[Finding]:
     """Yield those of main leg and lever."""
-    plan, torque = case.plan, case.torque_nmm
-    sections, cam = plan.sections, plan.drive.cam
-    leg = sections.leg(case.skin)
+    layout, torque = case.layout, case.torque_nmm
+    sections, cam = layout.sections, layout.drive.cam
+    leg = sections.leg(case.shell)
     stress = tapered_stress_mpa(leg, torque, float(np.abs(case.forces.leg_axial_n).max()))
     yield stress_finding("leg_strength", "main leg in bending at release", stress, case.allowable_mpa, WEAKER)
-    bores = case.bores
-    hub = max(2.0 * bores.hub_radius_mm, sections.leg_root_mm)
-    stress = bored_stress_mpa(torque, sections.thickness_mm, hub, bores.hub_bore_mm)
+    holes = case.holes
+    hub = max(2.0 * holes.hub_radius_mm, sections.leg_root_mm)
+    stress = bored_stress_mpa(torque, sections.thickness_mm, hub, holes.hub_bore_mm)
     yield stress_finding(
         "hub_strength", "main leg beside its hub's bore, wound", stress, case.allowable_mpa,
         f"a smaller bought.leg_bearing, or {WEAKER}",
     )  # fmt: skip
-    lever = Bar(
-        sections.thickness_mm, np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS), case.skin
+    lever = Beam(
+        sections.thickness_mm, np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS), case.shell
     )
     along = cam.peak_contact_n * math.sin(cam.max_pressure_angle_rad)
     stress = tapered_stress_mpa(lever, torque, along)
     yield stress_finding("lever_strength", "lever in bending, wound", stress, case.allowable_mpa, WEAKER)
-    share = leg_flex_share(plan.design, leg, case.workshop.material("links").modulus_mpa)
+    share = leg_flex_share(layout.design, leg, case.workshop.material("links").modulus_mpa)
     allowed = case.workshop.safety.leg_flex_share
     yield limit(
         "leg_flex", 100.0 * (allowed - share), "%",
@@ -78,14 +78,14 @@ def _leg(case: Case) -> Iterator[Finding]:
     )  # fmt: skip
 
 
-def _front_link(case: Case) -> Iterator[Finding]:
+def _front_link(case: LoadCase) -> Iterator[Finding]:
     """Yield those of the front link: pulled at release, pushed at landing."""
-    bar = case.plan.sections.front(case.skin)
+    bar = case.layout.sections.front(case.shell)
     stress = float(bar.stress_mpa(0.0, case.front_n))
     yield stress_finding(
         "front_link_strength", "front link along its length at release", stress, case.allowable_mpa, WEAKER
     )
-    load = buckling_load_n(bar, case.plan.design.l3_mm, case.workshop.material("links").modulus_mpa)
+    load = buckling_load_n(bar, case.layout.design.l3_mm, case.workshop.material("links").modulus_mpa)
     allowed = load / case.workshop.safety.strength_factor
     yield limit(
         "front_link_buckling", allowed - case.landing_n, "N",
@@ -94,26 +94,26 @@ def _front_link(case: Case) -> Iterator[Finding]:
     )  # fmt: skip
 
 
-def _eyes(case: Case) -> Iterator[Finding]:
+def _eyes(case: LoadCase) -> Iterator[Finding]:
     """Yield those of the printed eyes: links along their layers, the foot's lugs across them."""
-    sections, bores = case.plan.sections, case.bores
+    sections, holes = case.layout.sections, case.holes
     force = max(case.ankle_n, case.front_n, case.landing_n)
     stress = eye_stress_mpa(
-        force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, bores.running(case.plan.axle_mm)
+        force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, holes.running(case.layout.axle_mm)
     )
     yield stress_finding("eye_strength", "eyes of main leg and front link", stress, case.allowable_mpa, WEAKER)
     pull = max(case.ankle_n, case.front_n) / 2.0
-    bore = bores.press(case.plan.axle_mm)
+    bore = holes.press(case.layout.axle_mm)
     stress = eye_stress_mpa(pull, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, bore)
     interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.strength_factor
     yield stress_finding("foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER)
 
 
-def _foot(case: Case) -> Iterator[Finding]:
+def _foot(case: LoadCase) -> Iterator[Finding]:
     """Yield those of toes and rails."""
-    design, sections = case.robot.design, case.plan.sections
+    design, sections = case.robot.design, case.layout.sections
     toes = float(case.forces.toes_n.max())
-    toe, rail = sections.toe(case.skin), sections.rail(case.skin)
+    toe, rail = sections.toe(case.shell), sections.rail(case.shell)
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, toes))
     remedy = f"shorten the toes (e_coef), or {WEAKER}"
     yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, remedy)
@@ -122,52 +122,52 @@ def _foot(case: Case) -> Iterator[Finding]:
     blow = case.toe_blow_n
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
     yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, remedy)
-    if case.plan.toes_apart:
+    if case.layout.toes_apart:
         stress = _toe_joint_mpa(case, max(0.5 * toes, blow))
         yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, remedy)
 
 
-def _toe_joint_mpa(case: Case, tip_n: float) -> float:
+def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
     """Return the stress beside the screws that hold a toe of its own, with a force on its tip.
 
     The outer screw bears the most: the force's moment about the inner one over their distance.
     """
     inner, outer = SCREWS_MM
-    force = tip_n * (case.plan.design.l5_mm - inner) / (outer - inner)
-    bores = case.bores
-    height, width = joint_height_mm(case.plan, bores), case.plan.sections.toe_width_mm
-    holes = (bores.fits.m3_tap_mm, bores.m3_clearance_mm)
-    return max(eye_stress_mpa(force, width, height, bore) for bore in holes)
+    force = tip_n * (case.layout.design.l5_mm - inner) / (outer - inner)
+    holes = case.holes
+    height, width = joint_height_mm(case.layout, holes), case.layout.sections.toe_width_mm
+    bores = (holes.fits.m3_tap_mm, holes.m3_clearance_mm)
+    return max(eye_stress_mpa(force, width, height, bore) for bore in bores)
 
 
-def _sideways(case: Case) -> Iterator[Finding]:
+def _sideways(case: LoadCase) -> Iterator[Finding]:
     """Yield that of the main leg bent and twisted out of its plane by one toe's tip that lands first.
 
     The blow's moment about the robot's long axis goes through the leg alone, the front link's help left out: its part
     across the leg bends the leg sideways, its part along the leg twists it.
     """
-    sections, angle = case.plan.sections, math.radians(case.robot.design.rest_angle_deg)
-    moment = case.toe_blow_n * toe_tip_mm(case.robot.design)[1]
+    sections, angle = case.layout.sections, math.radians(case.robot.design.rest_angle_deg)
+    moment = case.toe_blow_n * toe_reach_mm(case.robot.design)[1]
     heights = np.linspace(sections.leg_root_mm, sections.leg_tip_mm, STATIONS)
-    bending = Bar(heights, sections.thickness_mm, case.skin, upright=True).stress_mpa(moment * math.sin(angle))
+    bending = Beam(heights, sections.thickness_mm, case.shell, upright=True).stress_mpa(moment * math.sin(angle))
     shear = VON_MISES * bar_shear_mpa(moment * math.cos(angle), heights, sections.thickness_mm)
     stress = float(np.max(np.hypot(bending, shear)))
     remedy = f"shorten the toes (e_coef), lower ground_link_angle_deg, or {WEAKER}"
     yield stress_finding("leg_sideways", "main leg bent sideways by one toe's tip", stress, case.allowable_mpa, remedy)
 
 
-def _seats(case: Case) -> Iterator[Finding]:
+def _seats(case: LoadCase) -> Iterator[Finding]:
     """Yield those of the plates around axles and pins, and of the cam's key."""
     safety, body = case.workshop.safety, case.workshop.material("body")
     arms, cam = case.wound_forces_n
     worst = max(float(np.linalg.norm(force)) for force in (cam - arms[1], cam, arms[1])) / 2.0
-    stress = worst / (case.plan.axle_mm * (case.plan.lateral.left_plate[1] - case.plan.lateral.left_plate[0]))
+    stress = worst / (case.layout.axle_mm * (case.layout.lateral.left_plate[1] - case.layout.lateral.left_plate[0]))
     allowable = body.strength_in_plane_mpa / safety.strength_factor
     yield stress_finding("plate_seat", "plates under axles and pins", stress, allowable, "raise body.plate_mm")
     gears = case.workshop.material("gears")
-    torque = 1000.0 * case.plan.drive.cam.peak_torque_nm
-    bore = case.bores.running(case.plan.axle_mm)
-    stress = VON_MISES * tube_shear_mpa(torque, case.plan.sections.key_mm, bore)
+    torque = 1000.0 * case.layout.drive.cam.peak_torque_nm
+    bore = case.holes.running(case.layout.axle_mm)
+    stress = VON_MISES * tube_shear_mpa(torque, case.layout.sections.key_mm, bore)
     allowable = gears.strength_interlayer_mpa / safety.strength_factor
     remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
     yield stress_finding("cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, remedy)

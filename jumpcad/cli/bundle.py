@@ -66,7 +66,7 @@ def render(
 ) -> None:
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
     from jumpcad.bundle.manifest import is_bundle
-    from jumpcad.bundle.renders import jump_gif, stills
+    from jumpcad.bundle.renders import jump_gif, renders
     from jumpcad.simulation import Settings, simulate
     from jumpcad.simulation.engines import default_engine
 
@@ -75,7 +75,7 @@ def render(
     beside = Path(subject) / "pictures" if is_bundle(subject) else Path(f"{robot.name}-pictures")
     folder = output or beside
     with progress(f"drawing {robot.name}"):
-        files = {f"{name}.png": png for name, png in stills(robot).items()}
+        files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
     if jump.trajectory is not None:
         with progress(f"filming {robot.name}"):
@@ -125,7 +125,7 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
     from jumpcad.checks.strength import strength_findings
     from jumpcad.findings import errors
 
-    train = robot.plan.drive.train
+    train = robot.layout.drive.train
     energy = robot.spring.energy_j
     return {
         "name": robot.name,

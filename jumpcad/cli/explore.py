@@ -32,7 +32,7 @@ from jumpcad.files import did_you_mean
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
-    from jumpcad.search.evaluator import Campaign
+    from jumpcad.search.evaluator import Evaluator
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
 LEAST_R_SQUARED = 0.5
@@ -77,9 +77,9 @@ def explore(
     With --study, evaluations are kept and not repeated.
     """
     from jumpcad.design import load_design
-    from jumpcad.search.evaluator import Campaign
+    from jumpcad.search.evaluator import Evaluator
     from jumpcad.search.objective import find_objective
-    from jumpcad.search.store import Ledger
+    from jumpcad.search.store import StudyStore
 
     if view not in VIEWS:
         raise JumpcadError(f"{view!r} is not one of the views {', '.join(VIEWS)}{did_you_mean(view, VIEWS)}")
@@ -96,10 +96,10 @@ def explore(
         run = _swept(centre, points) if view == "sweep" else _mapped(centre, over, points)
     with (
         make_pool(workers, dask, limit) as pool,
-        Ledger.write(study, identity) as ledger,
+        StudyStore.write(study, identity) as store,
         watching(total, as_json) as watch,
     ):
-        data, lines, figures = run(Campaign(space, aim, robot, ledger, pool, watch=watch))
+        data, lines, figures = run(Evaluator(space, aim, robot, store, pool, watch=watch))
     if plots is not None:
         from jumpcad.search.figures import save
 
@@ -110,16 +110,16 @@ def explore(
         print("\n".join(lines))
 
 
-View = Callable[["Campaign"], tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]]
+View = Callable[["Evaluator"], tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]]
 """Runs on a campaign; returns data, lines of text, and how to draw the pictures, by name."""
 
 
 def _swept(centre: "Design", points: int) -> View:
-    def run(campaign: "Campaign") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
+    def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
         from jumpcad.search import plots
         from jumpcad.search.explore import sweep
 
-        sweeps = sweep(campaign, centre, points)
+        sweeps = sweep(evaluator, centre, points)
         data = {
             one.parameter: [
                 {"value": value, "score": row.score, "verdict": row.evaluation.verdict}
@@ -132,19 +132,19 @@ def _swept(centre: "Design", points: int) -> View:
             scores = [row.score for row in one.rows if row.score is not None]
             reach = f"{min(scores):9.4f} … {max(scores):9.4f}" if scores else "never feasible       "
             lines.append(f"{one.parameter:24s}{reach}  feasible at {len(scores)} of {len(one.rows)} values")
-        return {"sweeps": data}, lines, {"sweeps": lambda: plots.sweeps(sweeps, campaign.objective)}
+        return {"sweeps": data}, lines, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective)}
 
     return run
 
 
 def _looker(view: str, samples: int, seed: int) -> View:
-    def run(campaign: "Campaign") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
+    def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
         from jumpcad.search import plots
         from jumpcad.search.explore import UNIFORM_NOTE, components, elite, importance, sample
 
-        rows = sample(campaign, samples, seed)
+        rows = sample(evaluator, samples, seed)
         if view == "importance":
-            found = importance(campaign, rows, seed)
+            found = importance(evaluator, rows, seed)
             order = found.mean.argsort()[::-1]
             data = {
                 "importance": {found.names[i]: found.mean[i] for i in order},
@@ -157,7 +157,7 @@ def _looker(view: str, samples: int, seed: int) -> View:
                 lines.append("that is too little to tell what is important: raise --samples, or narrow the bounds")
             return data, lines, {"importance": lambda: plots.importance(found)}
         best = elite(rows)
-        views = {"sampled": components(campaign, rows), "elite": components(campaign, best)}
+        views = {"sampled": components(evaluator, rows), "elite": components(evaluator, best)}
         data, lines = {"note": UNIFORM_NOTE}, []
         for name, view_of in views.items():
             data[name] = {"designs": view_of.designs, "shares": view_of.shares, "directions": view_of.directions}
@@ -172,11 +172,11 @@ def _mapped(centre: "Design", over: str, points: int) -> View:
     if len(names) != 2:
         raise JumpcadError(f"--over {over}: a map has two parameters, NAME,NAME")
 
-    def run(campaign: "Campaign") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
+    def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
         from jumpcad.search import plots
         from jumpcad.search.explore import feasibility_map
 
-        found = feasibility_map(campaign, centre, names[0], names[1], points)
+        found = feasibility_map(evaluator, centre, names[0], names[1], points)
         reasons = [[" ".join(row.evaluation.reasons) or "jump" for row in line] for line in found.rows]
         counts = Counter(reason for line in reasons for reason in line).most_common()
         data = {

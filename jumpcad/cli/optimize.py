@@ -36,7 +36,7 @@ from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.search.models import RobotModel
-    from jumpcad.search.store import Row
+    from jumpcad.search.store import Trial
     from jumpcad.search.study import Request, Result
 
 HEADING = "# Found by jumpcad optimize"
@@ -132,7 +132,7 @@ def _refuse_foreign_file(path: Path) -> None:
         raise JumpcadError(f"{path}: exists already, and not from a search; choose another name with -o")
 
 
-def _write_design(path: Path, winner: "Row", request: "Request") -> None:
+def _write_design(path: Path, winner: "Trial", request: "Request") -> None:
     from jumpcad.files import write_text_atomically
 
     name = request.model.describe()["name"]
@@ -143,11 +143,11 @@ def _write_design(path: Path, winner: "Row", request: "Request") -> None:
 def _plot(path: Path, folder: Path | None) -> list[str]:
     if folder is None:
         return []
-    from jumpcad.search.store import Ledger
+    from jumpcad.search.store import StudyStore
     from jumpcad.search.studies import plot_study
 
-    with Ledger.read(path) as ledger:
-        return [str(picture) for picture in plot_study(ledger, folder)]
+    with StudyStore.read(path) as store:
+        return [str(picture) for picture in plot_study(store, folder)]
 
 
 def _data(request: "Request", result: "Result", design_file: Path) -> dict[str, Any]:

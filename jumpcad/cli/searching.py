@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from jumpcad.search.models import RobotModel
     from jumpcad.search.pool import Pool
     from jumpcad.search.space import Space
-    from jumpcad.search.store import Row
+    from jumpcad.search.store import Trial
 
 ModelOption = Annotated[str, typer.Option(help="The robot behind the objective: printed, capsule or published.")]
 StudyOption = Annotated[Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db")]
@@ -109,7 +109,7 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
         task = progress.add_task("search", total=total, rate="", best="–")
         best: list[float] = []
 
-        def watch(row: "Row", computed: bool) -> None:
+        def watch(row: "Trial", computed: bool) -> None:
             if row.phase not in SEARCH_PHASES:
                 progress.update(task, description="robust pick")
                 return
@@ -124,7 +124,7 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
         yield watch
 
 
-def row_data(row: "Row") -> dict[str, Any]:
+def row_data(row: "Trial") -> dict[str, Any]:
     """Return a row as plain data for JSON."""
     evaluation = row.evaluation
     return {
@@ -139,6 +139,6 @@ def row_data(row: "Row") -> dict[str, Any]:
     }
 
 
-def design_lines(row: "Row") -> list[str]:
+def design_lines(row: "Trial") -> list[str]:
     """Return the parameters of a row's design, one a line."""
     return [f"  {name:24s}{value:12.5g}" for name, value in row.design.model_dump().items()]

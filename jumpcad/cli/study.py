@@ -10,7 +10,7 @@ from jumpcad.cli.searching import PlotsOption, row_data
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
-    from jumpcad.search.store import Ledger
+    from jumpcad.search.store import StudyStore
 
 StudiesArgument = Annotated[
     list[Path], typer.Argument(help="One study to look at, or several to compare.", metavar="F.db…")
@@ -32,21 +32,21 @@ def study(
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the rows."""
-    from jumpcad.search.store import Ledger
+    from jumpcad.search.store import StudyStore
     from jumpcad.search.table import write_table
 
     if len(files) > 1 and (export or plots):
         raise JumpcadError("--export and --plots are for one study; name one file")
     summaries = []
     for file in files:
-        with Ledger.read(file) as ledger:
-            summaries.append(_summary(file, ledger, best))
+        with StudyStore.read(file) as store:
+            summaries.append(_summary(file, store, best))
             if export is not None:
-                write_table(ledger.rows(), export)
+                write_table(store.rows(), export)
             if plots is not None:
                 from jumpcad.search.studies import plot_study
 
-                summaries[-1]["pictures"] = [str(picture) for picture in plot_study(ledger, plots)]
+                summaries[-1]["pictures"] = [str(picture) for picture in plot_study(store, plots)]
     if as_json:
         print_json(summaries[0] if len(files) == 1 else {"studies": summaries})
     elif len(files) == 1:
@@ -55,17 +55,17 @@ def study(
         _print_comparison(summaries)
 
 
-def _summary(file: Path, ledger: "Ledger", best: int) -> dict[str, Any]:
+def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
     from jumpcad.search.study import best_row, count_refusals, search_rows
 
-    rows, identity = ledger.rows(), ledger.identity
+    rows, identity = store.rows(), store.identity
     searched = search_rows(rows)
     top = sorted((row for row in searched if row.score is not None), key=lambda row: -(row.score or 0.0))[:best]
     winner = best_row(searched)
     return {
         "study": str(file),
         "identity": identity,
-        "planned": sum(stage["evaluations"] for stage in ledger.recall("stages", [])),
+        "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])),
         "evaluations": len(searched),
         "other_evaluations": len(rows) - len(searched),
         "refused": count_refusals(searched),
@@ -73,7 +73,7 @@ def _summary(file: Path, ledger: "Ledger", best: int) -> dict[str, Any]:
         "best": None if winner is None else row_data(winner),
         "top": [row_data(row) for row in top],
         "quarantined": [row_data(row) for row in rows if row.evaluation.verdict == "quarantined"],
-        "notes": ledger.notes(),
+        "notes": store.notes(),
     }
 
 

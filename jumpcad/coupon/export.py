@@ -8,11 +8,11 @@ from pathlib import Path
 
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.manifest import Bundle, is_bundle, verify
-from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_bores, pieces
+from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, pieces
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.files import templates_folder
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import require_part
@@ -35,8 +35,8 @@ def export_coupon(workshop: Workshop, folder: str | Path) -> Bundle:
     """
     if is_bundle(folder) and f"{READINGS}: changed" in verify(folder):
         raise JumpcadError(f"{folder}: {READINGS} has been filled in; choose another folder with -o or move it away")
-    bores = coupon_bores(workshop)
-    made = pieces(bores, list(workshop.materials), workshop.material_name("gears"))
+    holes = coupon_holes(workshop)
+    made = pieces(holes, list(workshop.materials), workshop.material_name("gears"))
     masses = [
         {
             "kind": "printed",
@@ -49,10 +49,10 @@ def export_coupon(workshop: Workshop, folder: str | Path) -> Bundle:
         for piece in made
     ]
     facts = {"mass_kg": sum(_mass_kg(piece, workshop) for piece in made), "masses": masses}
-    return write_folder(folder, "coupon", facts, _contents(workshop, bores, made))
+    return write_folder(folder, "coupon", facts, _contents(workshop, holes, made))
 
 
-def _contents(workshop: Workshop, bores: Bores, made: Sequence[Piece]) -> Iterator[tuple[str, str | bytes]]:
+def _contents(workshop: Workshop, holes: HoleSizes, made: Sequence[Piece]) -> Iterator[tuple[str, str | bytes]]:
     """Yield path and content of every file but the manifest."""
     yield "workshop.toml", workshop.to_toml()
     for piece in made:
@@ -61,8 +61,8 @@ def _contents(workshop: Workshop, bores: Bores, made: Sequence[Piece]) -> Iterat
         yield f"stl/{piece.name}.stl", stl
     for plate in packed(made, workshop.printer.bed_mm, workshop.process.part_spacing_mm):
         yield f"print/{plate.name}.3mf", write_threemf(plate)
-    yield "coupon.md", _guide(workshop, bores)
-    yield READINGS, _template(workshop, bores)
+    yield "coupon.md", _guide(workshop, holes)
+    yield READINGS, _template(workshop, holes)
 
 
 def _mass_kg(piece: Piece, workshop: Workshop) -> float:
@@ -70,10 +70,10 @@ def _mass_kg(piece: Piece, workshop: Workshop) -> float:
     return mass_properties(piece.shape, density, workshop.process, workshop.printer.nozzle_mm).mass_kg
 
 
-def _guide(workshop: Workshop, bores: Bores) -> str:
+def _guide(workshop: Workshop, holes: HoleSizes) -> str:
     """Return the how-to."""
     bearing = (
-        f"the bearing {bores.bearing.name}" if bores.bearing else "left out: the legs of this robot have no bearing"
+        f"the bearing {holes.bearing.name}" if holes.bearing else "left out: the legs of this robot have no bearing"
     )
     return (
         (templates_folder() / GUIDE)
@@ -81,15 +81,15 @@ def _guide(workshop: Workshop, bores: Bores) -> str:
         .format(
             materials=" and ".join(workshop.materials),
             gears=workshop.material_name("gears"),
-            axle=f"{bores.axle_mm:g}",
-            example=f"{bores.axle_mm + 0.2:g}",
+            axle=f"{holes.axle_mm:g}",
+            example=f"{holes.axle_mm + 0.2:g}",
             bearing=bearing,
             readings=READINGS,
         )
     )
 
 
-def _template(workshop: Workshop, bores: Bores) -> str:
+def _template(workshop: Workshop, holes: HoleSizes) -> str:
     """Return the file for the readings: every key commented out, with the value that the workshop has now."""
     fits = workshop.fits
     lines = [
@@ -103,7 +103,7 @@ def _template(workshop: Workshop, bores: Bores) -> str:
             f"# axle_sliding_mm = {fits.sliding_mm:.2f}",
             f"# axle_loose_mm = {fits.loose_mm:.2f}",
         ]
-        if bores.bearing:
+        if holes.bearing:
             lines.append(f"# bearing_press_mm = {fits.press_mm:.2f}")
         lines.append(f"# pegs_mm = [{', '.join(f'{peg:.2f}' for peg in PEGS_MM)}]")
     lines += ["", "[gears]", f"# turns_freely_mm = {fits.backlash_circumferential_mm:.2f}", ""]

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from jumpcad.drive.gears import Gear, GearPair, gear_pair
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
@@ -70,10 +70,10 @@ class Ladders:
     backlash_mm: tuple[float, ...]
 
 
-def ladders(bores: Bores) -> Ladders:
+def ladders(holes: HoleSizes) -> Ladders:
     """Return the ladders around a workshop's fits."""
-    fits = bores.fits
-    seats = _ladder(fits.press_mm, fits.press_mm) if bores.bearing else ()
+    fits = holes.fits
+    seats = _ladder(fits.press_mm, fits.press_mm) if holes.bearing else ()
     backlash = fits.backlash_circumferential_mm
     free = tuple(step for step in _ladder(backlash, backlash) if step >= 0.0)
     return Ladders(_ladder(fits.press_mm, fits.loose_mm), seats, free)
@@ -94,30 +94,30 @@ def engraved(offset_mm: float) -> str:
     return f"{offset_mm:.2f}".replace("0.", ".", 1)
 
 
-def coupon_bores(workshop: Workshop) -> Bores:
+def coupon_holes(workshop: Workshop) -> HoleSizes:
     """Return the bores that a workshop's coupon tries: with the lightest bearing that its hubs may have."""
-    return Bores.of(workshop, hub_bearings(workshop)[0])
+    return HoleSizes.of(workshop, hub_bearings(workshop)[0])
 
 
-def pieces(bores: Bores, materials: Sequence[str], gear_material: str) -> list[Piece]:
+def pieces(holes: HoleSizes, materials: Sequence[str], gear_material: str) -> list[Piece]:
     """Return all pieces: a gauge in every material, and in one a wheel, its holder, and a pinion for each backlash."""
-    steps, pair = ladders(bores), coupon_pair()
-    made = [Piece(f"gauge_{name}", name, bores.chamfered(gauge(bores, steps, name))) for name in materials]
-    running = hole(bores.running(bores.axle_mm))
+    steps, pair = ladders(holes), coupon_pair()
+    made = [Piece(f"gauge_{name}", name, holes.chamfered(gauge(holes, steps, name))) for name in materials]
+    running = hole(holes.running(holes.axle_mm))
     wheel = Stack.of([(0.0, FACE_MM, polygon(pair.wheel.profile_mm) - running)])
-    made.append(Piece("gear_holder", gear_material, bores.chamfered(_holder(bores, pair.centre_distance_mm))))
-    made.append(Piece("gear_wheel", gear_material, bores.chamfered(wheel)))
+    made.append(Piece("gear_holder", gear_material, holes.chamfered(_holder(holes, pair.centre_distance_mm))))
+    made.append(Piece("gear_wheel", gear_material, holes.chamfered(wheel)))
     for backlash in steps.backlash_mm:
         gear = Stack.of([(0.0, FACE_MM, polygon(pinion(backlash).profile_mm) - running)])
         letters = _middled(engraved(backlash), PINION_LETTERS_MM)
-        middle = (bores.axle_mm + coupon_pair().pinion.root_radius_mm) / 2.0
+        middle = (holes.axle_mm + coupon_pair().pinion.root_radius_mm) / 2.0
         gear = gear.minus([_cut(FACE_MM, letters.translate((0.0, middle - PINION_LETTERS_MM / 2.0)))])
-        made.append(Piece(f"pinion_{round(100.0 * backlash):02d}", gear_material, bores.chamfered(gear)))
+        made.append(Piece(f"pinion_{round(100.0 * backlash):02d}", gear_material, holes.chamfered(gear)))
     return made
 
 
 @dataclass(frozen=True)
-class Row:
+class GaugeRow:
     """A row of holes or pegs: its letter, empty where it goes on from the row above, labels and diameters."""
 
     letter: str
@@ -130,24 +130,24 @@ class Row:
         return max(diameter for _, diameter in self.rungs)
 
 
-def gauge_rows(bores: Bores, steps: Ladders) -> list[Row]:
+def gauge_rows(holes: HoleSizes, steps: Ladders) -> list[GaugeRow]:
     """Return the rows of a gauge from the back: holes for the axle (A), for the bearing's outside (B), pegs (P)."""
     rows = []
-    seat = bores.bearing.outer_mm if bores.bearing else 0.0
-    for letter, nominal, ladder in (("A", bores.axle_mm, steps.axle_mm), ("B", seat, steps.bearing_mm)):
+    seat = holes.bearing.outer_mm if holes.bearing else 0.0
+    for letter, nominal, ladder in (("A", holes.axle_mm, steps.axle_mm), ("B", seat, steps.bearing_mm)):
         for start in range(0, len(ladder), COLUMNS):
             rungs = tuple((engraved(step), nominal + 2.0 * step) for step in ladder[start : start + COLUMNS])
-            rows.append(Row("" if start else letter, rungs))
-    return [*rows, Row("P", tuple((f"{peg:g}", peg) for peg in PEGS_MM), pegs=True)]
+            rows.append(GaugeRow("" if start else letter, rungs))
+    return [*rows, GaugeRow("P", tuple((f"{peg:g}", peg) for peg in PEGS_MM), pegs=True)]
 
 
-def gauge(bores: Bores, steps: Ladders, title: str) -> Stack:
+def gauge(holes: HoleSizes, steps: Ladders, title: str) -> Stack:
     """Return the plate with the material's name, the rows of holes and the row of pegs."""
-    rows = gauge_rows(bores, steps)
+    rows = gauge_rows(holes, steps)
     across = max(row.size_mm for row in rows) + 2.0 * MARGIN_MM
     left = TITLE_MM + 2.0 * MARGIN_MM
     letters = [text(title, TITLE_MM).translate((MARGIN_MM, -MARGIN_MM - TITLE_MM))]
-    holes: list[Region] = []
+    cut: list[Region] = []
     pegs: list[Region] = []
     y = -2.0 * MARGIN_MM - TITLE_MM
     for row in rows:
@@ -157,19 +157,19 @@ def gauge(bores: Bores, steps: Ladders, title: str) -> Stack:
         for column, (label, diameter) in enumerate(row.rungs):
             x = left + across * (column * (2 if row.pegs else 1) + 0.5)  # room for the jaws of callipers
             letters.append(_middled(label, LETTERS_MM).translate((x, line)))
-            (pegs if row.pegs else holes).append((disc if row.pegs else hole)(diameter, (x, middle)))
+            (pegs if row.pegs else cut).append((disc if row.pegs else hole)(diameter, (x, middle)))
         y = line - MARGIN_MM
     size = left + COLUMNS * across, -y
     plate = rectangle(size, (size[0] / 2.0, y / 2.0), MARGIN_MM)
-    solid = Stack.of([(0.0, GAUGE_MM, plate - union(holes)), (0.0, GAUGE_MM + PEG_HEIGHT_MM, union(pegs))])
+    solid = Stack.of([(0.0, GAUGE_MM, plate - union(cut)), (0.0, GAUGE_MM + PEG_HEIGHT_MM, union(pegs))])
     return solid.minus([_cut(GAUGE_MM, union(letters))])
 
 
-def _holder(bores: Bores, centre_distance_mm: float) -> Stack:
+def _holder(holes: HoleSizes, centre_distance_mm: float) -> Stack:
     """Return the bar that holds two axles fast at a centre distance."""
     ends = (0.0, 0.0), (centre_distance_mm, 0.0)
-    bar = stadium(*ends, bores.press(bores.axle_mm) + 4.0 * bores.fits.wall_mm)
-    return Stack.of([(0.0, HOLDER_MM, bar)]).through(*(hole(bores.press(bores.axle_mm), end) for end in ends))
+    bar = stadium(*ends, holes.press(holes.axle_mm) + 4.0 * holes.fits.wall_mm)
+    return Stack.of([(0.0, HOLDER_MM, bar)]).through(*(hole(holes.press(holes.axle_mm), end) for end in ends))
 
 
 def _ladder(low_mm: float, high_mm: float) -> tuple[float, ...]:

@@ -21,10 +21,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from jumpcad.coupon.pieces import PEGS_MM, coupon_bores, ladders
+from jumpcad.coupon.pieces import PEGS_MM, coupon_holes, ladders
 from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
 from jumpcad.errors import JumpcadError
-from jumpcad.files import Contradiction, Record, Section
+from jumpcad.files import Contradiction, Record, TomlTable
 from jumpcad.workshop import Workshop
 
 LEAST_PLAY_MM = 0.05
@@ -36,7 +36,7 @@ PEG_ERROR_MM = 0.5
 AXLE_KEYS = ("axle_press_mm", "axle_sliding_mm", "axle_loose_mm")
 
 
-class Tried(Section):
+class Tried(TomlTable):
     """What one material's gauge says; what was not tried is left out."""
 
     axle_press_mm: float | None = None
@@ -51,7 +51,7 @@ class Tried(Section):
         return sum(self.pegs_mm) / len(self.pegs_mm) - sum(PEGS_MM) / len(PEGS_MM)
 
 
-class TriedGears(Section):
+class TriedGears(TomlTable):
     """What the gears say: the backlash engraved on the tightest pinion that turns freely all round."""
 
     turns_freely_mm: float | None = None
@@ -136,7 +136,7 @@ def _given(values: Iterable[float | None]) -> list[float]:
 
 def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
     """Yield what a workshop's coupon cannot have said."""
-    steps = ladders(coupon_bores(workshop))
+    steps = ladders(coupon_holes(workshop))
     for name, tried in readings.gauge.items():
         if name not in workshop.materials:
             yield f"gauge.{name}: the workshop prints in {', '.join(workshop.materials)}"

@@ -26,8 +26,8 @@ PLATES = ("body_plate_left", "body_plate_right")
 
 def write_dxfs(robot: Robot) -> dict[str, str]:
     """Return the DXF document of every body plate by the part's name; none for a robot without a plan."""
-    plan = robot.plan
-    thickness = dict(zip(PLATES, (plan.lateral.left_plate, plan.lateral.right_plate), strict=True))
+    layout = robot.layout
+    thickness = dict(zip(PLATES, (layout.lateral.left_plate, layout.lateral.right_plate), strict=True))
     return {
         part.name: write_dxf(*sheet(part, thickness[part.name][1] - thickness[part.name][0]))
         for part in robot.parts

@@ -11,7 +11,7 @@ from trimesh.visual.material import PBRMaterial
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.shading import creased
-from jumpcad.scene.shapes import Colour, Shape, shapes
+from jumpcad.scene.visuals import Colour, Visual, visuals
 
 Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 """From the robot's z up to y up."""
@@ -25,7 +25,7 @@ def write_glb(robot: Robot) -> bytes:
     scene.graph.update(FRAME, "world", matrix=Y_UP)
     for name, pose in body_poses(robot).items():
         scene.graph.update(frame_name(name), FRAME, matrix=pose)
-    for shape in shapes(robot):
+    for shape in visuals(robot):
         if shape.mesh_name not in scene.geometry:
             scene.geometry[shape.mesh_name] = _in_metres(shape)
         scene.graph.update(shape.name, frame_name(shape.body), matrix=shape.T_body_mesh, geometry=shape.mesh_name)
@@ -37,7 +37,7 @@ def frame_name(body: str) -> str:
     return f"{body}_frame"
 
 
-def _in_metres(shape: Shape) -> trimesh.Trimesh:
+def _in_metres(shape: Visual) -> trimesh.Trimesh:
     """Return a mesh (m) with a vertex per face and corner where the surface is creased."""
     vertices, normals, faces = creased(shape.mesh)
     material = _material(shape.mesh_name, shape.colour)

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from jumpcad.exporters.xml import add, document, wxyz
 from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses, standing
-from jumpcad.scene.shapes import Shape
+from jumpcad.scene.visuals import Visual
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.mujoco import IMPEDANCE, SOFTNESS_STEPS, SUBSTEPS
 from jumpcad.transforms import rotation_about_y
@@ -18,7 +18,7 @@ MESH_FOLDER = "../urdf/meshes"
 """Folder of the meshes, seen from that of the MJCF file."""
 
 
-def write_mjcf(mechanism: Mechanism, visible: Sequence[Shape] = (), settings: Settings | None = None) -> str:
+def write_mjcf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
     """Return the MJCF document of a robot, with the settings' time step, friction and damping."""
     settings = settings or Settings()
     root = ET.Element("mujoco", model=mechanism.name)
@@ -51,7 +51,7 @@ def write_mjcf(mechanism: Mechanism, visible: Sequence[Shape] = (), settings: Se
 
 
 def _children(
-    parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, visible: Sequence[Shape]
+    parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, visible: Sequence[Visual]
 ) -> list[str]:
     """Append the bodies that hang on a body; return their joints in the order in which MuJoCo numbers them."""
     order: list[str] = []
@@ -79,7 +79,7 @@ def _hinge(node: ET.Element, joint: Joint, mechanism: Mechanism, settings: Setti
     )
 
 
-def _fill(node: ET.Element, body: Body, visible: Sequence[Shape]) -> None:
+def _fill(node: ET.Element, body: Body, visible: Sequence[Visual]) -> None:
     """Give a body its mass properties, what is seen of it, its contact spheres."""
     tensor = body.inertia_kg_m2
     six = (*tensor.diagonal(), tensor[0, 1], tensor[0, 2], tensor[1, 2])

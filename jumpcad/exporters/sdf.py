@@ -10,7 +10,7 @@ from jumpcad.exporters.urdf import SWING_RAD
 from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.scene.shapes import Shape
+from jumpcad.scene.visuals import Visual
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.transforms import Array
 
@@ -18,7 +18,7 @@ MESH_FOLDER = "../urdf/meshes"
 """Folder of the meshes, seen from that of the SDF file."""
 
 
-def write_sdf(mechanism: Mechanism, visible: Sequence[Shape] = (), settings: Settings | None = None) -> str:
+def write_sdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
     """Return the SDF document of a robot, with the settings' friction and damping."""
     settings = settings or Settings()
     root = ET.Element("sdf", version="1.9")
@@ -37,7 +37,7 @@ def write_sdf(mechanism: Mechanism, visible: Sequence[Shape] = (), settings: Set
     return document(root)
 
 
-def _fill(link: ET.Element, body: Body, visible: list[Shape], settings: Settings) -> None:
+def _fill(link: ET.Element, body: Body, visible: list[Visual], settings: Settings) -> None:
     inertial = add(link, "inertial")
     add(inertial, "pose", (*body.com_m, 0.0, 0.0, 0.0))
     add(inertial, "mass", body.mass_kg)

@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.printing.plates import Placed, Plate, Printable
+from jumpcad.printing.plates import Placed, Printable, PrintPlate
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"
@@ -31,7 +31,7 @@ RELATIONSHIPS = (
 )
 
 
-def write_threemf(plate: Plate) -> bytes:
+def write_threemf(plate: PrintPlate) -> bytes:
     """Return the 3MF file of a plate; the same plate gives the same bytes."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as package:
@@ -47,7 +47,7 @@ def write_threemf(plate: Plate) -> bytes:
     return buffer.getvalue()
 
 
-def _model(plate: Plate) -> str:
+def _model(plate: PrintPlate) -> str:
     """Return the model: each part once as an object, each copy as an item to build."""
     numbers: dict[str, int] = {}
     objects, items = [], []

@@ -14,7 +14,7 @@ from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import release_pose
-from jumpcad.scene.shapes import Shape
+from jumpcad.scene.visuals import Visual
 from jumpcad.settings import Settings
 
 MESH_FOLDER = "meshes"
@@ -23,10 +23,10 @@ SWING_RAD = math.pi / 2
 """Limits leave this much on either side of the travel: simulators make stops of them, and legs swing past rest."""
 
 
-def write_urdf(mechanism: Mechanism, visible: Sequence[Shape] = (), settings: Settings | None = None) -> str:
+def write_urdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
     """Return the URDF document of a mechanism; its joints have the settings' damping and dry friction.
 
-    `visible` is what is seen of it, from `jumpcad.scene.shapes`.
+    `visible` is what is seen of it, from `jumpcad.scene.visuals`.
 
     MuJoCo's own element keeps it from dropping the root link's mass and the folder of the meshes.
     """
@@ -70,7 +70,7 @@ def write_loop(mechanism: Mechanism) -> str:
     return json.dumps(data, indent=2, allow_nan=False) + "\n"
 
 
-def _link(root: ET.Element, body: Body, visible: list[Shape]) -> None:
+def _link(root: ET.Element, body: Body, visible: list[Visual]) -> None:
     link = add(root, "link", name=body.name)
     moments, axes = principal_axes(body.inertia_kg_m2)
     inertial = add(link, "inertial")

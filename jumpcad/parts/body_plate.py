@@ -9,9 +9,9 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial import Delaunay
 
-from jumpcad.layout.plan import CAP_EAR_MM, SOCKET_WALL_MM, TRAY_MM, Plan
+from jumpcad.layout.layout import CAP_EAR_MM, SOCKET_WALL_MM, TRAY_MM, Layout
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, laid
 from jumpcad.solids.outline import (
     SAGITTA_MM,
@@ -43,31 +43,31 @@ TAB_MM = 10.0
 """Length along x of a tray's tab in its slot."""
 
 
-def plates(plan: Plan, bores: Bores, name: str) -> list[Drawing]:
+def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     """Return the left plate, at the side of the gears, and the right one with the socket that holds the motor.
 
     Without a name nothing is engraved.
     """
-    motor, lateral = plan.drive.train.motor, plan.lateral
-    common = _outline(plan) - _openings(plan, bores)
+    motor, lateral = layout.drive.train.motor, layout.lateral
+    common = _outline(layout) - _openings(layout, holes)
     y0, y1 = lateral.left_plate
-    region = common - hole(bores.loose(motor.shaft_mm), plan.motor_mm)
-    left = _drawing("body_plate_left", bores, [(y0, y1, region)], (y1 - ENGRAVING_MM, y1), name and f"{name} L", "left")
+    region = common - hole(holes.loose(motor.shaft_mm), layout.motor_mm)
+    left = _drawing("body_plate_left", holes, [(y0, y1, region)], (y1 - ENGRAVING_MM, y1), name and f"{name} L", "left")
     y0, y1 = lateral.right_plate
-    play = 2.0 * bores.fits.sliding_mm
-    cavity = _motor_box(plan, motor.width_mm + play, motor.height_mm + play)
-    window = _motor_box(plan, motor.width_mm - 2.0, motor.height_mm - 2.0)
-    taps = union(hole(bores.fits.m2_tap_mm, place) for place in ear_places(plan))
-    slabs = [(y0, y1, common - window), (y1, lateral.motor[1], socket_outline(plan) - cavity - taps)]
-    right = _drawing("body_plate_right", bores, slabs, (y0, y0 + ENGRAVING_MM), name and f"{name} R", "right")
+    play = 2.0 * holes.fits.sliding_mm
+    cavity = _motor_box(layout, motor.width_mm + play, motor.height_mm + play)
+    window = _motor_box(layout, motor.width_mm - 2.0, motor.height_mm - 2.0)
+    taps = union(hole(holes.fits.m2_tap_mm, place) for place in ear_places(layout))
+    slabs = [(y0, y1, common - window), (y1, lateral.motor[1], socket_outline(layout) - cavity - taps)]
+    right = _drawing("body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), name and f"{name} R", "right")
     return [left, right]
 
 
-def ear_places(plan: Plan) -> list[np.ndarray]:
+def ear_places(layout: Layout) -> list[np.ndarray]:
     """Return the two screws (2,) that hold the motor's cap on its socket."""
-    across = np.array([-np.sin(plan.motor_angle_rad), np.cos(plan.motor_angle_rad)])
-    reach = ear_reach_mm(plan.drive.train.motor.height_mm)
-    return [plan.motor_mm + sign * reach * across for sign in (-1.0, 1.0)]
+    across = np.array([-np.sin(layout.motor_angle_rad), np.cos(layout.motor_angle_rad)])
+    reach = ear_reach_mm(layout.drive.train.motor.height_mm)
+    return [layout.motor_mm + sign * reach * across for sign in (-1.0, 1.0)]
 
 
 def ear_reach_mm(height_mm: float) -> float:
@@ -75,11 +75,11 @@ def ear_reach_mm(height_mm: float) -> float:
     return height_mm / 2.0 + SOCKET_WALL_MM + CAP_EAR_MM / 2.0
 
 
-def socket_outline(plan: Plan) -> Region:
+def socket_outline(layout: Layout) -> Region:
     """Return the outside of the motor's socket, which its cap shares."""
-    motor = plan.drive.train.motor
-    turn = float(np.degrees(plan.motor_angle_rad))
-    return socket_about_axis(motor.width_mm, motor.height_mm).rotate(turn).translate(tuple(plan.motor_mm))
+    motor = layout.drive.train.motor
+    turn = float(np.degrees(layout.motor_angle_rad))
+    return socket_about_axis(motor.width_mm, motor.height_mm).rotate(turn).translate(tuple(layout.motor_mm))
 
 
 @lru_cache(maxsize=32)
@@ -90,64 +90,64 @@ def socket_about_axis(width_mm: float, height_mm: float) -> Region:
     return filleted(rectangle((width_mm + wall, height_mm + wall)) + ears, 1.0)
 
 
-def tray_slots(plan: Plan) -> list[tuple[float, float]]:
+def tray_slots(layout: Layout) -> list[tuple[float, float]]:
     """Return the middles (x, z) of the slots that hold both trays' tabs."""
-    middle, reach = plan.tray_mm, plan.electronics.length_mm / 2.0 - TAB_MM / 2.0 - 1.0
-    levels = (TRAY_MM / 2.0, plan.electronics.upper_tray_mm + TRAY_MM / 2.0)
+    middle, reach = layout.tray_mm, layout.electronics.length_mm / 2.0 - TAB_MM / 2.0 - 1.0
+    levels = (TRAY_MM / 2.0, layout.electronics.upper_tray_mm + TRAY_MM / 2.0)
     return [(float(middle[0] + sign * reach), float(middle[1] + level)) for level in levels for sign in (-1.0, 1.0)]
 
 
-def _motor_box(plan: Plan, width_mm: float, height_mm: float) -> Region:
-    turn = float(np.degrees(plan.motor_angle_rad))
-    return rectangle((width_mm, height_mm)).rotate(turn).translate(tuple(plan.motor_mm))
+def _motor_box(layout: Layout, width_mm: float, height_mm: float) -> Region:
+    turn = float(np.degrees(layout.motor_angle_rad))
+    return rectangle((width_mm, height_mm)).rotate(turn).translate(tuple(layout.motor_mm))
 
 
-def _pads(plan: Plan, more_mm: float = 0.0) -> list[Region]:
+def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
     """Return what the plate must have material for, with more of it all around."""
     more = 2.0 * more_mm
-    pads = [disc(plan.axle_mm + 2.0 * PAD_WALL_MM + more, place) for place in plan.axles.values()]
-    pads += [disc(STANDOFF_PAD_MM + more, place) for place in plan.standoffs_mm]
-    pads.append(disc(8.0 + more, plan.spring_pin_mm))
+    pads = [disc(layout.axle_mm + 2.0 * PAD_WALL_MM + more, place) for place in layout.axles.values()]
+    pads += [disc(STANDOFF_PAD_MM + more, place) for place in layout.standoffs_mm]
+    pads.append(disc(8.0 + more, layout.spring_pin_mm))
     slot = (TAB_MM + 5.0 + more, TRAY_MM + 5.0 + more)
-    pads += [rectangle(slot, place, 1.0 + more_mm) for place in tray_slots(plan)]
-    pads.append(grown(socket_outline(plan), more_mm))
+    pads += [rectangle(slot, place, 1.0 + more_mm) for place in tray_slots(layout)]
+    pads.append(grown(socket_outline(layout), more_mm))
     return pads
 
 
-def _outline(plan: Plan) -> Region:
+def _outline(layout: Layout) -> Region:
     """Return the hull of all pads, with pockets between an edge, the pads and ribs that join their middles.
 
     The pockets' corners are round: what stands between them is drawn thicker by their radius, and they are widened by
     it again. All ribs end within pads.
     """
-    pads = _pads(plan)
+    pads = _pads(layout)
     around = hull(pads)
     middles = np.array([_middle(pad) for pad in pads])
     simplices = Delaunay(middles).simplices
     pairs = np.unique(np.sort(simplices[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
     more = 2.0 * POCKET_RADIUS_MM
     solid = [
-        *_pads(plan, POCKET_RADIUS_MM),
+        *_pads(layout, POCKET_RADIUS_MM),
         strips(middles[pairs[:, 0]], middles[pairs[:, 1]], RIB_MM + more),
-        strips(plan.hub_mm, plan.front_mm, plan.axle_mm + 2.0 * PAD_WALL_MM + more),
+        strips(layout.hub_mm, layout.front_mm, layout.axle_mm + 2.0 * PAD_WALL_MM + more),
     ]
     pockets = (grown(around, -EDGE_MM - POCKET_RADIUS_MM) - union(solid)).simplify(2.0 * SAGITTA_MM)
     return rounded(around, 2.0) - grown(pockets, POCKET_RADIUS_MM)
 
 
-def _openings(plan: Plan, bores: Bores) -> Region:
+def _openings(layout: Layout, holes: HoleSizes) -> Region:
     """Return the holes of both plates: axles, standoff screws, spring pin, tray slots."""
-    play = 2.0 * bores.fits.sliding_mm
-    holes = [hole(bores.running(plan.axle_mm), place) for place in plan.axles.values()]
-    holes += [hole(bores.m3_clearance_mm, place) for place in plan.standoffs_mm]
-    holes.append(hole(bores.press(plan.axle_mm), plan.spring_pin_mm))
-    holes += [rectangle((TAB_MM + play, TRAY_MM + play), slot) for slot in tray_slots(plan)]
-    return union(holes)
+    play = 2.0 * holes.fits.sliding_mm
+    cut = [hole(holes.running(layout.axle_mm), place) for place in layout.axles.values()]
+    cut += [hole(holes.m3_clearance_mm, place) for place in layout.standoffs_mm]
+    cut.append(hole(holes.press(layout.axle_mm), layout.spring_pin_mm))
+    cut += [rectangle((TAB_MM + play, TRAY_MM + play), slot) for slot in tray_slots(layout)]
+    return union(cut)
 
 
 def _drawing(
     name: str,
-    bores: Bores,
+    holes: HoleSizes,
     slabs: list[tuple[float, float, Region]],
     engraved_y: tuple[float, float],
     label: str,
@@ -159,7 +159,7 @@ def _drawing(
     if letters is not None:
         cut, _ = laid([(*engraved_y, letters)], face)
         stack = stack.minus(cut)
-    return Drawing(name, "body", bores.chamfered(stack), (Placement(BODY, pose),))
+    return Drawing(name, "body", holes.chamfered(stack), (Placement(BODY, pose),))
 
 
 def _letters(label: str, face: Region, mirrored: bool) -> Region | None:

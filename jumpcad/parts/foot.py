@@ -9,13 +9,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from jumpcad.layout.lateral import GAP_MM
-from jumpcad.layout.plan import Plan
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
 from jumpcad.parts.toes import lying_hole, on_the_foot, toe_tip_mm
-from jumpcad.printing.bed import lie
+from jumpcad.printing.bed import fit_to_bed
 from jumpcad.solids.blocks import Bar, Block, Blocks
 from jumpcad.solids.outline import Region, circle_points, disc, hull, polygon, rectangle, union
 from jumpcad.strength.sizing import TOE_TIP_WIDTH_MM
@@ -26,55 +26,55 @@ NOSE_AHEAD = 0.42
 """How far the sole reaches ahead of the front eye, in depths: up to there a round nose would overhang beyond 45°."""
 
 
-def foot(plan: Plan, bores: Bores) -> Drawing:
+def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     """Return the foot."""
-    sections, l4 = plan.sections, plan.design.l4_mm
+    sections, l4 = layout.sections, layout.design.l4_mm
     depth, lug = sections.foot_depth_mm, sections.lug_thickness_mm
     inner = sections.thickness_mm / 2.0 + GAP_MM
     height = sections.rail_root_mm
     rail = polygon([(0.0, -depth), (l4, -depth), (l4, sections.rail_tip_mm - depth), (0.0, height - depth)])
     lugs = [_lug(depth, 0.0, 1.6 * depth), _lug(depth, l4, NOSE_AHEAD * depth)]
-    pins = union(lying_hole(bores.press(plan.axle_mm), (x, 0.0)) for x in (0.0, l4))
+    pins = union(lying_hole(holes.press(layout.axle_mm), (x, 0.0)) for x in (0.0, l4))
     side = union([rail, *lugs]) ^ rectangle((4.0 * l4, 4.0 * depth), (0.0, depth))
     webs = [
         rectangle((end - start, web_height), ((start + end) / 2.0, web_height / 2.0 - depth))
-        for start, end, web_height in _webs(plan, height)
+        for start, end, web_height in _webs(layout, height)
     ]
     reach = inner + max(lug, sections.toe_width_mm) + 1.0
-    toes, cuts = on_the_foot(plan, bores)
+    toes, cuts = on_the_foot(layout, holes)
     added: tuple[Block, ...] = (
-        Bar(_on_bed(plan, side), ((inner, inner + lug), (-inner - lug, -inner))),
-        Bar(_on_bed(plan, union(webs)), ((-inner - lug / 2.0, inner + lug / 2.0),)),
+        Bar(_on_bed(layout, side), ((inner, inner + lug), (-inner - lug, -inner))),
+        Bar(_on_bed(layout, union(webs)), ((-inner - lug / 2.0, inner + lug / 2.0),)),
         *toes,
     )
-    shape = Blocks(added, (Bar(_on_bed(plan, pins), ((-reach, reach),)), *cuts))
+    shape = Blocks(added, (Bar(_on_bed(layout, pins), ((-reach, reach),)), *cuts))
     return Drawing("foot", "links", shape, (Placement(FOOT, upright(-depth)),))
 
 
-def in_one_piece(plan: Plan, bed_mm: Sequence[float]) -> bool:
+def in_one_piece(layout: Layout, bed_mm: Sequence[float]) -> bool:
     """Tell whether a foot with its toes fits the bed."""
-    sections = plan.sections
+    sections = layout.sections
     half = sections.thickness_mm / 2.0 + GAP_MM + sections.lug_thickness_mm
-    nose = np.array([plan.design.l4_mm, half - sections.foot_depth_mm])
-    ends = [(toe_tip_mm(plan), TOE_TIP_WIDTH_MM), (nose, 2.0 * sections.foot_depth_mm)]
+    nose = np.array([layout.design.l4_mm, half - sections.foot_depth_mm])
+    ends = [(toe_tip_mm(layout), TOE_TIP_WIDTH_MM), (nose, 2.0 * sections.foot_depth_mm)]
     outline = np.concatenate(
         [circle_points(diameter, place * (1.0, sign)) for place, diameter in ends for sign in (-1.0, 1.0)]
     )
     top = max(2.0 * sections.foot_depth_mm, sections.toe_root_mm, sections.rail_root_mm)
     bounds = np.array([[*outline.min(axis=0), 0.0], [*outline.max(axis=0), top]])
-    return lie(bounds, lambda: outline, bed_mm).margin_mm >= 0.0
+    return fit_to_bed(bounds, lambda: outline, bed_mm).margin_mm >= 0.0
 
 
-def _webs(plan: Plan, height_mm: float) -> list[tuple[float, float, float]]:
+def _webs(layout: Layout, height_mm: float) -> list[tuple[float, float, float]]:
     """Return the webs between the rails (start x, end x, height): in front of the ankle, and further on if free.
 
     The front link folds down between the rails; a web stays below it by the gap that moving parts keep.
     """
-    sections, l4 = plan.sections, plan.design.l4_mm
+    sections, l4 = layout.sections, layout.design.l4_mm
     start = sections.foot_depth_mm
     webs = [(start, start + WEB_MM, height_mm)]
-    linkage = Linkage(plan.design)
-    wound = linkage.pose([-plan.design.compression_rad])
+    linkage = Linkage(layout.design)
+    wound = linkage.pose([-layout.design.compression_rad])
     slope = float(linkage.rest_rad + wound.front_rad[0] - wound.foot_rad[0])
     middle = 0.5 * l4
     below_link = (l4 - middle - 6.0) * math.tan(slope) - sections.eye_radius_mm / math.cos(slope) - 1.0
@@ -93,6 +93,6 @@ def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:
     return hull([disc(2.0 * depth_mm, (x_mm, 0.0)), sole])
 
 
-def _on_bed(plan: Plan, region: Region) -> Region:
+def _on_bed(layout: Layout, region: Region) -> Region:
     """Return a region of the foot's x-z plane as it stands on the bed."""
-    return region.translate((0.0, plan.sections.foot_depth_mm))
+    return region.translate((0.0, layout.sections.foot_depth_mm))

@@ -10,7 +10,7 @@ from jumpcad.workshop import Fits, Process, Workshop
 
 
 @dataclass(frozen=True)
-class Bores:
+class HoleSizes:
     """Diameters of holes for a nominal shaft, the hub's seat, and the edge on the bed."""
 
     fits: Fits

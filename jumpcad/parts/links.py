@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from jumpcad.layout.plan import Plan
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import FRONT_LINK, MAIN_LEG
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, laid
 from jumpcad.solids.outline import disc, filleted, hole, stadium, tapered_bar, union
 
@@ -15,16 +15,16 @@ LEVER_EYE_RADIUS_MM = 4.5
 FILLET_MM = 3.0
 
 
-def main_leg(plan: Plan, bores: Bores) -> Drawing:
+def main_leg(layout: Layout, holes: HoleSizes) -> Drawing:
     """Return the main leg: hub on the leg axle, beam to the ankle, lever with the roller's screw, springs' pin."""
-    sections, cam = plan.sections, plan.drive.cam
+    sections, cam = layout.sections, layout.drive.cam
     half = sections.thickness_mm / 2.0
-    ankle = (plan.design.l2_mm, 0.0)
+    ankle = (layout.design.l2_mm, 0.0)
     # the leg's x axis points rest_angle below the body's, so directions grow by it
-    lever_angle = cam.lever_start_rad + math.radians(plan.design.rest_angle_deg)
+    lever_angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
     lever = cam.lever_length_mm * np.array([math.cos(lever_angle), math.sin(lever_angle)])
-    pin = (plan.leg_pin_mm, 0.0)
-    hub_radius = bores.hub_radius_mm
+    pin = (layout.leg_pin_mm, 0.0)
+    hub_radius = holes.hub_radius_mm
     outline = union(
         [
             disc(2.0 * hub_radius),
@@ -36,20 +36,20 @@ def main_leg(plan: Plan, bores: Bores) -> Drawing:
     )
     beam = filleted(outline, FILLET_MM) - union(
         [
-            hole(bores.running(plan.axle_mm), ankle),
-            hole(bores.m3_clearance_mm, lever),
-            hole(bores.press(plan.axle_mm), pin),
+            hole(holes.running(layout.axle_mm), ankle),
+            hole(holes.m3_clearance_mm, lever),
+            hole(holes.press(layout.axle_mm), pin),
         ]
     )
-    stack, pose = laid((y0, y1, beam - region) for y0, y1, region in bores.hub_slabs(-half, half))
-    return Drawing("main_leg", "links", bores.chamfered(stack), (Placement(MAIN_LEG, pose),))
+    stack, pose = laid((y0, y1, beam - region) for y0, y1, region in holes.hub_slabs(-half, half))
+    return Drawing("main_leg", "links", holes.chamfered(stack), (Placement(MAIN_LEG, pose),))
 
 
-def front_link(plan: Plan, bores: Bores) -> Drawing:
+def front_link(layout: Layout, holes: HoleSizes) -> Drawing:
     """Return the front link: two eyes and a beam."""
-    sections = plan.sections
+    sections = layout.sections
     half = sections.thickness_mm / 2.0
-    eye = (plan.design.l3_mm, 0.0)
+    eye = (layout.design.l3_mm, 0.0)
     outline = union(
         [
             stadium((0.0, 0.0), eye, sections.front_mm),
@@ -57,7 +57,7 @@ def front_link(plan: Plan, bores: Bores) -> Drawing:
             disc(2.0 * sections.eye_radius_mm, eye),
         ]
     )
-    bore = bores.running(plan.axle_mm)
+    bore = holes.running(layout.axle_mm)
     region = filleted(outline, FILLET_MM) - union([hole(bore), hole(bore, eye)])
     stack, pose = laid([(-half, half, region)])
-    return Drawing("front_link", "links", bores.chamfered(stack), (Placement(FRONT_LINK, pose),))
+    return Drawing("front_link", "links", holes.chamfered(stack), (Placement(FRONT_LINK, pose),))

@@ -13,7 +13,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.mechanism.mass import MassProperties
-from jumpcad.printing.bed import Lie, lie, require_bed
+from jumpcad.printing.bed import BedFit, fit_to_bed, require_bed
 from jumpcad.solids.blocks import Blocks
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
@@ -54,9 +54,9 @@ class Drawing:
         """The part as one closed solid in printing orientation (mm)."""
         return self.shape.solid()
 
-    def lie(self, bed_mm: Sequence[float]) -> Lie:
+    def fit_to_bed(self, bed_mm: Sequence[float]) -> BedFit:
         """Return how the part fits a bed (x, y, z)."""
-        return lie(self.shape.bounds_mm, self._outline_mm, bed_mm)
+        return fit_to_bed(self.shape.bounds_mm, self._outline_mm, bed_mm)
 
     def require_bed(self, bed_mm: Sequence[float]) -> None:
         """Refuse a part that fits the bed at no angle."""

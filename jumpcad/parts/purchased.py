@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Bought:
+class BoughtPart:
     """One bought part on the robot.
 
     `article` is what to order and `units` how many of it this piece counts for: 0 for a piece of one that is counted
@@ -39,7 +39,7 @@ class Bought:
         """Mass (kg)."""
         return self.mass.mass_kg
 
-    def moved(self, T_body_frame: Array) -> "Bought":
+    def moved(self, T_body_frame: Array) -> "BoughtPart":
         """Return the part drawn in a frame of its body instead of the body's own; that frame's pose (4, 4) in mm."""
         T_body_part = chained(T_body_frame, self.T_body_part)
         return replace(self, T_body_part=T_body_part, mass=self.mass.placed(in_metres(T_body_frame)))
@@ -64,7 +64,7 @@ def bought(
     at_mm: Sequence[float] = (0.0, 0.0, 0.0),
     turn_rad: float = 0.0,
     units: int = 1,
-) -> Bought:
+) -> BoughtPart:
     """Return a bought part drawn as slabs (y0, y1, region in x-z), turned counter-clockwise in x-z and moved (mm).
 
     What is drawn about its own origin from regions that are kept is one shape for all copies, and measured once.
@@ -72,7 +72,9 @@ def bought(
     shape, top, uniform = _drawn(tuple(slabs))
     x, y, z = at_mm
     pose = lying_on_left(top + y, x, z) @ pose_about_z(turn_rad)
-    return Bought(name, article, body, shape, pose, uniform.scaled_to(mass_g / 1000.0).placed(in_metres(pose)), units)
+    return BoughtPart(
+        name, article, body, shape, pose, uniform.scaled_to(mass_g / 1000.0).placed(in_metres(pose)), units
+    )
 
 
 @lru_cache(maxsize=256)

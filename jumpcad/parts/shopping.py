@@ -8,12 +8,12 @@ import numpy as np
 
 from jumpcad.catalogue import Bearing, Catalogue, Screw
 from jumpcad.layout.lateral import GAP_MM, ROLLER_WASHER_MM, Interval
-from jumpcad.layout.plan import TRAY_MM, Plan
+from jumpcad.layout.layout import TRAY_MM, Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
 from jumpcad.parts import toes
 from jumpcad.parts.body_plate import ear_places
-from jumpcad.parts.holes import Bores
-from jumpcad.parts.purchased import Bought, bought
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.parts.small import COLLAR_MM
 from jumpcad.parts.train import gear_turns
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, ring, stadium
@@ -26,16 +26,16 @@ SCREW_END_MM = 6.0
 """Thread of a standoff's screw inside the standoff."""
 
 
-def bought_parts(plan: Plan, bores: Bores, catalogue: Catalogue, chosen: BoughtParts) -> list[Bought]:
+def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> list[BoughtPart]:
     """Return every bought part at its place, in the assembled pose."""
     return [
-        *_axles(plan, catalogue),
-        *_leg_things(plan, bores, catalogue, chosen),
-        *_springs(plan, catalogue),
-        *_motor_things(plan, catalogue),
-        *_standoffs(plan, catalogue),
-        *_electronics(plan, catalogue, chosen),
-        *_toe_screws(plan, bores, catalogue),
+        *_axles(layout, catalogue),
+        *_leg_things(layout, holes, catalogue, chosen),
+        *_springs(layout, catalogue),
+        *_motor_things(layout, catalogue),
+        *_standoffs(layout, catalogue),
+        *_electronics(layout, catalogue, chosen),
+        *_toe_screws(layout, holes, catalogue),
     ]
 
 
@@ -63,7 +63,7 @@ def _d_shaft(diameter_mm: float, across_flat_mm: float) -> Region:
     return disc(diameter_mm) - flat
 
 
-def _rod(name: str, body: str, centre: Array, y: Interval, diameter_mm: float, catalogue: Catalogue) -> Bought:
+def _rod(name: str, body: str, centre: Array, y: Interval, diameter_mm: float, catalogue: Catalogue) -> BoughtPart:
     length = y[1] - y[0]
     article = f"spring steel rod {diameter_mm:g} x {length:.1f} mm"
     slabs = [(0.0, length, _round(diameter_mm))]
@@ -71,30 +71,30 @@ def _rod(name: str, body: str, centre: Array, y: Interval, diameter_mm: float, c
     return bought(name, article, body, catalogue.rod_mass_g(diameter_mm, length), slabs, at)
 
 
-def _axles(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
+def _axles(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     """Yield the axles across the plates with room for a collar at either end, and the pins of the foot."""
-    low, high = plan.lateral.outside
+    low, high = layout.lateral.outside
     reach = COLLAR_MM + GAP_MM
-    for name, place in plan.axles.items():
-        yield _rod(f"{name}_axle", BODY, place, (low - reach, high + reach), plan.axle_mm, catalogue)
-    lugs = (plan.lateral.lug_right[0], plan.lateral.lug_left[1])
-    yield _rod("ankle_pin", FOOT, np.zeros(2), lugs, plan.axle_mm, catalogue)
-    yield _rod("front_eye_pin", FOOT, np.array([plan.design.l4_mm, 0.0]), lugs, plan.axle_mm, catalogue)
+    for name, place in layout.axles.items():
+        yield _rod(f"{name}_axle", BODY, place, (low - reach, high + reach), layout.axle_mm, catalogue)
+    lugs = (layout.lateral.lug_right[0], layout.lateral.lug_left[1])
+    yield _rod("ankle_pin", FOOT, np.zeros(2), lugs, layout.axle_mm, catalogue)
+    yield _rod("front_eye_pin", FOOT, np.array([layout.design.l4_mm, 0.0]), lugs, layout.axle_mm, catalogue)
 
 
-def _leg_things(plan: Plan, bores: Bores, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[Bought]:
+def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
     """Yield what the main leg carries: hub bearings, the springs' pin, the roller with its screw."""
-    lateral, cam = plan.lateral, plan.drive.cam
-    spring = plan.drive.spring
+    lateral, cam = layout.lateral, layout.drive.cam
+    spring = layout.drive.spring
     low, high = lateral.leg
-    if bores.bearing is not None:
-        seats = [(low, low + bores.bearing.width_mm), (high - bores.bearing.width_mm, high)]
+    if holes.bearing is not None:
+        seats = [(low, low + holes.bearing.width_mm), (high - holes.bearing.width_mm, high)]
         for number, seat in enumerate(seats, start=1):
-            yield _bearing(f"hub_bearing_{number}", np.zeros(2), seat, bores.bearing)
-    pin = np.array([plan.leg_pin_mm, 0.0])
+            yield _bearing(f"hub_bearing_{number}", np.zeros(2), seat, holes.bearing)
+    pin = np.array([layout.leg_pin_mm, 0.0])
     arm = GAP_MM + 2.0 * spring.wire_mm
-    yield _rod("leg_spring_pin", MAIN_LEG, pin, (low - arm, high + arm), plan.axle_mm, catalogue)
-    angle = cam.lever_start_rad + math.radians(plan.design.rest_angle_deg)
+    yield _rod("leg_spring_pin", MAIN_LEG, pin, (low - arm, high + arm), layout.axle_mm, catalogue)
+    angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
     end = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
     roller = catalogue.bearings[chosen.roller]
     yield _bearing("roller", end, lateral.cam, roller)
@@ -109,18 +109,18 @@ def _leg_things(plan: Plan, bores: Bores, catalogue: Catalogue, chosen: BoughtPa
     yield bought("roller_nut", "nut M3 ISO 4032", MAIN_LEG, nut.mass_g, slabs, (end[0], low, end[1]))
 
 
-def _springs(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
+def _springs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     """Yield both springs, each as coil with body arm and as leg arm, and the pins in the plates.
 
     The springs push their arms apart: the leg's arm lies on the upper side of the leg's pin, the body's arm on the
     lower side of the pin that both plates hold: a pin in one plate alone would tilt in it.
     """
-    spring, lateral, wire = plan.drive.spring, plan.lateral, plan.drive.spring.wire_mm
-    coil = ring(spring.outer_diameter_mm, spring.inside_diameter_mm, plan.hub_mm)
-    offset = (plan.axle_mm + wire) / 2.0
-    pin = plan.spring_pin_mm
-    body_arm = _arm(plan.hub_mm, pin, spring.outer_diameter_mm, wire, -offset)
-    leg_arm = _arm(np.zeros(2), np.array([plan.leg_pin_mm, 0.0]), spring.outer_diameter_mm, wire, offset)
+    spring, lateral, wire = layout.drive.spring, layout.lateral, layout.drive.spring.wire_mm
+    coil = ring(spring.outer_diameter_mm, spring.inside_diameter_mm, layout.hub_mm)
+    offset = (layout.axle_mm + wire) / 2.0
+    pin = layout.spring_pin_mm
+    body_arm = _arm(layout.hub_mm, pin, spring.outer_diameter_mm, wire, -offset)
+    leg_arm = _arm(np.zeros(2), np.array([layout.leg_pin_mm, 0.0]), spring.outer_diameter_mm, wire, offset)
     arm_share = 0.1  # of a spring's wire; a turn is some 30 mm long, an arm some 10 mm
     for side, sign, hand in (("left", 1.0, "left"), ("right", -1.0, "right")):
         inner, outer = lateral.spring_left if side == "left" else lateral.spring_right[::-1]
@@ -133,7 +133,7 @@ def _springs(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
         yield bought(f"spring_{side}", order, BODY, (1.0 - arm_share) * spring.mass_g, slabs)
         leg_slabs = [(*_sorted(inner, inner + sign * wire), leg_arm)]
         yield bought(f"spring_{side}_leg_arm", order, MAIN_LEG, arm_share * spring.mass_g, leg_slabs, units=0)
-    yield _rod("spring_pin", BODY, pin, lateral.outside, plan.axle_mm, catalogue)
+    yield _rod("spring_pin", BODY, pin, lateral.outside, layout.axle_mm, catalogue)
 
 
 def _sorted(a: float, b: float) -> Interval:
@@ -148,32 +148,32 @@ def _arm(hub: Array, pin: Array, coil_mm: float, wire_mm: float, offset_mm: floa
     return stadium(start, end, wire_mm)
 
 
-def _motor_things(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
+def _motor_things(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     """Yield the gear motor and the screws of its cap; the shaft stands as the pinion's teeth want it."""
-    motor, (x, z) = plan.drive.train.motor, plan.motor_mm
-    low, front = plan.lateral.motor
+    motor, (x, z) = layout.drive.train.motor, layout.motor_mm
+    low, front = layout.lateral.motor
     shaft_mass = catalogue.rod_mass_g(motor.shaft_mm, motor.shaft_length_mm)
     body = [(0.0, front - low, _box_of(motor.width_mm, motor.height_mm))]
     shaft = [(0.0, motor.shaft_length_mm, _d_shaft(motor.shaft_mm, motor.shaft_flat_mm))]
-    article, turn = f"gear motor {motor.name}", gear_turns(plan)["motor_pinion"]
-    yield bought("motor", article, BODY, motor.mass_g - shaft_mass, body, (x, low, z), plan.motor_angle_rad)
+    article, turn = f"gear motor {motor.name}", gear_turns(layout)["motor_pinion"]
+    yield bought("motor", article, BODY, motor.mass_g - shaft_mass, body, (x, low, z), layout.motor_angle_rad)
     yield bought("motor_shaft", article, BODY, shaft_mass, shaft, (x, front, z), turn, units=0)
     screw = catalogue.screws["M2"]
-    for number, ear in enumerate(ear_places(plan), start=1):
-        top = plan.lateral.motor_cap[1] - screw.button_head_height_mm
+    for number, ear in enumerate(ear_places(layout), start=1):
+        top = layout.lateral.motor_cap[1] - screw.button_head_height_mm
         yield _screw(f"cap_screw_{number}", BODY, ear, (top - 8.0, top), 1.0, screw, catalogue)
 
 
-def _standoffs(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
+def _standoffs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     """Yield the standoffs between the plates and their screws from outside."""
     standoff, screw = catalogue.standoffs["M3"], catalogue.screws["M3"]
-    low, high = plan.lateral.inside
+    low, high = layout.lateral.inside
     length = high - low
-    plate = plan.lateral.left_plate[1] - high
+    plate = layout.lateral.left_plate[1] - high
     region = _hexagon(standoff.across_flats_mm, standoff.bore_mm)
     mass = standoff.density_g_cm3 * region.area() * length / 1000.0
     article = f"standoff M3 x {length:.1f} mm, hexagon {standoff.across_flats_mm:g} mm, polyamide"
-    for number, place in enumerate(plan.standoffs_mm, start=1):
+    for number, place in enumerate(layout.standoffs_mm, start=1):
         at = (place[0], low, place[1])
         yield bought(f"standoff_{number}", article, BODY, mass, [(0.0, length, region)], at)
         shank = screw.length_for(plate + SCREW_END_MM)
@@ -183,14 +183,17 @@ def _standoffs(plan: Plan, catalogue: Catalogue) -> Iterator[Bought]:
         yield _screw(f"standoff_{number}_screw_right", BODY, place, right, -1.0, screw, catalogue)
 
 
-def _toe_screws(plan: Plan, bores: Bores, catalogue: Catalogue) -> Iterator[Bought]:
+def _toe_screws(layout: Layout, holes: HoleSizes, catalogue: Catalogue) -> Iterator[BoughtPart]:
     """Yield the screws of toes that are parts of their own, from outside into the foot's stubs."""
-    if not plan.toes_apart:
+    if not layout.toes_apart:
         return
-    screw, height = catalogue.screws["M3"], toes.joint_height_mm(plan, bores) / 2.0 - plan.sections.foot_depth_mm
-    outer = toes.beside_mm(plan, bores) + plan.sections.toe_width_mm / 2.0
-    length = screw.length_for(plan.sections.toe_width_mm + TOE_THREAD_MM)
-    for toe in toes.toes(plan):
+    screw, height = (
+        catalogue.screws["M3"],
+        toes.joint_height_mm(layout, holes) / 2.0 - layout.sections.foot_depth_mm,
+    )
+    outer = toes.beside_mm(layout, holes) + layout.sections.toe_width_mm / 2.0
+    length = screw.length_for(layout.sections.toe_width_mm + TOE_THREAD_MM)
+    for toe in toes.toes(layout):
         pose = toe.pose_mm
         shank = _sorted(toe.outside * outer, toe.outside * (outer - length))
         for number, x in enumerate(toes.SCREWS_MM, start=1):
@@ -198,11 +201,11 @@ def _toe_screws(plan: Plan, bores: Bores, catalogue: Catalogue) -> Iterator[Boug
             yield _screw(name, FOOT, np.array([x, height]), shank, toe.outside, screw, catalogue).moved(pose)
 
 
-def _electronics(plan: Plan, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[Bought]:
+def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
     """Yield battery and boards on their trays, in the middle across the robot."""
-    electronics = plan.electronics
-    middle = (plan.lateral.inside[0] + plan.lateral.inside[1]) / 2.0
-    x, z = plan.tray_mm
+    electronics = layout.electronics
+    middle = (layout.lateral.inside[0] + layout.lateral.inside[1]) / 2.0
+    x, z = layout.tray_mm
     battery = electronics.battery
     yield _box("battery", battery.description, x, middle, z + TRAY_MM, battery.length_mm, battery.width_mm,
                battery.height_mm, battery.mass_g)  # fmt: skip
@@ -220,12 +223,12 @@ def _electronics(plan: Plan, catalogue: Catalogue, chosen: BoughtParts) -> Itera
 
 def _box(
     name: str, article: str, x: float, y: float, z: float, size_x: float, size_y: float, size_z: float, mass_g: float
-) -> Bought:
+) -> BoughtPart:
     slabs = [(-size_y / 2.0, size_y / 2.0, _box_of(size_x, size_z))]
     return bought(name, article, BODY, mass_g, slabs, (x, y, z + size_z / 2.0))
 
 
-def _bearing(name: str, centre: Array, y: Interval, bearing: Bearing) -> Bought:
+def _bearing(name: str, centre: Array, y: Interval, bearing: Bearing) -> BoughtPart:
     slabs = [(0.0, bearing.width_mm, _round(bearing.outer_mm, bearing.bore_mm))]
     at = (centre[0], y[0], centre[1])
     return bought(name, f"ball bearing {bearing.name}", MAIN_LEG, bearing.mass_g, slabs, at)
@@ -233,7 +236,7 @@ def _bearing(name: str, centre: Array, y: Interval, bearing: Bearing) -> Bought:
 
 def _screw(
     name: str, body: str, centre: Array, shank: Interval, side: float, screw: Screw, catalogue: Catalogue
-) -> Bought:
+) -> BoughtPart:
     """Return a screw whose shank fills an interval of y; its head sits at the left end (side +1) or the right (-1)."""
     height, width = screw.button_head_height_mm, screw.button_head_mm
     length = round(shank[1] - shank[0], 6)

@@ -6,10 +6,10 @@ import numpy as np
 
 from jumpcad.errors import JumpcadError
 from jumpcad.layout.lateral import GAP_MM
-from jumpcad.layout.plan import SPACER_RADIUS_MM, TRAY_MM, Plan
+from jumpcad.layout.layout import SPACER_RADIUS_MM, TRAY_MM, Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.body_plate import TAB_MM, ear_reach_mm, socket_about_axis, tray_slots
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right, upright
 from jumpcad.solids.outline import disc, hole, rectangle, ring, union
 from jumpcad.solids.stack import Stack
@@ -28,12 +28,12 @@ MOTOR_BOSS_MM = 4.4
 """Hole in the motor's cap for the boss around its shaft (4 mm on N20 gearboxes)."""
 
 
-def motor_cap(plan: Plan, bores: Bores) -> Drawing:
+def motor_cap(layout: Layout, holes: HoleSizes) -> Drawing:
     """Return the cap that closes the motor's socket in front of the gearbox."""
-    y0, y1 = plan.lateral.motor_cap
-    motor = plan.drive.train.motor
-    pose = lying_on_right(y0, *plan.motor_mm) @ pose_about_z(-plan.motor_angle_rad)
-    stack = _cap(motor.width_mm, motor.height_mm, y1 - y0, bores.fits.m2_clearance_mm)
+    y0, y1 = layout.lateral.motor_cap
+    motor = layout.drive.train.motor
+    pose = lying_on_right(y0, *layout.motor_mm) @ pose_about_z(-layout.motor_angle_rad)
+    stack = _cap(motor.width_mm, motor.height_mm, y1 - y0, holes.fits.m2_clearance_mm)
     return Drawing("motor_cap", "body", stack, (Placement(BODY, pose),))
 
 
@@ -47,17 +47,17 @@ def _cap(width_mm: float, height_mm: float, thickness_mm: float, screw_mm: float
     return Stack.of([(0.0, seat, outline - screws), (seat, thickness_mm, outline - heads)])
 
 
-def spring_bushing(plan: Plan, bores: Bores, side: str) -> Drawing:
+def spring_bushing(layout: Layout, holes: HoleSizes, side: str) -> Drawing:
     """Return the bushing inside one spring: a mandrel under the coil, then a spacer out to the plate."""
-    lateral, spring = plan.lateral, plan.drive.spring
+    lateral, spring = layout.lateral, layout.drive.spring
     coil = lateral.spring_left if side == "left" else lateral.spring_right
     inner, outer = (coil[0], coil[1]) if side == "left" else (-coil[1], -coil[0])
     wall = lateral.inside[1] if side == "left" else -lateral.inside[0]
     mandrel = disc(spring.mandrel_mm)
     spacer = disc(min(2.0 * SPACER_RADIUS_MM, spring.mandrel_mm))
-    bore = hole(bores.running(plan.axle_mm))
+    bore = hole(holes.running(layout.axle_mm))
     slabs = [(0.0, outer - inner, mandrel - bore), (outer - inner, wall - GAP_MM / 2.0 - inner, spacer - bore)]
-    x, z = plan.hub_mm
+    x, z = layout.hub_mm
     # printed mandrel down; on the left the mandrel lies to the right, on the right to the left
     pose = lying_on_right(inner, x, z) if side == "left" else lying_on_left(-inner, x, z)
     return Drawing(f"spring_bushing_{side}", "body", Stack.of(slabs), (Placement(BODY, pose),))
@@ -80,20 +80,20 @@ def require_axle(workshop: Workshop) -> None:
         )
 
 
-def spacer(plan: Plan, bores: Bores, name: str, places: list[tuple[np.ndarray, float, float]]) -> Drawing:
+def spacer(layout: Layout, holes: HoleSizes, name: str, places: list[tuple[np.ndarray, float, float]]) -> Drawing:
     """Return tubes on axles: copies of one length, each at a place (2,) from y0 to y1."""
     length = places[0][2] - places[0][1]
-    tube = _tube(2.0 * SPACER_RADIUS_MM, bores.running(plan.axle_mm), length)
+    tube = _tube(2.0 * SPACER_RADIUS_MM, holes.running(layout.axle_mm), length)
     placements = tuple(Placement(BODY, lying_on_right(y0, place[0], place[1])) for place, y0, _ in places)
     return Drawing(name, "body", tube, placements)
 
 
-def collars(plan: Plan, bores: Bores) -> Drawing:
+def collars(layout: Layout, holes: HoleSizes) -> Drawing:
     """Return the collars that hold the axles from outside: a press fit at either end of each."""
-    low, high = plan.lateral.outside
-    tube = _tube(2.0 * COLLAR_RADIUS_MM, bores.press(plan.axle_mm), COLLAR_MM)
+    low, high = layout.lateral.outside
+    tube = _tube(2.0 * COLLAR_RADIUS_MM, holes.press(layout.axle_mm), COLLAR_MM)
     places = []
-    for x, z in plan.axles.values():
+    for x, z in layout.axles.values():
         places.append(Placement(BODY, lying_on_right(high + GAP_MM / 2.0, x, z)))
         places.append(Placement(BODY, lying_on_left(low - GAP_MM / 2.0, x, z)))
     return Drawing("collar", "links", tube, tuple(places))
@@ -104,15 +104,15 @@ def _tube(outer_mm: float, bore_mm: float, length_mm: float) -> Stack:
     return Stack.of([(0.0, length_mm, ring(outer_mm, bore_mm))])
 
 
-def trays(plan: Plan, bores: Bores) -> Drawing:
+def trays(layout: Layout, holes: HoleSizes) -> Drawing:
     """Return the two equal trays between the plates: battery on the lower, boards on the upper one."""
-    electronics = plan.electronics
-    low, high = plan.lateral.inside
-    outer_low, outer_high = plan.lateral.outside
+    electronics = layout.electronics
+    low, high = layout.lateral.inside
+    outer_low, outer_high = layout.lateral.outside
     length = electronics.length_mm
     middle_y = (low + high) / 2.0
-    floor = rectangle((length, high - low - 2.0 * bores.fits.sliding_mm), corner_radius_mm=1.5)
-    tab_x = [slot[0] - plan.tray_mm[0] for slot in tray_slots(plan)[:2]]
+    floor = rectangle((length, high - low - 2.0 * holes.fits.sliding_mm), corner_radius_mm=1.5)
+    tab_x = [slot[0] - layout.tray_mm[0] for slot in tray_slots(layout)[:2]]
     tab_y = outer_high - outer_low
     tabs = [rectangle((TAB_MM, tab_y), (x, (outer_low + outer_high) / 2.0 - middle_y)) for x in tab_x]
     strap_y = electronics.battery.width_mm / 2.0 + STRAP_SLOT_MM[0]
@@ -125,5 +125,7 @@ def trays(plan: Plan, bores: Bores) -> Drawing:
     window = rectangle((length - 2.0 * TRAY_EDGE_MM, narrowest - 2.0 * TRAY_LEDGE_MM), corner_radius_mm=2.0)
     region = union([floor, *tabs]) - union([*slots, window])
     levels = (0.0, electronics.upper_tray_mm)
-    placements = tuple(Placement(BODY, upright(plan.tray_mm[1] + level, plan.tray_mm[0], middle_y)) for level in levels)
+    placements = tuple(
+        Placement(BODY, upright(layout.tray_mm[1] + level, layout.tray_mm[0], middle_y)) for level in levels
+    )
     return Drawing("electronics_tray", "body", Stack.of([(0.0, TRAY_MM, region)]), placements)

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.layout.lateral import GAP_MM
-from jumpcad.layout.plan import Plan
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import FOOT
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
 from jumpcad.solids.blocks import Bar, Block, Blocks, Finger, Turned
 from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
@@ -58,45 +58,45 @@ class Toe:
         return pose
 
 
-def toes(plan: Plan) -> tuple[Toe, Toe]:
+def toes(layout: Layout) -> tuple[Toe, Toe]:
     """Return the left and the right toe."""
-    left, right = (_toe(plan, name, sign) for name, sign in (("toe_left", 1.0), ("toe_right", -1.0)))
+    left, right = (_toe(layout, name, sign) for name, sign in (("toe_left", 1.0), ("toe_right", -1.0)))
     return left, right
 
 
-def toe_tip_mm(plan: Plan) -> Array:
+def toe_tip_mm(layout: Layout) -> Array:
     """Return the tip (2,) of the left toe, x and y in the foot's frame (mm)."""
-    angle = math.radians(plan.design.ground_link_angle_deg)
-    return plan.design.l5_mm * np.array([-math.cos(angle), math.sin(angle)])
+    angle = math.radians(layout.design.ground_link_angle_deg)
+    return layout.design.l5_mm * np.array([-math.cos(angle), math.sin(angle)])
 
 
-def joint_height_mm(plan: Plan, bores: Bores) -> float:
+def joint_height_mm(layout: Layout, holes: HoleSizes) -> float:
     """Return the height of stub and toe where they are screwed: the screw's hole with two walls above and below."""
-    return max(plan.sections.toe_root_mm, bores.m3_clearance_mm + 4.0 * bores.fits.wall_mm)
+    return max(layout.sections.toe_root_mm, holes.m3_clearance_mm + 4.0 * holes.fits.wall_mm)
 
 
-def beside_mm(plan: Plan, bores: Bores) -> float:
+def beside_mm(layout: Layout, holes: HoleSizes) -> float:
     """Return how far beside its stub a toe of its own lies, from middle to middle."""
-    return plan.sections.toe_width_mm + bores.fits.sliding_mm
+    return layout.sections.toe_width_mm + holes.fits.sliding_mm
 
 
-def on_the_foot(plan: Plan, bores: Bores) -> tuple[list[Block], list[Block]]:
+def on_the_foot(layout: Layout, holes: HoleSizes) -> tuple[list[Block], list[Block]]:
     """Return what the foot has of its toes, standing on the bed, and what is cut from it."""
     added: list[Block] = []
     removed: list[Block] = []
-    for toe in toes(plan):
-        if plan.toes_apart:
-            added.append(Turned(_stub(plan, bores), toe.angle_rad, toe.root_mm))
-            removed.append(Turned(_holes(plan, bores, bores.fits.m3_tap_mm, 0.0), toe.angle_rad, toe.root_mm))
+    for toe in toes(layout):
+        if layout.toes_apart:
+            added.append(Turned(_stub(layout, holes), toe.angle_rad, toe.root_mm))
+            removed.append(Turned(_holes(layout, holes, holes.fits.m3_tap_mm, 0.0), toe.angle_rad, toe.root_mm))
         else:
-            added.append(Turned(_finger(plan, np.zeros(2), toe.length_mm), toe.angle_rad, toe.root_mm))
+            added.append(Turned(_finger(layout, np.zeros(2), toe.length_mm), toe.angle_rad, toe.root_mm))
             removed.append(Turned(_grip(toe), toe.angle_rad, toe.root_mm))
     return added, removed
 
 
-def toes_apart(plan: Plan, bores: Bores) -> list[Drawing]:
+def toes_apart(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     """Return the toes that are parts of their own."""
-    return [_drawing(plan, bores, toe) for toe in toes(plan)] if plan.toes_apart else []
+    return [_drawing(layout, holes, toe) for toe in toes(layout)] if layout.toes_apart else []
 
 
 def lying_hole(diameter_mm: float, place_mm: tuple[float, float]) -> Region:
@@ -108,42 +108,44 @@ def lying_hole(diameter_mm: float, place_mm: tuple[float, float]) -> Region:
     return hole(diameter_mm, place_mm) + roof.translate(place_mm)
 
 
-def _toe(plan: Plan, name: str, sign: float) -> Toe:
-    sections = plan.sections
+def _toe(layout: Layout, name: str, sign: float) -> Toe:
+    sections = layout.sections
     root = np.array([0.0, sign * (sections.thickness_mm / 2.0 + GAP_MM + sections.toe_width_mm / 2.0)])
-    along = toe_tip_mm(plan) * (1.0, sign) - root
+    along = toe_tip_mm(layout) * (1.0, sign) - root
     return Toe(name, sign, root, math.atan2(along[1], along[0]), float(np.hypot(*along)))
 
 
-def _drawing(plan: Plan, bores: Bores, toe: Toe) -> Drawing:
+def _drawing(layout: Layout, holes: HoleSizes, toe: Toe) -> Drawing:
     """Return a toe of its own: beside the stub, then on to the tip."""
-    width, height = plan.sections.toe_width_mm, joint_height_mm(plan, bores)
-    y = toe.outside * beside_mm(plan, bores)
+    width, height = layout.sections.toe_width_mm, joint_height_mm(layout, holes)
+    y = toe.outside * beside_mm(layout, holes)
     start, end = np.array([JOINT_MM[0] + width / 2.0, y]), np.array([JOINT_MM[1], y])
     joint = Finger(start, width, height, end, width, height)
-    holes = _holes(plan, bores, bores.m3_clearance_mm, y)
-    shape = Blocks((joint, _finger(plan, end, toe.length_mm)), (holes, _grip(toe)))
-    pose = toe.pose_mm @ upright(-plan.sections.foot_depth_mm)
+    cut = _holes(layout, holes, holes.m3_clearance_mm, y)
+    shape = Blocks((joint, _finger(layout, end, toe.length_mm)), (cut, _grip(toe)))
+    pose = toe.pose_mm @ upright(-layout.sections.foot_depth_mm)
     return Drawing(toe.name, "links", shape, (Placement(FOOT, pose),))
 
 
-def _finger(plan: Plan, start_mm: Array, length_mm: float) -> Finger:
+def _finger(layout: Layout, start_mm: Array, length_mm: float) -> Finger:
     """Return a toe from somewhere near its root to its tip: flat below, higher at the root."""
-    sections = plan.sections
+    sections = layout.sections
     tip = np.array([length_mm, 0.0])
-    return Finger(start_mm, sections.toe_width_mm, sections.toe_root_mm, tip, TOE_TIP_WIDTH_MM, sections.toe_tip_mm)
+    return Finger(
+        start_mm, sections.toe_width_mm, sections.toe_root_mm, tip, TOE_TIP_WIDTH_MM, sections.toe_tip_height_mm
+    )
 
 
-def _stub(plan: Plan, bores: Bores) -> Finger:
+def _stub(layout: Layout, holes: HoleSizes) -> Finger:
     """Return what the foot has of a toe that is a part of its own."""
-    width, height = plan.sections.toe_width_mm, joint_height_mm(plan, bores)
+    width, height = layout.sections.toe_width_mm, joint_height_mm(layout, holes)
     return Finger(np.zeros(2), width, height, np.array([JOINT_MM[1] - width / 2.0, 0.0]), width, height)
 
 
-def _holes(plan: Plan, bores: Bores, diameter_mm: float, y_mm: float) -> Bar:
+def _holes(layout: Layout, holes: HoleSizes, diameter_mm: float, y_mm: float) -> Bar:
     """Return the screws' holes through stub or toe, whose middle is at y."""
-    half = plan.sections.toe_width_mm / 2.0 + 1.0
-    middle = joint_height_mm(plan, bores) / 2.0
+    half = layout.sections.toe_width_mm / 2.0 + 1.0
+    middle = joint_height_mm(layout, holes) / 2.0
     return Bar(union(lying_hole(diameter_mm, (x, middle)) for x in SCREWS_MM), ((y_mm - half, y_mm + half),))
 
 

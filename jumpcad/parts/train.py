@@ -10,9 +10,9 @@ from functools import lru_cache
 import numpy as np
 
 from jumpcad.drive.gears import Gear
-from jumpcad.layout.plan import Plan
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.holes import Bores
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left
 from jumpcad.solids.outline import Point, Region, d_bore, disc, hole, polygon, rectangle, rounded, union
 from jumpcad.solids.stack import Stack
@@ -23,47 +23,50 @@ WEB_RIM_MM = 3.0
 WEB_HOLES = 6
 
 
-def cam(plan: Plan, bores: Bores) -> Drawing:
+def cam(layout: Layout, holes: HoleSizes) -> Drawing:
     """Return the cam with its hexagonal boss."""
-    centre = plan.cam_axis_mm
-    profile = polygon(plan.drive.cam.profile_mm).translate(centre)
-    bore = hole(bores.running(plan.axle_mm), centre)
-    y0, y1 = plan.lateral.cam
-    slabs = [(y0, y1, profile - bore), (y1, plan.lateral.gears[0][1], _hexagon(plan.sections.key_mm, centre) - bore)]
+    centre = layout.cam_axis_mm
+    profile = polygon(layout.drive.cam.profile_mm).translate(centre)
+    bore = hole(holes.running(layout.axle_mm), centre)
+    y0, y1 = layout.lateral.cam
+    slabs = [
+        (y0, y1, profile - bore),
+        (y1, layout.lateral.gears[0][1], _hexagon(layout.sections.key_mm, centre) - bore),
+    ]
     stack, pose = laid(slabs, "right")
-    return Drawing("cam", "gears", bores.chamfered(stack), (Placement(BODY, pose),))
+    return Drawing("cam", "gears", holes.chamfered(stack), (Placement(BODY, pose),))
 
 
-def gears(plan: Plan, bores: Bores) -> list[Drawing]:
+def gears(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     """Return motor pinion, compound idler where there is one, and cam gear.
 
     Each is drawn with a tooth on +x and turned where it is placed, so that equal gears are one shape in every robot.
     """
-    stages, motor = plan.drive.train.stages, plan.drive.train.motor
-    cam_y, motor_y = plan.lateral.gears[0], plan.lateral.gears[-1]
-    turns = gear_turns(plan)
-    key_mm = plan.sections.key_mm + 2.0 * bores.fits.press_mm
-    shaft_mm = (bores.press(motor.shaft_mm), motor.shaft_flat_mm + 2.0 * bores.fits.press_mm)
-    cam_gear = _cam_gear(stages[-1].wheel, key_mm, bores)
-    pinion = _motor_pinion(stages[0].pinion, *shaft_mm, bores)
+    stages, motor = layout.drive.train.stages, layout.drive.train.motor
+    cam_y, motor_y = layout.lateral.gears[0], layout.lateral.gears[-1]
+    turns = gear_turns(layout)
+    key_mm = layout.sections.key_mm + 2.0 * holes.fits.press_mm
+    shaft_mm = (holes.press(motor.shaft_mm), motor.shaft_flat_mm + 2.0 * holes.fits.press_mm)
+    cam_gear = _cam_gear(stages[-1].wheel, key_mm, holes)
+    pinion = _motor_pinion(stages[0].pinion, *shaft_mm, holes)
     made = [
-        Drawing("cam_gear", "gears", cam_gear, (_placed(cam_y[1], plan.cam_axis_mm, turns["cam_gear"]),)),
-        Drawing("motor_pinion", "gears", pinion, (_placed(motor_y[1], plan.motor_mm, turns["motor_pinion"]),)),
+        Drawing("cam_gear", "gears", cam_gear, (_placed(cam_y[1], layout.cam_axis_mm, turns["cam_gear"]),)),
+        Drawing("motor_pinion", "gears", pinion, (_placed(motor_y[1], layout.motor_mm, turns["motor_pinion"]),)),
     ]
-    if plan.idler_mm is not None:
-        idler = _idler(stages[0].wheel, stages[-1].pinion, motor_y[0] - cam_y[1], plan.axle_mm, bores)
-        made.append(Drawing("idler", "gears", idler, (_placed(motor_y[1], plan.idler_mm, turns["idler"]),)))
+    if layout.idler_mm is not None:
+        idler = _idler(stages[0].wheel, stages[-1].pinion, motor_y[0] - cam_y[1], layout.axle_mm, holes)
+        made.append(Drawing("idler", "gears", idler, (_placed(motor_y[1], layout.idler_mm, turns["idler"]),)))
     return made
 
 
-def gear_turns(plan: Plan) -> dict[str, float]:
+def gear_turns(layout: Layout) -> dict[str, float]:
     """Return the turns (rad, counter-clockwise in x-z) of cam gear, motor pinion and idler, springs at rest."""
-    stages = plan.drive.train.stages
-    if plan.idler_mm is None:
-        pinion = mesh_turn(stages[0].wheel, stages[0].pinion, plan.cam_axis_mm, plan.motor_mm, 0.0)
+    stages = layout.drive.train.stages
+    if layout.idler_mm is None:
+        pinion = mesh_turn(stages[0].wheel, stages[0].pinion, layout.cam_axis_mm, layout.motor_mm, 0.0)
         return {"cam_gear": 0.0, "motor_pinion": pinion}
-    idler = mesh_turn(stages[-1].wheel, stages[-1].pinion, plan.cam_axis_mm, plan.idler_mm, 0.0)
-    pinion = mesh_turn(stages[0].wheel, stages[0].pinion, plan.idler_mm, plan.motor_mm, idler)
+    idler = mesh_turn(stages[-1].wheel, stages[-1].pinion, layout.cam_axis_mm, layout.idler_mm, 0.0)
+    pinion = mesh_turn(stages[0].wheel, stages[0].pinion, layout.idler_mm, layout.motor_mm, idler)
     return {"cam_gear": 0.0, "motor_pinion": pinion, "idler": idler}
 
 
@@ -87,25 +90,25 @@ def _placed(top_mm: float, centre_mm: np.ndarray, turn_rad: float) -> Placement:
 
 
 @lru_cache(maxsize=64)
-def _cam_gear(gear: Gear, key_mm: float, bores: Bores) -> Stack:
-    return bores.chamfered(Stack.of([(0.0, gear.face_width_mm, _webbed(gear, _hexagon(key_mm, (0.0, 0.0)), 0.0))]))
+def _cam_gear(gear: Gear, key_mm: float, holes: HoleSizes) -> Stack:
+    return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, _webbed(gear, _hexagon(key_mm, (0.0, 0.0)), 0.0))]))
 
 
 @lru_cache(maxsize=64)
-def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, bores: Bores) -> Stack:
-    return bores.chamfered(Stack.of([(0.0, gear.face_width_mm, _webbed(gear, d_bore(shaft_mm, flat_mm), 0.0))]))
+def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes) -> Stack:
+    return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, _webbed(gear, d_bore(shaft_mm, flat_mm), 0.0))]))
 
 
 @lru_cache(maxsize=64)
-def _idler(wheel: Gear, pinion: Gear, gap_mm: float, axle_mm: float, bores: Bores) -> Stack:
+def _idler(wheel: Gear, pinion: Gear, gap_mm: float, axle_mm: float, holes: HoleSizes) -> Stack:
     """Return an idler on its wheel's left face; the small teeth stand on the wheel, so that they print unsupported."""
-    bore = hole(bores.running(axle_mm))
+    bore = hole(holes.running(axle_mm))
     low = wheel.face_width_mm
     slabs = [
         (0.0, low, _webbed(wheel, bore, pinion.tip_radius_mm)),
         (low, low + gap_mm + pinion.face_width_mm, polygon(pinion.profile_mm) - bore),
     ]
-    return bores.chamfered(Stack.of(slabs))
+    return holes.chamfered(Stack.of(slabs))
 
 
 def _webbed(gear: Gear, bore: Region, hub_radius_mm: float) -> Region:

@@ -12,14 +12,14 @@ ROUND_OFF_MM = 1e-6
 
 
 @dataclass(frozen=True)
-class Lie:
+class BedFit:
     """A turn about z in whole degrees, and what is left of the bed at the tightest of its three sides (mm)."""
 
     angle_deg: float
     margin_mm: float
 
 
-def lie(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> Lie:
+def fit_to_bed(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> BedFit:
     """Return how a part fits the bed: along it if it can, else askew; where it fits nowhere, how it nearly does.
 
     Parameters
@@ -33,18 +33,18 @@ def lie(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float])
     """
     x, y, z = (bounds_mm[1] - bounds_mm[0]).tolist()
     bed_x, bed_y, bed_z = bed_mm
-    along = Lie(0.0, min(bed_x - x, bed_y - y, bed_z - z)), Lie(90.0, min(bed_x - y, bed_y - x, bed_z - z))
-    best = max(along, key=lambda lie: lie.margin_mm)
+    along = BedFit(0.0, min(bed_x - x, bed_y - y, bed_z - z)), BedFit(90.0, min(bed_x - y, bed_y - x, bed_z - z))
+    best = max(along, key=lambda fit_to_bed: fit_to_bed.margin_mm)
     if best.margin_mm >= -ROUND_OFF_MM:
         return best
     for found in _askew(outline(), z, np.asarray(bed_mm)):
         if found.margin_mm >= -ROUND_OFF_MM:
             return found
-        best = max(best, found, key=lambda lie: lie.margin_mm)
+        best = max(best, found, key=lambda fit_to_bed: fit_to_bed.margin_mm)
     return best
 
 
-def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> Lie:
+def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> BedFit:
     """Return how a part lies on the bed.
 
     Raises
@@ -52,7 +52,7 @@ def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_m
     CannotBuildError
         If it fits at no angle.
     """
-    found = lie(bounds_mm, outline, bed_mm)
+    found = fit_to_bed(bounds_mm, outline, bed_mm)
     if found.margin_mm < -ROUND_OFF_MM:
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
         raise CannotBuildError(
@@ -62,7 +62,7 @@ def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_m
     return found
 
 
-def _askew(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[Lie]:
+def _askew(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[BedFit]:
     """Yield all lies between along the bed and across it."""
     angles = np.arange(1.0, 90.0)
     cos, sin = np.cos(np.radians(angles))[:, None], np.sin(np.radians(angles))[:, None]
@@ -70,4 +70,4 @@ def _askew(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[Lie]:
     sides = np.stack([np.ptp(cos * x - sin * y, axis=1), np.ptp(sin * x + cos * y, axis=1)], axis=-1)
     margins = np.minimum((bed_mm[:2] - sides).min(axis=1), bed_mm[2] - height_mm)
     for angle, margin in zip(angles.tolist(), margins.tolist(), strict=True):
-        yield Lie(angle, margin)
+        yield BedFit(angle, margin)

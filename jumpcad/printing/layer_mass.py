@@ -15,10 +15,10 @@ import numpy as np
 from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.mechanism.mass import MassProperties
-from jumpcad.printing.runs import Run, jumps_of, runs_of
+from jumpcad.printing.runs import LayerRun, jumps_of, runs_of
 from jumpcad.solids.moments import areas_and_borders, border_mm, mass_of, prism_moments
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2, Section
+from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2, SlabSection
 from jumpcad.transforms import Array
 from jumpcad.workshop import Process
 
@@ -35,7 +35,7 @@ BRIDGE_GAP_MM = 0.05
 """Distance between the threads of a bridge (fixed in PrusaSlicer's Flow.hpp, BRIDGE_EXTRA_SPACING)."""
 
 
-class Shape(Protocol):
+class Weighable(Protocol):
     """What can be sliced and weighed, z up from the bed (mm)."""
 
     @property
@@ -46,7 +46,7 @@ class Shape(Protocol):
     def moments(self) -> Array:
         """Volume moments (10,)."""
 
-    def sections_at(self, heights_mm: Array) -> list[Section]:
+    def sections_at(self, heights_mm: Array) -> list[SlabSection]:
         """Return the cross-sections at heights (n,) ascending; outlines that do not differ are one object."""
 
 
@@ -55,15 +55,15 @@ class Layer(NamedTuple):
 
     z0_mm: float
     z1_mm: float
-    section: Section
+    section: SlabSection
 
 
-_KNOWN: WeakKeyDictionary[Shape, dict[tuple[object, ...], MassProperties]] = WeakKeyDictionary()
+_KNOWN: WeakKeyDictionary[Weighable, dict[tuple[object, ...], MassProperties]] = WeakKeyDictionary()
 """What is known of shapes, for as long as someone keeps them: gears and small parts serve many designs."""
 
 
 def mass_properties(
-    shape: Shape, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
+    shape: Weighable, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
 ) -> MassProperties:
     """Return mass, centre and inertia of one part in its printing frame (kg, m); found once for every shape.
 
@@ -90,7 +90,7 @@ def line_spacing_mm(width_mm: float, height_mm: float) -> float:
     return width_mm - height_mm * (1.0 - math.pi / 4.0)
 
 
-def sliced(shape: Shape, process: Process) -> list[Layer]:
+def sliced(shape: Weighable, process: Process) -> list[Layer]:
     """Return the layers of a shape, from the bed up, each with the cross-section at its middle as slicers take it."""
     bottom, top = (float(z) for z in shape.bounds_mm[:, 2])
     first, height = process.first_layer_mm, process.layer_height_mm
@@ -100,7 +100,7 @@ def sliced(shape: Shape, process: Process) -> list[Layer]:
     return [Layer(*layer) for layer in zip(levels[:-1].tolist(), levels[1:].tolist(), sections, strict=True)]
 
 
-def printed_moments(shape: Shape, process: Process, nozzle_mm: float) -> Array:
+def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Array:
     """Return the volume moments (10,) of the extruded plastic, see `jumpcad.solids.moments`.
 
     In each layer, as if it were laid at full height everywhere: the area of its cross-section, less the rounding of
@@ -192,7 +192,7 @@ def _large(region: Region, area_mm2: float) -> Region:
 
 
 def _bridged(
-    runs: Sequence[Run], cores: Sequence[Region], solid: Sequence[Region], sparse: Sequence[Region], depth: int
+    runs: Sequence[LayerRun], cores: Sequence[Region], solid: Sequence[Region], sparse: Sequence[Region], depth: int
 ) -> list[Region]:
     """Return what threads bridge in the first layer of every run: where it is solid over `depth` sparse layers."""
     below = [sparse[index] for index, run in enumerate(runs) for _ in range(run.first, run.end)]

@@ -44,7 +44,7 @@ class Placed:
 
 
 @dataclass(frozen=True)
-class Plate:
+class PrintPlate:
     """What is printed at once: a material, a number counted from 1 within that material, and the parts."""
 
     material: str
@@ -57,7 +57,7 @@ class Plate:
         return f"plate-{self.number}-{self.material}"
 
 
-def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[Plate]:
+def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[PrintPlate]:
     """Pack parts on plates, sorted by material; as many plates as it takes.
 
     Parts are turned by quarters as it suits; one that is too long for that lies askew.
@@ -82,7 +82,7 @@ def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: floa
     return [plate for material in sorted(by_material) for plate in _plates(by_material[material], bed_mm, spacing_mm)]
 
 
-def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[Plate]:
+def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[PrintPlate]:
     """Return the plates of one material."""
     angles = {part.name: _angle_deg(part, bed_mm) for part in parts}
     packer = rectpack.newPacker(
@@ -108,7 +108,9 @@ def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: flo
         pose[:3, 3] = x / STEPS_PER_MM - low[0], y / STEPS_PER_MM - low[1], -low[2]
         plates.setdefault(plate, []).append((number, Placed(parts[number], pose)))
     return [
-        Plate(parts[0].material, number, tuple(item for _, item in sorted(plates[plate], key=lambda pair: pair[0])))
+        PrintPlate(
+            parts[0].material, number, tuple(item for _, item in sorted(plates[plate], key=lambda pair: pair[0]))
+        )
         for number, plate in enumerate(sorted(plates), start=1)
     ]
 

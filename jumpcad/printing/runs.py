@@ -21,7 +21,7 @@ JUMP = 0.01
 """A change by a larger share of it, beyond twice the changes below and above, is a jump."""
 
 
-class Run(NamedTuple):
+class LayerRun(NamedTuple):
     """Layers on top of each other, from `first` to the one before `end`."""
 
     first: int
@@ -48,7 +48,7 @@ def jumps_of(which: Numbers, area_mm2: Array) -> list[int]:
     return [int(index) + 1 for index in np.flatnonzero(changed[1:-1] & (beside_steady | large))]
 
 
-def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
+def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[LayerRun]:
     """Return runs of layers that are alike and have the same jumps among what makes them bottoms and tops.
 
     Where area and polar moment about the centre change from layer to layer, they change steadily within a run, and so
@@ -68,7 +68,7 @@ def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
     steps = np.diff(sizes, prepend=sizes[:, :1], append=sizes[:, -1:])
     steps[:, list(jumps)] = 0.0
     if not steps.any():
-        return list(itertools.starmap(Run, itertools.pairwise(ends)))
+        return list(itertools.starmap(LayerRun, itertools.pairwise(ends)))
     bends = (np.abs(np.diff(steps)) / sizes.max(axis=1, keepdims=True)).max(axis=0)
     bends = np.pad(bends, (below, above))
     bent = np.cumsum(bends[:count] + bends[below : below + count] + bends[below + above :])
@@ -79,6 +79,6 @@ def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[Run]:
             length = int(np.searchsorted(bent[first:end], bent[first] + ALIKE, side="right"))
             if bent[first] < bent[first + length - 1]:
                 length = min(longest, length - (length + 1) % 2)
-            runs.append(Run(first, first + length))
+            runs.append(LayerRun(first, first + length))
             first += length
     return runs

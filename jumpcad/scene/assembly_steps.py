@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 
 from jumpcad.robot import Robot
-from jumpcad.scene.shapes import Shape, shapes
+from jumpcad.scene.visuals import Visual, visuals
 
 
 @dataclass(frozen=True)
@@ -13,7 +13,7 @@ class Step:
 
     title: str
     text: str
-    added: tuple[Shape, ...]
+    added: tuple[Visual, ...]
 
 
 ORDER: tuple[tuple[str, str, str], ...] = (
@@ -77,7 +77,7 @@ REST = ("Everything else", "Fasten what remains where the picture shows it.")
 
 def assembly_steps(robot: Robot) -> list[Step]:
     """Return the steps that a robot needs; everything on it is added in exactly one of them."""
-    left = list(shapes(robot))
+    left = list(visuals(robot))
     steps = []
     for title, names, text in ORDER:
         added = tuple(shape for shape in left if re.fullmatch(names, shape.name))

@@ -16,7 +16,7 @@ from PIL import Image
 from jumpcad.scene.camera import Camera, View, aimed, turned
 from jumpcad.scene.raster import drawn
 from jumpcad.scene.shading import CREASE_RAD, creased
-from jumpcad.scene.shapes import Colour
+from jumpcad.scene.visuals import Colour
 from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ class Thing:
     colour: Colour
 
 
-class Studio:
+class Renderer:
     """Things, each a mesh (mm) and a colour, to be seen in several poses and views."""
 
     def __init__(self, things: Sequence[tuple["trimesh.Trimesh", Colour]]) -> None:

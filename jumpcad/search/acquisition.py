@@ -9,7 +9,7 @@ from scipy.optimize import minimize
 
 from jumpcad.design import Design
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import Belief
+from jumpcad.search.surrogate import Posterior
 from jumpcad.transforms import Array
 
 CANDIDATES = 1024
@@ -35,7 +35,7 @@ class Proposal:
 
 def propose(
     space: Space,
-    belief: Belief,
+    posterior: Posterior,
     best: float,
     elite: Array,
     admits: Callable[[Design], bool],
@@ -61,7 +61,7 @@ def propose(
     """
 
     def log_acquisition(points: Array) -> Array:
-        value = belief.log_improvement(points, best) + belief.log_feasible(points)
+        value = posterior.log_improvement(points, best) + posterior.log_feasible(points)
         return value if penalty is None else value - penalty(points)
 
     candidates = [space.spread(CANDIDATES, generator)]
@@ -79,7 +79,7 @@ def propose(
         design = space.to_design(points[index])
         if admits(design):
             at = points[index][None]
-            improvement, feasible = belief.log_improvement(at, best), belief.log_feasible(at)
+            improvement, feasible = posterior.log_improvement(at, best), posterior.log_feasible(at)
             return Proposal(design, points[index], float(improvement[0]), float(feasible[0]))
     return None
 

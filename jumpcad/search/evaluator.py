@@ -8,13 +8,13 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Model, Objective
 from jumpcad.search.pool import Pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import Key, Ledger, Row
+from jumpcad.search.store import Key, StudyStore, Trial
 
-Watch = Callable[[Row, bool], None]
+Watch = Callable[[Trial, bool], None]
 """Is told of every row, and whether it was computed now (or found in the ledger)."""
 
 
-class Campaign:
+class Evaluator:
     """What optimisers work with.
 
     A search is a deterministic function of its seed and of the rows it has seen. It therefore resumes by being run
@@ -39,26 +39,26 @@ class Campaign:
         space: Space,
         objective: Objective,
         model: Model,
-        ledger: Ledger,
+        store: StudyStore,
         pool: Pool,
-        prior: Sequence[Row] = (),
+        prior: Sequence[Trial] = (),
         watch: Watch = lambda row, computed: None,
     ) -> None:
         self.space = space
         self.objective = objective
-        self.ledger = ledger
+        self.store = store
         self.model = model
         self._pool = pool
         self._watch = watch
-        held = ledger.rows()
+        held = store.rows()
         self._finished = {row.key: row for row in held}
         self._taken = {(row.phase, row.step, row.place): row.key for row in held}
-        self._seen: dict[Key, Row] = {}
+        self._seen: dict[Key, Trial] = {}
         self.prior = list(prior)
-        pool.notice = ledger.note
+        pool.notice = store.note
 
     @property
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[Trial]:
         """All rows that this campaign has come by, in order."""
         return list(self._seen.values())
 
@@ -66,7 +66,7 @@ class Campaign:
         """Whether a design is new, and the model's free test does not refuse it."""
         return tuple(design.to_vector()) not in self._seen and self.model.admits(design)
 
-    def finished(self, phase: str, step: int, count: int) -> list[Row] | None:
+    def finished(self, phase: str, step: int, count: int) -> list[Trial] | None:
         """Take a whole step of `count` rows out of the ledger, or nothing if one of them is missing."""
         rows = sorted(
             (row for row in self._finished.values() if (row.phase, row.step) == (phase, step)),
@@ -85,7 +85,7 @@ class Campaign:
         step: int,
         limit: int | None = None,
         proposals: Sequence[Mapping[str, Any]] | None = None,
-    ) -> list[Row | None]:
+    ) -> list[Trial | None]:
         """Return the rows of designs, computing those that are not finished; at most `limit` new ones.
 
         Rows are kept in one transaction; if the run is interrupted meanwhile, those that are finished are kept.
@@ -103,17 +103,17 @@ class Campaign:
         places = {key: (phase, step, place) for place, key in enumerate(fresh)}
         if any(self._taken.get(place, key) != key for key, place in places.items()):
             raise JumpcadError(
-                f"{self.ledger.path}: this search proposes other designs than the study holds; start anew"
+                f"{self.store.path}: this search proposes other designs than the study holds; start anew"
             )
         missing = [key for key in fresh if key not in self._finished]
-        computed: list[Row] = []
+        computed: list[Trial] = []
         try:
             for outcome in self._pool.evaluate(self.model, [designs[fresh[key]] for key in missing]):
                 key = missing[outcome.index]
                 proposal = {} if proposals is None else proposals[fresh[key]]
                 score = self.objective.score(outcome.evaluation)
                 computed.append(
-                    Row(*places[key], designs[fresh[key]], outcome.evaluation, score, self.model.digest,
+                    Trial(*places[key], designs[fresh[key]], outcome.evaluation, score, self.model.digest,
                         outcome.duration_s, proposal)
                 )  # fmt: skip
             self._refuse_a_dead_model(computed)
@@ -127,18 +127,18 @@ class Campaign:
             self._come_by(self._finished[key], computed=key in missing)
         return [self._seen.get(tuple(design.to_vector())) for design in designs]
 
-    def _commit(self, rows: list[Row]) -> None:
+    def _commit(self, rows: list[Trial]) -> None:
         if rows:
-            self.ledger.append(sorted(rows, key=lambda row: row.position))
+            self.store.append(sorted(rows, key=lambda row: row.position))
         for row in rows:
             self._finished[row.key] = row
             self._taken[row.phase, row.step, row.place] = row.key
 
-    def _come_by(self, row: Row, computed: bool) -> None:
+    def _come_by(self, row: Trial, computed: bool) -> None:
         self._seen[row.key] = row
         self._watch(row, computed)
 
-    def _refuse_a_dead_model(self, rows: list[Row]) -> None:
+    def _refuse_a_dead_model(self, rows: list[Trial]) -> None:
         """If the very first batch is lost as a whole, then not the designs are to blame."""
         if len(rows) > 1 and not self._finished and all(row.evaluation.verdict == QUARANTINED for row in rows):
             raise JumpcadError(f"every evaluation failed, so the model cannot work here: {rows[0].evaluation.detail}")

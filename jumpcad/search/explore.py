@@ -8,9 +8,9 @@ from threadpoolctl import threadpool_limits
 
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.evaluator import Campaign
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.space import Parameter
-from jumpcad.search.store import Row
+from jumpcad.search.store import Trial
 from jumpcad.search.surrogate import Surrogate, warped
 from jumpcad.transforms import Array
 
@@ -31,7 +31,7 @@ class Sweep:
 
     parameter: str
     values: Array
-    rows: list[Row]
+    rows: list[Trial]
 
 
 @dataclass(frozen=True)
@@ -69,49 +69,49 @@ class FeasibilityMap:
     y_name: str
     x: Array
     y: Array
-    rows: list[list[Row]]
+    rows: list[list[Trial]]
 
 
-def sweep(campaign: Campaign, around: Design, points: int) -> list[Sweep]:
+def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     """Vary each free parameter alone over its range, `points` values each (or its choices)."""
     if points < 2:
         raise JumpcadError(f"points = {points} must be at least 2")
     sweeps = []
-    for step, parameter in enumerate(campaign.space.free):
+    for step, parameter in enumerate(evaluator.space.free):
         values = _grid(parameter, points)
-        rows = _all(campaign, [_with(around, {parameter.name: value}) for value in values], "sweep", step)
+        rows = _all(evaluator, [_with(around, {parameter.name: value}) for value in values], "sweep", step)
         sweeps.append(Sweep(parameter.name, values, rows))
     return sweeps
 
 
-def sample(campaign: Campaign, count: int, seed: int) -> list[Row]:
+def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
     """Evaluate `count` designs spread evenly over the space."""
     if count < 20:
         raise JumpcadError(f"samples = {count} must be at least 20")
-    points = campaign.space.spread(count, np.random.default_rng([seed, 5]))
-    return _all(campaign, [campaign.space.to_design(point) for point in points], "sample", 0)
+    points = evaluator.space.spread(count, np.random.default_rng([seed, 5]))
+    return _all(evaluator, [evaluator.space.to_design(point) for point in points], "sample", 0)
 
 
-def components(campaign: Campaign, rows: Sequence[Row]) -> Components:
+def components(evaluator: Evaluator, rows: Sequence[Trial]) -> Components:
     """Return the principal components of the free parameters of some rows."""
     from sklearn.decomposition import PCA
 
     if len(rows) < 3:
         raise JumpcadError(f"{len(rows)} designs are too few for principal components; raise --samples")
-    units = np.array([campaign.space.to_unit(row.design) for row in rows])
+    units = np.array([evaluator.space.to_unit(row.design) for row in rows])
     deviation = units.std(axis=0)
     found = PCA(svd_solver="full").fit((units - units.mean(axis=0)) / np.where(deviation > 0, deviation, 1.0))
-    names = tuple(parameter.name for parameter in campaign.space.free)
+    names = tuple(parameter.name for parameter in evaluator.space.free)
     return Components(names, found.explained_variance_ratio_, found.components_, len(rows))
 
 
-def elite(rows: Sequence[Row]) -> list[Row]:
+def elite(rows: Sequence[Trial]) -> list[Trial]:
     """Return the best tenth of the feasible rows, at least `ELITE_LEAST` if there are so many, best first."""
     feasible = sorted((row for row in rows if row.score is not None), key=lambda row: -(row.score or 0.0))
     return feasible[: max(ELITE_LEAST, round(ELITE_SHARE * len(feasible)))]
 
 
-def importance(campaign: Campaign, rows: Sequence[Row], seed: int) -> Importance:
+def importance(evaluator: Evaluator, rows: Sequence[Trial], seed: int) -> Importance:
     """Return the permutation importance of the free parameters for the score of designs that jump.
 
     A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is shuffled there.
@@ -121,7 +121,7 @@ def importance(campaign: Campaign, rows: Sequence[Row], seed: int) -> Importance
         raise JumpcadError(
             f"{len(feasible)} of {len(rows)} designs jump, which is too few to say what is important; raise --samples"
         )
-    x = np.array([campaign.space.to_unit(row.design) for row in feasible])
+    x = np.array([evaluator.space.to_unit(row.design) for row in feasible])
     y = warped(np.array([row.score for row in feasible]))
     generator = np.random.default_rng([seed, 6])
     fold = generator.permutation(len(y)) % FOLDS
@@ -136,13 +136,13 @@ def importance(campaign: Campaign, rows: Sequence[Row], seed: int) -> Importance
             for _ in range(REPEATS):
                 shuffled = [_shuffled(x[~known], column, generator) for column in range(x.shape[1])]
                 falls.append([plain - _r_squared(surrogate, points, y[~known]) for points in shuffled])
-    names = tuple(parameter.name for parameter in campaign.space.free)
+    names = tuple(parameter.name for parameter in evaluator.space.free)
     return Importance(names, np.mean(falls, axis=0), np.std(falls, axis=0), float(np.mean(scores)), len(feasible))
 
 
-def feasibility_map(campaign: Campaign, around: Design, x_name: str, y_name: str, points: int) -> FeasibilityMap:
+def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: str, points: int) -> FeasibilityMap:
     """Evaluate a grid over two free parameters, the others as in a design."""
-    parameters = {parameter.name: parameter for parameter in campaign.space.free}
+    parameters = {parameter.name: parameter for parameter in evaluator.space.free}
     for name in (x_name, y_name):
         if name not in parameters:
             raise JumpcadError(f"{name!r} is not a free parameter; these are {', '.join(parameters)}")
@@ -150,7 +150,7 @@ def feasibility_map(campaign: Campaign, around: Design, x_name: str, y_name: str
         raise JumpcadError(f"a map needs two different parameters, not {x_name} twice")
     x, y = _grid(parameters[x_name], points), _grid(parameters[y_name], points)
     designs = [_with(around, {x_name: u, y_name: v}) for v in y for u in x]
-    rows = _all(campaign, designs, "sweep", campaign.space.dimension)
+    rows = _all(evaluator, designs, "sweep", evaluator.space.dimension)
     return FeasibilityMap(x_name, y_name, x, y, [rows[j * len(x) : (j + 1) * len(x)] for j in range(len(y))])
 
 
@@ -162,8 +162,8 @@ def _with(design: Design, values: dict[str, float]) -> Design:
     return Design(**{**design.model_dump(), **{name: float(value) for name, value in values.items()}})
 
 
-def _all(campaign: Campaign, designs: Sequence[Design], phase: str, step: int) -> list[Row]:
-    return [row for row in campaign.evaluate(designs, phase, step) if row is not None]
+def _all(evaluator: Evaluator, designs: Sequence[Design], phase: str, step: int) -> list[Trial]:
+    return [row for row in evaluator.evaluate(designs, phase, step) if row is not None]
 
 
 def _r_squared(surrogate: Surrogate, x: Array, y: Array) -> float:

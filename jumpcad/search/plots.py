@@ -12,8 +12,8 @@ from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.methods.pareto import energy_j, front
 from jumpcad.search.objective import Objective
 from jumpcad.search.space import Space
-from jumpcad.search.store import Row
-from jumpcad.search.surrogate import Belief, unwarped, warped
+from jumpcad.search.store import Trial
+from jumpcad.search.surrogate import Posterior, unwarped, warped
 from jumpcad.transforms import Array
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
@@ -22,7 +22,7 @@ DECADES = 6.0
 """How far below its maximum the acquisition is drawn."""
 
 
-def history(rows: Sequence[Row], objective: Objective) -> Figure:
+def history(rows: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score of every evaluation, and the best so far."""
     figure, (axes,) = panels(1, 6.4, 3.6)
     scores = _scores(rows)
@@ -37,7 +37,7 @@ def history(rows: Sequence[Row], objective: Objective) -> Figure:
     return figure
 
 
-def slices(space: Space, rows: Sequence[Row], objective: Objective) -> Figure:
+def slices(space: Space, rows: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score over each free parameter."""
     figure, all_axes = panels(space.dimension)
     feasible = [row for row in rows if row.score is not None]
@@ -49,7 +49,7 @@ def slices(space: Space, rows: Sequence[Row], objective: Objective) -> Figure:
     return figure
 
 
-def parallel(space: Space, rows: Sequence[Row]) -> Figure:
+def parallel(space: Space, rows: Sequence[Trial]) -> Figure:
     """Draw every feasible design as a line over the free parameters, the better the darker."""
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
     feasible = sorted((row for row in rows if row.score is not None), key=lambda row: row.score or 0.0)
@@ -63,7 +63,7 @@ def parallel(space: Space, rows: Sequence[Row]) -> Figure:
     return figure
 
 
-def pareto(rows: Sequence[Row], objective: Objective) -> Figure:
+def pareto(rows: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score against the energy of the springs, and the front."""
     figure, (axes,) = panels(1, 6.4, 3.6)
     feasible = [row for row in rows if row.score is not None]
@@ -126,23 +126,25 @@ def feasibility(found: FeasibilityMap) -> Figure:
     return figure
 
 
-def acquisition(space: Space, rows: Sequence[Row], belief: Belief, objective: Objective) -> Figure:
+def acquisition(space: Space, rows: Sequence[Trial], posterior: Posterior, objective: Objective) -> Figure:
     """Draw surrogate and expected improvement over the one or two free parameters of a Bayesian search."""
     best = max((row.score for row in rows if row.score is not None), default=0.0)
     return (
-        _one_parameter(space, rows, belief, objective, best)
+        _one_parameter(space, rows, posterior, objective, best)
         if space.dimension == 1
-        else _two(space, rows, belief, objective, best)
+        else _two(space, rows, posterior, objective, best)
     )
 
 
-def _one_parameter(space: Space, rows: Sequence[Row], belief: Belief, objective: Objective, best: float) -> Figure:
+def _one_parameter(
+    space: Space, rows: Sequence[Trial], posterior: Posterior, objective: Objective, best: float
+) -> Figure:
     figure, (above, below) = panels(2, 6.4, 2.6, columns=1)
     unit = np.linspace(0.0, 1.0, 401)
     points, parameter = unit[:, None], space.free[0]
     x = parameter.lower + unit * parameter.width
-    if belief.score is not None:
-        mean, deviation = belief.score.predict(points)
+    if posterior.score is not None:
+        mean, deviation = posterior.score.predict(points)
         low, high = unwarped(mean - 2 * deviation), unwarped(mean + 2 * deviation)
         above.fill_between(x, low, high, color=BLUE, alpha=0.2, lw=0, label="± 2 σ")
         above.plot(x, unwarped(mean), color=BLUE, label="surrogate")
@@ -151,20 +153,20 @@ def _one_parameter(space: Space, rows: Sequence[Row], belief: Belief, objective:
     above.plot(values, _scores(feasible), "o", ms=4, color="black", label="evaluated")
     above.legend()
     labels(above, "", objective.unit)
-    below.plot(x, _log_acquisition(belief, points, best), color=ORANGE)
+    below.plot(x, _log_acquisition(posterior, points, best), color=ORANGE)
     labels(below, parameter.name, ACQUISITION)
     return figure
 
 
-def _two(space: Space, rows: Sequence[Row], belief: Belief, objective: Objective, best: float) -> Figure:
+def _two(space: Space, rows: Sequence[Trial], posterior: Posterior, objective: Objective, best: float) -> Figure:
     figure, (left, right) = panels(2, 4.6, 3.8)
     unit = np.linspace(0.0, 1.0, 61)
     points = np.stack(np.meshgrid(unit, unit), axis=-1).reshape(-1, 2)
     first, second = space.free
     x, y = first.lower + unit * first.width, second.lower + unit * second.width
-    mean = np.full(len(points), warped(best)) if belief.score is None else belief.score.predict(points)[0]
+    mean = np.full(len(points), warped(best)) if posterior.score is None else posterior.score.predict(points)[0]
     heat(figure, left, x, y, unwarped(mean).reshape(61, 61), objective.unit)
-    heat(figure, right, x, y, _log_acquisition(belief, points, best).reshape(61, 61), ACQUISITION)
+    heat(figure, right, x, y, _log_acquisition(posterior, points, best).reshape(61, 61), ACQUISITION)
     for axes, title in ((left, "surrogate"), (right, "acquisition")):
         for colour, chosen in (("white", True), (RED, False)):
             shown = [row.design for row in rows if (row.score is not None) == chosen]
@@ -176,12 +178,12 @@ def _two(space: Space, rows: Sequence[Row], belief: Belief, objective: Objective
     return figure
 
 
-def _log_acquisition(belief: Belief, points: Array, best: float) -> Array:
+def _log_acquisition(posterior: Posterior, points: Array, best: float) -> Array:
     """Return the decimal logarithm of the acquisition (m,): a search that has converged leaves it a needle."""
-    value = (belief.log_improvement(points, best) + belief.log_feasible(points)) / np.log(10.0)
+    value = (posterior.log_improvement(points, best) + posterior.log_feasible(points)) / np.log(10.0)
     return np.maximum(value, value.max() - DECADES)
 
 
-def _scores(rows: Sequence[Row]) -> Array:
+def _scores(rows: Sequence[Trial]) -> Array:
     """Return the scores (n,); NaN where a design is refused."""
     return np.array([np.nan if row.score is None else row.score for row in rows])

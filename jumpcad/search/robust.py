@@ -12,10 +12,10 @@ import numpy as np
 from scipy.stats import qmc
 
 from jumpcad.design import PARAMETERS, Design
-from jumpcad.search.evaluator import Campaign
-from jumpcad.search.margin import keep_off
+from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.margin import propose_robust
 from jumpcad.search.space import Space, physical_limits
-from jumpcad.search.store import Row
+from jumpcad.search.store import Trial
 from jumpcad.transforms import Array
 
 TENS = 3
@@ -38,7 +38,7 @@ class Candidate:
     counts why neighbours were refused.
     """
 
-    row: Row
+    row: Trial
     parameters_score: float
     print_score: float
     refusals: dict[str, int]
@@ -65,28 +65,30 @@ class ActiveBound:
     reason: str = ""
 
 
-def rank_candidates(campaign: Campaign, rows: Sequence[Row], seed: int, tolerance_mm: float) -> list[Candidate]:
+def rank_candidates(evaluator: Evaluator, rows: Sequence[Trial], seed: int, tolerance_mm: float) -> list[Candidate]:
     """Evaluate the neighbours of the best of some rows and return these, most robust first.
 
     The best often lies at the edge of a constraint. If a neighbour of it is refused, a few designs that keep off the
     edge join the first ten; if none of all these keeps most of the best score, the next tens follow.
     """
-    chosen = best_apart(campaign.space, rows, TENS * 10)
+    chosen = best_apart(evaluator.space, rows, TENS * 10)
     tens = [chosen[start : start + 10] for start in range(0, len(chosen), 10)]
     first = (TENS + 1) * len(rows)
     candidates: list[Candidate] = []
     for turn, ten in enumerate(tens):
-        candidates += _examined(campaign, ten, first + turn, seed, tolerance_mm)
+        candidates += _examined(evaluator, ten, first + turn, seed, tolerance_mm)
         if turn == 0 and candidates[0].refusals:
-            off_edge = keep_off(campaign, rows, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
+            off_edge = propose_robust(evaluator, rows, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
             feasible = [row for row in off_edge if row.score is not None]
-            candidates += _examined(campaign, feasible, first + TENS, seed, tolerance_mm)
+            candidates += _examined(evaluator, feasible, first + TENS, seed, tolerance_mm)
         if max(candidate.robust_score for candidate in candidates) >= KEPT * (chosen[0].score or 0.0):
             break
     return sorted(candidates, key=lambda candidate: -candidate.robust_score)
 
 
-def _examined(campaign: Campaign, chosen: Sequence[Row], step: int, seed: int, tolerance_mm: float) -> list[Candidate]:
+def _examined(
+    evaluator: Evaluator, chosen: Sequence[Trial], step: int, seed: int, tolerance_mm: float
+) -> list[Candidate]:
     """Return candidates made of rows and the outcomes of their neighbours."""
     neighbours: list[tuple[int, str, Design]] = []
     for index, row in enumerate(chosen):
@@ -96,7 +98,7 @@ def _examined(campaign: Campaign, chosen: Sequence[Row], step: int, seed: int, t
             ("print", varied_lengths(row.design, tolerance_mm, generator)),
         ):
             neighbours += [(index, kind, design) for design in designs]
-    found = campaign.evaluate([design for _, _, design in neighbours], "robust", step)
+    found = evaluator.evaluate([design for _, _, design in neighbours], "robust", step)
     candidates = []
     for index, row in enumerate(chosen):
         scores: dict[str, list[float]] = {"parameters": [], "print": []}
@@ -110,9 +112,9 @@ def _examined(campaign: Campaign, chosen: Sequence[Row], step: int, seed: int, t
     return candidates
 
 
-def best_apart(space: Space, rows: Sequence[Row], count: int) -> list[Row]:
+def best_apart(space: Space, rows: Sequence[Trial], count: int) -> list[Trial]:
     """Return the best feasible rows that differ by at least a fiftieth of a range in some parameter, best first."""
-    chosen: list[Row] = []
+    chosen: list[Trial] = []
     for row in sorted((row for row in rows if row.score is not None), key=lambda row: -(row.score or 0.0)):
         unit = space.to_unit(row.design)
         if all(np.abs(unit - space.to_unit(other.design)).max() >= APART for other in chosen):
@@ -138,13 +140,13 @@ def varied_lengths(design: Design, tolerance_mm: float, generator: np.random.Gen
     return varied
 
 
-def active_bounds(campaign: Campaign, row: Row, step: int) -> list[ActiveBound]:
+def active_bounds(evaluator: Evaluator, row: Trial, step: int) -> list[ActiveBound]:
     """Return the bounds on which a design lies, each with what going beyond it by a twentieth of the range is worth.
 
     A bound beyond which no design can be is not among them.
     """
     found = []
-    for parameter in campaign.space.free:
+    for parameter in evaluator.space.free:
         value = getattr(row.design, parameter.name)
         lowest, highest = physical_limits(parameter.name)
         reach = WIDENING * parameter.width
@@ -155,11 +157,11 @@ def active_bounds(campaign: Campaign, row: Row, step: int) -> list[ActiveBound]:
             if abs(value - bound) <= 1e-3 * parameter.width and beyond != bound:
                 found.append(ActiveBound(parameter.name, side, bound, beyond, None))
     designs = [row.design.model_copy(update={bound.name: bound.beyond}) for bound in found]
-    rows = campaign.evaluate(designs, "bounds", step)
+    rows = evaluator.evaluate(designs, "bounds", step)
     return [_worth(bound, row, beyond) for bound, beyond in zip(found, rows, strict=True) if beyond is not None]
 
 
-def _worth(bound: ActiveBound, row: Row, beyond: Row) -> ActiveBound:
+def _worth(bound: ActiveBound, row: Trial, beyond: Trial) -> ActiveBound:
     if beyond.score is None:
         return replace(bound, reason=", ".join(beyond.evaluation.reasons))
     return replace(bound, worth=beyond.score - (row.score or 0.0))

@@ -50,7 +50,7 @@ Key = tuple[float, ...]
 
 
 @dataclass(frozen=True)
-class Row:
+class Trial:
     """One finished evaluation: where the search proposed it and why, the design, the outcome, and its score.
 
     ``score`` is None where the design is refused; ``proposal`` is what the optimiser thought of it beforehand.
@@ -77,8 +77,8 @@ class Row:
         return PHASES.index(self.phase), self.step, self.place
 
 
-class Ledger:
-    """An open study file; made by `Ledger.write` or `Ledger.read`."""
+class StudyStore:
+    """An open study file; made by `StudyStore.write` or `StudyStore.read`."""
 
     def __init__(self, path: Path | None, connection: sqlite3.Connection, lock: int | None = None) -> None:
         self.path = path
@@ -86,7 +86,7 @@ class Ledger:
         self._lock = lock
 
     @classmethod
-    def write(cls, path: Path | None, identity: Mapping[str, Any]) -> "Ledger":
+    def write(cls, path: Path | None, identity: Mapping[str, Any]) -> "StudyStore":
         """Create a study, or continue the one in `path` if it has the same identity; None keeps it in memory.
 
         Raises
@@ -97,25 +97,25 @@ class Ledger:
         lock = None if path is None else _lock(path)
         try:
             with _plain_errors(path):
-                ledger = cls(path, _connect(":memory:" if path is None else str(path)), lock)
-                ledger._prepare(identity)
-            return ledger
+                store = cls(path, _connect(":memory:" if path is None else str(path)), lock)
+                store._prepare(identity)
+            return store
         except BaseException:
             if lock is not None:
                 os.close(lock)
             raise
 
     @classmethod
-    def read(cls, path: Path) -> "Ledger":
+    def read(cls, path: Path) -> "StudyStore":
         """Open a study for reading, also while it is being written."""
         if not path.is_file():
             raise JumpcadError(f"{path}: no such study file")
         with _plain_errors(path):
             # Not mode=ro: that would leave the log beside the file, which the last one to close should fold in.
-            ledger = cls(path, _connect(f"{path.absolute().as_uri()}?mode=rw"))
-            ledger._check_format()
-            ledger._connection.execute("PRAGMA query_only = ON")
-        return ledger
+            store = cls(path, _connect(f"{path.absolute().as_uri()}?mode=rw"))
+            store._check_format()
+            store._connection.execute("PRAGMA query_only = ON")
+        return store
 
     def close(self) -> None:
         """Close the file."""
@@ -124,7 +124,7 @@ class Ledger:
             os.close(self._lock)
             self._lock = None
 
-    def __enter__(self) -> "Ledger":
+    def __enter__(self) -> "StudyStore":
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -146,13 +146,13 @@ class Ledger:
         with self._transaction():
             self._connection.execute("INSERT OR REPLACE INTO study VALUES (?, ?)", (key, json.dumps(value)))
 
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[Trial]:
         """Return all rows in the order of their study."""
         with _plain_errors(self.path):
             records = self._connection.execute(f"SELECT {', '.join(_COLUMNS)} FROM evaluations").fetchall()
         return sorted((_row(dict(zip(_COLUMNS, record, strict=True))) for record in records), key=lambda r: r.position)
 
-    def append(self, rows: Iterable[Row]) -> None:
+    def append(self, rows: Iterable[Trial]) -> None:
         """Add rows, all or none."""
         marks = ", ".join("?" * len(_COLUMNS))
         with self._transaction():
@@ -266,7 +266,7 @@ def _difference(there: Any, here: Any, name: str = "") -> str:
     return "" if there == here else f"{name}: {json.dumps(there)} there, {json.dumps(here)} here"
 
 
-def _record(row: Row) -> tuple[Any, ...]:
+def _record(row: Trial) -> tuple[Any, ...]:
     evaluation = row.evaluation
     return (
         row.phase, row.step, row.place, *row.key, row.model, evaluation.verdict, row.score,
@@ -278,10 +278,10 @@ def _record(row: Row) -> tuple[Any, ...]:
 _text = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), check_circular=False).encode
 
 
-def _row(record: dict[str, Any]) -> Row:
+def _row(record: dict[str, Any]) -> Trial:
     findings = tuple(Finding(**finding) for finding in json.loads(record["findings"]))
     evaluation = Evaluation(record["verdict"], json.loads(record["metrics"]), findings, record["detail"])
-    return Row(
+    return Trial(
         record["phase"], record["step"], record["place"],
         Design.from_vector([record[name] for name in PARAMETERS]), evaluation,
         record["score"], record["model"], record["duration_s"], json.loads(record["proposal"]),

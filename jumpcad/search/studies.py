@@ -10,14 +10,14 @@ from jumpcad.search import plots
 from jumpcad.search.figures import save
 from jumpcad.search.objective import find_objective
 from jumpcad.search.space import Space
-from jumpcad.search.store import Ledger, Row
+from jumpcad.search.store import StudyStore, Trial
 from jumpcad.search.study import FRONTS, search_rows
-from jumpcad.search.surrogate import Belief
+from jumpcad.search.surrogate import Posterior
 
 
-def plot_study(ledger: Ledger, folder: Path) -> list[Path]:
+def plot_study(store: StudyStore, folder: Path) -> list[Path]:
     """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
-    rows, identity = search_rows(ledger.rows()), ledger.identity
+    rows, identity = search_rows(store.rows()), store.identity
     space, objective = Space.from_record(identity["space"]), find_objective(identity["objective"])
     figures: dict[str, Callable[[], Figure]] = {}
     if rows:
@@ -29,12 +29,12 @@ def plot_study(ledger: Ledger, folder: Path) -> list[Path]:
         figures["pareto"] = partial(plots.pareto, rows, objective)
     if space.dimension <= 2:
         for name, number, count in _moments(rows):
-            belief = Belief.from_rows(space, rows[:count], rows[number].proposal["theta"], fit=())
-            figures[name] = partial(plots.acquisition, space, rows[:count], belief, objective)
+            posterior = Posterior.from_rows(space, rows[:count], rows[number].proposal["theta"], fit=())
+            figures[name] = partial(plots.acquisition, space, rows[:count], posterior, objective)
     return [save(draw(), folder, name) for name, draw in figures.items()]
 
 
-def _moments(rows: Sequence[Row]) -> list[tuple[str, int, int]]:
+def _moments(rows: Sequence[Trial]) -> list[tuple[str, int, int]]:
     """Return two moments of a Bayesian search: picture's name, the row with the hyperparameters, and how many rows.
 
     Before the first proposal there is much to learn; in the end, little.

@@ -13,7 +13,7 @@ from typing import Any
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.search.evaluator import Campaign, Watch
+from jumpcad.search.evaluator import Evaluator, Watch
 from jumpcad.search.methods.bayesian import default_initial, run_bayesian
 from jumpcad.search.methods.genetic import find_preset, run_genetic
 from jumpcad.search.methods.pareto import run_nsga2, run_pareto
@@ -22,7 +22,7 @@ from jumpcad.search.objective import Model, find_objective
 from jumpcad.search.pool import Pool
 from jumpcad.search.robust import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.space import Space
-from jumpcad.search.store import SEARCH_PHASES, Ledger, Row
+from jumpcad.search.store import SEARCH_PHASES, StudyStore, Trial
 
 FRONTS = ("pareto", "nsga2")
 """Methods that look for a front instead of one best design."""
@@ -83,7 +83,7 @@ class Request:
         if self.seed >= 2**32:
             raise JumpcadError(f"seed = {self.seed} must be less than 2^32")
 
-    def identity(self, prior: Sequence[Row]) -> dict[str, Any]:
+    def identity(self, prior: Sequence[Trial]) -> dict[str, Any]:
         """Return all that decides the rows of the study, except how many they are."""
         learned = json.dumps([[row.key, row.score] for row in prior])
         return {
@@ -119,14 +119,14 @@ class Stage:
 class Result:
     """What a study found: its rows in order, the best, the most robust first, the winner's active bounds, its notes."""
 
-    rows: list[Row]
-    best: Row | None
+    rows: list[Trial]
+    best: Trial | None
     candidates: list[Candidate]
     bounds: list[ActiveBound]
     notes: list[str]
 
     @property
-    def winner(self) -> Row | None:
+    def winner(self) -> Trial | None:
         """The most robust of the best designs."""
         return self.candidates[0].row if self.candidates else self.best
 
@@ -160,53 +160,53 @@ def run_study(
         If the request is wrong, or the file holds another study, is damaged or in use.
     """
     prior, remark = _read_prior(request)
-    with Ledger.write(path, request.identity(prior)) as ledger:
-        if remark and remark not in ledger.notes():
-            ledger.note(remark)
-        stages = _stages(request, ledger, len(prior))
+    with StudyStore.write(path, request.identity(prior)) as store:
+        if remark and remark not in store.notes():
+            store.note(remark)
+        stages = _stages(request, store, len(prior))
         objective = find_objective(request.objective)
-        campaign = Campaign(request.space, objective, request.model, ledger, pool, prior, watch)
+        evaluator = Evaluator(request.space, objective, request.model, store, pool, prior, watch)
         for stage in stages:
-            _run_stage(campaign, stage, request)
-        rows = campaign.rows
+            _run_stage(evaluator, stage, request)
+        rows = evaluator.rows
         best = best_row(rows)
         candidates = []
         if request.method not in FRONTS:
-            candidates = rank_candidates(campaign, rows, request.seed, request.tolerance_mm)
-        bounds = active_bounds(campaign, candidates[0].row, len(rows)) if candidates else []
-        return Result(rows, best, candidates, bounds, ledger.notes())
+            candidates = rank_candidates(evaluator, rows, request.seed, request.tolerance_mm)
+        bounds = active_bounds(evaluator, candidates[0].row, len(rows)) if candidates else []
+        return Result(rows, best, candidates, bounds, store.notes())
 
 
-def best_row(rows: Sequence[Row]) -> Row | None:
+def best_row(rows: Sequence[Trial]) -> Trial | None:
     """Return the row with the highest score, the first of equals; None where every design is refused."""
     feasible = [row for row in rows if row.score is not None]
     return max(feasible, key=lambda row: row.score or 0.0) if feasible else None
 
 
-def search_rows(rows: Sequence[Row]) -> list[Row]:
+def search_rows(rows: Sequence[Trial]) -> list[Trial]:
     """Return the rows that the search proposed, without those of the robust pick and the active bounds."""
     return [row for row in rows if row.phase in SEARCH_PHASES]
 
 
-def count_refusals(rows: Sequence[Row]) -> dict[str, int]:
+def count_refusals(rows: Sequence[Trial]) -> dict[str, int]:
     """Return how many rows each reason refused, most frequent first."""
     return dict(Counter(reason for row in rows for reason in row.evaluation.reasons).most_common())
 
 
-def _run_stage(campaign: Campaign, stage: Stage, request: Request) -> None:
+def _run_stage(evaluator: Evaluator, stage: Stage, request: Request) -> None:
     if stage.method == "ga":
-        run_genetic(campaign, stage.evaluations, request.seed, request.preset)
+        run_genetic(evaluator, stage.evaluations, request.seed, request.preset)
     elif stage.method == "bo":
-        run_bayesian(campaign, stage.evaluations, request.seed, stage.initial, request.batch)
+        run_bayesian(evaluator, stage.evaluations, request.seed, stage.initial, request.batch)
     elif stage.method == "pareto":
-        run_pareto(campaign, stage.evaluations, request.seed, stage.initial)
+        run_pareto(evaluator, stage.evaluations, request.seed, stage.initial)
     else:
-        run_nsga2(campaign, stage.evaluations, request.seed)
+        run_nsga2(evaluator, stage.evaluations, request.seed)
 
 
-def _stages(request: Request, ledger: Ledger, prior: int) -> list[Stage]:
+def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
     """Return the stages that the study has been planned with; a larger budget lengthens the last of them."""
-    planned = ledger.recall("stages")
+    planned = store.recall("stages")
     if planned is None:
         stages = plan_stages(request, prior)
     else:
@@ -214,20 +214,20 @@ def _stages(request: Request, ledger: Ledger, prior: int) -> list[Stage]:
         more = request.evaluations - sum(stage.evaluations for stage in stages)
         if more < 0:
             raise JumpcadError(
-                f"{ledger.path}: is planned for {request.evaluations - more} evaluations, not {request.evaluations}; "
+                f"{store.path}: is planned for {request.evaluations - more} evaluations, not {request.evaluations}; "
                 f"ask for as many or more, or name another file"
             )
         stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more)
-    ledger.remember("stages", [asdict(stage) for stage in stages])
+    store.remember("stages", [asdict(stage) for stage in stages])
     return stages
 
 
-def _read_prior(request: Request) -> tuple[list[Row], str]:
+def _read_prior(request: Request) -> tuple[list[Trial], str]:
     """Return the rows of the prior study that lie in the space, scored by this request's objective, and a remark."""
     if request.prior is None:
         return [], ""
-    with Ledger.read(request.prior) as ledger:
-        theirs, ours = ledger.identity["model"], json.loads(json.dumps(request.model.describe()))
+    with StudyStore.read(request.prior) as store:
+        theirs, ours = store.identity["model"], json.loads(json.dumps(request.model.describe()))
         if theirs != ours:
             raise JumpcadError(
                 f"{request.prior}: was made with another model ({theirs['name']}, or other settings) than this search"
@@ -235,7 +235,7 @@ def _read_prior(request: Request) -> tuple[list[Row], str]:
         objective = find_objective(request.objective)
         rows = [
             replace(row, score=objective.score(row.evaluation))
-            for row in ledger.rows()
+            for row in store.rows()
             if request.space.contains(row.design)
         ]
         same = all(row.model == request.model.digest for row in rows)

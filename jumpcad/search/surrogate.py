@@ -17,7 +17,7 @@ from scipy.optimize import minimize
 from scipy.special import erfcx, log_ndtr
 
 from jumpcad.search.space import Space
-from jumpcad.search.store import Row
+from jumpcad.search.store import Trial
 from jumpcad.transforms import Array
 
 VERDICT = "verdict"
@@ -70,7 +70,7 @@ class Surrogate:
         pull = weights @ self.x - weights.sum(axis=1, keepdims=True) * points
         return self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
 
-    def believing(self, point: Array) -> Self:
+    def condition_on(self, point: Array) -> Self:
         """Return the process that took its own mean at a point (d,) for a measurement (kriging believer)."""
         mean, _ = self.predict(point[None])
         return type(self)(np.vstack([self.x, point]), np.append(self.y, mean), self.theta, fit=False)
@@ -87,14 +87,16 @@ class Surrogate:
 
 
 @dataclass(frozen=True)
-class Belief:
+class Posterior:
     """What is believed of a space: the score, if any design is feasible yet, and each constraint's scaled margin."""
 
     score: Surrogate | None
     constraints: Mapping[str, Surrogate]
 
     @classmethod
-    def from_rows(cls, space: Space, rows: Sequence[Row], thetas: Mapping[str, Any], fit: Sequence[str] | None) -> Self:
+    def from_rows(
+        cls, space: Space, rows: Sequence[Trial], thetas: Mapping[str, Any], fit: Sequence[str] | None
+    ) -> Self:
         """Learn from rows, starting from the hyperparameters `thetas` of an earlier belief.
 
         Parameters
@@ -150,10 +152,10 @@ class Belief:
         mean, deviation = self.score.predict(points)
         return np.log(deviation) + _log_h((mean - warped(best)) / deviation)
 
-    def believing(self, point: Array) -> "Belief":
+    def condition_on(self, point: Array) -> "Posterior":
         """Return the belief after its own means at a point (d,) were taken for measurements."""
-        constraints = {name: surrogate.believing(point) for name, surrogate in self.constraints.items()}
-        return Belief(None if self.score is None else self.score.believing(point), constraints)
+        constraints = {name: surrogate.condition_on(point) for name, surrogate in self.constraints.items()}
+        return Posterior(None if self.score is None else self.score.condition_on(point), constraints)
 
 
 def forwards(scores: Array) -> Array:
@@ -179,7 +181,7 @@ def unwarped(values: Array) -> Array:
     return np.sign(values) * values**2
 
 
-def constraint_margins(rows: Sequence[Row]) -> dict[str, Array]:
+def constraint_margins(rows: Sequence[Trial]) -> dict[str, Array]:
     """Return the margins (n,) of each constraint that refused a design; NaN where a row does not know it.
 
     At most `MAX_CONSTRAINTS`: `VERDICT`, and those that refuse most often.
@@ -193,7 +195,7 @@ def constraint_margins(rows: Sequence[Row]) -> dict[str, Array]:
     return margins
 
 
-def _margin(row: Row, name: str) -> float:
+def _margin(row: Trial, name: str) -> float:
     return min((f.margin for f in row.evaluation.findings if f.name == name), default=np.nan)
 
 

@@ -8,17 +8,17 @@ from typing import Any
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import write_text_atomically
-from jumpcad.search.store import Row
+from jumpcad.search.store import Trial
 
 
-def table(rows: Sequence[Row]) -> list[dict[str, Any]]:
+def table(rows: Sequence[Trial]) -> list[dict[str, Any]]:
     """Return one flat record a row, all with the same columns; a figure that a row does not have is None."""
     metrics = sorted({name for row in rows for name in row.evaluation.metrics})
     margins = sorted({finding.name for row in rows for finding in row.evaluation.findings})
     return [_record(row, metrics, margins) for row in rows]
 
 
-def write_table(rows: Sequence[Row], path: Path) -> None:
+def write_table(rows: Sequence[Trial], path: Path) -> None:
     """Write rows to a new `.csv` or `.parquet` file.
 
     Raises
@@ -53,7 +53,7 @@ def _write_parquet(records: list[dict[str, Any]], path: Path) -> None:
         raise JumpcadError(f"{path}: cannot be written: {error}") from None
 
 
-def _record(row: Row, metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
+def _record(row: Trial, metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
     evaluation = row.evaluation
     worst: dict[str, float] = {}
     for finding in evaluation.findings:

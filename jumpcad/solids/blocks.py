@@ -17,7 +17,7 @@ from manifold3d import CrossSection, Manifold, OpType
 from jumpcad.solids.finish import finished
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region, circle_points
-from jumpcad.solids.stack import NOTHING, Section
+from jumpcad.solids.stack import NOTHING, SlabSection
 from jumpcad.transforms import Array
 
 Contours = list[Array]
@@ -222,9 +222,9 @@ class Blocks:
                 regions.append(regions[-1])
         return regions
 
-    def sections_at(self, heights_mm: npt.ArrayLike) -> list[Section]:
+    def sections_at(self, heights_mm: npt.ArrayLike) -> list[SlabSection]:
         """Return the same as sections that no chamfer narrows."""
-        return [Section(region) for region in self.regions_at(heights_mm)]
+        return [SlabSection(region) for region in self.regions_at(heights_mm)]
 
 
 def _gathered(blocks: tuple[Block, ...], heights_mm: Array) -> Iterator[Contours]:

@@ -27,7 +27,7 @@ SMALLEST_AREA_MM2 = 1e-6  # what clipping leaves where two regions only touch
 NOTHING: Region = CrossSection()
 
 
-class Section(NamedTuple):
+class SlabSection(NamedTuple):
     """A cross-section: an outline whose border a chamfer sets back by `inset_mm`."""
 
     outline: Region
@@ -169,10 +169,11 @@ class Stack:
         """Return the cross-sections at heights (n,), at the edge of two slabs the upper one's; `NOTHING` outside."""
         return [slab.region if slab else NOTHING for slab in self._slabs_at(heights_mm)]
 
-    def sections_at(self, heights_mm: npt.ArrayLike) -> list[Section]:
+    def sections_at(self, heights_mm: npt.ArrayLike) -> list[SlabSection]:
         """Return the same as outlines with what a chamfer takes from them."""
         return [
-            Section(slab.outline, slab.inset_mm) if slab else Section(NOTHING) for slab in self._slabs_at(heights_mm)
+            SlabSection(slab.outline, slab.inset_mm) if slab else SlabSection(NOTHING)
+            for slab in self._slabs_at(heights_mm)
         ]
 
     def footprint(self) -> Region:

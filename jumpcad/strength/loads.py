@@ -110,7 +110,7 @@ def push_off(design: Design, mass: MovingMass, foot_depth_mm: float) -> PushOff:
 
     up = ground[:, 1]
     stands = np.cumprod(up > 0.0).astype(float)
-    back, _ = toe_tip_mm(design)
+    back, _ = toe_reach_mm(design)
     centre_of_pressure = (design.l4_mm * eye[:, 1] - foot_depth_mm * ground[:, 0]) / np.where(stands > 0, up, 1.0)
     share = np.clip((design.l4_mm - centre_of_pressure) / (design.l4_mm + back), 0.0, 1.0)
     return PushOff(
@@ -155,10 +155,10 @@ def toe_moment_nmm(design: Design, toes_n: float) -> float:
 
 def rail_moment_nmm(design: Design, toes_n: float) -> float:
     """Return the moment in one of the two rails at the ankle when both toe tips bear a force together."""
-    return 0.5 * toes_n * toe_tip_mm(design)[0]
+    return 0.5 * toes_n * toe_reach_mm(design)[0]
 
 
-def toe_tip_mm(design: Design) -> tuple[float, float]:
+def toe_reach_mm(design: Design) -> tuple[float, float]:
     """Return how far behind the ankle and how far from the middle a toe's tip is."""
     angle = math.radians(design.ground_link_angle_deg)
     return design.l5_mm * math.cos(angle), design.l5_mm * math.sin(angle)

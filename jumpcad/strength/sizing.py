@@ -13,7 +13,7 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
-from jumpcad.strength.stress import STATIONS, Bar, Skin, height_for_mm, tapered_energy_nmm
+from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm
 from jumpcad.workshop import Workshop
 
 TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
@@ -50,26 +50,26 @@ class Sections:
     rail_tip_mm: float
     toe_width_mm: float
     toe_root_mm: float
-    toe_tip_mm: float
+    toe_tip_height_mm: float
     key_mm: float
 
-    def leg(self, skin: Skin) -> Bar:
+    def leg(self, shell: Shell) -> Beam:
         """Return the main leg's sections from hub to ankle."""
-        return Bar(self.thickness_mm, np.linspace(self.leg_root_mm, self.leg_tip_mm, STATIONS), skin)
+        return Beam(self.thickness_mm, np.linspace(self.leg_root_mm, self.leg_tip_mm, STATIONS), shell)
 
-    def front(self, skin: Skin) -> Bar:
+    def front(self, shell: Shell) -> Beam:
         """Return the front link's section."""
-        return Bar(self.thickness_mm, self.front_mm, skin)
+        return Beam(self.thickness_mm, self.front_mm, shell)
 
-    def toe(self, skin: Skin) -> Bar:
+    def toe(self, shell: Shell) -> Beam:
         """Return one toe's sections from root to tip."""
         width = np.linspace(self.toe_width_mm, TOE_TIP_WIDTH_MM, STATIONS)
-        return Bar(width, np.linspace(self.toe_root_mm, self.toe_tip_mm, STATIONS), skin, upright=True)
+        return Beam(width, np.linspace(self.toe_root_mm, self.toe_tip_height_mm, STATIONS), shell, upright=True)
 
-    def rail(self, skin: Skin) -> Bar:
+    def rail(self, shell: Shell) -> Beam:
         """Return one rail's sections from ankle to front eye."""
-        return Bar(
-            self.lug_thickness_mm, np.linspace(self.rail_root_mm, self.rail_tip_mm, STATIONS), skin, upright=True
+        return Beam(
+            self.lug_thickness_mm, np.linspace(self.rail_root_mm, self.rail_tip_mm, STATIONS), shell, upright=True
         )
 
 
@@ -95,20 +95,20 @@ class Growth:
 def sections(design: Design, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
     """Size the links of a design in a workshop, with a hub of at least a width."""
     fits, safety, material = workshop.fits, workshop.safety, workshop.material("links")
-    skin = Skin.of(workshop.process)
+    shell = Shell.of(workshop.process)
     allowable = material.strength_in_plane_mpa / safety.strength_factor
     eye = workshop.bought.axle_mm / 2.0 + 0.3 + 2.0 * fits.wall_mm
     lug, toe_width = growth.lug * 4.0, 7.0
     torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
     thickness = growth.thickness * max(6.0 if torque < 900.0 else 8.0, hub_width_mm)
-    root = max(HEIGHT_MIN_MM + 2.0, height_for_mm(torque, thickness, allowable, skin))
-    stiff = _stiff_mm(design, root, thickness, skin, material.modulus_mpa, safety.leg_flex_share)
+    root = max(HEIGHT_MIN_MM + 2.0, height_for_mm(torque, thickness, allowable, shell))
+    stiff = _stiff_mm(design, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
     leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
     depth = max(eye, leg_tip / 2.0) + 1.0
     toes = RESERVE * float(push_off(design, TYPICAL_BODY, depth).toes_n.max())
-    toe = height_for_mm(toe_moment_nmm(design, toes), toe_width, allowable, skin, upright=True)
-    rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, skin, upright=True)
+    toe = height_for_mm(toe_moment_nmm(design, toes), toe_width, allowable, shell, upright=True)
+    rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
     toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
     rail_root = _in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
     return Sections(
@@ -124,12 +124,12 @@ def sections(design: Design, workshop: Workshop, hub_width_mm: float = 0.0, grow
         rail_tip_mm=max(RAIL_MIN_MM, RAIL_TAPER * rail_root),
         toe_width_mm=toe_width,
         toe_root_mm=toe_root,
-        toe_tip_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
+        toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
         key_mm=growth.key * KEY_MM,
     )
 
 
-def leg_flex_share(design: Design, leg: Bar, modulus_mpa: float) -> float:
+def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float) -> float:
     """Return the energy that bends the leg at release as a share of the springs'.
 
     The moment is taken to fall evenly from the hub to the ankle: an upper bound, since the springs' arms press on the
@@ -140,12 +140,12 @@ def leg_flex_share(design: Design, leg: Bar, modulus_mpa: float) -> float:
 
 
 def _stiff_mm(
-    design: Design, root_mm: float, thickness_mm: float, skin: Skin, modulus_mpa: float, share_max: float
+    design: Design, root_mm: float, thickness_mm: float, shell: Shell, modulus_mpa: float, share_max: float
 ) -> float:
     """Return the height of the leg's root, raised until its flexing is within its share: energy goes with 1/h³."""
     for _ in range(12):
         heights = np.linspace(root_mm, _leg_tip_mm(root_mm), STATIONS)
-        share = leg_flex_share(design, Bar(thickness_mm, heights, skin), modulus_mpa)
+        share = leg_flex_share(design, Beam(thickness_mm, heights, shell), modulus_mpa)
         if share <= share_max:
             break
         root_mm *= 1.01 * (share / share_max) ** (1.0 / 3.0)

@@ -21,7 +21,7 @@ STATIONS = 17
 
 
 @dataclass(frozen=True)
-class Skin:
+class Shell:
     """What a printed bar is made of besides infill: walls at its sides, layers below and above (mm).
 
     `core_share` is what the infill bears, as a share of solid material.
@@ -32,7 +32,7 @@ class Skin:
     core_share: float
 
     @classmethod
-    def of(cls, process: Process) -> "Skin":
+    def of(cls, process: Process) -> "Shell":
         """Return the skin that a process prints."""
         return cls(
             process.perimeters * process.line_width_mm,
@@ -41,11 +41,11 @@ class Skin:
         )
 
 
-SOLID = Skin(0.0, 0.0, 1.0)
+SOLID = Shell(0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True)
-class Bar:
+class Beam:
     """Rectangular sections of a printed bar, solid in its skin and infilled within; scalars or arrays (n,) of mm.
 
     `height_mm` lies in the plane of bending. A bar that prints lying has its walls at the ends of its height, one that
@@ -54,24 +54,24 @@ class Bar:
 
     width_mm: float | Array
     height_mm: float | Array
-    skin: Skin = SOLID
+    shell: Shell = SOLID
     upright: bool = False
 
     @property
     def area_mm2(self) -> float | Array:
         """Area that bears."""
         width, height = self._core
-        return self.width_mm * self.height_mm - (1.0 - self.skin.core_share) * width * height
+        return self.width_mm * self.height_mm - (1.0 - self.shell.core_share) * width * height
 
     @property
     def second_moment_mm4(self) -> float | Array:
         """Second moment of area, b·h³/12 less what the core lacks."""
         width, height = self._core
-        return (self.width_mm * self.height_mm**3 - (1.0 - self.skin.core_share) * width * height**3) / 12.0
+        return (self.width_mm * self.height_mm**3 - (1.0 - self.shell.core_share) * width * height**3) / 12.0
 
     @property
     def _core(self) -> tuple[float | Array, float | Array]:
-        walls, layers = 2.0 * self.skin.walls_mm, 2.0 * self.skin.layers_mm
+        walls, layers = 2.0 * self.shell.walls_mm, 2.0 * self.shell.layers_mm
         across, along = (walls, layers) if self.upright else (layers, walls)
         return np.maximum(self.width_mm - across, 0.0), np.maximum(self.height_mm - along, 0.0)
 
@@ -81,18 +81,18 @@ class Bar:
         return bending + np.abs(axial_n) / self.area_mm2
 
 
-def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, skin: Skin, upright: bool = False) -> float:
+def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, shell: Shell, upright: bool = False) -> float:
     """Return the least height of a bar that bears a bending moment.
 
     The solid bar's height, the root of 6·M/(b·stress), is the first guess; what the core lacks is then made up for.
     """
     height = math.sqrt(6.0 * moment_nmm / (width_mm * stress_mpa))
     for _ in range(20):
-        height *= math.sqrt(float(Bar(width_mm, height, skin, upright).stress_mpa(moment_nmm)) / stress_mpa)
+        height *= math.sqrt(float(Beam(width_mm, height, shell, upright).stress_mpa(moment_nmm)) / stress_mpa)
     return height
 
 
-def tapered_stress_mpa(bar: Bar, moment_nmm: float, axial_n: float = 0.0) -> float:
+def tapered_stress_mpa(bar: Beam, moment_nmm: float, axial_n: float = 0.0) -> float:
     """Return the largest stress of a cantilever whose moment falls evenly from its root to nothing at its tip.
 
     `bar` holds the sections (n,) at even distances from root to tip.
@@ -101,7 +101,7 @@ def tapered_stress_mpa(bar: Bar, moment_nmm: float, axial_n: float = 0.0) -> flo
     return float(np.max(bar.stress_mpa(moment_nmm * share, axial_n)))
 
 
-def tapered_energy_nmm(bar: Bar, moment_nmm: float, length_mm: float, modulus_mpa: float) -> float:
+def tapered_energy_nmm(bar: Beam, moment_nmm: float, length_mm: float, modulus_mpa: float) -> float:
     """Return the bending energy of such a cantilever, the integral of M²/(2·E·I) (N·mm)."""
     share = np.linspace(1.0, 0.0, len(np.atleast_1d(bar.height_mm)))
     density = (moment_nmm * share) ** 2 / (2.0 * modulus_mpa * bar.second_moment_mm4)
@@ -139,6 +139,6 @@ def bar_shear_mpa(torque_nmm: float | Array, width_mm: float | Array, height_mm:
     return torque_nmm / (long * short**2) * (3.0 + 1.8 * short / long)
 
 
-def buckling_load_n(bar: Bar, length_mm: float, modulus_mpa: float) -> float:
+def buckling_load_n(bar: Beam, length_mm: float, modulus_mpa: float) -> float:
     """Return Euler's load of a bar with a hinge at either end, pi²·E·I/l²."""
     return float(math.pi**2 * modulus_mpa * bar.second_moment_mm4 / length_mm**2)

@@ -131,7 +131,7 @@ def test_the_foot_lies_flat_when_the_body_is_tilted_by_beta() -> None:
 
 def test_the_energy_of_the_springs_is_the_designs() -> None:
     robot = built("kenan-2.0")
-    spring = robot.plan.drive.spring
+    spring = robot.layout.drive.spring
     assert 2 * spring.stiffness_nm_per_rad == pytest.approx(robot.design.stiffness_nm_per_rad)
     assert robot.spring.energy_j == pytest.approx(0.133, abs=0.001)  # the study's table for Kenan 2.0
 
@@ -139,7 +139,7 @@ def test_the_energy_of_the_springs_is_the_designs() -> None:
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo", LONG_TOES])
 def test_everything_bought_is_between_or_beside_the_plates(name: str) -> None:
     robot = built(name)
-    low, high = robot.plan.lateral.outside
+    low, high = robot.layout.lateral.outside
     for item in robot.hardware:
         if item.body == BODY:
             y = (item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3])[:, 1]

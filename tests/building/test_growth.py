@@ -45,17 +45,19 @@ def test_sections_grow_until_the_checks_pass(shop: Workshop, grown: set[str]) ->
     robot = build(design, shop)
     assert errors(check(robot)) == []
     assert robot.mass_kg > as_sized.mass_kg
-    before, after = ({**vars(r.plan.sections), "plate": r.plan.lateral.left_plate} for r in (as_sized, robot) if r.plan)
+    before, after = (
+        {**vars(r.layout.sections), "plate": r.layout.lateral.left_plate} for r in (as_sized, robot) if r.layout
+    )
     assert grown <= {name for name in before if before[name] != after[name]}
 
 
 def test_what_finds_no_room_to_grow_stays_and_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    plan_of = assembly.plan_of
+    layout_of = assembly.layout_of
 
     def narrow(design: Any, shop: Any, growth: Growth) -> Any:
         if growth.toe > 1.15:
             raise CannotBuildError("no room")
-        return plan_of(design, shop, growth)
+        return layout_of(design, shop, growth)
 
     monkeypatch.setattr(assembly, "plan_of", narrow)
     robot = build(load_design("best-bo"), workshop(landing_stop_mm=5.0))

@@ -5,15 +5,15 @@ import io
 import numpy as np
 from PIL import Image
 
-from jumpcad.bundle.renders import exploded, jump_gif, stills
+from jumpcad.bundle.renders import exploded, jump_gif, renders
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.shapes import shapes
+from jumpcad.scene.visuals import visuals
 from jumpcad.simulation import Settings, simulate
 
 
 def test_three_different_pictures_of_the_size_asked(small_robot: Robot) -> None:
-    files = stills(small_robot, (160, 120))
+    files = renders(small_robot, (160, 120))
     assert list(files) == ["rest", "compressed", "exploded"]
     pictures = [Image.open(io.BytesIO(png)) for png in files.values()]
     assert {(picture.format, picture.size) for picture in pictures} == {("PNG", (160, 120))}
@@ -22,7 +22,7 @@ def test_three_different_pictures_of_the_size_asked(small_robot: Robot) -> None:
 
 
 def test_exploding_keeps_the_order_across_the_robot(small_robot: Robot) -> None:
-    things = shapes(small_robot)
+    things = visuals(small_robot)
     poses = [body_poses(small_robot)[thing.body] @ thing.T_body_mesh for thing in things]
     moved = dict(zip((thing.name for thing in things), exploded(things, poses), strict=True))
     offset = {name: moved[name][1, 3] - pose[1, 3] for name, pose in zip(moved, poses, strict=True)}

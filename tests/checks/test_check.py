@@ -32,10 +32,10 @@ def test_constraints_are_among_all_checks_and_leave_the_gates_to_the_jump(kenan:
 
 
 def test_drive_reports_what_its_synthesis_found(kenan: Robot) -> None:
-    assert kenan.plan is not None
+    assert kenan.layout is not None
     slipping = Finding("motor_torque", "info", -0.01, "N·m", "too little torque", "a stronger motor")
-    train = replace(kenan.plan.drive.train, findings=(slipping,))
-    robot = replace(kenan, plan=replace(kenan.plan, drive=replace(kenan.plan.drive, train=train)))
+    train = replace(kenan.layout.drive.train, findings=(slipping,))
+    robot = replace(kenan, layout=replace(kenan.layout, drive=replace(kenan.layout.drive, train=train)))
     (error,) = errors(constraint_findings(robot))
     assert (error.name, error.margin) == ("motor_torque", -0.01)
     names = {finding.name for finding in constraint_findings(kenan)}

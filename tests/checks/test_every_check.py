@@ -101,8 +101,8 @@ def test_spring_stress() -> None:
 
 @pytest.mark.parametrize("name", sorted({finding.name for finding in DRIVE.findings}))
 def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
-    assert kenan.plan is not None
-    drive = kenan.plan.drive
+    assert kenan.layout is not None
+    drive = kenan.layout.drive
     findings = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.train.findings)
     spring = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.spring.findings)
     cam = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.cam.findings)
@@ -112,7 +112,7 @@ def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
         cam=replace(drive.cam, findings=cam),
         train=replace(drive.train, findings=findings),
     )
-    robot = replace(kenan, plan=replace(kenan.plan, drive=violated))
+    robot = replace(kenan, layout=replace(kenan.layout, drive=violated))
     assert [finding.name for finding in errors(drive_findings(robot))] == [name]
 
 

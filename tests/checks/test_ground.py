@@ -15,14 +15,14 @@ from jumpcad.robot import Robot
 
 def lowest_above_ground_mm(robot: Robot, leg_rad: float, without: tuple[str, ...] = (FOOT,)) -> float:
     """Return the height of the lowest corner of any solid above the ground, but those of some bodies."""
-    assert robot.plan is not None
+    assert robot.layout is not None
     linkage = Linkage(robot.design)
     pose = linkage.pose([leg_rad])
     lowest = np.inf
     for piece in components(robot):
         if piece.body in without:
             continue
-        placed: Manifold = piece.solid.transform(pose_of(piece, robot.plan, linkage, Moment("", leg_rad, 0.0))[:3])
+        placed: Manifold = piece.solid.transform(pose_of(piece, robot.layout, linkage, Moment("", leg_rad, 0.0))[:3])
         corners = np.asarray(placed.to_mesh64().vert_properties)[:, [0, 2]]
         tilt = float(pose.foot_rad[0])  # of the foot below the body's x axis
         height = (corners - pose.ankle_mm[0]) @ np.array([np.sin(tilt), np.cos(tilt)])
@@ -40,25 +40,25 @@ def test_ground_clearance_is_below_every_solid(strongest: Robot, share: float) -
 
 
 def test_the_body_is_measured_where_it_is_lowest(strongest: Robot) -> None:
-    assert strongest.plan is not None
-    legless = replace(strongest.plan, sections=replace(strongest.plan.sections, eye_radius_mm=-1000.0))
-    (finding,) = ground_findings(replace(strongest, plan=legless))
+    assert strongest.layout is not None
+    legless = replace(strongest.layout, sections=replace(strongest.layout.sections, eye_radius_mm=-1000.0))
+    (finding,) = ground_findings(replace(strongest, layout=legless))
     measured = lowest_above_ground_mm(strongest, -strongest.design.compression_rad, (FOOT, MAIN_LEG, FRONT_LINK))
     assert "the body" in finding.message
     assert measured - 1.0 < finding.margin + 0.5 <= measured + 1e-3
 
 
 def test_ground_clearance_fires_on_a_shallow_foot(kenan: Robot) -> None:
-    assert kenan.plan is not None
-    shallow = replace(kenan.plan, sections=replace(kenan.plan.sections, foot_depth_mm=4.5))
-    (finding,) = ground_findings(replace(kenan, plan=shallow))
+    assert kenan.layout is not None
+    shallow = replace(kenan.layout, sections=replace(kenan.layout.sections, foot_depth_mm=4.5))
+    (finding,) = ground_findings(replace(kenan, layout=shallow))
     assert finding.severity == "error"
     assert finding.margin == pytest.approx(4.5 - 4.2 - 0.5)
 
 
 def test_ground_clearance_fires_on_a_body_that_hangs_down(kenan: Robot) -> None:
-    assert kenan.plan is not None
-    (finding,) = ground_findings(replace(kenan, plan=replace(kenan.plan, cam_axis_mm=np.array([-40.0, -90.0]))))
+    assert kenan.layout is not None
+    (finding,) = ground_findings(replace(kenan, layout=replace(kenan.layout, cam_axis_mm=np.array([-40.0, -90.0]))))
     assert finding.severity == "error"
     assert "the body" in finding.message
 

@@ -22,8 +22,8 @@ def test_silent_on_the_strongest(strongest: Robot) -> None:
 
 
 def test_fires_on_a_lever_that_meets_a_misplaced_motor(kenan: Robot) -> None:
-    assert kenan.plan is not None
-    shift = kenan.plan.hub_mm - kenan.plan.motor_mm
+    assert kenan.layout is not None
+    shift = kenan.layout.hub_mm - kenan.layout.motor_mm
     hardware = []
     for item in kenan.hardware:
         pose = item.T_body_part.copy()

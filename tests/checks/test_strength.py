@@ -8,7 +8,7 @@ import pytest
 
 from jumpcad.building import build
 from jumpcad.catalogue import load_catalogue
-from jumpcad.checks.load_case import Case, leg_axle_moment_nmm
+from jumpcad.checks.load_case import LoadCase, leg_axle_moment_nmm
 from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
@@ -74,14 +74,14 @@ def test_hub_bearings_warn_when_the_springs_overload_them(strongest: Robot) -> N
     (finding,) = [found for found in strength_findings(build(weak.design, weak.workshop)) if "bearing" in found.name]
     assert (finding.name, finding.severity, finding.unit) == ("hub_bearing_load", "warning", "N")
     # an arm's force is torque over its radius; the roller's middle is 6.5 mm from the leg's, the bearings 5.5 mm apart
-    assert weak.plan is not None
-    arms = 1000.0 * weak.design.peak_spring_torque_nm / weak.plan.leg_pin_mm
-    cam = weak.plan.drive.cam.peak_contact_n
+    assert weak.layout is not None
+    arms = 1000.0 * weak.design.peak_spring_torque_nm / weak.layout.leg_pin_mm
+    cam = weak.layout.drive.cam.peak_contact_n
     assert finding.margin == pytest.approx(75.0 / 0.5 - (arms / 2.0 + cam * (0.5 + 6.5 / 5.5)), rel=0.05)
 
 
 def test_the_hub_gets_the_lightest_bearings_that_bear_it(kenan: Robot, strongest: Robot) -> None:
-    names = [robot.plan.hub_bearing.name for robot in (kenan, strongest) if robot.plan and robot.plan.hub_bearing]
+    names = [robot.layout.hub_bearing.name for robot in (kenan, strongest) if robot.layout and robot.layout.hub_bearing]
     assert names == ["MR63", "683"]
     for robot in (kenan, strongest):
         assert sum(item.name.startswith("hub_bearing") for item in robot.hardware) == 2
@@ -91,10 +91,10 @@ def test_the_hub_gets_the_lightest_bearings_that_bear_it(kenan: Robot, strongest
 def test_a_careful_workshop_gets_stronger_bearings_and_a_hub_as_wide(kenan: Robot) -> None:
     careful = changed(kenan, "safety", bearing_factor=2.0)
     robot = build(careful.design, careful.workshop)
-    assert robot.plan is not None
-    assert robot.plan.hub_bearing is not None
-    assert robot.plan.hub_bearing.name == "623"
-    assert robot.plan.sections.thickness_mm == pytest.approx(2 * 4.0 + 0.8)
+    assert robot.layout is not None
+    assert robot.layout.hub_bearing is not None
+    assert robot.layout.hub_bearing.name == "623"
+    assert robot.layout.sections.thickness_mm == pytest.approx(2 * 4.0 + 0.8)
     assert margins(robot)["hub_bearing_load"] > 0.0
     bare = changed(kenan, "bought", leg_bearing="")
     assert "hub_bearing_load" not in margins(build(bare.design, bare.workshop))
@@ -124,25 +124,25 @@ def test_what_lasts_too_few_jumps_warns(kenan: Robot, strongest: Robot) -> None:
     assert {"axle_fatigue"} <= {found.name for found in strength_findings(soft) if found.severity == "warning"}
     built_for_it = build(lasting.design, lasting.workshop)
     assert margins(built_for_it)["spring_fatigue"] > 0.0
-    assert built_for_it.plan is not None
-    assert built_for_it.plan.drive.spring.mass_g > kenan.plan.drive.spring.mass_g  # type: ignore[union-attr]
+    assert built_for_it.layout is not None
+    assert built_for_it.layout.drive.spring.mass_g > kenan.layout.drive.spring.mass_g  # type: ignore[union-attr]
 
 
 def test_sideways_stress_by_hand(kenan: Robot) -> None:
     """A solid leg that stands upright is a plain cantilever on its thin side, 6·M/(h·b²); worst where it is lowest."""
-    assert kenan.plan is not None
+    assert kenan.layout is not None
     upright = kenan.design.model_copy(update={"rest_angle_deg": 90.0})
     solid = changed(replace(kenan, design=upright), "process", infill=1.0)
-    case = Case(solid)
+    case = LoadCase(solid)
     aside = upright.l5_mm * math.sin(math.radians(upright.ground_link_angle_deg))
-    by_hand = 6.0 * case.toe_blow_n * aside / (kenan.plan.sections.leg_tip_mm * 6.0**2)
+    by_hand = 6.0 * case.toe_blow_n * aside / (kenan.layout.sections.leg_tip_mm * 6.0**2)
     assert 15.0 - margins(solid)["leg_sideways"] == pytest.approx(by_hand)
 
 
 def test_leg_stress_by_hand(kenan: Robot) -> None:
     # at the hub: M·c/I of 8 x 6 mm with 1.35 mm walls, 0.9 mm layers and a fifth of the core, plus force over area
-    assert kenan.plan is not None
-    assert (kenan.plan.sections.leg_root_mm, kenan.plan.sections.thickness_mm) == (8.0, 6.0)
+    assert kenan.layout is not None
+    assert (kenan.layout.sections.leg_root_mm, kenan.layout.sections.thickness_mm) == (8.0, 6.0)
     core_width, core_height = 6.0 - 1.8, 8.0 - 2.7
     second = (6.0 * 8.0**3 - 0.8 * core_width * core_height**3) / 12.0
     bending = 1000.0 * kenan.design.peak_spring_torque_nm * 4.0 / second
@@ -163,8 +163,8 @@ def test_leg_axle_is_a_simple_beam() -> None:
 
 def test_twice_the_spring_torque_bends_twice_as_much(kenan: Robot) -> None:
     doubled = kenan.design.model_copy(update={"stiffness_nmm_per_deg": 2.0 * kenan.design.stiffness_nmm_per_deg})
-    assert kenan.plan is not None
-    robot = replace(kenan, design=doubled, plan=replace(kenan.plan, design=doubled))
+    assert kenan.layout is not None
+    robot = replace(kenan, design=doubled, layout=replace(kenan.layout, design=doubled))
     before, after = 15.0 - margins(kenan)["hub_strength"], 15.0 - margins(robot)["hub_strength"]
     assert after == pytest.approx(2.0 * before)
     assert math.isfinite(after)

@@ -10,7 +10,7 @@ import trimesh
 from manifold3d import CrossSection, JoinType, Manifold, Mesh64
 from support.gearing import turning_play_deg
 
-from jumpcad.coupon.pieces import Piece, coupon_bores, ladders, pieces
+from jumpcad.coupon.pieces import Piece, coupon_holes, ladders, pieces
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
 from jumpcad.solids.stl import write_stl
@@ -21,7 +21,7 @@ WORKSHOP = load_workshop("default")
 
 
 def coupon(workshop: Workshop) -> dict[str, Piece]:
-    made = pieces(coupon_bores(workshop), list(workshop.materials), workshop.material_name("gears"))
+    made = pieces(coupon_holes(workshop), list(workshop.materials), workshop.material_name("gears"))
     return {piece.name: piece for piece in made}
 
 
@@ -116,13 +116,13 @@ def test_pinions_play_by_the_backlash_engraved_on_them() -> None:
 
 def test_ladders_reach_beyond_the_fits_on_both_sides() -> None:
     for workshop in (WORKSHOP, load_workshop("fine"), changed("fits", press_mm=-0.3, loose_mm=0.9)):
-        fits, steps = workshop.fits, ladders(coupon_bores(workshop))
+        fits, steps = workshop.fits, ladders(coupon_holes(workshop))
         assert steps.axle_mm[1] < fits.press_mm
         assert steps.axle_mm[-2] > fits.loose_mm
         assert steps.bearing_mm[1] < fits.press_mm < steps.bearing_mm[-2]
         assert len(steps.axle_mm) <= 15
         assert np.ptp(np.diff(steps.axle_mm)) == pytest.approx(0.0, abs=1e-9)
-    tight = ladders(coupon_bores(changed("fits", backlash_circumferential_mm=0.0)))
+    tight = ladders(coupon_holes(changed("fits", backlash_circumferential_mm=0.0)))
     assert tight.backlash_mm == (0.0, 0.05, 0.1)
 
 

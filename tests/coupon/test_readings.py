@@ -7,7 +7,7 @@ import pytest
 from manifold3d import JoinType
 from support.gearing import turning_play_deg
 
-from jumpcad.coupon.pieces import coupon_bores, coupon_pair, ladders, pinion
+from jumpcad.coupon.pieces import coupon_holes, coupon_pair, ladders, pinion
 from jumpcad.coupon.readings import LEAST_PLAY_MM, Readings, measured_workshop
 from jumpcad.errors import JumpcadError
 from jumpcad.solids.outline import polygon
@@ -23,17 +23,17 @@ def read(text: str, workshop: Workshop = WORKSHOP) -> Workshop:
 @pytest.mark.parametrize("shrinkage_mm", [0.03, 0.21, 0.34])
 def test_a_printer_that_narrows_holes_gets_fits_that_fit(shrinkage_mm: float) -> None:
     """Try the ladder on a printer that narrows every hole by an amount, and print with the fits that come of it."""
-    steps = ladders(coupon_bores(WORKSHOP)).axle_mm
+    steps = ladders(coupon_holes(WORKSHOP)).axle_mm
 
     def first_with(play_mm: float) -> float:
         return next(step for step in steps if 2.0 * step - shrinkage_mm >= play_mm)
 
     wanted = {"axle_press_mm": -0.03, "axle_sliding_mm": 0.06, "axle_loose_mm": 0.15}
     readings = "\n".join(f"{key} = {first_with(play)}" for key, play in wanted.items())
-    bores = coupon_bores(read(f"[gauge.PETG]\n{readings}"))
-    for bore, play in zip((bores.press(3.0), bores.running(3.0), bores.loose(3.0)), wanted.values(), strict=True):
+    holes = coupon_holes(read(f"[gauge.PETG]\n{readings}"))
+    for bore, play in zip((holes.press(3.0), holes.running(3.0), holes.loose(3.0)), wanted.values(), strict=True):
         assert play <= bore - shrinkage_mm - 3.0 < play + 0.1  # within one step of what was wanted, in diameter
-    assert 3.0 + bores.fits.hole_allowance_diameter_mm - shrinkage_mm == pytest.approx(3.0, abs=0.1)
+    assert 3.0 + holes.fits.hole_allowance_diameter_mm - shrinkage_mm == pytest.approx(3.0, abs=0.1)
 
 
 @pytest.mark.parametrize("growth_mm", [-0.02, 0.04, 0.12])

@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 
 from jumpcad.building import build
-from jumpcad.bundle.bom import Plate, bill_of_facts, bill_of_materials, mass_facts, write_bom
+from jumpcad.bundle.bom import BilledPlate, bill_of_facts, bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.guide import with_bill, write_guide
 from jumpcad.design import load_design
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import REST, assembly_steps
-from jumpcad.scene.shapes import shapes
+from jumpcad.scene.visuals import visuals
 from jumpcad.workshop import load_workshop
 
 
@@ -50,14 +50,14 @@ def test_the_bill_counts_every_piece(robot: Robot) -> None:
     assert quantity["screw M3 x 10 ISO 7380-1"] == 2 * standoffs
     assert sum(count for item, count in quantity.items() if item.startswith("torsion spring")) == 2
     assert sum(count for item, count in quantity.items() if item.startswith("gear motor")) == 1
-    axles = 3 if robot.plan is None or robot.plan.idler_mm is None else 4
+    axles = 3 if robot.layout is None or robot.layout.idler_mm is None else 4
     assert quantity["collar"] == 2 * axles
 
 
 def test_every_thing_is_put_on_once_and_none_is_left_over(robot: Robot) -> None:
     steps = assembly_steps(robot)
     assert Counter(thing.name for step in steps for thing in step.added) == Counter(
-        thing.name for thing in shapes(robot)
+        thing.name for thing in visuals(robot)
     )
     assert all(step.title != REST[0] for step in steps)
 
@@ -114,7 +114,7 @@ def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
 
 def test_a_guide_takes_times_in_and_changes_nothing_else(robot: Robot) -> None:
     bill = bill_of_materials(robot)
-    guide, sliced = write_guide(robot), bill.sliced({"foot": 5400.0}, [Plate("plate-1-PETG", "PETG", 7260.0)])
+    guide, sliced = write_guide(robot), bill.sliced({"foot": 5400.0}, [BilledPlate("plate-1-PETG", "PETG", 7260.0)])
     timed = with_bill(guide, sliced)
     assert re.search(r"\| foot \| 1 \| PETG \| [\d.]+ \| 1:30 h \|", timed)
     assert "| plate-1-PETG | PETG | 2:01 h |" in timed

@@ -18,7 +18,7 @@ from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.body_plate import TEXT_HEIGHTS_MM
 from jumpcad.robot import Robot
 from jumpcad.scene.shading import creased
-from jumpcad.scene.shapes import shapes
+from jumpcad.scene.visuals import visuals
 from jumpcad.solids.outline import disc, hole, rectangle
 from jumpcad.solids.text import text
 
@@ -67,7 +67,7 @@ def robot() -> Robot:
 def test_plates_are_drawn_with_their_axle_holes_and_their_names(robot: Robot) -> None:
     files = write_dxfs(robot)
     assert set(files) == {"body_plate_left", "body_plate_right"}
-    assert robot.plan is not None
+    assert robot.layout is not None
     for drawn in files.values():
         document = read(drawn)
         centres = []
@@ -75,7 +75,7 @@ def test_plates_are_drawn_with_their_axle_holes_and_their_names(robot: Robot) ->
             points = np.array([point[:2] for point in line.get_points()])
             centres.append((points.min(axis=0) + points.max(axis=0)) / 2.0)
         for first, second in (("leg", "front"), ("leg", "cam"), ("cam", "front")):
-            apart = np.linalg.norm(robot.plan.axles[first] - robot.plan.axles[second])
+            apart = np.linalg.norm(robot.layout.axles[first] - robot.layout.axles[second])
             gaps = np.linalg.norm(np.array(centres)[:, None] - np.array(centres)[None], axis=2)
             assert np.abs(gaps - apart).min() < 0.01
         assert enclosed_mm2(document, "ENGRAVE") > 10.0
@@ -85,8 +85,8 @@ def test_plates_are_drawn_with_their_axle_holes_and_their_names(robot: Robot) ->
 @pytest.mark.parametrize(("side", "label"), [("left", "L"), ("right", "R")])
 def test_the_name_reads_from_the_outside(robot: Robot, side: str, label: str) -> None:
     """The engraving covers the letters of the label, not their mirror image."""
-    assert robot.plan is not None
-    low, high = getattr(robot.plan.lateral, f"{side}_plate")
+    assert robot.layout is not None
+    low, high = getattr(robot.layout.lateral, f"{side}_plate")
     part = next(part for part in robot.parts if part.name == f"body_plate_{side}")
     _, engraved = sheet(part, high - low)
     x0, y0, x1, y1 = engraved.bounds()
@@ -103,7 +103,7 @@ def test_the_name_reads_from_the_outside(robot: Robot, side: str, label: str) ->
 def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(robot: Robot) -> None:
     glb = write_glb(robot)
     scene = trimesh.load_scene(io.BytesIO(glb), file_type="glb")
-    things = shapes(robot)
+    things = visuals(robot)
     parents = scene.graph.transforms.parents
     assert {thing.name: parents[thing.name] for thing in things} == {
         thing.name: f"{thing.body}_frame" for thing in things

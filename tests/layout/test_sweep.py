@@ -18,11 +18,11 @@ BETWEEN_MM = {"main leg": 0.5, "lever": 0.5, "front link": 0.8, "foot": 1.7}
 
 
 def swept(robot: Robot, gap_mm: float = 0.0) -> dict[str, Obstacle]:
-    plan = robot.plan
-    assert plan is not None
-    cam = plan.drive.cam
+    layout = robot.layout
+    assert layout is not None
+    cam = layout.drive.cam
     obstacles = link_obstacles(
-        Linkage(robot.design), plan.sections, cam.lever_length_mm, cam.lever_start_rad, (-6.0, 10.0), gap_mm
+        Linkage(robot.design), layout.sections, cam.lever_length_mm, cam.lever_start_rad, (-6.0, 10.0), gap_mm
     )
     return {obstacle.name: obstacle for obstacle in obstacles}
 
@@ -41,7 +41,7 @@ def windings(robot: Robot) -> np.ndarray:
 @pytest.mark.parametrize("link", ["main leg", "front link", "foot"])
 def test_a_link_stays_inside_its_sweep_all_the_way(name: str, link: str) -> None:
     robot = built(name)
-    design, sections = robot.design, robot.plan.sections
+    design, sections = robot.design, robot.layout.sections
     toes = design.l5_mm * np.cos(np.radians(design.ground_link_angle_deg))
     body, ends, radius = {
         "main leg": (MAIN_LEG, [[0.0, 0.0], [design.l2_mm, 0.0]], sections.leg_tip_mm / 2.0),
@@ -57,13 +57,13 @@ def test_a_link_stays_inside_its_sweep_all_the_way(name: str, link: str) -> None
 def test_the_lever_leads_the_leg_by_its_angle_and_swings_on_past_rest() -> None:
     """Wound by 53° the lever has turned by 53° with the leg; 5° past rest it is still inside."""
     robot = built("best-bo")
-    plan = robot.plan
-    cam = plan.drive.cam
+    layout = robot.layout
+    cam = layout.drive.cam
     room = area(swept(robot)["lever"]).buffer(BETWEEN_MM["lever"])
     for turn in [*windings(robot), -np.radians(5.0)]:
         angle = cam.lever_start_rad + turn  # winding turns the leg up towards the body: counter-clockwise
-        tip = plan.hub_mm + cam.lever_length_mm * np.array([np.cos(angle), np.sin(angle)])
-        assert room.contains(shapely.LineString([plan.hub_mm, tip]).buffer(plan.sections.lever_root_mm / 2.0))
+        tip = layout.hub_mm + cam.lever_length_mm * np.array([np.cos(angle), np.sin(angle)])
+        assert room.contains(shapely.LineString([layout.hub_mm, tip]).buffer(layout.sections.lever_root_mm / 2.0))
 
 
 def test_the_gap_is_added_all_around_and_intervals_are_kept() -> None:
@@ -72,7 +72,7 @@ def test_the_gap_is_added_all_around_and_intervals_are_kept() -> None:
     for name, obstacle in bare.items():
         assert wider[name].radius_mm == pytest.approx(obstacle.radius_mm + 0.8)
         assert np.array_equal(wider[name].points_mm, obstacle.points_mm)
-    half = robot.plan.sections.thickness_mm / 2.0
+    half = robot.layout.sections.thickness_mm / 2.0
     assert bare["main leg"].y_mm == bare["front link"].y_mm == (-half, half)
     assert bare["lever"].y_mm == (-6.0, 10.0)
     assert bare["foot"].y_mm == EVERYWHERE
@@ -82,7 +82,7 @@ def test_the_gap_is_added_all_around_and_intervals_are_kept() -> None:
 def test_the_gap_between_the_legs_is_shapelys(name: str) -> None:
     """Tapered leg and straight link with round eyes, at many more positions than the plan looks at."""
     robot = built(name)
-    design, sections = robot.design, robot.plan.sections
+    design, sections = robot.design, robot.layout.sections
     eye, root, tip = sections.eye_radius_mm, sections.leg_root_mm / 2.0, sections.leg_tip_mm / 2.0
     leg = [[0.0, root], [design.l2_mm, tip], [design.l2_mm, -tip], [0.0, -root]]
     smallest = np.inf
@@ -92,7 +92,7 @@ def test_the_gap_between_the_legs_is_shapelys(name: str) -> None:
         main_leg = shapely.union_all(
             [
                 shapely.Polygon(in_body(robot, MAIN_LEG, wind, np.array(leg))),
-                shapely.Point(*robot.plan.hub_mm).buffer(root),
+                shapely.Point(*robot.layout.hub_mm).buffer(root),
                 shapely.Point(*ankle).buffer(max(tip, eye)),
             ]
         )

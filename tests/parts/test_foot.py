@@ -15,7 +15,7 @@ TIP_RADIUS_MM = 2.5
 
 
 def toes_of(robot: Robot, sign: float) -> trimesh.Trimesh:
-    if robot.plan.toes_apart:
+    if robot.layout.toes_apart:
         return placed(robot, "toe_left" if sign > 0 else "toe_right")
     return placed(robot, "foot").slice_plane([0, sign * 0.5, 0], [0, sign, 0])
 
@@ -23,7 +23,7 @@ def toes_of(robot: Robot, sign: float) -> trimesh.Trimesh:
 @pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
 def test_pins_are_one_link_apart(name: str) -> None:
     robot = built(name)
-    y = robot.plan.lateral.lug_left[0] + 1.0
+    y = robot.layout.lateral.lug_left[0] + 1.0
     holes = hole_centres(cut(placed(robot, "foot"), y))
     # the roof above a lying hole makes its box higher than wide, but leaves its middle where it is along x
     assert sorted(x for x, _ in holes)[0] == pytest.approx(0.0, abs=2e-3)
@@ -47,7 +47,7 @@ def test_toe_tips_are_where_the_design_says(name: str, sign: float) -> None:
 @pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
 def test_foot_is_flat_on_the_ground_from_nose_to_tips(name: str) -> None:
     robot = built(name)
-    ground = -robot.plan.sections.foot_depth_mm
+    ground = -robot.layout.sections.foot_depth_mm
     names = [part.name for part in robot.parts if part.placements[0].body == FOOT]
     lying = np.concatenate([
         mesh.triangles[(np.abs(mesh.triangles[:, :, 2] - ground) < 1e-6).all(axis=1)].reshape(-1, 3)
@@ -76,7 +76,7 @@ def test_toes_are_apart_only_where_the_bed_asks_for_it() -> None:
     assert [part.name for part in built("kenan-2.0").parts if "toe" in part.name] == []
     assert [part.name for part in built(LONG_TOES).parts if "toe" in part.name] == ["toe_left", "toe_right"]
     # 163 x 125 mm fits a bed of 180 mm
-    assert not built("kenan-2.0", "fine").plan.toes_apart
+    assert not built("kenan-2.0", "fine").layout.toes_apart
 
 
 def test_toes_apart_are_mirror_images() -> None:

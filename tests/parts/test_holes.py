@@ -29,14 +29,14 @@ def measured(robot: Robot, name: str, y: float, centre: np.ndarray, copy: int = 
 
 
 def test_main_leg(kenan: Robot) -> None:
-    d, cam = kenan.design, kenan.plan.drive.cam
+    d, cam = kenan.design, kenan.layout.drive.cam
     angle = cam.lever_start_rad + math.radians(d.rest_angle_deg)
     lever = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
     expected = {(0.0, 0.0): MR63_OUTER + 2 * PRESS, (d.l2_mm, 0.0): RUNNING, tuple(lever): 3.4}
     for y in (2.5, -1.0):
         for centre, diameter in expected.items():
             assert measured(kenan, "main_leg", y, np.array(centre)) == pytest.approx(diameter, abs=TOLERANCE_MM)
-        assert measured(kenan, "main_leg", y, np.array([kenan.plan.leg_pin_mm, 0.0])) == pytest.approx(
+        assert measured(kenan, "main_leg", y, np.array([kenan.layout.leg_pin_mm, 0.0])) == pytest.approx(
             PRESSED, abs=TOLERANCE_MM
         )
     holes = hole_centres(cut(placed(kenan, "main_leg"), 2.5))
@@ -53,48 +53,50 @@ def test_front_link(kenan: Robot) -> None:
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_foot_holds_its_pins(kenan: Robot, side: float) -> None:
-    y = side * (kenan.plan.lateral.lug_left[0] + 2.0)
+    y = side * (kenan.layout.lateral.lug_left[0] + 2.0)
     for x in (0.0, kenan.design.l4_mm):
         assert measured(kenan, "foot", y, np.array([x, 0.0])) == pytest.approx(PRESSED, abs=TOLERANCE_MM)
 
 
 @pytest.mark.parametrize("name", ["body_plate_left", "body_plate_right"])
 def test_plates(kenan: Robot, name: str) -> None:
-    plan = kenan.plan
-    y = sum(plan.lateral.left_plate if name.endswith("left") else plan.lateral.right_plate) / 2.0
-    expected = [(place, RUNNING) for place in plan.axles.values()]
-    expected += [(place, 3.4) for place in plan.standoffs_mm]
-    expected.append((plan.spring_pin_mm, PRESSED))
+    layout = kenan.layout
+    y = sum(layout.lateral.left_plate if name.endswith("left") else layout.lateral.right_plate) / 2.0
+    expected = [(place, RUNNING) for place in layout.axles.values()]
+    expected += [(place, 3.4) for place in layout.standoffs_mm]
+    expected.append((layout.spring_pin_mm, PRESSED))
     if name.endswith("left"):
-        expected.append((plan.motor_mm, N20_SHAFT + 2 * LOOSE))
+        expected.append((layout.motor_mm, N20_SHAFT + 2 * LOOSE))
     for place, diameter in expected:
         assert measured(kenan, name, y, place) == pytest.approx(diameter, abs=TOLERANCE_MM)
 
 
 def test_motor_seat(kenan: Robot) -> None:
     """The N20's gearbox is 10 by 12 mm; it slides into its socket, and M2 screws cut their thread beside it."""
-    plan = kenan.plan
-    segments = cut(placed(kenan, "body_plate_right"), plan.lateral.motor[1] - 2.0)
-    assert inscribed_diameter(segments, plan.motor_mm) == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)
-    across = np.array([-math.sin(plan.motor_angle_rad), math.cos(plan.motor_angle_rad)])
-    inner = inscribed_diameter(segments, plan.motor_mm + 1.0 * across)
+    layout = kenan.layout
+    segments = cut(placed(kenan, "body_plate_right"), layout.lateral.motor[1] - 2.0)
+    assert inscribed_diameter(segments, layout.motor_mm) == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)
+    across = np.array([-math.sin(layout.motor_angle_rad), math.cos(layout.motor_angle_rad)])
+    inner = inscribed_diameter(segments, layout.motor_mm + 1.0 * across)
     assert inner == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)  # 1 mm along the long side: no corner yet
     ears = [centre for centre, width in hole_centres(segments).items() if width < 5.0]
     assert len(ears) == 2
-    cap = cut(placed(kenan, "motor_cap"), plan.lateral.motor_cap[0] + 0.4)
+    cap = cut(placed(kenan, "motor_cap"), layout.lateral.motor_cap[0] + 0.4)
     for ear in ears:
         assert inscribed_diameter(segments, np.array(ear)) == pytest.approx(1.6, abs=TOLERANCE_MM)
         assert inscribed_diameter(cap, np.array(ear)) == pytest.approx(2.4, abs=TOLERANCE_MM)
 
 
 def test_cam_and_gears(kenan: Robot) -> None:
-    plan, lateral = kenan.plan, kenan.plan.lateral
+    layout, lateral = kenan.layout, kenan.layout.lateral
     y = sum(lateral.gears[0]) / 2.0
-    assert measured(kenan, "cam", sum(lateral.cam) / 2.0, plan.cam_axis_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
-    assert measured(kenan, "cam", y, plan.cam_axis_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
-    key = measured(kenan, "cam_gear", y, plan.cam_axis_mm)
+    assert measured(kenan, "cam", sum(lateral.cam) / 2.0, layout.cam_axis_mm) == pytest.approx(
+        RUNNING, abs=TOLERANCE_MM
+    )
+    assert measured(kenan, "cam", y, layout.cam_axis_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+    key = measured(kenan, "cam_gear", y, layout.cam_axis_mm)
     boss = placed(kenan, "cam").slice_plane([0.0, y, 0.0], [0.0, 1.0, 0.0])
-    offsets = (boss.vertices[:, [0, 2]] - plan.cam_axis_mm) @ np.array([0.0, 1.0])
+    offsets = (boss.vertices[:, [0, 2]] - layout.cam_axis_mm) @ np.array([0.0, 1.0])
     across_flats = np.ptp(offsets)
     assert key - across_flats == pytest.approx(2 * PRESS, abs=2 * TOLERANCE_MM)
 
@@ -103,15 +105,15 @@ def test_cam_and_gears(kenan: Robot) -> None:
 def test_pinion_fits_the_d_shaft(which: str) -> None:
     """Flat to flat with the motor's shaft, whose flat is the side of its section nearest to its axis."""
     robot = geared() if which == "two pairs" else built(which)
-    plan, y = robot.plan, sum(robot.plan.lateral.gears[-1]) / 2.0
+    layout, y = robot.layout, sum(robot.layout.lateral.gears[-1]) / 2.0
     shaft = next(item for item in robot.hardware if item.name == "motor_shaft")
-    sides = cut(to_trimesh(shaft.solid).apply_transform(shaft.T_body_part), y) - plan.motor_mm
+    sides = cut(to_trimesh(shaft.solid).apply_transform(shaft.T_body_part), y) - layout.motor_mm
     lines = shapely.multilinestrings(list(shapely.linestrings(sides)))
     nearest = np.array(shapely.ops.nearest_points(lines, shapely.Point(0.0, 0.0))[0].coords[0])
     assert np.hypot(*nearest) == pytest.approx(N20_FLAT - N20_SHAFT / 2, abs=1e-3)
     along = nearest / np.hypot(*nearest)
     segments = cut(placed(robot, "motor_pinion"), y)
-    bore = [points for points in (segments - plan.motor_mm).reshape(-1, 2) if np.hypot(*points) < 2.0]
+    bore = [points for points in (segments - layout.motor_mm).reshape(-1, 2) if np.hypot(*points) < 2.0]
     offsets = np.array(bore) @ along
     assert offsets.max() == pytest.approx(N20_FLAT - N20_SHAFT / 2 + PRESS, abs=0.005)
     assert np.ptp(offsets) == pytest.approx(N20_FLAT + 2 * PRESS, abs=0.005)
@@ -121,11 +123,11 @@ def test_pinion_fits_the_d_shaft(which: str) -> None:
 
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_bushings_turn_on_the_axle_and_fill_the_wound_spring(kenan: Robot, side: str) -> None:
-    lateral, spring = kenan.plan.lateral, kenan.plan.drive.spring
+    lateral, spring = kenan.layout.lateral, kenan.layout.drive.spring
     coil = lateral.spring_left if side == "left" else lateral.spring_right
     segments = cut(placed(kenan, f"spring_bushing_{side}"), sum(coil) / 2.0)
-    centred = segments.reshape(-1, 2) - kenan.plan.hub_mm
-    assert inscribed_diameter(segments, kenan.plan.hub_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+    centred = segments.reshape(-1, 2) - kenan.layout.hub_mm
+    assert inscribed_diameter(segments, kenan.layout.hub_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
     outside = 2.0 * np.hypot(*centred.T).max()
     mean = spring.outer_diameter_mm - spring.wire_mm
     turns_wound = kenan.design.compression_rad / (2 * math.pi)
@@ -139,15 +141,15 @@ def test_spacers_and_collars(kenan: Robot) -> None:
         mesh = part(kenan, name).mesh
         segments = cut(mesh.copy().apply_transform([[1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]), 1.03)
         assert inscribed_diameter(segments, np.zeros(2)) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
-    outside = kenan.plan.lateral.left_plate[1] + 2.0
-    assert part(kenan, "collar").quantity == 2 * len(kenan.plan.axles)
-    assert measured(kenan, "collar", outside, kenan.plan.hub_mm) == pytest.approx(PRESSED, abs=TOLERANCE_MM)
+    outside = kenan.layout.lateral.left_plate[1] + 2.0
+    assert part(kenan, "collar").quantity == 2 * len(kenan.layout.axles)
+    assert measured(kenan, "collar", outside, kenan.layout.hub_mm) == pytest.approx(PRESSED, abs=TOLERANCE_MM)
 
 
 def test_idler_turns_on_its_axle() -> None:
     robot = geared()
-    y = sum(robot.plan.lateral.gears[-1]) / 2.0
-    assert measured(robot, "idler", y, robot.plan.idler_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+    y = sum(robot.layout.lateral.gears[-1]) / 2.0
+    assert measured(robot, "idler", y, robot.layout.idler_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
 
 
 def test_screws_of_toes_pass_the_toe_and_cut_into_the_stub() -> None:

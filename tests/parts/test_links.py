@@ -17,7 +17,7 @@ def robot(request: pytest.FixtureRequest) -> Robot:
 
 
 def test_eyes_of_the_main_leg_are_one_link_apart(robot: Robot) -> None:
-    holes = np.array(list(hole_centres(cut(placed(robot, "main_leg"), robot.plan.sections.thickness_mm / 2 - 0.3))))
+    holes = np.array(list(hole_centres(cut(placed(robot, "main_leg"), robot.layout.sections.thickness_mm / 2 - 0.3))))
     hub = holes[np.hypot(*holes.T).argmin()]
     ankle = holes[holes[:, 0].argmax()]
     np.testing.assert_allclose(hub, 0.0, atol=2e-3)
@@ -31,7 +31,7 @@ def test_eyes_of_the_front_link_are_one_link_apart(robot: Robot) -> None:
 
 def test_lever_and_leg_make_the_angle_of_the_cam(robot: Robot) -> None:
     """Of the four holes, the lever's lies as far from the hub as the cam's roller, in the direction that it needs."""
-    cam, half = robot.plan.drive.cam, robot.plan.sections.thickness_mm / 2
+    cam, half = robot.layout.drive.cam, robot.layout.sections.thickness_mm / 2
     holes = np.array(list(hole_centres(cut(placed(robot, "main_leg"), half - 0.3))))
     lever = holes[holes[:, 0].argmin()]
     assert np.hypot(*lever) == pytest.approx(cam.lever_length_mm, abs=2e-3)
@@ -43,7 +43,7 @@ def test_lever_and_leg_make_the_angle_of_the_cam(robot: Robot) -> None:
 def test_leg_tapers_with_the_moment_that_it_carries() -> None:
     """Between hub and ankle the bar's height falls evenly, and is the sized one at the root."""
     robot = built("best-bo")
-    sections, l2 = robot.plan.sections, robot.design.l2_mm
+    sections, l2 = robot.layout.sections, robot.design.l2_mm
     mesh = placed(robot, "main_leg")
     x = np.array([0.45, 0.6, 0.75]) * l2
     heights = [

@@ -52,9 +52,9 @@ def test_everything_on_a_robot_is_placed_rigidly(which: str) -> None:
 def test_a_long_part_fits_the_bed_askew_only() -> None:
     stack, pose = laid([(0.0, 6.0, rectangle((230.0, 10.0)))])
     beam = Drawing("beam", "links", stack, (Placement(BODY, pose),))
-    assert beam.lie((250.0, 210.0, 200.0)).angle_deg % 90.0 == 0.0
-    assert beam.lie((250.0, 210.0, 200.0)).margin_mm == pytest.approx(20.0)
-    askew = beam.lie((180.0, 180.0, 180.0))
+    assert beam.fit_to_bed((250.0, 210.0, 200.0)).angle_deg % 90.0 == 0.0
+    assert beam.fit_to_bed((250.0, 210.0, 200.0)).margin_mm == pytest.approx(20.0)
+    askew = beam.fit_to_bed((180.0, 180.0, 180.0))
     # at 45° a bar of 230 x 10 mm needs (230 + 10)/sqrt(2) = 169.7 mm both ways
     assert 0.0 < askew.angle_deg < 90.0
     assert 0.0 <= askew.margin_mm <= 180.0 - 240.0 / np.sqrt(2.0) + 1e-6

@@ -38,13 +38,13 @@ class Measured:
     """One toothed wheel of a robot: its section about its own axis, as a polygon, and what it ought to be."""
 
     def __init__(self, robot: Robot, name: str) -> None:
-        stages, lateral, plan = robot.plan.drive.train.stages, robot.plan.lateral, robot.plan
+        stages, lateral, layout = robot.layout.drive.train.stages, robot.layout.lateral, robot.layout
         first, last = stages[0], stages[-1]
         self.spec, y, self.axis = {
-            "motor_pinion": (first.pinion, lateral.gears[-1], plan.motor_mm),
-            "cam_gear": (last.wheel, lateral.gears[0], plan.cam_axis_mm),
-            "idler wheel": (first.wheel, lateral.gears[-1], plan.idler_mm),
-            "idler pinion": (last.pinion, lateral.gears[0], plan.idler_mm),
+            "motor_pinion": (first.pinion, lateral.gears[-1], layout.motor_mm),
+            "cam_gear": (last.wheel, lateral.gears[0], layout.cam_axis_mm),
+            "idler wheel": (first.wheel, lateral.gears[-1], layout.idler_mm),
+            "idler pinion": (last.pinion, lateral.gears[0], layout.idler_mm),
         }[name]
         mesh = placed(robot, name.split()[0])
         area = region(cut(mesh, sum(y) / 2.0) - self.axis)
@@ -136,7 +136,7 @@ def test_size_over_pins_is_the_textbooks(wheel: Measured) -> None:
 def test_number_of_teeth_is_that_of_the_ratio() -> None:
     for robot in robots().values():
         ratio = 1.0
-        names = (("motor_pinion", "cam_gear"),) if robot.plan.idler_mm is None else (
+        names = (("motor_pinion", "cam_gear"),) if robot.layout.idler_mm is None else (
             ("motor_pinion", "idler wheel"), ("idler pinion", "cam_gear"),
         )  # fmt: skip
         for pinion, gear in names:
@@ -147,7 +147,7 @@ def test_number_of_teeth_is_that_of_the_ratio() -> None:
                 level = (radii.max() + radii.min()) / 2
                 counts.append(np.count_nonzero((radii > level) & (np.roll(radii, 1) <= level)))
             ratio *= counts[1] / counts[0]
-        assert ratio == pytest.approx(robot.plan.drive.train.ratio)
+        assert ratio == pytest.approx(robot.layout.drive.train.ratio)
 
 
 @pytest.mark.parametrize(
@@ -184,8 +184,8 @@ def test_a_pair_turns_through_a_pitch_free_within_its_backlash(which: str, drive
 
 def roller_gap(robot: Robot) -> Callable[[float, float], float]:
     """Return the distance of roller and cam at a cam angle and a winding angle, from meshes (mm)."""
-    plan = robot.plan
-    profile = region(cut(placed(robot, "cam"), sum(plan.lateral.cam) / 2.0) - plan.cam_axis_mm)
+    layout = robot.layout
+    profile = region(cut(placed(robot, "cam"), sum(layout.lateral.cam) / 2.0) - layout.cam_axis_mm)
     profile = shapely.Polygon(profile.exterior)
     holes = hole_centres(cut(placed(robot, "main_leg"), 2.5))
     roller = min((np.array(centre) for centre in holes), key=lambda centre: centre[0])
@@ -193,7 +193,7 @@ def roller_gap(robot: Robot) -> Callable[[float, float], float]:
     def gap(cam_rad: float, wind_rad: float) -> float:
         # a positive turn about +y carries z to x: clockwise where x points right and z up
         turned = affinity.rotate(profile, -cam_rad, (0, 0), use_radians=True)
-        centre = shapely.Point(in_body(robot, MAIN_LEG, wind_rad, roller) - plan.cam_axis_mm)
+        centre = shapely.Point(in_body(robot, MAIN_LEG, wind_rad, roller) - layout.cam_axis_mm)
         outside = turned.exterior.distance(centre)
         return (-outside if turned.contains(centre) else outside) - ROLLER_RADIUS_MM
 
@@ -204,7 +204,7 @@ def roller_gap(robot: Robot) -> Callable[[float, float], float]:
 def test_the_roller_touches_the_cam_at_every_winding_angle(name: str) -> None:
     robot = built(name)
     gap = roller_gap(robot)
-    cam, wound = robot.plan.drive.cam, robot.design.compression_rad
+    cam, wound = robot.layout.drive.cam, robot.design.compression_rad
     for turn in np.linspace(0.0, cam.law.lift_rad, 40):
         assert gap(turn, float(cam.wind_rad(turn))) == pytest.approx(0.0, abs=0.01)
     assert float(cam.wind_rad(cam.law.lift_rad)) == pytest.approx(wound, rel=1e-12)
@@ -215,7 +215,7 @@ def test_rolling_on_the_cam_winds_with_constant_torque(name: str) -> None:
     """Wound until the roller touches, the springs' energy grows evenly with the cam's turn after the ramp."""
     robot = built(name)
     gap = roller_gap(robot)
-    law, wound = robot.plan.drive.cam.law, robot.design.compression_rad
+    law, wound = robot.layout.drive.cam.law, robot.design.compression_rad
     turns = np.linspace(law.ramp_rad * 1.2, law.lift_rad * 0.99, 25)
     winds = np.array([brentq(lambda w, t=t: gap(t, w), 0.02 * wound, 1.05 * wound) for t in turns])
     energy = 0.5 * robot.spring.stiffness_nm_per_rad * winds**2
@@ -229,7 +229,7 @@ def test_rolling_on_the_cam_winds_with_constant_torque(name: str) -> None:
 def test_the_roller_falls_free_of_the_cam(name: str) -> None:
     robot = built(name)
     gap = roller_gap(robot)
-    cam, wound = robot.plan.drive.cam, robot.design.compression_rad
+    cam, wound = robot.layout.drive.cam, robot.design.compression_rad
     start = float(cam.wind_rad(cam.free_rad - 1e-9))
     for wind in np.linspace(min(start, wound), -math.radians(4.9), 30):
         assert gap(cam.free_rad, float(wind)) > 0.3

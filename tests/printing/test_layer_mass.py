@@ -11,7 +11,7 @@ from jumpcad.printing import runs
 from jumpcad.printing.layer_mass import line_spacing_mm, mass_properties, sliced
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.outline import disc, rectangle, tapered_bar
-from jumpcad.solids.stack import Section, Stack
+from jumpcad.solids.stack import SlabSection, Stack
 from jumpcad.workshop import load_workshop
 
 PROCESS = load_workshop("default").process.model_copy(
@@ -105,7 +105,7 @@ class Turned:
 
     def sections_at(self, heights_mm):
         regions = [section.outline for section in self.shape.sections_at(heights_mm)]
-        turned = {r: Section(r.rotate(self.angle_deg).translate((1.234567, -0.7654321))) for r in regions}
+        turned = {r: SlabSection(r.rotate(self.angle_deg).translate((1.234567, -0.7654321))) for r in regions}
         return [turned[r] for r in regions]
 
 

@@ -6,7 +6,7 @@ import trimesh
 from PIL import Image
 
 from jumpcad.scene.camera import View, aimed
-from jumpcad.scene.renderer import Studio, borders, creases
+from jumpcad.scene.renderer import Renderer, borders, creases
 
 RED, BLUE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 FRONT = View(yaw_deg=0.0, pitch_deg=0.0)
@@ -20,7 +20,7 @@ def at(x: float, y: float = 0.0, z: float = 0.0) -> np.ndarray:
 
 
 def taken(things: list, poses: list[np.ndarray], frame: np.ndarray, view: View = FRONT) -> np.ndarray:
-    return np.asarray(Studio(things).picture(poses, SIZE, view, frame)).astype(int)
+    return np.asarray(Renderer(things).picture(poses, SIZE, view, frame)).astype(int)
 
 
 def corners(*size_mm: float) -> np.ndarray:

@@ -5,22 +5,22 @@ from pathlib import Path
 import pytest
 from support.hills import SMALL, Hill
 
-from jumpcad.search.evaluator import Campaign
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
-from jumpcad.search.store import Ledger
+from jumpcad.search.store import StudyStore
 
 
 @pytest.fixture
-def campaign():
+def evaluator():
     """Return a function that opens a campaign in this process; all are closed at the end."""
     ledgers = []
 
-    def open_campaign(path: Path | None = None, model=None, space=SMALL, prior=(), pool=None) -> Campaign:
-        ledger = Ledger.write(path, {"hill": 1})
-        ledgers.append(ledger)
-        return Campaign(space, find_objective("fitness"), model or Hill(), ledger, pool or local_pool(0), prior)
+    def open_campaign(path: Path | None = None, model=None, space=SMALL, prior=(), pool=None) -> Evaluator:
+        store = StudyStore.write(path, {"hill": 1})
+        ledgers.append(store)
+        return Evaluator(space, find_objective("fitness"), model or Hill(), store, pool or local_pool(0), prior)
 
     yield open_campaign
-    for ledger in ledgers:
-        ledger.close()
+    for store in ledgers:
+        store.close()

@@ -6,75 +6,75 @@ from support.hills import SMALL, Hill, Trap
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED
-from jumpcad.search.store import Ledger
+from jumpcad.search.store import StudyStore
 
 
 def designs(count, seed=0):
     return [SMALL.to_design(point) for point in SMALL.spread(count, np.random.default_rng(seed))]
 
 
-def test_finished_designs_come_from_the_ledger(campaign, tmp_path):
+def test_finished_designs_come_from_the_ledger(evaluator, tmp_path):
     log = tmp_path / "log"
-    first = campaign(tmp_path / "s.db", Hill(log))
+    first = evaluator(tmp_path / "s.db", Hill(log))
     batch = designs(10)
     rows = first.evaluate([*batch, batch[0], batch[3]], "ga", 0)
     assert len(log.read_text().splitlines()) == 10
     assert rows[10] is rows[0]
-    first.ledger.close()
-    again = campaign(tmp_path / "s.db", Hill(log))
+    first.store.close()
+    again = evaluator(tmp_path / "s.db", Hill(log))
     assert [row.evaluation for row in again.evaluate(batch, "ga", 0)] == [row.evaluation for row in rows[:10]]
     assert len(log.read_text().splitlines()) == 10
     assert [row.place for row in again.rows] == list(range(10))
 
 
-def test_a_budget_is_kept(campaign):
-    one = campaign()
+def test_a_budget_is_kept(evaluator):
+    one = evaluator()
     rows = one.evaluate(designs(10), "ga", 0, limit=4)
     assert [row is None for row in rows] == [False] * 4 + [True] * 6
     assert len(one.rows) == 4
 
 
-def test_an_interrupt_keeps_what_is_finished(campaign, tmp_path):
+def test_an_interrupt_keeps_what_is_finished(evaluator, tmp_path):
     class Interrupting(Hill):
         def __call__(self, design):
             if self.log.exists() and len(self.log.read_text().splitlines()) == 6:
                 raise KeyboardInterrupt
             return super().__call__(design)
 
-    stopped = campaign(tmp_path / "s.db", Interrupting(tmp_path / "log"))
+    stopped = evaluator(tmp_path / "s.db", Interrupting(tmp_path / "log"))
     with pytest.raises(KeyboardInterrupt):
         stopped.evaluate(designs(16), "ga", 0)
-    stopped.ledger.close()
-    kept = Ledger.read(tmp_path / "s.db").rows()
+    stopped.store.close()
+    kept = StudyStore.read(tmp_path / "s.db").rows()
     # The task in hand is lost with the interrupt; tasks before it are kept, in the places that they were proposed in.
     assert 0 < len(kept) <= 6
-    resumed = campaign(tmp_path / "s.db")
+    resumed = evaluator(tmp_path / "s.db")
     resumed.evaluate(designs(16), "ga", 0)
-    whole = campaign()
+    whole = evaluator()
     whole.evaluate(designs(16), "ga", 0)
-    assert [(row.place, row.design, row.score) for row in resumed.ledger.rows()] == [
-        (row.place, row.design, row.score) for row in whole.ledger.rows()
+    assert [(row.place, row.design, row.score) for row in resumed.store.rows()] == [
+        (row.place, row.design, row.score) for row in whole.store.rows()
     ]
 
 
-def test_a_search_that_proposes_otherwise_is_refused(campaign, tmp_path):
-    first = campaign(tmp_path / "s.db")
+def test_a_search_that_proposes_otherwise_is_refused(evaluator, tmp_path):
+    first = evaluator(tmp_path / "s.db")
     first.evaluate(designs(4), "ga", 0)
-    first.ledger.close()
+    first.store.close()
     with pytest.raises(JumpcadError, match="proposes other designs"):
-        campaign(tmp_path / "s.db").evaluate(designs(4, seed=1), "ga", 0)
+        evaluator(tmp_path / "s.db").evaluate(designs(4, seed=1), "ga", 0)
 
 
-def test_a_model_that_always_fails_ends_the_run(campaign):
-    one = campaign(model=Trap(way="bug"))
+def test_a_model_that_always_fails_ends_the_run(evaluator):
+    one = evaluator(model=Trap(way="bug"))
     steep = [design for design in designs(32) if design.rest_angle_deg > 60.0]
     with pytest.raises(JumpcadError, match=r"every evaluation failed.*ZeroDivisionError"):
         one.evaluate(steep, "ga", 0)
-    assert one.ledger.rows() == []
+    assert one.store.rows() == []
 
 
-def test_a_single_bad_design_is_a_row(campaign):
-    one = campaign(model=Trap(way="bug"))
+def test_a_single_bad_design_is_a_row(evaluator):
+    one = evaluator(model=Trap(way="bug"))
     rows = one.evaluate(designs(32), "ga", 0)
     assert {row.evaluation.verdict for row in rows if row.design.rest_angle_deg > 60.0} == {QUARANTINED}
-    assert any("quarantined: ZeroDivisionError" in note for note in one.ledger.notes())
+    assert any("quarantined: ZeroDivisionError" in note for note in one.store.notes())

@@ -11,15 +11,15 @@ from jumpcad.search.space import Space
 CENTRE = SMALL.to_design([0.5, 0.5, 0.5])
 
 
-def test_sweeps_peak_at_the_top(campaign):
-    for one in sweep(campaign(), CENTRE, 26):
+def test_sweeps_peak_at_the_top(evaluator):
+    for one in sweep(evaluator(), CENTRE, 26):
         scores = [row.score or 0.0 for row in one.rows]
         step = one.values[1] - one.values[0]
         assert abs(one.values[int(np.argmax(scores))] - TOP[one.parameter]) <= step / 2 + 1e-9
 
 
-def test_sampled_components_are_equal_and_the_elite_s_are_not(campaign):
-    one = campaign(space=Space.default())
+def test_sampled_components_are_equal_and_the_elite_s_are_not(evaluator):
+    one = evaluator(space=Space.default())
     rows = sample(one, 512, 0)
     every, best = components(one, rows), components(one, elite(rows))
     assert every.shares == pytest.approx(np.full(8, 1 / 8), abs=0.01)
@@ -29,8 +29,8 @@ def test_sampled_components_are_equal_and_the_elite_s_are_not(campaign):
     assert best.directions @ best.directions.T == pytest.approx(np.eye(8), abs=1e-9)
 
 
-def test_importance_knows_which_parameters_decide(campaign):
-    one = campaign(space=Space.default())
+def test_importance_knows_which_parameters_decide(evaluator):
+    one = evaluator(space=Space.default())
     found = importance(one, sample(one, 300, 0), 0)
     assert found.r_squared > 0.9
     assert found.designs < 300
@@ -39,30 +39,30 @@ def test_importance_knows_which_parameters_decide(campaign):
     assert np.abs(found.mean[[name not in TOP for name in found.names]]).max() < 0.02
 
 
-def test_feasibility_map_shows_the_border(campaign):
-    found = feasibility_map(campaign(), CENTRE, "rest_angle_deg", "compression_ratio", 15)
+def test_feasibility_map_shows_the_border(evaluator):
+    found = feasibility_map(evaluator(), CENTRE, "rest_angle_deg", "compression_ratio", 15)
     for y, line in zip(found.y, found.rows, strict=True):
         assert {row.evaluation.verdict for row in line} == ({"loop"} if y > 0.7 else {"jump"})
 
 
-def test_choices_are_swept_as_they_are(campaign):
+def test_choices_are_swept_as_they_are(evaluator):
     space = Space.parse(choose=["stiffness_nmm_per_deg=9.2,12,20"])
-    swept = {one.parameter: one.values.tolist() for one in sweep(campaign(space=space), CENTRE, 3)}
+    swept = {one.parameter: one.values.tolist() for one in sweep(evaluator(space=space), CENTRE, 3)}
     assert swept["stiffness_nmm_per_deg"] == [9.2, 12.0, 20.0]
 
 
-def test_too_little_to_look_at(campaign):
+def test_too_little_to_look_at(evaluator):
     with pytest.raises(JumpcadError, match="samples = 5"):
-        sample(campaign(), 5, 0)
+        sample(evaluator(), 5, 0)
     with pytest.raises(JumpcadError, match="points = 1"):
-        sweep(campaign(), CENTRE, 1)
+        sweep(evaluator(), CENTRE, 1)
     with pytest.raises(JumpcadError, match="too few"):
-        components(campaign(), [])
+        components(evaluator(), [])
     with pytest.raises(JumpcadError, match="not a free parameter"):
-        feasibility_map(campaign(), CENTRE, "c_coef", "rest_angle_deg", 3)
+        feasibility_map(evaluator(), CENTRE, "c_coef", "rest_angle_deg", 3)
     with pytest.raises(JumpcadError, match="twice"):
-        feasibility_map(campaign(), CENTRE, "rest_angle_deg", "rest_angle_deg", 3)
-    blind = campaign(space=Space.parse(fix=["compression_ratio=0.75"]))
+        feasibility_map(evaluator(), CENTRE, "rest_angle_deg", "rest_angle_deg", 3)
+    blind = evaluator(space=Space.parse(fix=["compression_ratio=0.75"]))
     with pytest.raises(JumpcadError, match="0 of 32 designs jump"):
         importance(blind, sample(blind, 32, 0), 0)
 

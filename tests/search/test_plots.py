@@ -11,7 +11,7 @@ from jumpcad.search.figures import save
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import Ledger
+from jumpcad.search.store import StudyStore
 from jumpcad.search.studies import plot_study
 from jumpcad.search.study import Request, run_study
 
@@ -49,7 +49,7 @@ class Bump:
 def studied(path, space, method="bo", evaluations=20):
     with local_pool(0) as pool:
         run_study(Request(space, Bump(), method=method, evaluations=evaluations), path, pool)
-    return Ledger.read(path)
+    return StudyStore.read(path)
 
 
 @pytest.mark.parametrize(
@@ -61,9 +61,9 @@ def studied(path, space, method="bo", evaluations=20):
     ],
 )
 def test_a_study_has_its_pictures_and_they_repeat(tmp_path, fixed, method, names):
-    with studied(tmp_path / "s.db", Space.parse(fix=fixed), method) as ledger:
-        first = plot_study(ledger, tmp_path / "a")
-        second = plot_study(ledger, tmp_path / "b")
+    with studied(tmp_path / "s.db", Space.parse(fix=fixed), method) as store:
+        first = plot_study(store, tmp_path / "a")
+        second = plot_study(store, tmp_path / "b")
     assert {path.stem for path in first} == names
     for one, other in zip(first, second, strict=True):
         assert one.read_bytes() == other.read_bytes()
@@ -72,12 +72,12 @@ def test_a_study_has_its_pictures_and_they_repeat(tmp_path, fixed, method, names
 
 def test_the_surrogate_in_the_picture_is_the_bump(tmp_path):
     space = Space.parse(fix=[*REST, "rest_angle_deg=50"])
-    with studied(tmp_path / "s.db", space) as ledger:
-        rows = [row for row in ledger.rows() if row.phase == "bo"]
-    from jumpcad.search.surrogate import Belief
+    with studied(tmp_path / "s.db", space) as store:
+        rows = [row for row in store.rows() if row.phase == "bo"]
+    from jumpcad.search.surrogate import Posterior
 
-    belief = Belief.from_rows(space, rows, rows[-1].proposal["theta"], ())
-    figure = plots.acquisition(space, rows, belief, find_objective("fitness"))
+    posterior = Posterior.from_rows(space, rows, rows[-1].proposal["theta"], ())
+    figure = plots.acquisition(space, rows, posterior, find_objective("fitness"))
     above, below = figure.axes
     curve = next(line for line in above.lines if line.get_label() == "surrogate")
     x, y = np.asarray(curve.get_xdata()), np.asarray(curve.get_ydata())
@@ -89,8 +89,8 @@ def test_the_surrogate_in_the_picture_is_the_bump(tmp_path):
 
 
 def test_history_shows_every_row_and_the_best_so_far(tmp_path):
-    with studied(tmp_path / "s.db", Space.parse(fix=REST), "ga", 40) as ledger:
-        rows = [row for row in ledger.rows() if row.phase == "ga"]
+    with studied(tmp_path / "s.db", Space.parse(fix=REST), "ga", 40) as store:
+        rows = [row for row in store.rows() if row.phase == "ga"]
     (axes,) = plots.history(rows, find_objective("fitness")).axes
     lines = {line.get_label(): np.asarray(line.get_ydata()) for line in axes.lines}
     scores = [row.score for row in rows if row.score is not None]

@@ -35,8 +35,8 @@ class Needles(Hill):
         )
 
 
-def test_a_plateau_beats_a_needle(campaign):
-    one = campaign(model=Spiked())
+def test_a_plateau_beats_a_needle(evaluator):
+    one = evaluator(model=Spiked())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": angle}) for angle in (60.0, 40.0, 30.0)], "bo", 0)
     ranked = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)
@@ -45,8 +45,8 @@ def test_a_plateau_beats_a_needle(campaign):
     assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
 
 
-def test_the_search_for_a_robust_one_goes_beyond_ten_needles(campaign):
-    one = campaign(model=Needles())
+def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
+    one = evaluator(model=Needles())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     needles = [centre.model_copy(update={"stiffness_nmm_per_deg": 6.0 + number}) for number in range(12)]
     plateau = centre.model_copy(update={"rest_angle_deg": 30.0})
@@ -56,8 +56,8 @@ def test_the_search_for_a_robust_one_goes_beyond_ten_needles(campaign):
     assert ranked[0].row.design == plateau
 
 
-def test_refused_neighbours_count_nothing_and_are_named(campaign):
-    one = campaign()
+def test_refused_neighbours_count_nothing_and_are_named(evaluator):
+    one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
     one.evaluate([edge], "bo", 0)
     candidate = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)[-1]
@@ -81,8 +81,8 @@ class Cliff(Hill):
         )
 
 
-def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(campaign):
-    one = campaign(model=Cliff())
+def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
+    one = evaluator(model=Cliff())
     points = SMALL.spread(30, np.random.default_rng(1))
     points[:12, 0] = 0.599 / 0.7  # a compression ratio of 0.699
     one.evaluate([SMALL.to_design(point) for point in points], "bo", 0)
@@ -94,8 +94,8 @@ def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(campaign):
     assert all(other.robust_score < 5.0 for other in ranked if other.row.design.compression_ratio > 0.699)
 
 
-def test_the_best_differ_from_one_another(campaign):
-    one = campaign()
+def test_the_best_differ_from_one_another(evaluator):
+    one = evaluator()
     one.evaluate([SMALL.to_design([0.5, 0.5, 0.5 + shift]) for shift in (0.0, 0.001, 0.05, 0.2)], "bo", 0)
     assert len(best_apart(SMALL, one.rows, 10)) == 3
 
@@ -132,8 +132,8 @@ class Slope(Hill):
         return Evaluation("jump", {"fitness": fitness})
 
 
-def test_active_bounds_and_their_worth(campaign):
-    one = campaign(model=Slope())
+def test_active_bounds_and_their_worth(evaluator):
+    one = evaluator(model=Slope())
     names = [parameter.name for parameter in SMALL.free]
     assert names == ["compression_ratio", "rest_angle_deg", "stiffness_nmm_per_deg"]
     (row,) = one.evaluate([SMALL.to_design([1.0, 0.0, 1.0])], "bo", 0)

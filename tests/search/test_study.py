@@ -16,7 +16,7 @@ from support.places import TESTS
 from jumpcad.errors import JumpcadError
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import Ledger
+from jumpcad.search.store import StudyStore
 from jumpcad.search.study import Request, plan_stages, run_study
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4)
@@ -25,8 +25,8 @@ SCRIPT = TESTS / "support" / "study_script.py"
 
 def contents(path):
     """Return all rows of a study but for how long they took."""
-    with Ledger.read(path) as ledger:
-        return [replace(row, duration_s=0.0) for row in ledger.rows()]
+    with StudyStore.read(path) as store:
+        return [replace(row, duration_s=0.0) for row in store.rows()]
 
 
 def run(request, path=None, workers=0):

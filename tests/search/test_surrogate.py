@@ -9,8 +9,17 @@ from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.store import Row
-from jumpcad.search.surrogate import VERDICT, Belief, Surrogate, _kernel, constraint_margins, forwards, unwarped, warped
+from jumpcad.search.store import Trial
+from jumpcad.search.surrogate import (
+    VERDICT,
+    Posterior,
+    Surrogate,
+    _kernel,
+    constraint_margins,
+    forwards,
+    unwarped,
+    warped,
+)
 
 
 @pytest.fixture
@@ -40,7 +49,7 @@ def test_fitting_finds_the_axis_that_does_not_matter(data):
 def test_a_believer_does_not_change_the_mean(data):
     before = Surrogate(*data)
     point = np.array([0.5, 0.5, 0.5])
-    after = before.believing(point)
+    after = before.condition_on(point)
     assert after.predict(point[None])[0] == pytest.approx(before.predict(point[None])[0], abs=1e-3)
     assert after.predict(point[None])[1] < 0.3 * before.predict(point[None])[1]
 
@@ -61,28 +70,28 @@ def rows_of(count, model=None):
         design = SMALL.to_design(point)
         evaluation = (model or Hill())(design)
         score = evaluation.metrics.get("fitness") if evaluation.feasible else None
-        found.append(Row("bo", 0, place, design, evaluation, score, "m", 0.0))
+        found.append(Trial("bo", 0, place, design, evaluation, score, "m", 0.0))
     return found
 
 
 def test_scatter_counts_the_neighbours_that_are_refused():
-    belief = Belief.from_rows(SMALL, rows_of(60), {}, None)
-    belief = Belief(None, {"loop": belief.constraints["loop"]})
+    posterior = Posterior.from_rows(SMALL, rows_of(60), {}, None)
+    posterior = Posterior(None, {"loop": posterior.constraints["loop"]})
     edge = (0.7 - 0.1) / 0.7  # of the compression ratio, the first axis
     for inside in (0.02, 0.05):
         point, scatter = np.array([[edge - inside, 0.4, 0.6]]), np.array([[0.03, 0.1, 0.1]])
         neighbours = point + scatter * np.random.default_rng(0).standard_normal((4000, 3))
         share = np.mean(neighbours[:, 0] <= edge)
-        assert np.exp(belief.log_feasible(point, scatter)) == pytest.approx(share, abs=0.03)
-        assert belief.log_feasible(point) > belief.log_feasible(point, scatter)
+        assert np.exp(posterior.log_feasible(point, scatter)) == pytest.approx(share, abs=0.03)
+        assert posterior.log_feasible(point) > posterior.log_feasible(point, scatter)
 
 
 def test_expected_improvement_is_the_integral_over_the_belief():
-    belief = Belief.from_rows(SMALL, rows_of(24), {}, None)
+    posterior = Posterior.from_rows(SMALL, rows_of(24), {}, None)
     points = SMALL.spread(8, np.random.default_rng(5))
-    mean, deviation = belief.score.predict(points)
+    mean, deviation = posterior.score.predict(points)
     for best in (1.0, 8.0, 12.0):
-        found = np.exp(belief.log_improvement(points, best))
+        found = np.exp(posterior.log_improvement(points, best))
         for value, m, s in zip(found, mean, deviation, strict=True):
             target = float(warped(best))
             integral = quad(
@@ -92,19 +101,19 @@ def test_expected_improvement_is_the_integral_over_the_belief():
 
 
 def test_improvement_keeps_its_slope_far_below_the_best():
-    belief = Belief.from_rows(SMALL, rows_of(24), {}, None)
+    posterior = Posterior.from_rows(SMALL, rows_of(24), {}, None)
     points = SMALL.spread(8, np.random.default_rng(5))
-    far = [belief.log_improvement(points, best) for best in (1e2, 1e4, 1e6, 1e8)]
+    far = [posterior.log_improvement(points, best) for best in (1e2, 1e4, 1e6, 1e8)]
     assert np.isfinite(far).all()
     assert (np.diff(far, axis=0) < 0).all()
 
 
 def test_probability_of_feasibility_learns_the_border():
-    belief = Belief.from_rows(SMALL, rows_of(64), {}, None)
+    posterior = Posterior.from_rows(SMALL, rows_of(64), {}, None)
     border = [parameter.name for parameter in SMALL.free].index("compression_ratio")
     points = SMALL.spread(256, np.random.default_rng(7))
     ratio = 0.1 + 0.7 * points[:, border]
-    probability = np.exp(belief.log_feasible(points))
+    probability = np.exp(posterior.log_feasible(points))
     assert probability[ratio < 0.65].min() > 0.9
     assert probability[ratio > 0.75].max() < 0.1
 
@@ -128,14 +137,14 @@ def test_a_margin_that_an_early_refusal_leaves_unknown_is_left_out():
     margins = constraint_margins(rows)
     flat = np.array([row.design.rest_angle_deg < 40.0 for row in rows])
     assert (np.isnan(margins["loop"]) == flat).all()
-    Belief.from_rows(SMALL, rows, {}, None)
+    Posterior.from_rows(SMALL, rows, {}, None)
 
 
 def test_nothing_feasible_yet_leaves_feasibility_to_decide():
     rows = [row for row in rows_of(64) if row.score is None]
-    belief = Belief.from_rows(SMALL, rows, {}, None)
-    assert belief.score is None
-    assert (belief.log_improvement(np.full((2, 3), 0.5), 0.0) == 0.0).all()
+    posterior = Posterior.from_rows(SMALL, rows, {}, None)
+    assert posterior.score is None
+    assert (posterior.log_improvement(np.full((2, 3), 0.5), 0.0) == 0.0).all()
 
 
 def test_warping_is_undone():

@@ -11,8 +11,8 @@ from jumpcad.search.table import write_table
 
 
 @pytest.fixture
-def rows(campaign):
-    one = campaign()
+def rows(evaluator):
+    one = evaluator()
     return one.evaluate([SMALL.to_design(p) for p in SMALL.spread(16, np.random.default_rng(0))], "ga", 0)
 
 

@@ -7,8 +7,8 @@ import pytest
 
 from jumpcad.strength.stress import (
     SOLID,
-    Bar,
-    Skin,
+    Beam,
+    Shell,
     bored_stress_mpa,
     buckling_load_n,
     eye_stress_mpa,
@@ -20,7 +20,7 @@ from jumpcad.strength.stress import (
 )
 from jumpcad.workshop import load_workshop
 
-SKIN = Skin(1.35, 0.9, 0.2)
+SKIN = Shell(1.35, 0.9, 0.2)
 
 
 def second_moment(width: np.ndarray, z: np.ndarray) -> float:
@@ -29,14 +29,14 @@ def second_moment(width: np.ndarray, z: np.ndarray) -> float:
 
 def test_solid_bar_is_the_rectangle_of_every_table() -> None:
     # Roark, table A.1: I = b·h³/12, section modulus b·h²/6
-    assert Bar(6.0, 10.0).second_moment_mm4 == pytest.approx(500.0)
-    assert Bar(6.0, 10.0).stress_mpa(1560.0) == pytest.approx(15.6)
-    assert Bar(6.0, 10.0).stress_mpa(1560.0, -60.0) == pytest.approx(16.6)
+    assert Beam(6.0, 10.0).second_moment_mm4 == pytest.approx(500.0)
+    assert Beam(6.0, 10.0).stress_mpa(1560.0) == pytest.approx(15.6)
+    assert Beam(6.0, 10.0).stress_mpa(1560.0, -60.0) == pytest.approx(16.6)
 
 
 @pytest.mark.parametrize("upright", [False, True])
 def test_hollow_bar_by_integration_over_its_height(upright: bool) -> None:
-    bar = Bar(6.0, 10.0, SKIN, upright)
+    bar = Beam(6.0, 10.0, SKIN, upright)
     side, end = (1.35, 0.9) if upright else (0.9, 1.35)
     z = np.linspace(-5.0, 5.0, 200_001)
     bearing = np.where(np.abs(z) < 5.0 - end, 6.0 - 0.8 * (6.0 - 2.0 * side), 6.0)
@@ -45,27 +45,27 @@ def test_hollow_bar_by_integration_over_its_height(upright: bool) -> None:
 
 
 def test_a_bar_thinner_than_its_skin_is_solid() -> None:
-    assert Bar(1.7, 10.0, SKIN).second_moment_mm4 == pytest.approx(1.7 * 1000.0 / 12.0)
+    assert Beam(1.7, 10.0, SKIN).second_moment_mm4 == pytest.approx(1.7 * 1000.0 / 12.0)
 
 
 def test_skin_of_full_infill_bears_like_solid() -> None:
     process = load_workshop().process
-    full = Skin.of(process.model_copy(update={"infill": 1.0}))
-    assert Bar(6.0, 10.0, full).second_moment_mm4 == pytest.approx(500.0)
-    assert Skin.of(process).core_share < process.infill
+    full = Shell.of(process.model_copy(update={"infill": 1.0}))
+    assert Beam(6.0, 10.0, full).second_moment_mm4 == pytest.approx(500.0)
+    assert Shell.of(process).core_share < process.infill
 
 
 @pytest.mark.parametrize("skin", [SOLID, SKIN])
-def test_height_for_bears_exactly_what_was_asked(skin: Skin) -> None:
+def test_height_for_bears_exactly_what_was_asked(shell: Shell) -> None:
     for moment in (100.0, 1500.0, 6000.0):
-        height = height_for_mm(moment, 8.0, 15.0, skin)
-        assert Bar(8.0, height, skin).stress_mpa(moment) == pytest.approx(15.0, rel=1e-6)
+        height = height_for_mm(moment, 8.0, 15.0, shell)
+        assert Beam(8.0, height, shell).stress_mpa(moment) == pytest.approx(15.0, rel=1e-6)
 
 
 def test_uniform_cantilever_energy() -> None:
     # Castigliano: U = P²·l³/(6·E·I) for an end load P, with M = P·l
     force, length, modulus = 15.6, 100.0, 2000.0
-    bar = Bar(6.0, np.full(401, 10.0))
+    bar = Beam(6.0, np.full(401, 10.0))
     assert tapered_energy_nmm(bar, force * length, length, modulus) == pytest.approx(
         force**2 * length**3 / (6.0 * modulus * 500.0), rel=1e-4
     )
@@ -74,14 +74,14 @@ def test_uniform_cantilever_energy() -> None:
 def test_tapered_cantilever_bears_most_where_its_section_says() -> None:
     # b·h² falls as fast as the moment in a cantilever of parabolic height, which is equally stressed all along
     share = np.linspace(1.0, 0.0, 101)
-    parabola = Bar(6.0, 10.0 * np.sqrt(np.maximum(share, 1e-9)))
+    parabola = Beam(6.0, 10.0 * np.sqrt(np.maximum(share, 1e-9)))
     assert tapered_stress_mpa(parabola, 1000.0) == pytest.approx(10.0, rel=1e-9)
-    assert tapered_stress_mpa(Bar(6.0, np.linspace(10.0, 2.0, 101)), 1000.0) > 10.0
+    assert tapered_stress_mpa(Beam(6.0, np.linspace(10.0, 2.0, 101)), 1000.0) > 10.0
 
 
 def test_bored_bar_by_difference_of_two_bars() -> None:
     # the bore takes the middle of the bar away: I = b·(H³ - d³)/12
-    second = Bar(8.0, 11.8).second_moment_mm4 - Bar(8.0, 6.2).second_moment_mm4
+    second = Beam(8.0, 11.8).second_moment_mm4 - Beam(8.0, 6.2).second_moment_mm4
     assert bored_stress_mpa(1559.0, 8.0, 11.8, 6.2) == pytest.approx(1559.0 * 5.9 / second)
 
 
@@ -108,5 +108,5 @@ def test_buckling_load_is_the_lowest_eigenvalue_of_the_bent_column() -> None:
     count, length = 400, 100.0
     step = length / count
     matrix = (2.0 * np.eye(count - 1) - np.eye(count - 1, k=1) - np.eye(count - 1, k=-1)) / step**2
-    load = 2000.0 * float(Bar(8.0, 6.0).second_moment_mm4) * float(np.linalg.eigvalsh(matrix)[0])
-    assert buckling_load_n(Bar(8.0, 6.0), length, 2000.0) == pytest.approx(load, rel=1e-4)
+    load = 2000.0 * float(Beam(8.0, 6.0).second_moment_mm4) * float(np.linalg.eigvalsh(matrix)[0])
+    assert buckling_load_n(Beam(8.0, 6.0), length, 2000.0) == pytest.approx(load, rel=1e-4)

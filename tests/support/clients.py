@@ -11,7 +11,7 @@ import pytest
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.shapes import shapes
+from jumpcad.scene.visuals import visuals
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Case:
     @property
     def extents_m(self) -> np.ndarray:
         poses, points = body_poses(self.robot), []
-        for shape in shapes(self.robot):
+        for shape in visuals(self.robot):
             pose = poses[shape.body] @ shape.T_body_mesh
             points.append(shape.mesh.vertices / 1000.0 @ pose[:3, :3].T + pose[:3, 3])
         everything = np.concatenate(points)

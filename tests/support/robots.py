@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 
-from jumpcad.building.assembly import plan_of
+from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.mass import combined
@@ -81,8 +81,8 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
         contacts = capsules.bodies[title].contacts
         bodies[title] = Body(title, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
     workshop = load_workshop()
-    plan, _ = plan_of(design, workshop)
+    layout, _ = layout_of(design, workshop)
     return Robot(
         name, design, bodies, capsules.joints, capsules.loop, capsules.spring, capsules.foot_depth_m,
-        parts, hardware, workshop, plan,
+        parts, hardware, workshop, layout,
     )  # fmt: skip

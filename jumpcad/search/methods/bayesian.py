@@ -13,16 +13,16 @@ from threadpoolctl import threadpool_limits
 
 from jumpcad.design import Design
 from jumpcad.search.acquisition import Proposal, propose
-from jumpcad.search.evaluator import Campaign
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.space import Space
-from jumpcad.search.store import Row
-from jumpcad.search.surrogate import Belief
+from jumpcad.search.store import Trial
+from jumpcad.search.surrogate import Posterior
 from jumpcad.transforms import Array
 
 REFIT_AFTER, REFIT_EVERY = 80, 5
 ELITE = 4
 
-Proposer = Callable[[Belief, Sequence[Row], int, np.random.Generator], list[Proposal]]
+Proposer = Callable[[Posterior, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step: from what is believed, the rows behind it, and how many are wanted at most."""
 
 
@@ -31,7 +31,7 @@ def default_initial(space: Space, evaluations: int, prior: int = 0) -> int:
     return max(0, min(3 * space.dimension, evaluations // 2) - prior)
 
 
-def run_bayesian(campaign: Campaign, evaluations: int, seed: int, initial: int, batch: int = 1) -> None:
+def run_bayesian(evaluator: Evaluator, evaluations: int, seed: int, initial: int, batch: int = 1) -> None:
     """Search with `evaluations` new designs, the first `initial` of them spread evenly; the rows are the campaign's.
 
     Parameters
@@ -46,70 +46,72 @@ def run_bayesian(campaign: Campaign, evaluations: int, seed: int, initial: int, 
         Proposals a step; they are evaluated together, and do not know of each other's results.
     """
 
-    def proposer(belief: Belief, rows: Sequence[Row], count: int, generator: np.random.Generator) -> list[Proposal]:
-        best, elite = incumbent(campaign.space, rows)
+    def proposer(
+        posterior: Posterior, rows: Sequence[Trial], count: int, generator: np.random.Generator
+    ) -> list[Proposal]:
+        best, elite = incumbent(evaluator.space, rows)
         proposals: list[Proposal] = []
         while len(proposals) < count:
-            proposal = propose(campaign.space, belief, best, elite, unproposed(campaign, proposals), generator)
+            proposal = propose(evaluator.space, posterior, best, elite, unproposed(evaluator, proposals), generator)
             if proposal is None:
                 break
             proposals.append(proposal)
             if len(proposals) < count:
-                belief = belief.believing(proposal.unit)
+                posterior = posterior.condition_on(proposal.unit)
         return proposals
 
-    run_steps(campaign, "bo", evaluations, seed, initial, batch, proposer)
+    run_steps(evaluator, "bo", evaluations, seed, initial, batch, proposer)
 
 
 def run_steps(
-    campaign: Campaign, phase: str, evaluations: int, seed: int, initial: int, batch: int, proposer: Proposer
+    evaluator: Evaluator, phase: str, evaluations: int, seed: int, initial: int, batch: int, proposer: Proposer
 ) -> None:
     """Evaluate `initial` spread designs, then what `proposer` proposes in steps of at most `batch`."""
-    space = campaign.space
+    space = evaluator.space
     if initial:
         points = space.spread(initial, np.random.default_rng([seed, 1]))
-        campaign.evaluate([space.to_design(point) for point in points], phase, 0, limit=evaluations)
-    left = evaluations - sum(row.phase == phase for row in campaign.rows)
+        evaluator.evaluate([space.to_design(point) for point in points], phase, 0, limit=evaluations)
+    left = evaluations - sum(row.phase == phase for row in evaluator.rows)
     thetas: dict[str, Any] = {}
     for step in itertools.count(1):
         if left <= 0:
             return
         count = min(batch, left)
-        finished = campaign.finished(phase, step, count)
+        finished = evaluator.finished(phase, step, count)
         if finished is not None:
             thetas = dict(finished[-1].proposal["theta"])
         else:
-            known = known_rows(campaign)
+            known = known_rows(evaluator)
             fit = None if len(known) <= REFIT_AFTER or step % REFIT_EVERY == 0 else ()
             # One thread: sums in a fixed order give the same bits however many cores there are.
             with threadpool_limits(1):
-                belief = Belief.from_rows(space, known, thetas, fit)
-                proposals = proposer(belief, known, count, np.random.default_rng([seed, 2, step]))
-            thetas = thetas | belief.thetas
+                posterior = Posterior.from_rows(space, known, thetas, fit)
+                proposals = proposer(posterior, known, count, np.random.default_rng([seed, 2, step]))
+            thetas = thetas | posterior.thetas
             notes = [proposal.note() | {"theta": thetas} for proposal in proposals]
-            campaign.evaluate([proposal.design for proposal in proposals], phase, step, proposals=notes)
+            evaluator.evaluate([proposal.design for proposal in proposals], phase, step, proposals=notes)
             count = len(proposals)
         if count == 0:
             return
         left -= count
 
 
-def unproposed(campaign: Campaign, proposals: Sequence[Proposal]) -> Callable[[Design], bool]:
+def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[[Design], bool]:
     """Return the test whether a design may be proposed beside these."""
     taken = {tuple(proposal.design.to_vector()) for proposal in proposals}
 
     def admits(design: Design) -> bool:
-        return tuple(design.to_vector()) not in taken and campaign.admits(design)
+        return tuple(design.to_vector()) not in taken and evaluator.admits(design)
 
     return admits
 
 
-def known_rows(campaign: Campaign) -> list[Row]:
+def known_rows(evaluator: Evaluator) -> list[Trial]:
     """Return the rows to learn from: the prior study's and the campaign's, each design once."""
-    return list({row.key: row for row in [*campaign.prior, *campaign.rows]}.values())
+    return list({row.key: row for row in [*evaluator.prior, *evaluator.rows]}.values())
 
 
-def incumbent(space: Space, rows: Sequence[Row]) -> tuple[float, Array]:
+def incumbent(space: Space, rows: Sequence[Trial]) -> tuple[float, Array]:
     """Return the best score so far (0 where there is none) and the points (k, d) of the best few designs."""
     feasible = sorted((row for row in rows if row.score is not None), key=lambda row: -(row.score or 0.0))
     elite = np.array([space.to_unit(row.design) for row in feasible[:ELITE]]).reshape(-1, space.dimension)

@@ -14,7 +14,7 @@ import numpy as np
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.search.evaluator import Campaign
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.space import Space
 from jumpcad.transforms import Array
 
@@ -58,7 +58,7 @@ def find_preset(name: str) -> GeneticSettings:
     return PRESETS[name]
 
 
-def run_genetic(campaign: Campaign, evaluations: int, seed: int, preset: str = "recommended") -> None:
+def run_genetic(evaluator: Evaluator, evaluations: int, seed: int, preset: str = "recommended") -> None:
     """Search with `evaluations` new designs at most; the rows are the campaign's.
 
     A refused design has fitness 0. With a prior study, its best designs make half of the first population.
@@ -66,16 +66,16 @@ def run_genetic(campaign: Campaign, evaluations: int, seed: int, preset: str = "
     settings = find_preset(preset)
     operators = dict(settings.operators)
     if "mutation_num_genes" in operators:
-        operators["mutation_num_genes"] = min(operators["mutation_num_genes"], campaign.space.dimension)
-    score = Fitness(campaign, "ga", evaluations, refused=0.0)
-    evolve(score, _first_population(campaign, settings.population, seed), operators, seed)
+        operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
+    score = Fitness(evaluator, "ga", evaluations, refused=0.0)
+    evolve(score, _first_population(evaluator, settings.population, seed), operators, seed)
 
 
 class Fitness:
     """PyGAD's view of a campaign: fitness of a population, and when to stop."""
 
-    def __init__(self, campaign: Campaign, phase: str, evaluations: int, refused: Any) -> None:
-        self.campaign = campaign
+    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, refused: Any) -> None:
+        self.evaluator = evaluator
         self.phase = phase
         self.left = evaluations
         self.refused = refused
@@ -87,11 +87,11 @@ class Fitness:
 
     def __call__(self, ga: Any, population: Any, _indices: Any) -> list[Any]:
         """Return the fitness of each solution (n, genes); what the budget no longer reaches counts as refused."""
-        space = self.campaign.space
-        before = len(self.campaign.rows)
+        space = self.evaluator.space
+        before = len(self.evaluator.rows)
         designs = [space.to_design(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
-        rows = self.campaign.evaluate(designs, self.phase, int(ga.generations_completed), limit=self.left)
-        new = len(self.campaign.rows) - before
+        rows = self.evaluator.evaluate(designs, self.phase, int(ga.generations_completed), limit=self.left)
+        new = len(self.evaluator.rows) - before
         self.left -= new
         self._idle = 0 if new else self._idle + 1
         return [self.refused if row is None or row.score is None else self.objectives(row) for row in rows]
@@ -120,7 +120,7 @@ def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], se
         fitness_func=batch,
         fitness_batch_size=len(population),
         initial_population=population.tolist(),
-        gene_space=_gene_space(fitness.campaign.space),
+        gene_space=_gene_space(fitness.evaluator.space),
         on_generation=after_generation,
         random_seed=seed,
         suppress_warnings=True,
@@ -133,9 +133,9 @@ def _gene_space(space: Space) -> list[Any]:
     return [list(parameter.levels) or {"low": 0.0, "high": 1.0} for parameter in space.free]
 
 
-def _first_population(campaign: Campaign, count: int, seed: int) -> Array:
-    space = campaign.space
+def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
+    space = evaluator.space
     spread = space.spread(count, np.random.default_rng([seed, 0]))
-    best = sorted((row for row in campaign.prior if row.score is not None), key=lambda row: -(row.score or 0.0))
+    best = sorted((row for row in evaluator.prior if row.score is not None), key=lambda row: -(row.score or 0.0))
     known = np.array([space.to_unit(row.design) for row in best[: count // 2]]).reshape(-1, space.dimension)
     return np.vstack([known, spread])[:count]

@@ -12,12 +12,12 @@ import numpy as np
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.search.acquisition import Proposal, propose
-from jumpcad.search.evaluator import Campaign
+from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods.bayesian import incumbent, run_steps, unproposed
 from jumpcad.search.methods.genetic import Fitness, evolve
 from jumpcad.search.space import Space
-from jumpcad.search.store import Row
-from jumpcad.search.surrogate import Belief
+from jumpcad.search.store import Trial
+from jumpcad.search.surrogate import Posterior
 from jumpcad.transforms import Array
 
 CAPS = 8
@@ -34,7 +34,7 @@ def energy_j(design: Design) -> float:
         return np.inf
 
 
-def front(rows: Sequence[Row]) -> list[Row]:
+def front(rows: Sequence[Trial]) -> list[Trial]:
     """Return the rows that jump forward and of which none jumps farther with less energy, by energy."""
     best, chosen = 0.0, []
     for row in sorted(
@@ -46,7 +46,7 @@ def front(rows: Sequence[Row]) -> list[Row]:
     return chosen
 
 
-def hypervolume(rows: Sequence[Row], reference_energy_j: float = REFERENCE_ENERGY_J) -> float:
+def hypervolume(rows: Sequence[Trial], reference_energy_j: float = REFERENCE_ENERGY_J) -> float:
     """Return the area that a front dominates, from score 0 and the reference energy (score units times J)."""
     chosen = [row for row in front(rows) if energy_j(row.design) < reference_energy_j]
     ends = [energy_j(row.design) for row in chosen[1:]] + [reference_energy_j]
@@ -60,23 +60,25 @@ def energy_caps_j(space: Space) -> Array:
     return max(energy for energy in energies if np.isfinite(energy)) * np.arange(1, CAPS + 1) / CAPS
 
 
-def run_pareto(campaign: Campaign, evaluations: int, seed: int, initial: int) -> None:
+def run_pareto(evaluator: Evaluator, evaluations: int, seed: int, initial: int) -> None:
     """Search the front with `evaluations` new designs, `initial` of them spread evenly; rows are the campaign's."""
-    space = campaign.space
+    space = evaluator.space
     caps = energy_caps_j(space)
 
-    def proposer(belief: Belief, rows: Sequence[Row], count: int, generator: np.random.Generator) -> list[Proposal]:
+    def proposer(
+        posterior: Posterior, rows: Sequence[Trial], count: int, generator: np.random.Generator
+    ) -> list[Proposal]:
         proposals: list[Proposal] = []
         for cap in caps[:count]:
             best, elite = incumbent(space, [row for row in rows if energy_j(row.design) <= cap])
-            admits, penalty = unproposed(campaign, proposals), _excess(space, float(cap))
-            proposal = propose(space, belief, best, elite, admits, generator, penalty)
+            admits, penalty = unproposed(evaluator, proposals), _excess(space, float(cap))
+            proposal = propose(space, posterior, best, elite, admits, generator, penalty)
             if proposal is not None:
                 proposals.append(proposal)
-                belief = belief.believing(proposal.unit)
+                posterior = posterior.condition_on(proposal.unit)
         return proposals
 
-    run_steps(campaign, "pareto", evaluations, seed, initial, CAPS, proposer)
+    run_steps(evaluator, "pareto", evaluations, seed, initial, CAPS, proposer)
 
 
 def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
@@ -92,12 +94,12 @@ def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
 class ParetoFitness(Fitness):
     """Score and negative energy, both to be maximised."""
 
-    def objectives(self, row: Row) -> list[float]:
+    def objectives(self, row: Trial) -> list[float]:
         """Return both objectives of a feasible row."""
         return [row.score or 0.0, -energy_j(row.design)]
 
 
-def run_nsga2(campaign: Campaign, evaluations: int, seed: int) -> None:
+def run_nsga2(evaluator: Evaluator, evaluations: int, seed: int) -> None:
     """Search the front with PyGAD's NSGA-II; a refused design is dominated by every other one."""
     half = POPULATION // 2
     operators = {
@@ -105,6 +107,6 @@ def run_nsga2(campaign: Campaign, evaluations: int, seed: int) -> None:
         "crossover_type": "sbx", "sbx_crossover_eta": 10,
         "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
     }  # fmt: skip
-    fitness = ParetoFitness(campaign, "nsga2", evaluations, refused=[-1.0, -10.0])
-    population = campaign.space.spread(POPULATION, np.random.default_rng([seed, 0]))
+    fitness = ParetoFitness(evaluator, "nsga2", evaluations, refused=[-1.0, -10.0])
+    population = evaluator.space.spread(POPULATION, np.random.default_rng([seed, 0]))
     evolve(fitness, population, operators, seed)

@@ -14,65 +14,65 @@ def best(rows):
 
 
 @pytest.mark.parametrize("evaluations", [1, 7, 20, 53])
-def test_the_budget_is_met_exactly(campaign, evaluations):
-    one = campaign()
+def test_the_budget_is_met_exactly(evaluator, evaluations):
+    one = evaluator()
     run_genetic(one, evaluations, seed=1)
     assert len(one.rows) == evaluations
     assert len({row.key for row in one.rows}) == evaluations
 
 
-def test_it_climbs_where_chance_does_not(campaign):
+def test_it_climbs_where_chance_does_not(evaluator):
     # Of points within 0.05 of the top of a unit cube there are 0.05 %: chance meets one in 200 with p = 0.1.
     for seed in range(3):
-        one = campaign()
+        one = evaluator()
         run_genetic(one, 200, seed)
         assert best(one.rows) > 10.0 * np.exp(-2.0 * 0.05**2)
         assert all(row.evaluation.verdict == "loop" for row in one.rows if row.score is None)
 
 
-def test_seed_decides_everything(campaign):
+def test_seed_decides_everything(evaluator):
     runs = []
     for seed in (5, 5, 6):
-        one = campaign()
+        one = evaluator()
         run_genetic(one, 80, seed)
         runs.append([row.key for row in one.rows])
     assert runs[0] == runs[1] != runs[2]
 
 
-def test_published_preset_replaces_five_genes(campaign):
+def test_published_preset_replaces_five_genes(evaluator):
     settings = find_preset("published")
     assert settings.population == 10
     assert settings.operators["mutation_num_genes"] == 5
     assert settings.operators["keep_parents"] == 2
-    one = campaign(space=Space.default())
+    one = evaluator(space=Space.default())
     run_genetic(one, 60, 0, "published")
     assert len(one.rows) == 60
 
 
-def test_a_space_of_choices_runs_dry(campaign):
+def test_a_space_of_choices_runs_dry(evaluator):
     fixed = [f"{parameter.name}={TOP[parameter.name]}" for parameter in SMALL.free[:1]]
     rest = [f"{p.name}={p.lower}" for p in SMALL.parameters if not p.free]
     names = [parameter.name for parameter in SMALL.free[1:]]
     space = Space.parse(fix=[*rest, *fixed], choose=[f"{names[0]}=25,55,70", f"{names[1]}=10,20"])
-    one = campaign(space=space)
+    one = evaluator(space=space)
     run_genetic(one, 100, 0)
     assert space.size == len(one.rows) == 6
 
 
-def test_one_free_parameter(campaign):
+def test_one_free_parameter(evaluator):
     space = Space.parse(
         fix=[f"{p.name}={TOP.get(p.name, p.lower)}" for p in SMALL.parameters if p.name != "rest_angle_deg"]
     )
     for preset in ("recommended", "published"):
-        one = campaign(space=space)
+        one = evaluator(space=space)
         run_genetic(one, 60, 0, preset)
         assert best(one.rows) > 9.9
 
 
-def test_a_prior_study_seeds_the_population(campaign):
-    teacher = campaign()
+def test_a_prior_study_seeds_the_population(evaluator):
+    teacher = evaluator()
     run_genetic(teacher, 300, 0)
-    pupil = campaign(prior=teacher.rows)
+    pupil = evaluator(prior=teacher.rows)
     run_genetic(pupil, 20, 9)
     assert best(pupil.rows) == best(teacher.rows)
 

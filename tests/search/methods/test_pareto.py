@@ -17,7 +17,7 @@ from jumpcad.search.methods.pareto import (
 )
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
-from jumpcad.search.store import Row
+from jumpcad.search.store import Trial
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def rows():
         design = Space.default().to_design(point)
         score = float(generator.random()) if place % 5 else None
         if np.isfinite(energy_j(design)):
-            found.append(Row("pareto", 0, place, design, Evaluation("jump"), score, "m", 0.0))
+            found.append(Trial("pareto", 0, place, design, Evaluation("jump"), score, "m", 0.0))
     return found
 
 
@@ -61,36 +61,36 @@ def test_a_design_without_a_pose_has_no_energy():
     assert energy_j(design) == np.inf
 
 
-def dominated_share(campaign):
+def dominated_share(evaluator):
     """Return the area under the true front that a campaign's front misses, as a share."""
     grid = np.array(np.meshgrid(*[np.linspace(0, 1, 21)] * 3)).reshape(3, -1).T
     true = []
     for place, point in enumerate(grid):
         design = SMALL.to_design(point)
         score = Hill()(design).metrics.get("fitness")
-        true.append(Row("pareto", 0, place, design, Evaluation("jump"), score, "m", 0.0))
-    return hypervolume(campaign.rows) / hypervolume(true)
+        true.append(Trial("pareto", 0, place, design, Evaluation("jump"), score, "m", 0.0))
+    return hypervolume(evaluator.rows) / hypervolume(true)
 
 
-def test_constrained_improvement_finds_the_front(campaign):
-    one = campaign()
+def test_constrained_improvement_finds_the_front(evaluator):
+    one = evaluator()
     run_pareto(one, 57, 0, initial=9)
     assert len(one.rows) == 57
     assert dominated_share(one) > 0.99
 
 
-def test_nsga2_finds_most_of_it(campaign):
-    one = campaign()
+def test_nsga2_finds_most_of_it(evaluator):
+    one = evaluator()
     run_nsga2(one, 300, 0)
     assert len(one.rows) == 300
     assert dominated_share(one) > 0.95
 
 
-def test_a_front_resumes(campaign, tmp_path):
-    whole, first = campaign(), campaign(tmp_path / "s.db")
+def test_a_front_resumes(evaluator, tmp_path):
+    whole, first = evaluator(), evaluator(tmp_path / "s.db")
     run_pareto(whole, 30, 0, initial=9)
     run_pareto(first, 20, 0, initial=9)
-    first.ledger.close()
-    longer = campaign(tmp_path / "s.db")
+    first.store.close()
+    longer = evaluator(tmp_path / "s.db")
     run_pareto(longer, 30, 0, initial=9)
     assert [row.key for row in longer.rows] == [row.key for row in whole.rows]

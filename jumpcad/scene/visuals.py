@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from jumpcad.parts.part import Part
-from jumpcad.parts.purchased import Bought
+from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array, in_metres
 
@@ -39,7 +39,7 @@ STEEL: Colour = (0.62, 0.64, 0.67)
 
 
 @dataclass(frozen=True)
-class Shape:
+class Visual:
     """One thing on the robot.
 
     `name` is unique; `mesh_name` names its mesh, which copies share. `T_body_mesh` (4, 4) is the pose of the mesh (mm)
@@ -51,7 +51,7 @@ class Shape:
     body: str
     T_body_mesh: Array
     colour: Colour
-    source: Part | Bought
+    source: Part | BoughtPart
 
     @property
     def mesh(self) -> "trimesh.Trimesh":
@@ -59,20 +59,20 @@ class Shape:
         return self.source.drawing.look if isinstance(self.source, Part) else self.source.look
 
 
-def shapes(robot: Robot) -> tuple[Shape, ...]:
+def visuals(robot: Robot) -> tuple[Visual, ...]:
     """Return every copy of every printed part, then every bought part; nothing for a robot that is a mechanism only."""
     return (*_printed(robot), *(_bought(item) for item in robot.hardware))
 
 
-def _printed(robot: Robot) -> Iterator[Shape]:
+def _printed(robot: Robot) -> Iterator[Visual]:
     for part in robot.parts:
         for number, place in enumerate(part.placements, start=1):
             name = part.name if part.quantity == 1 else f"{part.name}_{number}"
             colour = PRINTED_COLOURS[part.drawing.role]
-            yield Shape(name, part.name, place.body, in_metres(place.T_body_part), colour, part)
+            yield Visual(name, part.name, place.body, in_metres(place.T_body_part), colour, part)
 
 
-def _bought(item: Bought) -> Shape:
+def _bought(item: BoughtPart) -> Visual:
     label = f"{item.article} {item.name}".lower()
     colour = next((colour for word, colour in BOUGHT_COLOURS.items() if word in label), STEEL)
-    return Shape(item.name, item.name, item.body, in_metres(item.T_body_part), colour, item)
+    return Visual(item.name, item.name, item.body, in_metres(item.T_body_part), colour, item)

@@ -62,7 +62,7 @@ class Electronics:
 
 
 @dataclass(frozen=True)
-class Plan:
+class Layout:
     """Where everything is; points (2,) are x-z in the body frame (mm)."""
 
     design: Design
@@ -92,7 +92,7 @@ class Plan:
         return axles if self.idler_mm is None else axles | {"idler": self.idler_mm}
 
 
-def make_plan(
+def make_layout(
     design: Design,
     sections: Sections,
     drive: Drive,
@@ -100,7 +100,7 @@ def make_plan(
     plate_mm: float,
     roller_width_mm: float,
     axle_mm: float,
-) -> Plan:
+) -> Layout:
     """Lay out a robot.
 
     Raises
@@ -163,7 +163,7 @@ def make_plan(
         box_obstacle("electronics", centre, (electronics.length_mm / 2.0, electronics.height_mm / 2.0), 0.0, inside)
     )
     standoffs = _standoffs(obstacles, cam_axis, front, centre, electronics, inside)
-    return Plan(
+    return Layout(
         design=design,
         sections=sections,
         drive=drive,
