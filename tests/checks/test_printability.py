@@ -11,7 +11,7 @@ from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.part import Drawing, Part, Placement
 from jumpcad.robot import Robot
-from jumpcad.solids.blocks import Beam, Blocks
+from jumpcad.solids.blocks import Bar, Blocks
 from jumpcad.solids.outline import Region, disc, hole, rectangle
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
@@ -82,10 +82,10 @@ def test_steps_of_45_degrees_are_no_overhang_and_steeper_ones_are(kenan: Robot) 
 
 
 def test_solids_that_are_no_stacks(kenan: Robot) -> None:
-    block = Beam(rectangle((30.0, 10.0), (15.0, 5.0)), ((0.0, 20.0),))
-    tunnel = Beam(rectangle((14.0, 4.0), (15.0, 4.0)), ((-5.0, 35.0),))
+    block = Bar(rectangle((30.0, 10.0), (15.0, 5.0)), ((0.0, 20.0),))
+    tunnel = Bar(rectangle((14.0, 4.0), (15.0, 4.0)), ((-5.0, 35.0),))
     assert [finding.name for finding in errors(found(kenan, Blocks((block,), (tunnel,))).values())] == ["bridges"]
-    roof = Beam(rectangle((30.0, 10.0), (15.0, 5.0)).rotate(-30.0), ((0.0, 20.0),))
+    roof = Bar(rectangle((30.0, 10.0), (15.0, 5.0)).rotate(-30.0), ((0.0, 20.0),))
     names = [finding.name for finding in errors(found(kenan, Blocks((block, roof))).values())]
     assert "overhangs" in names
     assert not errors(found(kenan, Blocks((block,))).values())

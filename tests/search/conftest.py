@@ -14,13 +14,13 @@ from jumpcad.search.store import StudyStore
 @pytest.fixture
 def evaluator():
     """Return a function that opens a campaign in this process; all are closed at the end."""
-    ledgers = []
+    stores = []
 
     def open_campaign(path: Path | None = None, model=None, space=SMALL, prior=(), pool=None) -> Evaluator:
         store = StudyStore.write(path, {"hill": 1})
-        ledgers.append(store)
+        stores.append(store)
         return Evaluator(space, find_objective("fitness"), model or Hill(), store, pool or local_pool(0), prior)
 
     yield open_campaign
-    for store in ledgers:
+    for store in stores:
         store.close()

@@ -77,8 +77,8 @@ def test_one_writer_at_a_time(tmp_path):
     with StudyStore.write(tmp_path / "s.db", IDENTITY):
         code = textwrap.dedent(f"""
             from pathlib import Path
-            from jumpcad.search.store import Ledger
-            Ledger.write(Path({str(tmp_path / "s.db")!r}), {IDENTITY})
+            from jumpcad.search.store import StudyStore
+            StudyStore.write(Path({str(tmp_path / "s.db")!r}), {IDENTITY})
         """)
         other = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
         assert "being written by another run" in other.stderr
@@ -103,12 +103,12 @@ def test_killed_writer_leaves_whole_batches(tmp_path):
         import os, signal, sys
         sys.path[:0] = {TESTS}
         from pathlib import Path
-        from test_ledger import rows, IDENTITY
-        from jumpcad.search.store import Ledger
-        ledger = Ledger.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
-        ledger.append(rows(7))
-        ledger._connection.execute("BEGIN")
-        ledger._connection.execute("DELETE FROM evaluations")
+        from test_store import rows, IDENTITY
+        from jumpcad.search.store import StudyStore
+        store = StudyStore.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
+        store.append(rows(7))
+        store._connection.execute("BEGIN")
+        store._connection.execute("DELETE FROM evaluations")
         os.kill(os.getpid(), signal.SIGKILL)
     """)
     done = subprocess.run([sys.executable, "-c", code])
@@ -122,16 +122,16 @@ def test_full_disk_is_one_line_and_keeps_what_was_there(tmp_path):
         import resource, signal, sys
         sys.path[:0] = {TESTS}
         from pathlib import Path
-        from test_ledger import rows, IDENTITY
+        from test_store import rows, IDENTITY
         from jumpcad.errors import JumpcadError
-        from jumpcad.search.store import Ledger
-        ledger = Ledger.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
-        ledger.append(rows(3))
+        from jumpcad.search.store import StudyStore
+        store = StudyStore.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
+        store.append(rows(3))
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
         try:
             for step in range(1, 100):
-                ledger.append(rows(8, step=step))
+                store.append(rows(8, step=step))
         except JumpcadError as error:
             print(error)
     """)

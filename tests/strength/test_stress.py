@@ -20,7 +20,7 @@ from jumpcad.strength.stress import (
 )
 from jumpcad.workshop import load_workshop
 
-SKIN = Shell(1.35, 0.9, 0.2)
+SHELL = Shell(1.35, 0.9, 0.2)
 
 
 def second_moment(width: np.ndarray, z: np.ndarray) -> float:
@@ -36,7 +36,7 @@ def test_solid_bar_is_the_rectangle_of_every_table() -> None:
 
 @pytest.mark.parametrize("upright", [False, True])
 def test_hollow_bar_by_integration_over_its_height(upright: bool) -> None:
-    bar = Beam(6.0, 10.0, SKIN, upright)
+    bar = Beam(6.0, 10.0, SHELL, upright)
     side, end = (1.35, 0.9) if upright else (0.9, 1.35)
     z = np.linspace(-5.0, 5.0, 200_001)
     bearing = np.where(np.abs(z) < 5.0 - end, 6.0 - 0.8 * (6.0 - 2.0 * side), 6.0)
@@ -44,18 +44,18 @@ def test_hollow_bar_by_integration_over_its_height(upright: bool) -> None:
     assert bar.area_mm2 == pytest.approx(float(np.trapezoid(bearing, z)), rel=1e-4)
 
 
-def test_a_bar_thinner_than_its_skin_is_solid() -> None:
-    assert Beam(1.7, 10.0, SKIN).second_moment_mm4 == pytest.approx(1.7 * 1000.0 / 12.0)
+def test_a_bar_thinner_than_its_shell_is_solid() -> None:
+    assert Beam(1.7, 10.0, SHELL).second_moment_mm4 == pytest.approx(1.7 * 1000.0 / 12.0)
 
 
-def test_skin_of_full_infill_bears_like_solid() -> None:
+def test_shell_of_full_infill_bears_like_solid() -> None:
     process = load_workshop().process
     full = Shell.of(process.model_copy(update={"infill": 1.0}))
     assert Beam(6.0, 10.0, full).second_moment_mm4 == pytest.approx(500.0)
     assert Shell.of(process).core_share < process.infill
 
 
-@pytest.mark.parametrize("skin", [SOLID, SKIN])
+@pytest.mark.parametrize("shell", [SOLID, SHELL])
 def test_height_for_bears_exactly_what_was_asked(shell: Shell) -> None:
     for moment in (100.0, 1500.0, 6000.0):
         height = height_for_mm(moment, 8.0, 15.0, shell)
