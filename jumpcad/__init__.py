@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from jumpcad.workshop import Workshop as Workshop
     from jumpcad.workshop import load_workshop as load_workshop
 
-__version__ = "0.1.0"
+from jumpcad.version import __version__
 
 _HOMES = {
     "CannotBuildError": "errors",

@@ -8,9 +8,9 @@ import numpy as np
 
 from jumpcad.catalogue import Bearing, load_catalogue
 from jumpcad.design import Design
+from jumpcad.dimensions import CLEAR_MM, GAP_MM, LEVER_EYE_RADIUS_MM, PAD_WALL_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
-from jumpcad.layout.lateral import GAP_MM
-from jumpcad.layout.layout import CLEAR_MM, SPACER_RADIUS_MM, Electronics, Layout, make_layout
+from jumpcad.layout.layout import Electronics, Layout, make_layout
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Surface, five_bar
 from jumpcad.parts import body_plate, foot, links, shopping, small, toes, train
@@ -166,7 +166,7 @@ def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
     def sphere(name: str, x: float, y: float, z: float, radius: float, surface: Surface) -> ContactSphere:
         return ContactSphere(name, np.array([x, y, z]) / 1000.0, radius / 1000.0, surface)
 
-    pad = layout.axle_mm / 2.0 + body_plate.PAD_WALL_MM
+    pad = layout.axle_mm / 2.0 + PAD_WALL_MM
     return {
         FOOT: (
             sphere("front_eye", layout.design.l4_mm, 0.0, 0.0, depth, "foot"),
@@ -186,7 +186,7 @@ def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, holes: H
     gears = workshop.material("gears")
     axle_radius = workshop.bought.axle_mm / 2.0 + fits.sliding_mm
     hub_radius = max(holes.hub_radius_mm, sizes.leg_root_mm / 2.0)
-    lever_eye = max(links.LEVER_EYE_RADIUS_MM, sizes.lever_root_mm / 2.0)
+    lever_eye = max(LEVER_EYE_RADIUS_MM, sizes.lever_root_mm / 2.0)
     return DriveLimits(
         spring=SpringLimits(
             mandrel_min_mm=2.0 * (axle_radius + fits.wall_min_mm),

@@ -14,6 +14,7 @@ from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures
+from jumpcad.dimensions import MESH_FOLDER
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.dxf import write_dxfs
 from jumpcad.exporters.glb import write_glb
@@ -21,7 +22,7 @@ from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.step import require_step, write_step
 from jumpcad.exporters.threemf import write_threemf
-from jumpcad.exporters.urdf import MESH_FOLDER, write_loop, write_urdf
+from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals

@@ -15,10 +15,10 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-import jumpcad
 from jumpcad.bundle.manifest import FORMAT, MANIFEST, Bundle, is_bundle
 from jumpcad.bundle.swap import exchanged
 from jumpcad.errors import JumpcadError
+from jumpcad.version import __version__
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")
 """Whose versions the shapes may depend on."""
@@ -49,7 +49,7 @@ def write_folder(
     manifest = {
         "format": FORMAT,
         "name": name,
-        "versions": {"jumpcad": jumpcad.__version__} | {lib: importlib.metadata.version(lib) for lib in LIBRARIES},
+        "versions": {"jumpcad": __version__} | {lib: importlib.metadata.version(lib) for lib in LIBRARIES},
         **facts,
     }
     return _put(target, manifest, files)

@@ -4,11 +4,10 @@ import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
+from jumpcad.dimensions import COLLAR_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM
 from jumpcad.findings import Finding, limit
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT
-from jumpcad.parts.body_plate import PAD_WALL_MM, STANDOFF_PAD_MM
-from jumpcad.parts.small import COLLAR_RADIUS_MM
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array, direction
 

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
+from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.findings import Finding, limit
-from jumpcad.layout.lateral import ROLLER_WASHER_MM
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
 from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
 from jumpcad.strength.stress import pin_stress_mpa

@@ -14,8 +14,8 @@ import numpy as np
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.checks.steel import steel_findings
+from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.findings import Finding, limit
-from jumpcad.parts.links import LEVER_EYE_RADIUS_MM
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
 from jumpcad.robot import Robot
 from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm, toe_reach_mm

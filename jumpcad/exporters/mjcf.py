@@ -6,6 +6,7 @@ Loading key frame `wound` and stepping is the whole jump. The cam is not modelle
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
+from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.xml import add, document, wxyz
 from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses, standing
@@ -14,15 +15,12 @@ from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.mujoco import IMPEDANCE, SOFTNESS_STEPS, SUBSTEPS
 from jumpcad.transforms import rotation_about_y
 
-MESH_FOLDER = "../urdf/meshes"
-"""Folder of the meshes, seen from that of the MJCF file."""
-
 
 def write_mjcf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
     """Return the MJCF document of a robot, with the settings' time step, friction and damping."""
     settings = settings or Settings()
     root = ET.Element("mujoco", model=mechanism.name)
-    add(root, "compiler", angle="radian", meshdir=MESH_FOLDER, inertiafromgeom="false")
+    add(root, "compiler", angle="radian", meshdir=MESHES_FROM_BESIDE, inertiafromgeom="false")
     add(
         root,
         "option",

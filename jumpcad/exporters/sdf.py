@@ -6,6 +6,7 @@ The model stands with springs at rest. Links' frames are the body frames of `Rob
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
+from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.urdf import SWING_RAD
 from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.model import Body, Joint, Mechanism
@@ -13,9 +14,6 @@ from jumpcad.mechanism.poses import body_poses
 from jumpcad.scene.visuals import Visual
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.transforms import Array
-
-MESH_FOLDER = "../urdf/meshes"
-"""Folder of the meshes, seen from that of the SDF file."""
 
 
 def write_sdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
@@ -48,7 +46,7 @@ def _fill(link: ET.Element, body: Body, visible: list[Visual], settings: Setting
         visual = add(link, "visual", name=shape.name)
         add(visual, "pose", _six(shape.T_body_mesh))
         mesh = add(add(visual, "geometry"), "mesh")
-        add(mesh, "uri", f"{MESH_FOLDER}/{shape.mesh_name}.stl")
+        add(mesh, "uri", f"{MESHES_FROM_BESIDE}/{shape.mesh_name}.stl")
         add(mesh, "scale", "0.001 0.001 0.001")
         material = add(visual, "material")
         for light in ("ambient", "diffuse"):

@@ -10,6 +10,7 @@ import math
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
+from jumpcad.dimensions import MESH_FOLDER
 from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import Body, Joint, Mechanism
@@ -17,8 +18,6 @@ from jumpcad.mechanism.poses import release_pose
 from jumpcad.scene.visuals import Visual
 from jumpcad.settings import Settings
 
-MESH_FOLDER = "meshes"
-"""Folder of the meshes, beside the URDF file."""
 SWING_RAD = math.pi / 2
 """Limits leave this much on either side of the travel: simulators make stops of them, and legs swing past rest."""
 

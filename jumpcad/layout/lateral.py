@@ -8,15 +8,10 @@ lies across, its shaft to the left.
 from dataclasses import dataclass
 
 from jumpcad.catalogue import Motor
+from jumpcad.dimensions import GAP_MM, ROLLER_HEAD_MM, ROLLER_WASHER_MM
 
 Interval = tuple[float, float]
 
-GAP_MM = 0.5
-"""Axial gap between parts that move past each other; judgement, three first-layer squashes."""
-ROLLER_WASHER_MM = 0.5
-"""Washer ISO 7089 M3 between lever and roller."""
-ROLLER_HEAD_MM = 1.65
-"""Head of the button screw ISO 7380 M3 that holds the roller."""
 MOTOR_CAP_MM = 2.4
 TERMINALS_MM = 0.5
 """Between the motor's rear face and the plate; the terminals reach through a window in the plate."""

@@ -10,26 +10,24 @@ import numpy as np
 
 from jumpcad.catalogue import Battery, Bearing, Board
 from jumpcad.design import Design
+from jumpcad.dimensions import (
+    CAP_EAR_MM,
+    CLEAR_MM,
+    GAP_MM,
+    SOCKET_WALL_MM,
+    SPACER_RADIUS_MM,
+    STANDOFF_RADIUS_MM,
+    TRAY_MM,
+)
 from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.lateral import GAP_MM, Lateral, lateral_stack
+from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.places import around, best_place, grid_candidates, ring_candidates
 from jumpcad.layout.room import EVERYWHERE, Obstacle, bar, box_obstacle, clearance, disc
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array
-
-SPACER_RADIUS_MM = 3.2
-"""Outside of the printed tubes that hold things apart on the 3 mm axles."""
-SOCKET_WALL_MM = 1.6
-CAP_EAR_MM = 5.6
-"""How far the ears for the motor cap's screws reach beyond the socket."""
-TRAY_MM = 1.6
-STANDOFF_RADIUS_MM = 3.2
-"""Circumscribed circle of an M3 hexagon standoff 5.5 mm across flats."""
-CLEAR_MM = 0.8
-"""Between things that do not touch; judgement: twice the play of a loose fit plus assembly error."""
 
 
 @dataclass(frozen=True)

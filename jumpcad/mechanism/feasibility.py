@@ -10,12 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.design import Design
+from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage, Pose
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism
 from jumpcad.transforms import Array
 
-GRAVITY_M_S2 = 9.81
 TAKEOFF_ENERGY_FACTOR = 1.3
 """Spring energy over the weight's work in the push-off that a jump needs at least (0 false refusals in 399)."""
 

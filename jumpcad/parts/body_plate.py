@@ -9,7 +9,8 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial import Delaunay
 
-from jumpcad.layout.layout import CAP_EAR_MM, SOCKET_WALL_MM, TRAY_MM, Layout
+from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF_PAD_MM, TRAY_MM
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, laid
@@ -28,9 +29,6 @@ from jumpcad.solids.outline import (
 )
 from jumpcad.solids.text import text
 
-PAD_WALL_MM = 3.0
-"""Material around the bore of an axle."""
-STANDOFF_PAD_MM = 9.0
 RIB_MM = 3.2
 EDGE_MM = 3.2
 POCKET_RADIUS_MM = 1.5

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from jumpcad.layout.lateral import GAP_MM
+from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT
@@ -18,7 +18,6 @@ from jumpcad.parts.toes import lying_hole, on_the_foot, toe_tip_mm
 from jumpcad.printing.bed import fit_to_bed
 from jumpcad.solids.blocks import Bar, Block, Blocks
 from jumpcad.solids.outline import Region, circle_points, disc, hull, polygon, rectangle, union
-from jumpcad.strength.sizing import TOE_TIP_WIDTH_MM
 
 WEB_MM = 10.0
 """Length along x of the web that joins the rails in front of the ankle."""

@@ -4,14 +4,13 @@ import math
 
 import numpy as np
 
+from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import FRONT_LINK, MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, laid
 from jumpcad.solids.outline import disc, filleted, hole, stadium, tapered_bar, union
 
-LEVER_EYE_RADIUS_MM = 4.5
-"""Around the M3 screw of the roller; carries the nut, 6.35 mm across its corners."""
 FILLET_MM = 3.0
 
 

@@ -7,8 +7,9 @@ from functools import lru_cache
 import numpy as np
 
 from jumpcad.catalogue import Bearing, Catalogue, Screw
-from jumpcad.layout.lateral import GAP_MM, ROLLER_WASHER_MM, Interval
-from jumpcad.layout.layout import TRAY_MM, Layout
+from jumpcad.dimensions import GAP_MM, ROLLER_WASHER_MM, TRAY_MM
+from jumpcad.layout.lateral import Interval
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
 from jumpcad.parts import toes
 from jumpcad.parts.body_plate import ear_places

@@ -4,9 +4,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from jumpcad.dimensions import COLLAR_RADIUS_MM, GAP_MM, SPACER_RADIUS_MM, TRAY_MM
 from jumpcad.errors import JumpcadError
-from jumpcad.layout.lateral import GAP_MM
-from jumpcad.layout.layout import SPACER_RADIUS_MM, TRAY_MM, Layout
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.body_plate import TAB_MM, ear_reach_mm, socket_about_axis, tray_slots
 from jumpcad.parts.holes import HoleSizes
@@ -17,7 +17,6 @@ from jumpcad.transforms import pose_about_z
 from jumpcad.workshop import Workshop
 
 COLLAR_MM = 3.0
-COLLAR_RADIUS_MM = 3.6
 STRAP_SLOT_MM = (2.0, 4.0)
 TRAY_EDGE_MM, TRAY_LEDGE_MM = 5.0, 2.0
 """Of a tray's window: from the tray's ends, and what it leaves under the narrowest thing that lies on a tray."""

@@ -11,14 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.layout.lateral import GAP_MM
+from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
 from jumpcad.solids.blocks import Bar, Block, Blocks, Finger, Turned
 from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
-from jumpcad.strength.sizing import TOE_TIP_WIDTH_MM
 from jumpcad.transforms import Array
 
 JOINT_MM = (12.0, 34.0)

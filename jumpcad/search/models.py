@@ -8,13 +8,13 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
-from jumpcad import __version__
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import did_you_mean, templates_folder
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import Evaluation
+from jumpcad.version import __version__
 
 MODELS = ("printed", "capsule", "published")
 PRESENTATION = ("cli", "pictures", "report")

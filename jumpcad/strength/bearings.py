@@ -10,9 +10,9 @@ import numpy as np
 
 from jumpcad.catalogue import Bearing, load_catalogue
 from jumpcad.design import Design
+from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.drive import Drive
 from jumpcad.errors import JumpcadError
-from jumpcad.layout.lateral import ROLLER_WASHER_MM
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
 

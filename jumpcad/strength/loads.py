@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.design import Design
+from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.transforms import Array, turned_about_y
 
-GRAVITY_M_S2 = 9.81
 POSITIONS = 17
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jumpcad.design import Design
+from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
 from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm
 from jumpcad.workshop import Workshop
@@ -23,7 +24,6 @@ RESERVE = 1.15
 HEIGHT_MIN_MM = 6.0
 LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 """Height at the tip over that at the root. With half or more, moment over section falls from the root on."""
-TOE_TIP_WIDTH_MM = 5.0
 KEY_MM = 7.0
 GROWTH_STEP = 1.1
 RAIL_MIN_MM, TOE_MIN_MM, TOE_TIP_MIN_MM = 3.2, 3.2, 2.4

@@ -5,7 +5,8 @@ import itertools
 import pytest
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.layout.lateral import GAP_MM, Lateral, lateral_stack
+from jumpcad.dimensions import GAP_MM
+from jumpcad.layout.lateral import Lateral, lateral_stack
 
 MOTOR = load_catalogue().motors["n20-298"]
 """An N20: 24 mm over motor and gearbox."""

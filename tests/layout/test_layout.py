@@ -13,9 +13,10 @@ from support.built import LONG_TOES, built, geared, in_body
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import SEARCH_BOUNDS, Design
+from jumpcad.dimensions import CLEAR_MM, TRAY_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
-from jumpcad.layout.layout import CLEAR_MM, TRAY_MM, Electronics, Layout, make_layout
+from jumpcad.layout.layout import Electronics, Layout, make_layout
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop

@@ -9,15 +9,10 @@ import pytest
 from support.places import DATA
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, load_design
+from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import errors
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.feasibility import (
-    GRAVITY_M_S2,
-    TAKEOFF_ENERGY_FACTOR,
-    geometry_findings,
-    statics_findings,
-    support_span_mm,
-)
+from jumpcad.mechanism.feasibility import TAKEOFF_ENERGY_FACTOR, geometry_findings, statics_findings, support_span_mm
 
 with (DATA / "reference_flights.csv").open(encoding="utf-8") as stream:
     ROWS = list(csv.DictReader(stream))

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from jumpcad.design import Design, load_design
+from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.strength.loads import (
-    GRAVITY_M_S2,
     MovingMass,
     landing_force_n,
     push_off,

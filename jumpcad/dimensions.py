@@ -1,0 +1,43 @@
+"""Clearances, fixed sizes and constants that several rooms share, each with its source (mm unless named otherwise).
+
+What a user may want to change stands in the workshop instead. "Judgement" marks what rests on no source.
+"""
+
+GRAVITY_M_S2 = 9.81
+"""Rounded standard gravity (ISO 80000-3: 9.80665), as the published study has it."""
+
+GAP_MM = 0.5
+"""Axial gap between parts that move past each other; judgement: three first-layer squashes."""
+CLEAR_MM = 0.8
+"""Between things that do not touch; judgement: twice the play of a loose fit plus assembly error."""
+SPACER_RADIUS_MM = 3.2
+"""Outside of the printed tubes that hold things apart on the axles; judgement: a wall of 1.5 mm on a 3 mm axle."""
+
+ROLLER_WASHER_MM = 0.5
+"""Washer between lever and roller (ISO 7089 M3)."""
+ROLLER_HEAD_MM = 1.65
+"""Head of the button screw that holds the roller (ISO 7380-1 M3)."""
+STANDOFF_RADIUS_MM = 3.2
+"""Circumscribed circle of an M3 hexagon standoff 5.5 mm across flats (ISO 4032 hexagon)."""
+
+TRAY_MM = 1.6
+"""Thickness of the electronics trays; judgement: eight layers of 0.2 mm."""
+SOCKET_WALL_MM = 1.6
+"""Wall of the motor's socket; judgement: four lines of a 0.4 mm nozzle."""
+CAP_EAR_MM = 5.6
+"""How far the ears for the motor cap's screws reach beyond the socket: an M2 head of 3.8 mm (ISO 4762) and a wall."""
+TOE_TIP_WIDTH_MM = 5.0
+"""Width of a toe's tip; judgement: wider than high, so that a landing does not turn it over."""
+PAD_WALL_MM = 3.0
+"""Material around an axle in the body plates; judgement: two and a half recommended walls."""
+COLLAR_RADIUS_MM = 3.6
+"""Outside of the collars that keep axles in place; judgement."""
+STANDOFF_PAD_MM = 9.0
+"""Diameter of the plates' pads under the standoffs' screws: a head of 5.7 mm (ISO 7380-1 M3) and a wall."""
+LEVER_EYE_RADIUS_MM = 4.5
+"""Of the lever's eye for the roller's screw: a washer of 7 mm (ISO 7089 M3) and an edge of 1 mm."""
+
+MESH_FOLDER = "meshes"
+"""Folder of the meshes beside a URDF file; MJCF and SDF files see it as `MESHES_FROM_BESIDE`."""
+MESHES_FROM_BESIDE = f"../urdf/{MESH_FOLDER}"
+"""The same folder, seen from the folder of another format."""
