@@ -88,7 +88,7 @@ def _published(design: "Design", engine: str | None, as_json: bool) -> None:
     """Print the published study's quantities, which are not those of the jump."""
     if engine not in (None, "pybullet"):
         raise JumpcadError(f"--engine {engine}: the published simulation exists in pybullet alone")
-    from jumpcad import published
+    from jumpcad.paper import published
 
     result = asdict(published.simulate(design))
     if as_json:

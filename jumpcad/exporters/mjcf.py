@@ -1,26 +1,40 @@
 """MJCF: the robot above a floor for MuJoCo, loop and spring included, ready to be released.
 
-Loading key frame `wound` and stepping is the whole jump. The cam is not modelled: it lets go at once.
+Loading key frame `wound` and stepping is the whole jump. The cam is not modelled: it lets go at once. MuJoCo's
+constraints are springs; here contacts and the loop are as stiff as the time step allows, and the time step is a
+fraction of that in the settings. The project's own MuJoCo engine runs this very model.
 """
 
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.xml import add, document, wxyz
 from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses, standing
-from jumpcad.scene.visuals import Visual
 from jumpcad.settings import Settings, surface_friction
-from jumpcad.simulation.mujoco import IMPEDANCE, SOFTNESS_STEPS, SUBSTEPS
 from jumpcad.transforms import rotation_about_y
 
+if TYPE_CHECKING:
+    from jumpcad.scene.visuals import Visual
 
-def write_mjcf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
+SUBSTEPS = 4
+"""MuJoCo's own steps in one of the settings': what makes its stiffest constraints as exact as Bullet's rigid ones."""
+SOFTNESS_STEPS = 2.0
+"""Time constant of the constraints over MuJoCo's own step: the least that MuJoCo keeps stable."""
+IMPEDANCE = [0.99, 0.9999, 0.0001, 0.5, 2.0]
+"""Share of a constraint that is enforced, and how it grows with penetration (MuJoCo's `solimp`)."""
+LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100
+"""Fewer do not reach the tolerance; what MuJoCo takes where a file says nothing."""
+
+
+def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:
     """Return the MJCF document of a robot, with the settings' time step, friction and damping."""
     settings = settings or Settings()
     root = ET.Element("mujoco", model=mechanism.name)
     add(root, "compiler", angle="radian", meshdir=MESHES_FROM_BESIDE, inertiafromgeom="false")
+    iterations = max(settings.solver_iterations, LEAST_ITERATIONS)
     add(
         root,
         "option",
@@ -30,6 +44,7 @@ def write_mjcf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: S
         cone="elliptic",
         impratio=10.0,
         tolerance=1e-12,
+        **({} if iterations == MUJOCO_ITERATIONS else {"iterations": str(iterations)}),
     )
     asset = add(root, "asset")
     for name in dict.fromkeys(shape.mesh_name for shape in visible):
@@ -49,7 +64,7 @@ def write_mjcf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: S
 
 
 def _children(
-    parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, visible: Sequence[Visual]
+    parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, visible: "Sequence[Visual]"
 ) -> list[str]:
     """Append the bodies that hang on a body; return their joints in the order in which MuJoCo numbers them."""
     order: list[str] = []
@@ -77,7 +92,7 @@ def _hinge(node: ET.Element, joint: Joint, mechanism: Mechanism, settings: Setti
     )
 
 
-def _fill(node: ET.Element, body: Body, visible: Sequence[Visual]) -> None:
+def _fill(node: ET.Element, body: Body, visible: "Sequence[Visual]") -> None:
     """Give a body its mass properties, what is seen of it, its contact spheres."""
     tensor = body.inertia_kg_m2
     six = (*tensor.diagonal(), tensor[0, 1], tensor[0, 2], tensor[1, 2])

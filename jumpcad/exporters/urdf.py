@@ -9,20 +9,23 @@ import json
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESH_FOLDER
 from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import release_pose
-from jumpcad.scene.visuals import Visual
 from jumpcad.settings import Settings
+
+if TYPE_CHECKING:
+    from jumpcad.scene.visuals import Visual
 
 SWING_RAD = math.pi / 2
 """Limits leave this much on either side of the travel: simulators make stops of them, and legs swing past rest."""
 
 
-def write_urdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
+def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:
     """Return the URDF document of a mechanism; its joints have the settings' damping and dry friction.
 
     `visible` is what is seen of it, from `jumpcad.scene.visuals`.
@@ -69,7 +72,7 @@ def write_loop(mechanism: Mechanism) -> str:
     return json.dumps(data, indent=2, allow_nan=False) + "\n"
 
 
-def _link(root: ET.Element, body: Body, visible: list[Visual]) -> None:
+def _link(root: ET.Element, body: Body, visible: "list[Visual]") -> None:
     link = add(root, "link", name=body.name)
     moments, axes = principal_axes(body.inertia_kg_m2)
     inertial = add(link, "inertial")

@@ -6,9 +6,9 @@ Lengths in m, energies in J. What was printed is quoted from the study, rounded 
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from jumpcad import published
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.paper import published
 from jumpcad.paper.published import PublishedJump
 from jumpcad.simulation import Jump, Settings, simulate
 

@@ -101,7 +101,7 @@ class RobotModel:
         return Evaluation(jump.verdict, _figures(jump), tuple(jump.findings))
 
     def _published(self, design: Design) -> Evaluation:
-        from jumpcad import published
+        from jumpcad.paper import published
 
         jump = published.simulate(design)
         metrics = {

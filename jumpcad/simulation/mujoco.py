@@ -1,8 +1,4 @@
-"""The MuJoCo back end: the same bodies, joints, loop and spring in an independent engine.
-
-MuJoCo's constraints are springs; here contacts and the loop are as stiff as the time step allows, and the time step is
-a fraction of that in the settings.
-"""
+"""The MuJoCo back end: it runs the model that is exported, without what is only seen."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,19 +7,13 @@ from typing import Any
 import numpy as np
 
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
+from jumpcad.exporters.mjcf import SUBSTEPS, write_mjcf
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.mechanism.poses import Release, release_pose
-from jumpcad.settings import Settings, surface_friction
+from jumpcad.settings import Settings
 from jumpcad.simulation.engines import import_mujoco
 from jumpcad.simulation.mechanics import State
 from jumpcad.transforms import quaternion_about_y
-
-SUBSTEPS = 4
-"""MuJoCo's own steps in one of the settings': what makes its stiffest constraints as exact as Bullet's rigid ones."""
-SOFTNESS_STEPS = 2.0
-"""Time constant of the constraints over MuJoCo's own step: the least that MuJoCo keeps stable."""
-IMPEDANCE = [0.99, 0.9999, 0.0001, 0.5, 2.0]
-"""Share of a constraint that is enforced, and how it grows with penetration (MuJoCo's `solimp`)."""
 
 
 class MujocoEngine:
@@ -58,7 +48,7 @@ class MujocoWorld:
         self.joint_damping_j = 0.0
         self._loaded = True
         self._force = np.zeros(6)
-        self.model = model_spec(mujoco, mechanism, settings).compile()
+        self.model = mujoco.MjModel.from_xml_string(write_mjcf(mechanism, settings=settings))
         self.data = mujoco.MjData(self.model)
         self._bodies = [self.model.body(name).id for name in BODY_NAMES]
         self._joints = [int(self.model.joint(joint.name).dofadr[0]) for joint in mechanism.joints]
@@ -111,78 +101,3 @@ class MujocoWorld:
         for name, angle in release.joint_rad.items():
             self.data.joint(name).qpos = angle
         self._mujoco.mj_forward(self.model, self.data)
-
-
-def model_spec(mujoco: Any, mechanism: Mechanism, settings: Settings) -> Any:
-    """Return the `MjSpec` of a robot above a plane."""
-    step = settings.dt_s / SUBSTEPS
-    stiff = [SOFTNESS_STEPS * step, 1.0]
-    spec = mujoco.MjSpec()
-    option = spec.option
-    option.timestep = step
-    option.gravity = [0.0, 0.0, -settings.gravity_m_s2]
-    option.iterations = max(settings.solver_iterations, 50)
-    option.tolerance = 1e-12
-    option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    option.impratio = 10.0
-    spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], contype=0, conaffinity=0)
-    bodies = {BODY: spec.worldbody.add_body(name=BODY)}
-    bodies[BODY].add_freejoint(name="free")
-    for joint in mechanism.joints:
-        bodies[joint.child] = child = bodies[joint.parent].add_body(
-            name=joint.child, pos=joint.origin_m, quat=quaternion_about_y(joint.rest_angle_rad)
-        )
-        child.add_joint(
-            name=joint.name,
-            type=mujoco.mjtJoint.mjJNT_HINGE,
-            axis=[0, 1, 0],
-            damping=settings.joint_damping_nms_per_rad,
-            frictionloss=settings.joint_friction_nm,
-            stiffness=mechanism.spring.stiffness_nm_per_rad if joint.name == mechanism.spring.joint else 0.0,
-        )
-    for node in bodies.values():
-        _fill(mujoco, spec, node, mechanism, settings, stiff)
-    ends = {mechanism.loop.body_a: mechanism.loop.point_a_m, mechanism.loop.body_b: mechanism.loop.point_b_m}
-    for name, point in ends.items():
-        bodies[name].add_site(name=f"{name}_loop", pos=point)
-    spec.add_equality(
-        type=mujoco.mjtEq.mjEQ_CONNECT,
-        objtype=mujoco.mjtObj.mjOBJ_SITE,
-        name1=f"{mechanism.loop.body_a}_loop",
-        name2=f"{mechanism.loop.body_b}_loop",
-        solref=stiff,
-        solimp=IMPEDANCE,
-    )
-    return spec
-
-
-def _fill(mujoco: Any, spec: Any, node: Any, mechanism: Mechanism, settings: Settings, stiff: list[float]) -> None:
-    """Give a body its mass properties and its contact spheres, each paired with the ground."""
-    body = mechanism.bodies[node.name]
-    inertia = body.inertia_kg_m2
-    node.explicitinertial = True
-    node.mass = body.mass_kg
-    node.ipos = body.com_m
-    node.fullinertia = [*np.diag(inertia), inertia[0, 1], inertia[0, 2], inertia[1, 2]]
-    slide = settings.ground_friction * surface_friction(body, settings)
-    spin = settings.ground_friction * settings.spinning_friction_m
-    roll = settings.ground_friction * settings.rolling_friction_m
-    for contact in body.contacts:
-        name = f"{body.name}_{contact.name}"
-        node.add_geom(
-            name=name,
-            type=mujoco.mjtGeom.mjGEOM_SPHERE,
-            pos=contact.centre_m,
-            size=[contact.radius_m, 0.0, 0.0],
-            contype=0,
-            conaffinity=0,
-        )
-        spec.add_pair(
-            geomname1="ground",
-            geomname2=name,
-            condim=6 if spin or roll else 3,
-            friction=[slide, slide, spin, roll, roll],
-            solref=stiff,
-            solimp=IMPEDANCE,
-        )

@@ -8,6 +8,7 @@ import pytest
 from support.flights import Flight
 
 from jumpcad.errors import JumpcadError
+from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.robot import Robot
@@ -15,7 +16,6 @@ from jumpcad.simulation import Settings, _engine, simulate
 from jumpcad.simulation.bullet import LINKS
 from jumpcad.simulation.engines import default_engine
 from jumpcad.simulation.mechanics import Mechanics
-from jumpcad.simulation.mujoco import model_spec
 
 ENGINES = ["pybullet", "mujoco"]
 FINE = Settings(dt_s=1 / 16000, solver_iterations=200)
@@ -37,7 +37,7 @@ def test_pybullet_has_the_robots_inertia(lopsided: Robot) -> None:
 
 def test_mujoco_has_the_robots_inertia(lopsided: Robot) -> None:
     mujoco = pytest.importorskip("mujoco")
-    model = model_spec(mujoco, lopsided, Settings()).compile()
+    model = mujoco.MjModel.from_xml_string(write_mjcf(lopsided))
     for name in BODY_NAMES:
         compiled, body, axes = model.body(name), lopsided.bodies[name], np.zeros(9)
         mujoco.mju_quat2Mat(axes, compiled.iquat)
