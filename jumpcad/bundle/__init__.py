@@ -1,0 +1,1 @@
+"""One folder with everything that a robot is made, printed and simulated from."""

@@ -1,1 +1,1 @@
-"""What leaves the house: one format a module, each reading finished parts or a finished robot."""
+"""One module per file format."""

@@ -1,1 +1,1 @@
-"""Where everything goes: the lateral stack across the robot, and the places in the plane of motion (numpy only)."""
+"""Where everything goes: across the robot, and in the plane of motion."""

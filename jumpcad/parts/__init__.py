@@ -1,1 +1,1 @@
-"""The printed parts, one module each: numbers in, shape and place out."""
+"""Printed and bought parts: numbers in, shapes and places out."""

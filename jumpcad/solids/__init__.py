@@ -1,1 +1,1 @@
-"""What every printed part shares: flat outlines, stacks of them, finished meshes, and what they weigh."""
+"""Exact shapes of parts: outlines, stacks of slabs, blocks, their solids and moments."""

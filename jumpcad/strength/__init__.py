@@ -1,0 +1,1 @@
+"""Loads, stresses, fatigue, section sizes and bearings of the parts that move."""

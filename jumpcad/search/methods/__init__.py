@@ -1,0 +1,1 @@
+"""The methods that propose designs: genetic, Bayesian, and fronts of two objectives."""
