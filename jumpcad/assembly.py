@@ -2,13 +2,16 @@
 
 import math
 from collections import defaultdict
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
+from jumpcad.errors import JumpcadError
 from jumpcad.fatigue import spring_share
+from jumpcad.files import did_you_mean
 from jumpcad.hardware import Bearing, load_catalogue
 from jumpcad.hub import allowed_n, bearing_load_n, first_guess, hub_bearings, hub_width_mm, wound_forces_n
 from jumpcad.layout.lateral import GAP_MM
@@ -23,11 +26,15 @@ from jumpcad.sizing import Growth, Sections, sections
 from jumpcad.solids.layers import mass_properties
 from jumpcad.workshop import Workshop
 
+NOT_IN_EVERY_ROBOT = ("idler", "cam_spacer_left", "idler_spacer_right", "toe_left", "toe_right")
+"""Parts that only some designs have: workshops that know their weights serve the other designs too."""
+
 
 def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
     """Return the robot of a design with its sections grown by factors."""
     plan, bores = plan_of(design, workshop, growth)
     drawn = drawings(plan, bores, name)
+    _require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
     parts = tuple(_printed(drawing, workshop) for drawing in drawn)
@@ -125,6 +132,16 @@ def drawings(plan: Plan, bores: Bores, name: str) -> list[Drawing]:
             small.spacer(plan, bores, "idler_spacer_right", [idler_right]),
         ]
     return made
+
+
+def _require_parts(weighed: Iterable[str], names: Sequence[str]) -> None:
+    """Refuse weights of parts that neither this robot nor any other has."""
+    known = (*names, *NOT_IN_EVERY_ROBOT)
+    for name in weighed:
+        if name not in known:
+            raise JumpcadError(
+                f"mass.weighed_g.{name}: no such part{did_you_mean(name, known)}; the robot has {', '.join(names)}"
+            )
 
 
 def _printed(drawing: Drawing, workshop: Workshop) -> Part:

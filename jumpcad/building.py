@@ -38,10 +38,12 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
 
     Raises
     ------
+    JumpcadError
+        If the workshop was changed to what no file may say, or has the weight of a part that no robot has.
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
     """
-    workshop = workshop or load_workshop("default")
+    workshop = (workshop or load_workshop("default")).revalidated()
     refused = errors(geometry_findings(design))
     if refused:
         raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")

@@ -24,6 +24,7 @@ from pydantic import Field
 from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, Section
+from jumpcad.names import Name
 from jumpcad.parts.coupon import PEGS_MM, coupon_bores, ladders
 from jumpcad.workshop import Workshop
 
@@ -60,7 +61,7 @@ class TriedGears(Section):
 class Readings(Record):
     """Everything read from a coupon: gauges by material, and gears."""
 
-    gauge: dict[str, Tried] = Field(default_factory=dict)
+    gauge: dict[Name, Tried] = Field(default_factory=dict)
     gears: TriedGears = TriedGears()
 
     def contradictions(self) -> Iterator[Contradiction]:

@@ -1,11 +1,10 @@
 """Rows of a study as a table: CSV for everybody, Parquet for many rows."""
 
-import csv
-import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from jumpcad.csv_text import to_csv
 from jumpcad.errors import JumpcadError
 from jumpcad.files import write_text_atomically
 from jumpcad.search.ledger import Row
@@ -30,11 +29,8 @@ def write_table(rows: Sequence[Row], path: Path) -> None:
         raise JumpcadError(f"{path}: exists already; choose another name or remove it first")
     records = table(rows)
     if path.suffix == ".csv":
-        stream = io.StringIO()
-        writer = csv.DictWriter(stream, list(records[0]) if records else ["phase"], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(records)
-        write_text_atomically(path, stream.getvalue())
+        columns = list(records[0]) if records else ["phase"]
+        write_text_atomically(path, to_csv([columns, *(list(record.values()) for record in records)]))
     elif path.suffix == ".parquet":
         _write_parquet(records, path)
     else:
