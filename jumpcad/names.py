@@ -22,6 +22,16 @@ def control_character(text: str) -> str:
     return next((f"U+{ord(letter):04X}" for letter in text if unicodedata.category(letter) in CONTROL), "")
 
 
+def without_controls(text: str) -> str:
+    """Return a text with the escapes of Python in place of its control characters."""
+    if text.isprintable():
+        return text
+    return "".join(
+        letter.encode("unicode_escape").decode() if unicodedata.category(letter) in CONTROL else letter
+        for letter in text
+    )
+
+
 def _name(value: str) -> str:
     if not NAME.fullmatch(value):
         raise PydanticCustomError("value_error", NAME_RULE)

@@ -17,7 +17,14 @@ def campaign():
     ledgers = []
 
     def open_campaign(path: Path | None = None, model=None, space=SMALL, prior=(), pool=None) -> Campaign:
-        ledger = Ledger.write(path, {"hill": 1})
+        study = {
+            "model": {"name": "hill"},
+            "objective": "fitness",
+            "method": "ga",
+            "seed": 0,
+            "space": space.describe(),
+        }
+        ledger = Ledger.write(path, study)
         ledgers.append(ledger)
         return Campaign(space, find_objective("fitness"), model or Hill(), ledger, pool or local_pool(0), prior)
 

@@ -17,7 +17,13 @@ from jumpcad.search.ledger import Ledger, Row
 from jumpcad.search.space import Space
 
 TESTS = [str(Path(__file__).parent), str(Path(__file__).parents[1])]
-IDENTITY = {"seed": 1, "space": {"c_coef": {"fixed": 1.0}}}
+IDENTITY = {
+    "model": {"name": "hill"},
+    "objective": "fitness",
+    "method": "ga",
+    "seed": 1,
+    "space": Space.parse(fix=["c_coef=1"]).describe(),
+}
 
 
 def rows(count, phase="ga", step=0):
@@ -69,7 +75,7 @@ def test_another_study_is_not_overwritten(tmp_path):
     with pytest.raises(JumpcadError, match=r"another study \(seed: 1 there, 2 here\)"):
         Ledger.write(tmp_path / "s.db", IDENTITY | {"seed": 2})
     with pytest.raises(JumpcadError, match=r"space.c_coef.fixed: 1.0 there, 1.1 here"):
-        Ledger.write(tmp_path / "s.db", IDENTITY | {"space": {"c_coef": {"fixed": 1.1}}})
+        Ledger.write(tmp_path / "s.db", IDENTITY | {"space": Space.parse(fix=["c_coef=1.1"]).describe()})
     assert (tmp_path / "s.db").read_bytes() == before
 
 
@@ -87,7 +93,7 @@ def test_one_writer_at_a_time(tmp_path):
 
 def test_locked_by_another_program(tmp_path, monkeypatch):
     Ledger.write(tmp_path / "s.db", IDENTITY).close()
-    monkeypatch.setattr("jumpcad.search.ledger.PATIENCE_S", 0.1)
+    monkeypatch.setattr("jumpcad.search.database.PATIENCE_S", 0.1)
     other = sqlite3.connect(tmp_path / "s.db", isolation_level=None)
     other.execute("BEGIN EXCLUSIVE")
     with (
