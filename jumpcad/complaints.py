@@ -78,7 +78,7 @@ def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str
 
 def _step(name: str) -> str:
     """Return a key's name as it is shown: bare where it is short and plain."""
-    return name if name.isprintable() and len(name) <= LONGEST else shown(name)
+    return name if name and name.isprintable() and len(name) <= LONGEST else shown(name)
 
 
 def _reason(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:
@@ -88,7 +88,8 @@ def _reason(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str
         return f"{words} {context[bound]:g}"
     if kind in OF_A_TABLE:
         keys = _known_keys(model, location)
-        return f"must be a table: [{'.'.join(map(_step, location))}]{' with ' * bool(keys)}{', '.join(keys)}"
+        some = ", ".join(keys[:MOST_NAMED]) + ", …" * (len(keys) > MOST_NAMED)
+        return f"must be a table: [{'.'.join(map(_step, location))}]{' with ' * bool(keys)}{some}"
     if kind in OF_A_LIST:
         return "must be a list"
     if kind in ("too_long", "too_short"):

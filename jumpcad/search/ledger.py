@@ -296,11 +296,9 @@ def _difference(there: Any, here: Any, name: str = "") -> str:
             if found:
                 return found
         return ""
-    return (
-        ""
-        if there == here
-        else f"{without_controls(name)}: {json.dumps(there)[:200]} there, {json.dumps(here)[:200]} here"
-    )
+    if there == here:
+        return ""
+    return f"{without_controls(name)}: {json.dumps(there)[:200]} there, {json.dumps(here)[:200]} here"
 
 
 def _record(row: Row) -> tuple[Any, ...]:
