@@ -37,6 +37,8 @@ FORMAT = 1
 PHASES = ("ga", "bo", "pareto", "nsga2", "sample", "sweep", "margin", "bounds", "robust")
 """All phases, in the order in which a study goes through them; the last three look around the best."""
 SEARCH_PHASES = PHASES[:-3]
+LEARNING_PHASES = ("bo", "pareto")
+"""Phases that, after a first step, go on from the hyperparameters of the step before."""
 
 _SCHEMA = f"""
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -182,9 +184,10 @@ class Ledger:
         columns = (f"CAST({name} AS BLOB)" if name in _TEXTS else name for name in _COLUMNS)
         with plain_errors(self.path):
             records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations").fetchall()
-        rows = sorted(
-            (self._row(dict(zip(_COLUMNS, record, strict=True))) for record in records), key=lambda row: row.position
-        )
+        space = self.identity.get("space", {})
+        free = sum("fixed" not in part for part in space.values())
+        rows = [self._row(dict(zip(_COLUMNS, record, strict=True)), free) for record in records]
+        rows.sort(key=lambda row: row.position)
         for one, other in itertools.pairwise(rows):
             if one.position == other.position:
                 raise JumpcadError(f"{self.path}: is damaged: two rows {one.phase} {one.step} {one.place}")
@@ -247,17 +250,20 @@ class Ledger:
         except JumpcadError as error:
             raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
-    def _row(self, record: dict[str, Any]) -> Row:
-        """Return a row as it was written."""
+    def _row(self, record: dict[str, Any], free: int) -> Row:
+        """Return a row as it was written in a search of `free` parameters."""
         try:
             phase = stored_text(record, "phase")
             if phase not in PHASES:
                 raise JumpcadError(f"phase = {shown(phase)} is none of {', '.join(PHASES)}")
             score = None if record["score"] is None else stored_figure(record, "score")
+            step, proposal = stored_count(record, "step"), stored_proposal(record, free)
+            if phase in LEARNING_PHASES and step and "theta" not in proposal:
+                raise JumpcadError("proposal.theta: missing")
             return Row(
-                phase, stored_count(record, "step"), stored_count(record, "place"), stored_design(record),
+                phase, step, stored_count(record, "place"), stored_design(record),
                 stored_evaluation(record), score, stored_text(record, "model"), stored_figure(record, "duration_s"),
-                stored_proposal(record),
+                proposal,
             )  # fmt: skip
         except JumpcadError as error:
             name = " ".join(shown(record[key]).removeprefix("b") for key in ("phase", "step", "place"))

@@ -19,9 +19,12 @@ from jumpcad.search.objective import Evaluation
 STRICT = ConfigDict(strict=True, extra="forbid")
 WORD = re.compile(r"[A-Za-z]\w{0,79}", re.ASCII)
 """What names of verdicts, findings, figures and parameters look like."""
+LARGEST = 1e12
+"""No figure of a jumping robot comes near."""
 
 Count = Annotated[int, Field(ge=0)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
+Logarithm = Annotated[float, Field(ge=-100, le=100)]
 
 
 class _Named(Section):
@@ -70,7 +73,7 @@ _REMEMBERED: dict[str, TypeAdapter[Any]] = {
 }
 _METRICS = TypeAdapter(dict[str, float], config=STRICT)
 _FINDINGS = TypeAdapter(tuple[Finding, ...], config=STRICT)
-_PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Finite]]], config=STRICT)
+_PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]]], config=STRICT)
 
 
 def require_remembered(key: str, value: Any) -> None:
@@ -109,21 +112,28 @@ def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
     for name in (verdict, *metrics, *(finding.name for finding in findings)):
         if not WORD.fullmatch(name):
             raise JumpcadError(f"{shown(name)} is no name of a verdict, a finding or a figure")
-    for name, value in (*metrics.items(), *((finding.name, finding.margin) for finding in findings)):
-        if math.isnan(value):
-            raise JumpcadError(f"{name} is not a number")
+    for name, value in metrics.items():
+        if not abs(value) <= LARGEST:
+            raise JumpcadError(f"{name} = {value:g} is no plausible figure")
+    for finding in findings:
+        if math.isnan(finding.margin):  # infinite it may be: the audit of a simulation that blew up
+            raise JumpcadError(f"the margin of {finding.name} is not a number")
     return Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
 
 
-def stored_proposal(record: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what the optimiser thought of a row's design.
+def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
+    """Return what the optimiser thought of a row's design; hyperparameters fit a space of `free` parameters.
 
     Raises
     ------
     JumpcadError
         If it is not one that was written.
     """
-    return dict(_validated(_PROPOSAL.validate_json, "proposal", record["proposal"]))
+    proposal: dict[str, Any] = _validated(_PROPOSAL.validate_json, "proposal", record["proposal"])
+    thetas = proposal.get("theta", {})
+    if not isinstance(thetas, dict) or any(len(theta) != free + 2 for theta in thetas.values()):
+        raise JumpcadError(f"proposal.theta: must be lists of {free + 2} hyperparameters")
+    return proposal
 
 
 def stored_text(record: Mapping[str, Any], key: str) -> str:
@@ -143,10 +153,10 @@ def stored_count(record: Mapping[str, Any], key: str) -> int:
 
 
 def stored_figure(record: Mapping[str, Any], key: str) -> float:
-    """Return a finite number of a row."""
+    """Return a number of a row."""
     value = record[key]
-    if not isinstance(value, float) or not math.isfinite(value):
-        raise JumpcadError(f"{key} = {shown(value)} is no finite number")
+    if not isinstance(value, float) or not abs(value) <= LARGEST:
+        raise JumpcadError(f"{key} = {shown(value)} is no plausible number")
     return value
 
 

@@ -32,7 +32,15 @@ def rows(count, phase="ga", step=0):
     evaluations = [Hill()(design) for design in designs]
     return [
         Row(
-            phase, step, place, design, evaluation, evaluation.metrics.get("fitness"), "m", 0.1, {"theta": {"a": [0.1]}}
+            phase,
+            step,
+            place,
+            design,
+            evaluation,
+            evaluation.metrics.get("fitness"),
+            "m",
+            0.1,
+            {"theta": {"a": [0.1] * 9}},
         )
         for place, (design, evaluation) in enumerate(zip(designs, evaluations, strict=True))
     ]
