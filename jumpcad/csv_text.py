@@ -4,7 +4,7 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 
-FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
+FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet compute a cell (OWASP, CSV injection), in the full width of East Asian scripts too."""
 
 
@@ -17,9 +17,10 @@ def to_csv(rows: Iterable[Sequence[object]]) -> str:
 
 def _cell(value: object) -> object:
     """Return a value as it is safe in a cell: numbers as they are, also those that are written out."""
-    if not isinstance(value, str) or not value.startswith(FORMULA) or _is_number(value):
+    if not isinstance(value, str) or _is_number(value):
         return value
-    return f"'{value}"
+    text = value.replace("\r\n", "\n").replace("\r", "\n")  # a lone \r is not quoted, and would begin another row
+    return f"'{text}" if text.startswith(FORMULA) else text
 
 
 def _is_number(text: str) -> bool:
