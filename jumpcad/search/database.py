@@ -72,6 +72,8 @@ def plain_errors(path: Path | None) -> Iterator[None]:
         yield
     except sqlite3.IntegrityError:
         raise
+    except UnicodeDecodeError:  # in a message of SQLite's about a damaged file
+        raise JumpcadError(f"{path}: is damaged, or is not a study file (text that is none)") from None
     except sqlite3.DatabaseError as error:
         name, text = _name(error), without_controls(str(error))[:200]
         if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
