@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     Contradiction,
@@ -201,6 +202,7 @@ class Workshop(Record):
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
 
 
+@typed
 def load_workshop(name_or_path: str | Path = DEFAULT) -> Workshop:
     """Return the workshop of a template (`default`) or of a TOML file, with everything that it builds on.
 
