@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import JsonFlag, console, print_json, status
 from jumpcad.cli.subjects import designed
 from jumpcad.errors import JumpcadError
 
@@ -114,9 +114,7 @@ def verify(
 @contextmanager
 def progress(doing: str) -> Iterator[None]:
     """Show on standard error what is being done, where a person watches."""
-    from rich.console import Console
-
-    with Console(stderr=True).status(f"{doing} …"):
+    with status(f"{doing} …"):
         yield
 
 
@@ -149,7 +147,6 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
 
 
 def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table("part", "quantity", "material", "g each", "g", "mass from", box=None, pad_edge=False)
@@ -160,8 +157,8 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
         row = (line["quantity"], line["material"], f"{grams:.2f}", f"{line['quantity'] * grams:.2f}", line["source"])
         table.add_row(line["name"], *map(str, row))
     table.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
-    console = Console()
-    Console(width=console.width if console.is_terminal else WIDE).print(table)
+    screen = console()
+    console(width=screen.width if screen.is_terminal else WIDE).print(table)
     winding, jump = facts["winding"], facts["jump"]
     print()
     print(f"springs        {facts['spring_energy_j']:.4f} J")

@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from jumpcad.search.study import Request, Result
 
 HEADING = "# Found by jumpcad optimize"
+MOST_EVALUATIONS = 1_000_000
 SHOWN = 10
 """Candidates that are printed; --json has all of them."""
 
@@ -47,12 +48,18 @@ MethodArgument = Annotated[
     str | None,
     typer.Argument(help="The method; without one GA, then BO on all that it saw.", metavar="[ga|bo|pareto|nsga2]"),
 ]
-EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate; the robust pick comes on top.")]
+EvaluationsOption = Annotated[
+    int, typer.Option(help="Designs to evaluate; the robust pick comes on top.", min=1, max=MOST_EVALUATIONS)
+]
 PresetOption = Annotated[str, typer.Option(help="Settings of the genetic algorithm: recommended or published.")]
-BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated together: more than 1 for many workers.")]
-FromOption = Annotated[Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db")]
+BatchOption = Annotated[
+    int, typer.Option(help="BO proposals evaluated together: more than 1 for many workers.", min=1, max=1000)
+]
+FromOption = Annotated[
+    Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
+]
 OutputOption = Annotated[
-    Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml")
+    Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
 
 
@@ -103,9 +110,9 @@ def optimize(
     path = study or Path(request.default_name())
     design_file = output or path.with_suffix(".toml")
     _refuse_foreign_file(design_file)
-    if not as_json:
-        print(f"study {path}: {request.method} on the {model} robot, free parameters: {request.space.dimension}")
     with make_pool(workers, dask, limit) as pool, watching(evaluations, as_json) as watch:
+        if not as_json:
+            print(f"study {path}: {request.method} on the {model} robot, free parameters: {request.space.dimension}")
         result = run_study(request, path, pool, watch)
     if result.winner is not None:
         _write_design(design_file, result.winner, request)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
-from jumpcad import cli
+from jumpcad.cli.commands import app
 from jumpcad.design import load_design
 
 HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklearn", "matplotlib", "pygad")
@@ -100,9 +100,9 @@ def test_reproduce_shows_both_worlds(run: Run) -> None:
 
 
 def test_every_command_has_json_and_help(run: Run) -> None:
-    names = [command.callback.__name__ for command in cli.app.registered_commands if command.callback]
+    names = [command.callback.__name__ for command in app.registered_commands if command.callback]
     assert {"new", "simulate", "reproduce"} <= set(names)
-    for command in cli.app.registered_commands:
+    for command in app.registered_commands:
         code, out, err = run(command.name or command.callback.__name__, "--help")
         assert (code, err) == (0, "")
         assert "--json" in out
@@ -111,7 +111,7 @@ def test_every_command_has_json_and_help(run: Run) -> None:
 def test_readme_names_every_command_and_no_other() -> None:
     table = re.findall(r"^\| `jumpcad (\w+)", (Path(__file__).parents[2] / "README.md").read_text(), re.MULTILINE)
     assert sorted(table) == sorted(
-        command.name or command.callback.__name__ for command in cli.app.registered_commands if command.callback
+        command.name or command.callback.__name__ for command in app.registered_commands if command.callback
     )
 
 
