@@ -1,14 +1,21 @@
 """The command line: ready for an interrupt before anything else is loaded."""
 
 import atexit
+import os
 import signal
 import sys
+import threading
+from types import FrameType
 
 INTERRUPTED = 130
+AGAIN_S = 0.02
 
 
 def main() -> None:
     """Run the command line; see `jumpcad.cli.commands.run` for the exit codes, besides 130 for an interrupt."""
+    listening = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # nohup and & have it ignored
+    if listening:
+        signal.signal(signal.SIGINT, _interrupt)
     try:
         from jumpcad.cli.commands import run  # takes 0.2 s, in which people press Ctrl-C too
 
@@ -17,5 +24,23 @@ def main() -> None:
         from jumpcad.cli.output import complain
 
         code = complain("interrupted", INTERRUPTED)
+    finally:
+        if listening:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
     atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)  # all is done; an interrupt would only be a traceback
     sys.exit(code)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    """Raise KeyboardInterrupt; while a module loads, a moment later.
+
+    Compiled modules abort the process then, or take it for a failure of their own.
+    """
+    while frame is not None and frame.f_code is not main.__code__:
+        if frame.f_code.co_filename == "<frozen importlib._bootstrap>":
+            again = threading.Timer(AGAIN_S, os.kill, (os.getpid(), number))
+            again.daemon = True
+            again.start()
+            return
+        frame = frame.f_back
+    raise KeyboardInterrupt

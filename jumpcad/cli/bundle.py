@@ -120,6 +120,7 @@ def progress(doing: str) -> Iterator[None]:
 
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return what `build` says at its end."""
+    from jumpcad.checks.engraving import engraving_findings
     from jumpcad.checks.strength import strength_findings
     from jumpcad.findings import errors
 
@@ -140,6 +141,7 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
             "electrical_j": train.electrical_j,
             "efficiency": energy / train.electrical_j,
         },
+        "notes": [finding.message for finding in engraving_findings(robot)],
         "too_weak": [finding.to_dict() for finding in errors(strength_findings(robot))],
         "jump": printed.to_dict(),
         "capsule_jump": capsule.to_dict(),
@@ -170,6 +172,8 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
         print(f"take-off       {100.0 * jump['takeoff_energy_ratio']:.1f} % of the springs' energy")
     for finding in facts["too_weak"]:
         print(f"too weak       {finding['message']}: {finding['remedy']}")
+    for note in facts["notes"]:
+        print(f"note           {note}")
     print(f"printed robot  {_said(jump)}")
     print(f"as capsules    {_said(facts['capsule_jump'])}")
     print(f"written        {len(facts['files']) + 1} files in {facts['folder']}")
