@@ -69,7 +69,7 @@ def _classes(hint: Any) -> tuple[type, ...]:
         return (object,)
     if isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union:
         return tuple(kind for one in typing.get_args(hint) for kind in _classes(one))
-    return (float, int) if hint is float else (hint,)
+    return (hint,)
 
 
 def _refusal(name: str, kinds: tuple[type, ...], value: Any) -> str:

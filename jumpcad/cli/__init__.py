@@ -4,8 +4,10 @@ import atexit
 import os
 import signal
 import sys
-import threading
-from types import FrameType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from types import FrameType
 
 INTERRUPTED = 130
 AGAIN_S = 0.02
@@ -31,11 +33,13 @@ def main() -> None:
     sys.exit(code)
 
 
-def _interrupt(number: int, frame: FrameType | None) -> None:
+def _interrupt(number: int, frame: "FrameType | None") -> None:
     """Raise KeyboardInterrupt; while a module loads, a moment later.
 
     Compiled modules abort the process then, or take it for a failure of their own.
     """
+    import threading  # late, as is everything that takes a millisecond
+
     while frame is not None and frame.f_code is not main.__code__:
         if frame.f_code.co_filename == "<frozen importlib._bootstrap>":
             again = threading.Timer(AGAIN_S, os.kill, (os.getpid(), number))

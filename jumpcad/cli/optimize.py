@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from jumpcad.search.study import Request, Result
 
 HEADING = "# Found by jumpcad optimize"
-MOST_EVALUATIONS = 1_000_000
 SHOWN = 10
 """Candidates that are printed; --json has all of them."""
 
@@ -48,13 +47,9 @@ MethodArgument = Annotated[
     str | None,
     typer.Argument(help="The method; without one GA, then BO on all that it saw.", metavar="[ga|bo|pareto|nsga2]"),
 ]
-EvaluationsOption = Annotated[
-    int, typer.Option(help="Designs to evaluate; the robust pick comes on top.", min=1, max=MOST_EVALUATIONS)
-]
+EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate; the robust pick comes on top.")]
 PresetOption = Annotated[str, typer.Option(help="Settings of the genetic algorithm: recommended or published.")]
-BatchOption = Annotated[
-    int, typer.Option(help="BO proposals evaluated together: more than 1 for many workers.", min=1, max=1000)
-]
+BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated together: more than 1 for many workers.")]
 FromOption = Annotated[
     Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
 ]

@@ -57,8 +57,8 @@ def export(robot: Robot | Design, folder: str | Path, pictures: bool = True, ste
         If the folder holds anything else or cannot be written, or the extra for STEP is missing.
     """
     robot = robot_of(robot)
-    if not robot.parts:
-        raise JumpcadError(f"robot {robot.name!r} has no parts to print: export() takes one from jumpcad.build()")
+    if not (robot.parts or robot.hardware):
+        raise JumpcadError(f"robot {robot.name!r} has nothing to be seen: export() takes one from jumpcad.build()")
     if not NAME.fullmatch(robot.name):
         raise JumpcadError(f"{robot.name!r} names files: use letters, digits, blanks, '.', '-', '+' and '_'")
     if len(os.fsencode(robot.name)) > LONGEST_NAME:

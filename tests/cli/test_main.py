@@ -56,13 +56,16 @@ def test_interrupt_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -
     assert run("new", "robot.toml") == (130, "", "jumpcad: interrupted\n")
 
 
-def test_bug_keeps_its_traceback(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_bug_is_exit_code_3_with_its_traceback(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(_: str) -> None:
         raise ZeroDivisionError
 
     monkeypatch.setattr("jumpcad.design.load_design", broken)
-    with pytest.raises(ZeroDivisionError):
-        run("new", "robot.toml")
+    for more in ((), ("--json",)):
+        code, out, err = run("new", "robot.toml", *more)
+        assert (code, out) == (3, "")
+        assert err.startswith("Traceback")
+        assert err.endswith("\nZeroDivisionError\n")
 
 
 def test_new_writes_a_copy_that_can_be_loaded(run: Run, tmp_path: Path) -> None:
