@@ -9,6 +9,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.mass import MassProperties, combined
 from jumpcad.robot import BODY, FOOT, FRONT_LINK, MAIN_LEG, Array, Body, ContactSphere, Robot, five_bar
@@ -21,6 +22,7 @@ LENGTH_PER_RADIUS = 25.0
 """Longest link over the radius of every capsule in the published model."""
 
 
+@typed
 def capsule_robot(design: Design) -> Robot:
     """Return the robot of a design that has the published masses and no parts.
 

@@ -15,6 +15,7 @@ import tomli_w
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from jumpcad.arguments import described
 from jumpcad.complaints import complaints, shown
 from jumpcad.complaints import did_you_mean as did_you_mean
 from jumpcad.errors import JumpcadError
@@ -39,7 +40,13 @@ class Section(BaseModel):
 class Record(Section):
     """A `Section` that users make by name, in Python or as a TOML file; errors are `JumpcadError`."""
 
-    def __init__(self, /, **values: Any) -> None:
+    def __init__(self, /, *unnamed: Any, **values: Any) -> None:
+        if unnamed:
+            first = next(iter(type(self).model_fields))
+            raise JumpcadError(
+                f"{type(self).__name__} takes its values by name, {type(self).__name__}({first}=…), "
+                f"not {described(unnamed[0])}"
+            )
         try:
             super().__init__(**values)
             if wrong := list(self.contradictions()):
@@ -219,6 +226,22 @@ def write_text_atomically(path: Path, text: str) -> None:
         raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
 
 
+def real_path(path: str | Path) -> Path:
+    """Return where a path leads, all links followed; it need not exist.
+
+    Raises
+    ------
+    JumpcadError
+        If nothing can ever lie there: a loop of links, a name that is too long or has a NUL.
+    """
+    try:
+        real = Path(path).resolve()
+        real.exists()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise JumpcadError(f"{path}: cannot be a path: {getattr(error, 'strerror', None) or error}") from None
+    return real
+
+
 def to_toml(data: dict[str, Any]) -> str:
     """Return `data` as TOML text; the same data gives the same text."""
     return tomli_w.dumps(data)
@@ -243,6 +266,8 @@ def find_template(kind: str, name_or_path: str | Path) -> Path:
     A name without suffix or folder is a template; everything else is a path.
     """
     text = str(name_or_path)
+    if "\0" in text:
+        raise JumpcadError(f"{text!r}: cannot be a path: it has a NUL")
     path = Path(text)
     is_file = os.path.isfile(text)  # unlike Path.is_file, False for a name that is too long
     if path.suffix == ".toml" or path.parent != Path() or is_file:

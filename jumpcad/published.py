@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 from types import ModuleType
 
+from jumpcad.arguments import typed
 from jumpcad.capsule import BODY_MASS_KG, DENSITY_KG_M3, LENGTH_PER_RADIUS
 from jumpcad.design import Design
 from jumpcad.simulation.engines import import_pybullet
@@ -43,6 +44,7 @@ class PublishedJump:
     energy_j: float
 
 
+@typed
 def simulate(design: Design) -> PublishedJump:
     """Return the jump that the study's simulation gives for a design.
 

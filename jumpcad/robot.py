@@ -128,6 +128,21 @@ class Robot:
         return next(joint for joint in self.joints if joint.name == name)
 
 
+def robot_of(subject: Robot | Design) -> Robot:
+    """Return a robot as it is, and of a design the printed one that the default workshop builds.
+
+    Raises
+    ------
+    CannotBuildError
+        If a design cannot be built.
+    """
+    if isinstance(subject, Robot):
+        return subject
+    from jumpcad.building import build  # late: solids, which a robot made of capsules does without
+
+    return build(subject)
+
+
 def five_bar(
     design: Design, leg_range_rad: tuple[float, float], effort_nm: float = 0.0
 ) -> tuple[tuple[Joint, ...], Loop, Spring]:

@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from jumpcad.arguments import typed
 from jumpcad.complaints import shown
 from jumpcad.errors import JumpcadError
 from jumpcad.files import (
@@ -210,6 +211,7 @@ class Workshop(Record):
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
 
 
+@typed
 def load_workshop(name_or_path: str | Path = DEFAULT) -> Workshop:
     """Return the workshop of a template (`default`) or of a TOML file, with everything that it builds on.
 

@@ -5,23 +5,39 @@ front_link_buckling, eye_strength, foot_lug_strength, toe_strength, toe_landing,
 plate_seat, cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
 roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
 motor_torque; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
-solid; `interference` interference; and those of `jumpcad.gate`: loop, below_ground, tips, too_weak.
+solid; `interference` interference; `engraving` engraving; and those of `jumpcad.gate`: loop, winding, below_ground,
+tips, too_weak.
 """
 
+from jumpcad.arguments import typed
 from jumpcad.checks.drive import drive_findings
+from jumpcad.checks.engraving import engraving_findings
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import bed_findings, printability_findings
 from jumpcad.checks.strength import strength_findings
+from jumpcad.design import Design
 from jumpcad.findings import Finding
 from jumpcad.gate import geometry_findings, statics_findings
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, robot_of
 
 __all__ = ["check", "constraint_findings"]
 
 
-def check(robot: Robot) -> list[Finding]:
-    """Return the findings of every check on a robot, kept limits included."""
+@typed
+def check(robot: Robot | Design) -> list[Finding]:
+    """Return the findings of every check on a robot, kept limits included.
+
+    A design is built first, in the default workshop.
+
+    Raises
+    ------
+    CannotBuildError
+        If a design cannot be built.
+    JumpcadError
+        If it is neither robot nor design.
+    """
+    robot = robot_of(robot)
     return [
         *geometry_findings(robot.design),
         *statics_findings(robot),
@@ -29,6 +45,7 @@ def check(robot: Robot) -> list[Finding]:
         *foot_findings(robot),
         *printability_findings(robot),
         *interference_findings(robot),
+        *engraving_findings(robot),
     ]
 
 

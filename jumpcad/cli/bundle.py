@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import JsonFlag, console, print_json, status
 from jumpcad.cli.subjects import designed
 from jumpcad.errors import JumpcadError
 
@@ -114,14 +114,13 @@ def verify(
 @contextmanager
 def progress(doing: str) -> Iterator[None]:
     """Show on standard error what is being done, where a person watches."""
-    from rich.console import Console
-
-    with Console(stderr=True).status(f"{doing} …"):
+    with status(f"{doing} …"):
         yield
 
 
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return what `build` says at its end."""
+    from jumpcad.checks.engraving import engraving_findings
     from jumpcad.checks.strength import strength_findings
     from jumpcad.findings import errors
 
@@ -142,6 +141,7 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
             "electrical_j": train.electrical_j,
             "efficiency": energy / train.electrical_j,
         },
+        "notes": [finding.message for finding in engraving_findings(robot)],
         "too_weak": [finding.to_dict() for finding in errors(strength_findings(robot))],
         "jump": printed.to_dict(),
         "capsule_jump": capsule.to_dict(),
@@ -149,7 +149,6 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
 
 
 def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table("part", "quantity", "material", "g each", "g", "mass from", box=None, pad_edge=False)
@@ -160,8 +159,8 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
         row = (line["quantity"], line["material"], f"{grams:.2f}", f"{line['quantity'] * grams:.2f}", line["source"])
         table.add_row(line["name"], *map(str, row))
     table.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
-    console = Console()
-    Console(width=console.width if console.is_terminal else WIDE).print(table)
+    screen = console()
+    console(width=screen.width if screen.is_terminal else WIDE).print(table)
     winding, jump = facts["winding"], facts["jump"]
     print()
     print(f"springs        {facts['spring_energy_j']:.4f} J")
@@ -173,6 +172,8 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
         print(f"take-off       {100.0 * jump['takeoff_energy_ratio']:.1f} % of the springs' energy")
     for finding in facts["too_weak"]:
         print(f"too weak       {finding['message']}: {finding['remedy']}")
+    for note in facts["notes"]:
+        print(f"note           {note}")
     print(f"printed robot  {_said(jump)}")
     print(f"as capsules    {_said(facts['capsule_jump'])}")
     print(f"written        {len(facts['files']) + 1} files in {facts['folder']}")

@@ -39,8 +39,10 @@ LEAST_R_SQUARED = 0.5
 """Below it, an importance says more of the surrogate's luck than of the robot."""
 
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
-SamplesOption = Annotated[int, typer.Option(help="Designs sampled for pca and importance.")]
-PointsOption = Annotated[int, typer.Option(help="Values of each parameter in a sweep or on a map's side.")]
+SamplesOption = Annotated[int, typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000)]
+PointsOption = Annotated[
+    int, typer.Option(help="Values of each parameter in a sweep or on a map's side.", min=2, max=1000)
+]
 AroundOption = Annotated[str, typer.Option(help="The design about which sweep and feasibility look.", metavar="DESIGN")]
 OverOption = Annotated[str, typer.Option(help="The two parameters of the feasibility map.", metavar="NAME,NAME")]
 

@@ -50,9 +50,11 @@ MethodArgument = Annotated[
 EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate; the robust pick comes on top.")]
 PresetOption = Annotated[str, typer.Option(help="Settings of the genetic algorithm: recommended or published.")]
 BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated together: more than 1 for many workers.")]
-FromOption = Annotated[Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db")]
+FromOption = Annotated[
+    Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
+]
 OutputOption = Annotated[
-    Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml")
+    Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
 
 
@@ -103,9 +105,9 @@ def optimize(
     path = study or Path(request.default_name())
     design_file = output or path.with_suffix(".toml")
     _refuse_foreign_file(design_file)
-    if not as_json:
-        print(f"study {path}: {request.method} on the {model} robot, free parameters: {request.space.dimension}")
     with make_pool(workers, dask, limit) as pool, watching(evaluations, as_json) as watch:
+        if not as_json:
+            print(f"study {path}: {request.method} on the {model} robot, free parameters: {request.space.dimension}")
         result = run_study(request, path, pool, watch)
     if result.winner is not None:
         _write_design(design_file, result.winner, request)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad.cli.output import console
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -18,9 +19,11 @@ if TYPE_CHECKING:
     from jumpcad.search.space import Space
 
 ModelOption = Annotated[str, typer.Option(help="The robot behind the objective: printed, capsule or published.")]
-StudyOption = Annotated[Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db")]
-SeedOption = Annotated[int, typer.Option(help="Decides everything that chance decides.")]
-WorkersOption = Annotated[int | None, typer.Option(help="Processes; one for each core unless given.")]
+StudyOption = Annotated[
+    Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db", dir_okay=False)
+]
+SeedOption = Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)]
+WorkersOption = Annotated[int | None, typer.Option(help="Processes, one for each core unless given; 0 for none.")]
 DaskOption = Annotated[
     str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")
 ]
@@ -45,7 +48,9 @@ WorkshopOption = Annotated[str, typer.Option(help="Workshop of the printed robot
 SettingsOption = Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")]
 EngineOption = Annotated[str | None, typer.Option(help="pybullet or mujoco; the first that is installed.")]
 LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation may take.", metavar="SECONDS")]
-PlotsOption = Annotated[Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER")]
+PlotsOption = Annotated[
+    Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER", file_okay=False)
+]
 
 
 def make_space(
@@ -96,7 +101,6 @@ def make_pool(workers: int | None, dask: str | None, limit_s: float) -> "Pool":
 @contextmanager
 def watching(total: int, quiet: bool) -> Iterator["Watch"]:
     """Show rate, best and time left on standard error while a search runs, if a terminal is there to see it."""
-    from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     from jumpcad.search.ledger import SEARCH_PHASES
@@ -105,7 +109,7 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
         TextColumn("{task.fields[rate]}  best {task.fields[best]}"), TimeRemainingColumn(),
     )  # fmt: skip
-    with Progress(*columns, console=Console(stderr=True), disable=quiet or not sys.stderr.isatty()) as progress:
+    with Progress(*columns, console=console(stderr=True), disable=quiet or not sys.stderr.isatty()) as progress:
         task = progress.add_task("search", total=total, rate="", best="–")
         best: list[float] = []
 

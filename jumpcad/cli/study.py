@@ -16,7 +16,7 @@ StudiesArgument = Annotated[
     list[Path], typer.Argument(help="One study to look at, or several to compare.", metavar="F.db…")
 ]
 ExportOption = Annotated[Path | None, typer.Option(help="Write all rows to FILE.csv or FILE.parquet.", metavar="FILE")]
-ListOption = Annotated[int, typer.Option("--list", help="Show the best rows.", metavar="COUNT")]
+ListOption = Annotated[int, typer.Option("--list", help="Show the best rows.", metavar="COUNT", min=0)]
 
 
 def register(app: typer.Typer) -> None:

@@ -3,11 +3,14 @@
 The same robot gives the same bytes.
 """
 
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from jumpcad.arguments import typed
+from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.exporters.dxf import write_dxfs
@@ -25,19 +28,22 @@ from jumpcad.exporters.stl import write_stl
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import MESH_FOLDER, write_loop, write_urdf
 from jumpcad.pictures.stills import STILLS, all_pictures
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, robot_of
 from jumpcad.solids.finish import require_part
 
-NAME = re.compile(r"\w[\w .+-]*")
+NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
+LONGEST_NAME = 200
+"""Bytes of a robot's name: file systems allow 255 for a name with all that is put before and after it."""
 
 
-def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False) -> Bundle:
+@typed
+def export(robot: Robot | Design, folder: str | Path, pictures: bool = True, step: bool = False) -> Bundle:
     """Write a robot's bundle.
 
     Parameters
     ----------
     robot
-        With its parts, from `build`.
+        With its parts, from `build`; a design is built first, in the default workshop.
     folder
         Is made, with its parents; may be empty or hold an older bundle, which is replaced as a whole.
     pictures
@@ -50,8 +56,13 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
     JumpcadError
         If the folder holds anything else or cannot be written, or the extra for STEP is missing.
     """
+    robot = robot_of(robot)
+    if not (robot.parts or robot.hardware):
+        raise JumpcadError(f"robot {robot.name!r} has nothing to be seen: export() takes one from jumpcad.build()")
     if not NAME.fullmatch(robot.name):
         raise JumpcadError(f"{robot.name!r} names files: use letters, digits, blanks, '.', '-', '+' and '_'")
+    if len(os.fsencode(robot.name)) > LONGEST_NAME:
+        raise JumpcadError(f"{robot.name!r} names files: use at most {LONGEST_NAME} bytes")
     if step:
         require_step()
     return write_folder(folder, robot.name, _facts(robot), contents(robot, pictures, step))

@@ -19,6 +19,7 @@ import jumpcad
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.manifest import FORMAT, MANIFEST, Bundle, is_bundle
 from jumpcad.exporters.swap import exchanged
+from jumpcad.files import real_path
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")
 """Whose versions the shapes may depend on."""
@@ -43,7 +44,7 @@ def write_folder(
     JumpcadError
         If the folder holds anything else, or cannot be written.
     """
-    target = Path(folder).resolve()
+    target = real_path(folder)
     _require_free(target)
     files = {path: data.encode() if isinstance(data, str) else data for path, data in contents}
     manifest = {

@@ -7,11 +7,13 @@ from contextlib import AbstractContextManager
 from functools import cache
 from typing import Protocol
 
+from jumpcad.arguments import typed
+from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, errors
 from jumpcad.gate import geometry_findings, statics_findings
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, robot_of
 from jumpcad.simulation.engines import ENGINES
 from jumpcad.simulation.jump import Jump
 from jumpcad.simulation.run import Run, World
@@ -27,13 +29,14 @@ class Engine(Protocol):
         """Put a robot on the ground, ready for release, and take it away afterwards."""
 
 
-def simulate(robot: Robot, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
+@typed
+def simulate(robot: Robot | Design, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
     """Let a robot jump.
 
     Parameters
     ----------
     robot
-        Its bodies, joints, loop and spring are simulated.
+        Its bodies, joints, loop and spring are simulated. A design is built first, in the default workshop.
     settings
         Time step, friction and so on; the default settings if None.
     engine
@@ -48,8 +51,9 @@ def simulate(robot: Robot, settings: Settings | None = None, engine: str = "pybu
     Raises
     ------
     JumpcadError
-        If the engine is unknown, is not installed, or cannot do what the settings ask.
+        If the engine is unknown, is not installed, or cannot do what the settings ask; or if a design cannot be built.
     """
+    robot = robot_of(robot)
     settings = settings or Settings()
     maker = _engine(engine)
     findings = geometry_findings(robot.design)

@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from jumpcad.arguments import typed
 from jumpcad.files import Record, find_template
 from jumpcad.robot import Body
 
@@ -39,7 +40,7 @@ class Settings(Record):
     ] = "ballistic"
     max_time_s: Annotated[float, Field(gt=0, le=60, description="of simulated time, at which a run is given up")] = 3.0
     trajectory: Annotated[bool, Field(description="record the poses and energies over time")] = False
-    trajectory_rate_hz: Annotated[float, Field(ge=1, le=1e6, description="poses a second at most")] = 500.0
+    trajectory_rate_hz: Annotated[float, Field(ge=0.01, le=1e6, description="poses a second at most")] = 500.0
     published_quantities: Annotated[
         bool, Field(description="go on to the first contact later than 0.5 s, as the published study did")
     ] = False
@@ -51,6 +52,7 @@ def surface_friction(body: Body, settings: Settings) -> float:
     return settings.foot_friction if on_foot else settings.body_friction
 
 
+@typed
 def load_settings(name_or_path: str | Path) -> Settings:
     """Return the settings of a template (`default`, `screening`, `fine`, `published-table`) or of a TOML file.
 

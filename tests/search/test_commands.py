@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from jumpcad.cli import app
+from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
 
