@@ -31,6 +31,8 @@ LONGEST = 4000
 """Characters that a complaint may have at most: ten clauses of a path, a key, a value and a reason."""
 ALARM_S = 8
 """After which a command counts as hanging; none takes a tenth of it."""
+MEMORY = 2**30
+"""Bytes that a command may take beside what this process has; a process of its own may have four times as many."""
 DECOYS = {
     "home/.bashrc": "alias ll='ls -l'\n",
     "home/.config/settings.json": "{}\n",
@@ -134,7 +136,7 @@ class Sandbox:
         encoding
             Of standard output and standard error.
         """
-        with self._judged(arguments, exits, writes, keeps) as judge, alarm():
+        with self._judged(arguments, exits, writes, keeps) as judge, bounded():
             return judge(self.call(*arguments, encoding=encoding))
 
     def process(
@@ -147,10 +149,10 @@ class Sandbox:
         environment: dict[str, str] | None = None,
         **streams: Any,
     ) -> Outcome:
-        """Run a command in a process of its own, of 8 GB at most, and judge it; `prepare` runs in it beforehand."""
+        """Run a command in a process of its own and judge it; `prepare` runs in it beforehand."""
 
         def start() -> None:
-            resource.setrlimit(resource.RLIMIT_AS, (2**33, 2**33))
+            resource.setrlimit(resource.RLIMIT_AS, (4 * MEMORY, 4 * MEMORY))
             if prepare is not None:
                 prepare()
 
@@ -170,9 +172,10 @@ class Sandbox:
         """Count what is called within as one try, and assert that it changes no file."""
         self.tries += 1
         before = snapshot(self.root)
-        with alarm():
+        with bounded():
             yield
-        assert not changes(before, snapshot(self.root), self._places(writes), ())
+        wrong = list(changes(before, snapshot(self.root), self._places(writes), ()))
+        assert not wrong, "\n".join(wrong)
 
     @contextlib.contextmanager
     def _judged(
@@ -230,19 +233,27 @@ def stream_faults(outcome: Outcome, exits: Collection[int], as_json: bool) -> It
 
 
 @contextlib.contextmanager
-def alarm() -> Iterator[None]:
-    """Fail what hangs."""
+def bounded() -> Iterator[None]:
+    """Fail what hangs, and refuse memory to what takes it without end."""
 
     def ring(*_: object) -> None:
         raise Hang(f"still running after {ALARM_S} s")
 
+    limits = resource.getrlimit(resource.RLIMIT_AS)
+    pages = Path("/proc/self/statm")
+    if pages.exists():
+        used = int(pages.read_text().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, limits[1]))
     before = signal.signal(signal.SIGALRM, ring)
     signal.alarm(ALARM_S)
     try:
         yield
+    except Hang as hang:
+        raise AssertionError(str(hang)) from None
     finally:
         signal.alarm(0)
         signal.signal(signal.SIGALRM, before)
+        resource.setrlimit(resource.RLIMIT_AS, limits)
 
 
 def _stream(descriptor: int, encoding: str, errors: str) -> io.TextIOWrapper:
