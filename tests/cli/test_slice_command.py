@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Run
+from support.slicers import OBEDIENT
 
 from jumpcad.exporters.bundle import export
 from jumpcad.exporters.manifest import open_bundle, verify
@@ -20,20 +21,6 @@ from jumpcad.solids.layers import mass_properties
 from jumpcad.workshop import load_workshop
 
 needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
-
-OBEDIENT = """
-import sys
-arguments = sys.argv[1:]
-if "--help" in arguments:
-    sys.exit(print("PrusaSlicer-2.9.1+fake based on Slic3r"))
-value = lambda option: arguments[arguments.index(option) + 1]
-settings = dict(line.rstrip("\\n").split(" = ", 1) for line in open(value("--load")) if " = " in line)
-settings |= {"estimated printing time (normal mode)": "1h 2m 30s"}
-TAMPER
-with open(value("--output"), "w") as gcode:
-    gcode.write("M83\\n;HEIGHT:0.2\\n;TYPE:Perimeter\\nG1 X0 Y0\\nG1 X10 Y0 E100\\n")
-    gcode.writelines(f"; {key} = {value}\\n" for key, value in settings.items())
-"""
 
 
 @pytest.fixture(scope="module")
