@@ -1,10 +1,9 @@
-"""Reading and writing the TOML files that users edit, with errors that name file, line, key, value and limit."""
+"""Reading the TOML files that users edit, with errors that name file, line, key, value and limit."""
 
 import difflib
 import importlib.resources
 import os
 import re
-import tempfile
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path
@@ -75,38 +74,6 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
         raise JumpcadError(f"{path}: not a text file in UTF-8") from None
     except tomllib.TOMLDecodeError as error:
         raise JumpcadError(f"{path}: not valid TOML: {error}") from None
-
-
-def require_new_toml(path: Path) -> None:
-    """Refuse a file to be written that is no TOML file, is there already, or has no folder to lie in.
-
-    Raises
-    ------
-    JumpcadError
-        Saying which.
-    """
-    if path.suffix != ".toml":
-        raise JumpcadError(f"{path}: must end in .toml")
-    if os.path.lexists(path):
-        raise JumpcadError(f"{path}: exists already; choose another name or remove it first")
-    if not path.parent.is_dir():
-        raise JumpcadError(f"{path}: cannot be written: there is no folder {path.parent}")
-
-
-def write_text_atomically(path: Path, text: str) -> None:
-    """Write `text` so that `path` holds all of it or what it held before."""
-    try:
-        descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    except OSError as error:
-        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
-    try:
-        with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except OSError as error:
-        os.unlink(temporary)
-        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
 
 
 def to_toml(data: dict[str, Any]) -> str:

@@ -1,5 +1,6 @@
 """What the commands of the search share: options, the objects made from them, progress, and how rows are shown."""
 
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -46,6 +47,54 @@ SettingsOption = Annotated[str, typer.Option(help="Settings of the simulation: a
 EngineOption = Annotated[str | None, typer.Option(help="pybullet or mujoco; the first that is installed.")]
 LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation may take.", metavar="SECONDS")]
 PlotsOption = Annotated[Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER")]
+
+
+def require_study(study: Path | None, **others: Path | None) -> None:
+    """Refuse, before a search, a file that cannot be its study, and one that is given for something else too.
+
+    Parameters
+    ----------
+    study
+        The study file, if any.
+    others
+        Other files of the command by their options: `output` of `--output`.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the file and the way out.
+    """
+    from jumpcad.outputs import require_folder, same_file
+
+    if study is None:
+        return
+    if study.suffix != ".db":
+        raise JumpcadError(f"{study}: a study file must end in .db")
+    require_folder(study)
+    if os.path.lexists(study) and not os.path.isfile(study):
+        raise JumpcadError(f"{study}: is there already and is no file; choose another name")
+    for option, other in others.items():
+        if other is not None and same_file(study, other):
+            raise JumpcadError(f"--{option.replace('_', '-')} {other}: is the study file itself; choose another name")
+
+
+def require_plots(folder: Path | None, force: bool) -> None:
+    """Refuse, before the work, a folder in which pictures cannot be written or would replace a user's own.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the folder or picture and the way out.
+    """
+    from jumpcad.outputs import require_free
+    from jumpcad.report import PICTURES
+
+    if folder is None:
+        return
+    if os.path.lexists(folder) and not os.path.isdir(folder):
+        raise JumpcadError(f"{folder}: is there already and is no folder; choose another name")
+    for name in PICTURES:
+        require_free(folder / f"{name}.svg", force)
 
 
 def make_space(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 
 if TYPE_CHECKING:
     from jumpcad.sliced_bundle import SlicedBundle
@@ -31,6 +31,7 @@ def slice_command(
             help="Write the workshop, complete, with the sliced grams as weighed masses.", metavar="FILE.toml"
         ),
     ] = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Slice a bundle with PrusaSlicer: grams beside the mass model, printing times, settings that it ignored.
@@ -39,18 +40,18 @@ def slice_command(
     """
     from rich.console import Console
 
-    from jumpcad.files import require_new_toml, write_text_atomically
+    from jumpcad.outputs import require_target, write_atomically
     from jumpcad.sliced_bundle import slice_bundle, write_times
     from jumpcad.workshop import load_workshop
 
     if write_masses is not None:
-        require_new_toml(write_masses)
+        require_target(write_masses, (".toml",), force)
     printed_by = load_workshop(workshop) if workshop else None
     with Console(stderr=True).status("slicing …") as status:
         found = slice_bundle(bundle, printed_by, lambda name: status.update(f"slicing {name} …"))
     if write_masses is not None:
-        require_new_toml(write_masses)  # once more: slicing takes a minute
-        write_text_atomically(write_masses, found.weighed.to_toml())
+        require_target(write_masses, (".toml",), force)  # once more: slicing takes a minute
+        write_atomically(write_masses, found.weighed.to_toml())
     if found.billed:
         write_times(found)
     if as_json:

@@ -31,7 +31,7 @@ from jumpcad.solids.finish import require_part
 NAME = re.compile(r"\w[\w .+-]*")
 
 
-def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False) -> Bundle:
+def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False) -> Bundle:
     """Write a robot's bundle.
 
     Parameters
@@ -39,22 +39,26 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
     robot
         With its parts, from `build`.
     folder
-        Is made, with its parents; may be empty or hold an older bundle, which is replaced as a whole.
+        Is made, with its parents; may be empty or hold an older bundle of the robot. The files that it lists are
+        replaced; what a user added stays.
     pictures
         Whether to draw the robot, which takes a quarter of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
+    force
+        Whether to replace another bundle too, and files that a user edited or added under a name of ours.
 
     Raises
     ------
     JumpcadError
-        If the folder holds anything else or cannot be written, or the extra for STEP is missing.
+        If the folder holds anything else, if something of a user's would be lost, if it cannot be written, or if the
+        extra for STEP is missing.
     """
     if not NAME.fullmatch(robot.name):
         raise JumpcadError(f"{robot.name!r} names files: use letters, digits, blanks, '.', '-', '+' and '_'")
     if step:
         require_step()
-    return write_folder(folder, robot.name, _facts(robot), contents(robot, pictures, step))
+    return write_folder(folder, robot.name, _facts(robot), contents(robot, pictures, step), force)
 
 
 def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple[str, str | bytes]]:

@@ -97,7 +97,7 @@ class Ledger:
         lock = None if path is None else _lock(path)
         try:
             with _plain_errors(path):
-                ledger = cls(path, _connect(":memory:" if path is None else str(path)), lock)
+                ledger = cls(path, _connect(":memory:" if path is None else os.path.abspath(path)), lock)
                 ledger._prepare(identity)
             return ledger
         except BaseException:
