@@ -96,16 +96,16 @@ def template_names(kind: str) -> list[str]:
 def find_template(kind: str, name_or_path: str | Path) -> Path:
     """Return the TOML file that a template's name or a path stands for.
 
-    A name without suffix or folder is a template; everything else is a path.
+    A template's name without suffix or folder is the template, whatever lies in the current folder.
     """
     text = str(name_or_path)
-    path = Path(text)
-    is_file = os.path.isfile(text)  # unlike Path.is_file, False for a name that is too long
-    if path.suffix == ".toml" or path.parent != Path() or is_file:
-        return path
+    if text.endswith(".toml") or os.path.dirname(text):
+        return Path(text)
     names = template_names(kind)
     if text in names:
         return templates_folder() / kind / f"{text}.toml"
+    if os.path.isfile(text):
+        return Path(text)
     raise JumpcadError(
         f"{text!r} is neither a TOML file nor one of the {kind} {', '.join(names)}{did_you_mean(text, names)}"
     )

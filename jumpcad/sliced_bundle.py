@@ -16,6 +16,7 @@ from jumpcad.exporters.folder import change_files
 from jumpcad.exporters.guide import with_bill
 from jumpcad.exporters.inputs import WORKSHOP, kept_workshop
 from jumpcad.exporters.manifest import Bundle, open_bundle, verify
+from jumpcad.exporters.tree import few
 from jumpcad.slicing import Sliced, slice_part, slice_plate, slicer_version
 from jumpcad.solids.layers import mass_properties
 from jumpcad.solids.moments import mesh_moments
@@ -107,7 +108,7 @@ def slice_bundle(
         If PrusaSlicer refuses a part.
     """
     if wrong := verify(folder):
-        raise JumpcadError(f"{folder} is not as it was built: {', '.join(wrong)}; jumpcad build makes it anew")
+        raise JumpcadError(f"{folder} is not as it was built: {few(wrong)}; jumpcad build makes it anew")
     bundle = open_bundle(folder)
     printed = [line for line in bundle.manifest.get("masses", ()) if line["kind"] == "printed"]
     if not printed or WORKSHOP not in bundle.files:
@@ -115,7 +116,7 @@ def slice_bundle(
     version = slicer_version()
     built_in = kept_workshop(bundle)
     workshop = workshop or built_in
-    _require_materials((line["material"] for line in printed), workshop)
+    _require_materials([*(line["material"] for line in printed), *(plate[2] for plate in _plates(bundle))], workshop)
     ignored: dict[str, tuple[str, str]] = {}
     parts, plates = [], []
     for line in printed:
@@ -149,7 +150,10 @@ def write_times(found: SlicedBundle) -> Bundle:
         {part.name: part.time_s for part in found.parts},
         [Plate(plate.name, plate.material, plate.time_s) for plate in found.plates],
     )
-    guide = bundle.file(GUIDE).read_text(encoding="utf-8")
+    try:
+        guide = bundle.file(GUIDE).read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise JumpcadError(f"{bundle.folder}: {GUIDE}: not a text file in UTF-8") from None
     changes = {BOM: write_bom(bill), GUIDE: with_bill(guide, bill)}
     return change_files(bundle, changes, {"PrusaSlicer": found.version})
 

@@ -29,6 +29,7 @@ from jumpcad.cli.searching import (
     make_model,
     make_pool,
     make_space,
+    require_other_files,
     require_plots,
     require_study,
     row_data,
@@ -104,8 +105,9 @@ def optimize(
         from_study, _tolerance_mm(robot),
     )  # fmt: skip
     path = study or Path(request.default_name())
+    require_study(path)
     design_file = output or path.with_suffix(".toml")
-    require_study(path, output=design_file, from_study=from_study)
+    require_other_files(path, output=design_file, from_study=from_study)
     require_target(design_file, (".toml",), force)
     require_plots(plots, force)
     if not as_json:

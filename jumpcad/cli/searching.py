@@ -49,22 +49,15 @@ LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation ma
 PlotsOption = Annotated[Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER")]
 
 
-def require_study(study: Path | None, **others: Path | None) -> None:
-    """Refuse, before a search, a file that cannot be its study, and one that is given for something else too.
-
-    Parameters
-    ----------
-    study
-        The study file, if any.
-    others
-        Other files of the command by their options: `output` of `--output`.
+def require_study(study: Path | None) -> None:
+    """Refuse, before a search, a file that cannot be its study.
 
     Raises
     ------
     JumpcadError
         Naming the file and the way out.
     """
-    from jumpcad.outputs import require_folder, same_file
+    from jumpcad.outputs import require_folder
 
     if study is None:
         return
@@ -73,6 +66,18 @@ def require_study(study: Path | None, **others: Path | None) -> None:
     require_folder(study)
     if os.path.lexists(study) and not os.path.isfile(study):
         raise JumpcadError(f"{study}: is there already and is no file; choose another name")
+
+
+def require_other_files(study: Path, **others: Path | None) -> None:
+    """Refuse, before a search, files that are its study file; `others` are by their options: `output` of `--output`.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the option.
+    """
+    from jumpcad.outputs import same_file
+
     for option, other in others.items():
         if other is not None and same_file(study, other):
             raise JumpcadError(f"--{option.replace('_', '-')} {other}: is the study file itself; choose another name")

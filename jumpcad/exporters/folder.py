@@ -18,12 +18,10 @@ import jumpcad
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.manifest import FORMAT, MANIFEST, Bundle, open_bundle
 from jumpcad.exporters.place import write_in_place
-from jumpcad.exporters.tree import Tree, above, shown, tree
+from jumpcad.exporters.tree import Tree, above, few, shown, tree
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")
 """Whose versions the shapes may depend on."""
-NAMED = 3
-"""Files that an error names; of more it says how many."""
 
 
 def write_folder(
@@ -161,9 +159,8 @@ def _kept(old: Bundle, there: Tree, files: Mapping[str, bytes], gone: set[str], 
     lost = [path for path in sorted(touched - {MANIFEST}) if not force and not old.is_unchanged(path)]
     lost = [path for path in lost if (old.folder / path).read_bytes() != files.get(path)]
     if lost:
-        more = f" and {len(lost) - NAMED} more" if len(lost) > NAMED else ""
         raise JumpcadError(
-            f"{old.folder}: {', '.join(map(shown, lost[:NAMED]))}{more}: edited or added since the bundle was written; "
+            f"{old.folder}: {few(lost)}: edited or added since the bundle was written; "
             "keep a copy elsewhere, or replace with --force"
         )
     ours = {folder for path in old.files for folder in above(path)}

@@ -2,10 +2,13 @@
 
 import os
 import stat
+from collections.abc import Sequence
 from pathlib import Path
 
 from jumpcad.errors import JumpcadError
 
+NAMED = 3
+"""Files that an error names; of more it says how many."""
 Tree = dict[str, os.stat_result]
 """All that lies in a folder by its path, written with '/', a folder before what is in it."""
 
@@ -65,6 +68,12 @@ def above(path: str) -> list[str]:
     """Return the folders in which a path lies: `a/b` has `a`."""
     names = path.split("/")
     return ["/".join(names[:count]) for count in range(1, len(names))]
+
+
+def few(things: Sequence[str]) -> str:
+    """Return the first of several things, and how many more there are."""
+    more = f" and {len(things) - NAMED} more" if len(things) > NAMED else ""
+    return ", ".join(map(shown, things[:NAMED])) + more
 
 
 def shown(path: str) -> str:
