@@ -1,10 +1,9 @@
-"""Reading and writing the TOML files that users edit, with errors that name file, line, key, value and limit."""
+"""Reading the TOML files that users edit, with errors that name file, line, key, value and limit."""
 
 import importlib.resources
 import json
 import os
 import stat
-import tempfile
 import tomllib
 from collections.abc import Iterable
 from functools import cache
@@ -194,38 +193,6 @@ def _require_shallow(data: Any, path: Path) -> None:
         raise JumpcadError(f"{path}: {NESTED}")
 
 
-def require_new_toml(path: Path) -> None:
-    """Refuse a file to be written that is no TOML file, is there already, or has no folder to lie in.
-
-    Raises
-    ------
-    JumpcadError
-        Saying which.
-    """
-    if path.suffix != ".toml":
-        raise JumpcadError(f"{path}: must end in .toml")
-    if os.path.lexists(path):
-        raise JumpcadError(f"{path}: exists already; choose another name or remove it first")
-    if not path.parent.is_dir():
-        raise JumpcadError(f"{path}: cannot be written: there is no folder {path.parent}")
-
-
-def write_text_atomically(path: Path, text: str) -> None:
-    """Write `text` so that `path` holds all of it or what it held before."""
-    try:
-        descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    except OSError as error:
-        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
-    try:
-        with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except OSError as error:
-        os.unlink(temporary)
-        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
-
-
 def real_path(path: str | Path) -> Path:
     """Return where a path leads, all links followed; it need not exist.
 
@@ -263,18 +230,18 @@ def template_names(kind: str) -> list[str]:
 def find_template(kind: str, name_or_path: str | Path) -> Path:
     """Return the TOML file that a template's name or a path stands for.
 
-    A name without suffix or folder is a template; everything else is a path.
+    A template's name without suffix or folder is the template, whatever lies in the current folder.
     """
     text = str(name_or_path)
     if "\0" in text:
         raise JumpcadError(f"{text!r}: cannot be a path: it has a NUL")
-    path = Path(text)
-    is_file = os.path.isfile(text)  # unlike Path.is_file, False for a name that is too long
-    if path.suffix == ".toml" or path.parent != Path() or is_file:
-        return path
+    if text.endswith(".toml") or os.path.dirname(text):
+        return Path(text)
     names = template_names(kind)
     if text in names:
         return templates_folder() / kind / f"{text}.toml"
+    if os.path.isfile(text):
+        return Path(text)
     raise JumpcadError(
         f"{shown(text)} is neither a TOML file nor one of the {kind} {', '.join(names)}{did_you_mean(text, names)}"
     )

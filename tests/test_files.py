@@ -20,7 +20,6 @@ from jumpcad.files import (
     template_names,
     templates_folder,
     to_toml,
-    write_text_atomically,
 )
 
 
@@ -127,6 +126,17 @@ def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path) -> None:
             find_template("robots", wrong)
 
 
+def test_a_bare_name_is_the_template_whatever_lies_in_the_current_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("kenan-2.0", "mine"):
+        (tmp_path / name).write_text("")
+    assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
+    assert find_template("robots", "./kenan-2.0") == Path("kenan-2.0")
+    assert find_template("robots", "mine") == Path("mine")
+
+
 def test_hint_only_where_something_is_near() -> None:
     assert did_you_mean("kenan2", ["kenan-2.0", "best-bo"]) == " (did you mean kenan-2.0?)"
     assert did_you_mean("zzz", ["kenan-2.0", "best-bo"]) == ""
@@ -135,26 +145,6 @@ def test_hint_only_where_something_is_near() -> None:
 def test_toml_reads_back() -> None:
     data = {"a": 0.1 + 0.2, "b": {"c": [1, 2], "d": 'quote " and\nline'}}
     assert tomllib.loads(to_toml(data)) == data
-
-
-def test_failed_write_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    file = tmp_path / "p.toml"
-    write_text_atomically(file, "old\n")
-
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(JumpcadError, match="cannot be written: No space left"):
-        write_text_atomically(file, "new\n")
-    assert file.read_text() == "old\n"
-    assert os.listdir(tmp_path) == ["p.toml"]
-
-
-def test_written_file_can_be_read_by_others(tmp_path: Path) -> None:
-    write_text_atomically(tmp_path / "p.toml", "é\n")
-    assert (tmp_path / "p.toml").stat().st_mode & 0o777 == 0o644
-    assert (tmp_path / "p.toml").read_bytes() == "é\n".encode()
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 from jumpcad.cli.searching import (
     BoundOption,
     ChooseOption,
@@ -25,6 +25,8 @@ from jumpcad.cli.searching import (
     make_model,
     make_pool,
     make_space,
+    require_plots,
+    require_study,
     watching,
 )  # fmt: skip
 from jumpcad.errors import JumpcadError
@@ -72,6 +74,7 @@ def explore(
     engine: EngineOption = None,
     limit: LimitOption = 60.0,
     plots: PlotsOption = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Sweep parameters one at a time, find principal components and importance, or map what is refused.
@@ -85,6 +88,8 @@ def explore(
 
     if view not in VIEWS:
         raise JumpcadError(f"{view!r} is not one of the views {', '.join(VIEWS)}{did_you_mean(view, VIEWS)}")
+    require_study(study)
+    require_plots(plots, force)
     space, robot = make_space(fix, bound, choose, None, None, None), make_model(model, workshop, settings, engine)
     aim, centre = find_objective(objective or "fitness"), load_design(around)
     identity = {

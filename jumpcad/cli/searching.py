@@ -1,5 +1,6 @@
 """What the commands of the search share: options, the objects made from them, progress, and how rows are shown."""
 
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -51,6 +52,59 @@ LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation ma
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER", file_okay=False)
 ]
+
+
+def require_study(study: Path | None) -> None:
+    """Refuse, before a search, a file that cannot be its study.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the file and the way out.
+    """
+    from jumpcad.outputs import require_folder
+
+    if study is None:
+        return
+    if study.suffix != ".db":
+        raise JumpcadError(f"{study}: a study file must end in .db")
+    require_folder(study)
+    if os.path.lexists(study) and not os.path.isfile(study):
+        raise JumpcadError(f"{study}: is there already and is no file; choose another name")
+
+
+def require_other_files(study: Path, **others: Path | None) -> None:
+    """Refuse, before a search, files that are its study file; `others` are by their options: `output` of `--output`.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the option.
+    """
+    from jumpcad.outputs import same_file
+
+    for option, other in others.items():
+        if other is not None and same_file(study, other):
+            raise JumpcadError(f"--{option.replace('_', '-')} {other}: is the study file itself; choose another name")
+
+
+def require_plots(folder: Path | None, force: bool) -> None:
+    """Refuse, before the work, a folder in which pictures cannot be written or would replace a user's own.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the folder or picture and the way out.
+    """
+    from jumpcad.outputs import require_free
+    from jumpcad.report import PICTURES
+
+    if folder is None:
+        return
+    if os.path.lexists(folder) and not os.path.isdir(folder):
+        raise JumpcadError(f"{folder}: is there already and is no folder; choose another name")
+    for name in PICTURES:
+        require_free(folder / f"{name}.svg", force)
 
 
 def make_space(

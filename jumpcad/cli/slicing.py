@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, console, print_json, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status
 
 if TYPE_CHECKING:
     from jumpcad.sliced_bundle import SlicedBundle
@@ -31,24 +31,25 @@ def slice_command(
             help="Write the workshop, complete, with the sliced grams as weighed masses.", metavar="FILE.toml"
         ),
     ] = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Slice a bundle with PrusaSlicer: grams beside the mass model, printing times, settings that it ignored.
 
     The times go into the bundle's bill of materials and guide, unless another workshop prints it.
     """
-    from jumpcad.files import require_new_toml, write_text_atomically
+    from jumpcad.outputs import require_target, write_atomically
     from jumpcad.sliced_bundle import slice_bundle, write_times
     from jumpcad.workshop import load_workshop
 
     if write_masses is not None:
-        require_new_toml(write_masses)
+        require_target(write_masses, (".toml",), force)
     printed_by = load_workshop(workshop) if workshop else None
     with status("slicing …") as tell:
         found = slice_bundle(bundle, printed_by, lambda name: tell(f"slicing {name} …"))
     if write_masses is not None:
-        require_new_toml(write_masses)  # once more: slicing takes a minute
-        write_text_atomically(write_masses, found.weighed.to_toml())
+        require_target(write_masses, (".toml",), force)  # once more: slicing takes a minute
+        write_atomically(write_masses, found.weighed.to_toml())
     if found.billed:
         write_times(found)
     if as_json:

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
-from jumpcad.cli.searching import PlotsOption, row_data
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.searching import PlotsOption, require_plots, row_data
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ def study(
     best: ListOption = 5,
     export: ExportOption = None,
     plots: PlotsOption = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the rows."""
@@ -37,12 +38,13 @@ def study(
 
     if len(files) > 1 and (export or plots):
         raise JumpcadError("--export and --plots are for one study; name one file")
+    require_plots(plots, force)
     summaries = []
     for file in files:
         with Ledger.read(file) as ledger:
             summaries.append(_summary(file, ledger, best))
             if export is not None:
-                write_table(ledger.rows(), export)
+                write_table(ledger.rows(), export, force)
             if plots is not None:
                 from jumpcad.report.studies import plot_study
 

@@ -37,7 +37,9 @@ LONGEST_NAME = 200
 
 
 @typed
-def export(robot: Robot | Design, folder: str | Path, pictures: bool = True, step: bool = False) -> Bundle:
+def export(
+    robot: Robot | Design, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False
+) -> Bundle:
     """Write a robot's bundle.
 
     Parameters
@@ -45,16 +47,20 @@ def export(robot: Robot | Design, folder: str | Path, pictures: bool = True, ste
     robot
         With its parts, from `build`; a design is built first, in the default workshop.
     folder
-        Is made, with its parents; may be empty or hold an older bundle, which is replaced as a whole.
+        Is made, with its parents; may be empty or hold an older bundle of the robot. The files that it lists are
+        replaced; what a user added stays.
     pictures
         Whether to draw the robot, which takes a quarter of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
+    force
+        Whether to replace another bundle too, and files that a user edited or added under a name of ours.
 
     Raises
     ------
     JumpcadError
-        If the folder holds anything else or cannot be written, or the extra for STEP is missing.
+        If the folder holds anything else, if something of a user's would be lost, if it cannot be written, or if the
+        extra for STEP is missing.
     """
     robot = robot_of(robot)
     if not (robot.parts or robot.hardware):
@@ -65,7 +71,7 @@ def export(robot: Robot | Design, folder: str | Path, pictures: bool = True, ste
         raise JumpcadError(f"{robot.name!r} names files: use at most {LONGEST_NAME} bytes")
     if step:
         require_step()
-    return write_folder(folder, robot.name, _facts(robot), contents(robot, pictures, step))
+    return write_folder(folder, robot.name, _facts(robot), contents(robot, pictures, step), force)
 
 
 def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple[str, str | bytes]]:

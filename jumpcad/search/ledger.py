@@ -111,7 +111,7 @@ class Ledger:
         claim = None if path is None else lock(path)
         try:
             with plain_errors(path):
-                ledger = cls(path, connect(":memory:" if path is None else str(path)), claim)
+                ledger = cls(path, connect(":memory:" if path is None else os.path.abspath(path)), claim)
                 ledger._prepare(identity)
             return ledger
         except BaseException:

@@ -1,6 +1,7 @@
 """`jumpcad slice`: with PrusaSlicer itself, and with programs that pretend to be it and misbehave."""
 
 import csv
+import hashlib
 import json
 import shutil
 import sys
@@ -216,12 +217,66 @@ def test_changed_and_missing_files_are_named(run: Run, bundle: Path, tmp_path: P
     assert err.count("\n") == 1
 
 
+def test_many_changed_files_are_few_words(run: Run, bundle: Path) -> None:
+    for file in bundle.glob("urdf/meshes/*.stl"):
+        file.unlink()
+    code, _, err = run("slice", str(bundle))
+    assert code == 2
+    assert " more; jumpcad build makes it anew" in err
+    assert err.count(": missing") == 3
+
+
+def test_notes_in_a_bundle_are_in_nobodys_way(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    (bundle / "notes.txt").write_text("mine")
+    assert run("slice", "frog")[0] == 0
+    assert (bundle / "notes.txt").read_text() == "mine"
+
+
+def test_nothing_is_written_or_read_outside_of_a_bundle(
+    run: Run, bundle: Path, pretend: Callable[[str], None], tmp_path: Path
+) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    home = tmp_path / "home"
+    home.mkdir()
+    (home / ".bashrc").write_text("precious")
+    (bundle / "lnk").symlink_to(bundle / "stl")
+    good = (bundle / "manifest.json").read_text()
+    manifest = json.loads(good)
+    manifest["files"]["lnk/../../home/.bashrc"] = hashlib.sha256(b"precious").hexdigest()
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+    code, out, err = run("slice", "frog")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "is not the manifest of a bundle" in err
+
+    (bundle / "manifest.json").write_text(good)
+    (bundle / "bom.csv").rename(home / "bom.csv")
+    (bundle / "bom.csv").symlink_to(home / "bom.csv")
+    before = (home / "bom.csv").read_bytes()
+    code, out, err = run("slice", "frog")
+    assert (code, out) == (2, "")
+    assert "bom.csv: a link" in err
+    assert (home / "bom.csv").read_bytes() == before
+    assert (home / ".bashrc").read_text() == "precious"
+
+
+def test_a_plate_of_an_unknown_material_is_one_line(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    manifest = json.loads((bundle / "manifest.json").read_text())
+    (bundle / "print" / "plate-1-GOLD.3mf").write_bytes(b"x")
+    manifest["files"]["print/plate-1-GOLD.3mf"] = hashlib.sha256(b"x").hexdigest()
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+    code, _, err = run("slice", "frog")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "parts of GOLD" in err
+
+
 def test_what_is_no_bundle_of_parts_is_refused(run: Run, small_robot: Robot, tmp_path: Path) -> None:
     export(replace(small_robot, parts=()), tmp_path / "bare", pictures=False)
     assert run("slice", "bare") == (2, "", "jumpcad: bare: has no printed parts to slice\n")
     code, _, err = run("slice", "nowhere")
     assert (code, err.count("\n")) == (2, 1)
-    assert "nowhere/manifest.json: No such file" in err
+    assert "nowhere/manifest.json: missing; a bundle has one" in err
 
 
 @pytest.mark.parametrize(
