@@ -117,7 +117,7 @@ def test_weights_of_one_robot_do_not_hinder_another() -> None:
     names = {part.name for robot in (geared(), built(LONG_TOES)) for part in robot.parts}
     others = names - {part.name for part in built("kenan-2.0").parts}
     assert {"idler", "toe_left", "toe_right"} < others
-    robot = build(load_design("kenan-2.0"), weighed(**dict.fromkeys(others, 1.0)))
+    robot = build(load_design("kenan-2.0"), weighed(**dict.fromkeys(others, 1.0)), "kenan-2.0")
     assert robot.mass_kg == built("kenan-2.0").mass_kg
 
 
