@@ -16,13 +16,16 @@ LIGHT = ["simulate", "kenan-2.0", "--capsule"]
 SEARCH = ["optimize", "ga", "--model", "capsule", "--study", "s.db"]
 SWEEP = ["explore", "sweep", "--model", "capsule", "--study", "s.db"]
 
+SURROUNDINGS = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONUNBUFFERED": ""}
+"""Buffered, as for most people: errors come when the buffer is written."""
+
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
 
 
 def called(*arguments: str, shell: str = "", folder: Path, **environment: str) -> tuple[int, str, str]:
     """Run the command in a process of its own, redirected by a shell's words."""
     line = f'exec "$@" {shell}'
-    env = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), **environment}
+    env = {**SURROUNDINGS, **environment}
     done = subprocess.run(["sh", "-c", line, "sh", *JUMPCAD, *arguments], capture_output=True, cwd=folder, env=env)
     return done.returncode, done.stdout.decode("utf-8"), done.stderr.decode("utf-8")
 
@@ -43,7 +46,8 @@ def test_an_error_that_nobody_can_read_keeps_its_exit_code(tmp_path: Path) -> No
 def test_a_reader_that_has_gone_is_no_error(tmp_path: Path, arguments: list[str]) -> None:
     reading, writing = os.pipe()
     os.close(reading)
-    done = subprocess.run([*JUMPCAD, *arguments], stdout=writing, stderr=subprocess.PIPE, cwd=tmp_path)
+    command = [*JUMPCAD, *arguments]
+    done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, cwd=tmp_path, env=SURROUNDINGS)
     os.close(writing)
     assert (done.returncode, done.stderr) == (141, b"")
 
@@ -67,7 +71,7 @@ def test_a_deleted_folder_is_one_line(tmp_path: Path) -> None:
     gone.mkdir()
     done = subprocess.run(
         ["sh", "-c", 'rmdir ../gone; exec "$@"', "sh", *JUMPCAD, *LIGHT], capture_output=True, text=True, cwd=gone,
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+        env=SURROUNDINGS,
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "jumpcad: the current folder was deleted: change into another one\n"
@@ -93,7 +97,7 @@ main()
 def test_an_interrupt_while_modules_load_is_exit_code_130(tmp_path: Path, module: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", PRESSED.format(module=module)], capture_output=True, text=True, cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+        env=SURROUNDINGS,
     )  # fmt: skip
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "jumpcad: interrupted\n")
 
@@ -143,7 +147,7 @@ def test_a_link_to_itself_is_no_folder(run: Run, tmp_path: Path) -> None:
         *(["explore", "pca", *SWEEP[2:], "--samples", number] for number in ("-1", "0", "19", "100001")),
         *([*SEARCH, "--evaluations", number] for number in ("-1", "0", "1000001", "9" * 30, "1.5")),
         *([*SEARCH, "--seed", number] for number in ("-1", "4294967296", "nan")),
-        *([*SEARCH, "--workers", number] for number in ("-1", "100000", "9" * 30)),
+        *([*SEARCH, "--workers", number] for number in ("-1", "nan")),
         *([*SEARCH, "--limit", number] for number in ("-1", "0", "nan", "inf", "86401")),
         *([*SEARCH, "--around", "best-bo", "--within", number] for number in ("-1", "0", "nan", "inf", "101")),
         *([*SEARCH, "--batch", number] for number in ("-1", "0", "9" * 30)),
