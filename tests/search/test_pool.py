@@ -125,7 +125,16 @@ def test_dask_that_does_not_answer(monkeypatch):
         dask_pool("tcp://127.0.0.1:1")
 
 
-@pytest.mark.parametrize(("workers", "limit_s", "message"), [(-1, 1.0, "workers = -1"), (1, 0.0, "limit = 0 s")])
+@pytest.mark.parametrize(
+    ("workers", "limit_s", "message"),
+    [
+        (-1, 1.0, "workers = -1"),
+        (100_000, 1.0, "workers = 100000 must be at most 256"),
+        (1, 0.0, "limit = 0 s"),
+        (1, float("nan"), "limit = nan s"),
+        (1, float("inf"), "limit = inf s"),
+    ],
+)
 def test_wrong_pools(workers, limit_s, message):
     with pytest.raises(JumpcadError, match=message):
         local_pool(workers, limit_s)
