@@ -29,7 +29,7 @@ ANY = (0, 1, 2)
 """Exit codes of a request that may be good or bad; a bug's 3 is never among them."""
 LONGEST = 4000
 """Characters that a complaint may have at most: ten clauses of a path, a key, a value and a reason."""
-ALARM_S = 8
+ALARM_S = 60
 """After which a command counts as hanging; none takes a tenth of it."""
 MEMORY = 2**30
 """Bytes that a command may take beside what this process has; a process of its own may have four times as many."""
@@ -175,7 +175,7 @@ class Sandbox:
         with bounded():
             yield
         wrong = list(changes(before, snapshot(self.root), self._places(writes), ()))
-        assert not wrong, "\n".join(wrong)
+        assert not wrong, "\n".join(_shortened(wrong))
 
     @contextlib.contextmanager
     def _judged(
@@ -189,11 +189,13 @@ class Sandbox:
             after = snapshot(self.root)
             allowed = () if outcome.code == 2 else self._places(writes)
             wrong = [
-                *stream_faults(outcome, exits, "--json" in arguments),
+                *stream_faults(outcome, exits, arguments),
                 *changes(before, after, allowed, self._places(keeps)),
                 *self._fault_of_files(before, after, allowed),
             ]
-            assert not wrong, "\n".join([f"{self.case!a:.200} jumpcad {' '.join(arguments)!a:.200}:", *wrong])
+            assert not wrong, "\n".join(
+                [f"{self.case!a:.200} jumpcad {' '.join(arguments)!a:.200}:", *_shortened(wrong)]
+            )
             return outcome
 
         yield judge
@@ -208,10 +210,10 @@ class Sandbox:
                 yield from (f"wrote {name!a}: {fault}" for fault in file_faults(self.root / name))
 
 
-def stream_faults(outcome: Outcome, exits: Collection[int], as_json: bool) -> Iterator[str]:
-    """Yield what breaks the rules in an exit code and in what was said."""
+def stream_faults(outcome: Outcome, exits: Collection[int], arguments: tuple[str, ...]) -> Iterator[str]:
+    """Yield what breaks the rules in an exit code and in what was said; what was asked may be said again."""
     code, out, err = outcome.code, outcome.out, outcome.err
-    lines = err.splitlines()
+    lines, asked, as_json = err.splitlines(), sum(map(len, arguments)), "--json" in arguments
     if code not in exits:
         yield f"exit code {code}, not {' or '.join(map(str, exits))}: {err[-300:]!a}"
     if "Traceback" in err and code != 3:
@@ -220,7 +222,7 @@ def stream_faults(outcome: Outcome, exits: Collection[int], as_json: bool) -> It
         yield f"{len(lines)} lines on standard error: {err[:300]!a}"
     if code == 2 and not (err.startswith("jumpcad: ") and err.endswith("\n")):
         yield f"not a line of jumpcad: {err[:200]!a}"
-    if len(err) > LONGEST and code != 3:
+    if len(err) > LONGEST + 2 * asked and code != 3:
         yield f"{len(err)} characters on standard error"
     for name, text in (("output", out), ("error", err)):
         if found := CONTROL.search(text):
@@ -254,6 +256,10 @@ def bounded() -> Iterator[None]:
         signal.alarm(0)
         signal.signal(signal.SIGALRM, before)
         resource.setrlimit(resource.RLIMIT_AS, limits)
+
+
+def _shortened(lines: list[str], count: int = 12) -> list[str]:
+    return lines if len(lines) <= count else [*lines[:count], f"and {len(lines) - count} more"]
 
 
 def _stream(descriptor: int, encoding: str, errors: str) -> io.TextIOWrapper:
