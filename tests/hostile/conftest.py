@@ -2,8 +2,10 @@
 
 import importlib.util
 import json
+import os
 import resource
 import shutil
+import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -13,6 +15,7 @@ from typing import Any
 import pytest
 from support.commands import exit_code_of
 from support.sandbox import Sandbox
+from support.slicers import OBEDIENT
 
 from jumpcad import simulation
 
@@ -70,6 +73,16 @@ def sandbox(
     place = Sandbox(tmp_path / "sandbox", monkeypatch, capfd)
     yield place
     request.node.user_properties.append(("tries", place.tries))
+
+
+@pytest.fixture(autouse=True)
+def slicer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put a program that slices nothing in the slicer's place."""
+    program = tmp_path / "programs" / "prusa-slicer"
+    program.parent.mkdir()
+    program.write_text(f"#!{sys.executable}\n{OBEDIENT.replace('TAMPER', '')}")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
 
 
 @pytest.fixture

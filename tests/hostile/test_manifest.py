@@ -4,7 +4,6 @@ import hashlib
 import json
 import os
 import shutil
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,19 +12,8 @@ import pytest
 from hostile.conftest import Originals
 from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
 from support.sandbox import ANY, Sandbox
-from support.slicers import OBEDIENT
 
 COMMANDS = ("verify", "simulate", "slice", "build")
-
-
-@pytest.fixture(autouse=True)
-def slicer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Put a program that slices nothing in the slicer's place."""
-    program = tmp_path / "programs" / "prusa-slicer"
-    program.parent.mkdir()
-    program.write_text(f"#!{sys.executable}\n{OBEDIENT.replace('TAMPER', '')}")
-    program.chmod(0o755)
-    monkeypatch.setenv("PATH", str(program.parent))
 
 
 def ask(sandbox: Sandbox, command: str, exits: tuple[int, ...]) -> None:
