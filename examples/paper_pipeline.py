@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 
 from jumpcad import load_design, load_workshop
-from jumpcad.files import write_text_atomically
+from jumpcad.outputs import write_atomically
 from jumpcad.search import plots
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.explore import sweep
@@ -52,7 +52,7 @@ def main() -> None:
     for bound in result.bounds:
         worth = f"refused ({bound.reason})" if bound.worth is None else f"worth {bound.worth:+.3f}"
         print(f"{bound.name} is on its {bound.side} bound; going to {bound.beyond:g} is {worth}")
-    write_text_atomically(arguments.folder / "winner.toml", result.winner.design.to_toml())
+    write_atomically(arguments.folder / "winner.toml", result.winner.design.to_toml())
 
 
 if __name__ == "__main__":

@@ -7,9 +7,10 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from jumpcad.api import check as check
+    from jumpcad.api import export as export
+    from jumpcad.api import simulate as simulate
     from jumpcad.building import build as build
-    from jumpcad.bundle.export import export as export
-    from jumpcad.checks import check as check
     from jumpcad.design import SEARCH_BOUNDS as SEARCH_BOUNDS
     from jumpcad.design import Design as Design
     from jumpcad.design import load_design as load_design
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from jumpcad.simulation import Jump as Jump
     from jumpcad.simulation import Settings as Settings
     from jumpcad.simulation import load_settings as load_settings
-    from jumpcad.simulation import simulate as simulate
     from jumpcad.workshop import Workshop as Workshop
     from jumpcad.workshop import load_workshop as load_workshop
 
@@ -41,13 +41,13 @@ _HOMES = {
     "Workshop": "workshop",
     "build": "building",
     "capsule_robot": "mechanism.capsule",
-    "check": "checks",
+    "check": "api",
     "evaluate": "evaluation",
-    "export": "bundle.export",
+    "export": "api",
     "load_design": "design",
     "load_settings": "settings",
     "load_workshop": "workshop",
-    "simulate": "simulation",
+    "simulate": "api",
 }
 _MODULES = {"published": "paper.published"}
 

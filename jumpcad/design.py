@@ -6,6 +6,7 @@ ankle. At rest the legs are parallel, the foot is flat and the body is tilted by
 """
 
 import math
+import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import Annotated, Self
 
 from pydantic import Field
 
+from jumpcad.arguments import described, typed
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, find_template, to_toml
 
@@ -34,10 +36,24 @@ class Design(Record):
 
     @classmethod
     def from_vector(cls, vector: Sequence[float]) -> Self:
-        """Make a design from 8 floats in the order of `PARAMETERS`."""
-        if len(vector) != len(PARAMETERS):
-            raise JumpcadError(f"a design vector has {len(PARAMETERS)} values, not {len(vector)}")
-        return cls(**{name: float(value) for name, value in zip(PARAMETERS, vector, strict=True)})
+        """Make a design from 8 floats in the order of `PARAMETERS`.
+
+        Raises
+        ------
+        JumpcadError
+            If it is no such sequence, or a value is out of range.
+        """
+        wanted = f"give {len(PARAMETERS)} numbers, in the order of {', '.join(PARAMETERS)}"
+        try:
+            values = list(vector)
+        except TypeError:
+            raise JumpcadError(f"{described(vector)} is no design vector: {wanted}") from None
+        if len(values) != len(PARAMETERS):
+            raise JumpcadError(f"a design vector has {len(PARAMETERS)} values, not {len(values)}: {wanted}")
+        if wrong := [value for value in values if not isinstance(value, numbers.Real)]:
+            raise JumpcadError(f"{described(wrong[0])} in a design vector is no number: {wanted}")
+        plain = [value if isinstance(value, int) else float(value) for value in values]  # huge ints are no floats
+        return cls(**dict(zip(PARAMETERS, plain, strict=True)))
 
     def to_vector(self) -> list[float]:
         """Return the 8 parameters as floats, in the order of `PARAMETERS`."""
@@ -151,6 +167,7 @@ SEARCH_BOUNDS: dict[str, Bounds] = {
 """The box that the published study searched (both prototypes lie outside it, with a rest angle of 88.2°)."""
 
 
+@typed
 def load_design(name_or_path: str | Path) -> Design:
     """Return the design of a template (`kenan-2.0`) or of a TOML file.
 

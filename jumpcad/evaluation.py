@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
+from jumpcad.arguments import typed
 from jumpcad.building import build
 from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
@@ -44,6 +45,7 @@ class EvaluationResult:
         }
 
 
+@typed
 def evaluate(
     design: Design, workshop: Workshop | None = None, settings: Settings | None = None, engine: str = "pybullet"
 ) -> EvaluationResult:

@@ -1,12 +1,12 @@
-"""Reading and writing the TOML files that users edit, with errors that name file, line, key, value and limit."""
+"""Reading the TOML files that users edit, with errors that name file, line, key, value and limit."""
 
-import difflib
 import importlib.resources
+import json
 import os
-import re
-import tempfile
+import stat
 import tomllib
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
@@ -14,10 +14,20 @@ import tomli_w
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from jumpcad.arguments import described
+from jumpcad.complaints import complaints, shown
+from jumpcad.complaints import did_you_mean as did_you_mean
 from jumpcad.errors import JumpcadError
 
 Contradiction = tuple[tuple[str, ...], Any, str]
 """Where a value stands, the value, and what is wrong with it."""
+
+LARGEST_BYTES = 1 << 20
+"""Size of the largest file that is read; those of this program have some kilobytes."""
+DEEPEST = 20
+"""Levels of tables and lists that a file may have; those of this program have four."""
+NESTED = f"nested deeper than {DEEPEST} levels"
+MOST_DOTS = 200
 
 
 class TomlTable(BaseModel):
@@ -29,17 +39,33 @@ class TomlTable(BaseModel):
 class Record(TomlTable):
     """A `TomlTable` that users make by name, in Python or as a TOML file; errors are `JumpcadError`."""
 
-    def __init__(self, **values: Any) -> None:
+    def __init__(self, /, *unnamed: Any, **values: Any) -> None:
+        if unnamed:
+            first = next(iter(type(self).model_fields))
+            raise JumpcadError(
+                f"{type(self).__name__} takes its values by name, {type(self).__name__}({first}=…), "
+                f"not {described(unnamed[0])}"
+            )
         try:
             super().__init__(**values)
             if wrong := list(self.contradictions()):
                 raise ValidationError.from_exception_data(type(self).__name__, [_line_error(*item) for item in wrong])
         except ValidationError as error:
-            raise JumpcadError("; ".join(_complaints(error, type(self)))) from error
+            raise JumpcadError("; ".join(complaints(error, type(self)))) from error
 
     def contradictions(self) -> Iterable[Contradiction]:
         """Return values that are allowed alone but not together."""
         return ()
+
+    def revalidated(self) -> Self:
+        """Return the same record, validated anew: copies with changes, and changed dictionaries, never were.
+
+        Raises
+        ------
+        JumpcadError
+            If a value is out of range, of the wrong type, or contradicts another.
+        """
+        return type(self)(**self.model_dump(warnings=False))
 
     @classmethod
     def from_toml(cls, path: Path) -> Self:
@@ -54,59 +80,133 @@ class Record(TomlTable):
             return cls(**data)
         except JumpcadError as error:
             if isinstance(error.__cause__, ValidationError):
-                raise JumpcadError("; ".join(_complaints(error.__cause__, cls, source, text))) from None
+                raise JumpcadError("; ".join(complaints(error.__cause__, cls, source, text))) from None
             raise
 
 
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
-    """Return the parsed TOML file and its text."""
-    try:
-        text = path.read_text(encoding="utf-8")
-        return tomllib.loads(text), text
-    except FileNotFoundError:
-        raise JumpcadError(f"{path}: no such file") from None
-    except IsADirectoryError:
-        raise JumpcadError(f"{path}: is a folder, not a TOML file") from None
-    except PermissionError:
-        raise JumpcadError(f"{path}: may not be read (permission denied)") from None
-    except OSError as error:
-        raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise JumpcadError(f"{path}: not a text file in UTF-8") from None
-    except tomllib.TOMLDecodeError as error:
-        raise JumpcadError(f"{path}: not valid TOML: {error}") from None
-
-
-def require_new_toml(path: Path) -> None:
-    """Refuse a file to be written that is no TOML file, is there already, or has no folder to lie in.
+    """Return the parsed TOML file and its text.
 
     Raises
     ------
     JumpcadError
-        Saying which.
+        If it is no regular file, cannot be read, is too large, is no TOML, or is nested too deep.
     """
-    if path.suffix != ".toml":
-        raise JumpcadError(f"{path}: must end in .toml")
-    if os.path.lexists(path):
-        raise JumpcadError(f"{path}: exists already; choose another name or remove it first")
-    if not path.parent.is_dir():
-        raise JumpcadError(f"{path}: cannot be written: there is no folder {path.parent}")
+    text = read_text(path, "a TOML file")
+    for number, line in enumerate(text.split("\n"), start=1):
+        # Parsing takes time with the square of a key's parts, and no other line has so many dots.
+        if line.count(".") > MOST_DOTS and not line.lstrip().startswith("#"):
+            raise JumpcadError(f"{path}: line {number} has more than {MOST_DOTS} dots, more than any key or list has")
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise JumpcadError(f"{path}: not valid TOML: {error}") from None
+    except ValueError:
+        raise JumpcadError(f"{path}: not valid TOML: holds an integer of more digits than can be read") from None
+    except RecursionError:
+        raise JumpcadError(f"{path}: {NESTED}") from None
+    _require_shallow(data, path)
+    return data, text
 
 
-def write_text_atomically(path: Path, text: str) -> None:
-    """Write `text` so that `path` holds all of it or what it held before."""
+def read_json(path: Path) -> Any:
+    """Return the content of a JSON file; NaN and infinity, which JSON does not have, are refused.
+
+    Raises
+    ------
+    JumpcadError
+        If it is no regular file, cannot be read, is too large, is no JSON, or is nested too deep.
+    """
     try:
-        descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    except OSError as error:
-        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
+        data = json.loads(read_text(path, "a JSON file"), parse_constant=_no_constant)
+    except ValueError as error:
+        raise JumpcadError(f"{path}: not valid JSON: {str(error).partition(';')[0]}") from None
+    except RecursionError:
+        raise JumpcadError(f"{path}: {NESTED}") from None
+    _require_shallow(data, path)
+    return data
+
+
+def read_text(path: Path, kind: str = "a text file") -> str:
+    """Return the text of a file in UTF-8, for what it should be see `read_bytes`."""
     try:
-        with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
+        return read_bytes(path, kind).decode("utf-8").replace("\r\n", "\n")
+    except UnicodeDecodeError:
+        raise JumpcadError(f"{path}: not a text file in UTF-8") from None
+
+
+def read_bytes(path: Path, kind: str = "a file") -> bytes:
+    """Return the content of a regular file of moderate size; `kind` says what it should be, such as `a TOML file`.
+
+    What is looked at is the opened file, so nobody can exchange it in between; a pipe or a device does not block.
+
+    Raises
+    ------
+    JumpcadError
+        If it is no such file, or cannot be read.
+    """
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    try:
+        descriptor = os.open(path, flags)
+        try:
+            status = os.fstat(descriptor)
+            if stat.S_ISDIR(status.st_mode):
+                raise IsADirectoryError
+            if not stat.S_ISREG(status.st_mode):
+                raise JumpcadError(f"{path}: is a pipe or a device, not {kind}")
+            if status.st_size > LARGEST_BYTES:
+                raise JumpcadError(f"{path}: is larger than {LARGEST_BYTES >> 20} MiB, too large for {kind}")
+            with os.fdopen(descriptor, "rb", closefd=False) as stream:
+                content = stream.read(status.st_size + 1)
+        finally:
+            os.close(descriptor)
+    except FileNotFoundError:
+        raise JumpcadError(f"{path}: no such file") from None
+    except IsADirectoryError:
+        raise JumpcadError(f"{path}: is a folder, not {kind}") from None
+    except PermissionError:
+        raise JumpcadError(f"{path}: may not be read (permission denied)") from None
     except OSError as error:
-        os.unlink(temporary)
-        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
+        raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
+    except ValueError:
+        raise JumpcadError(f"{shown(str(path))} cannot be the name of a file") from None
+    if len(content) > status.st_size:
+        raise JumpcadError(f"{path}: grows while it is read; try again")
+    return content
+
+
+def _no_constant(name: str) -> None:
+    raise ValueError(f"{name} is no number")
+
+
+def _require_shallow(data: Any, path: Path) -> None:
+    """Refuse data that are nested deeper than any file of this program; what works on them may call itself."""
+    level = [data]
+    for _ in range(DEEPEST):
+        level = [
+            item
+            for outer in level
+            if isinstance(outer, dict | list)
+            for item in (outer.values() if isinstance(outer, dict) else outer)
+        ]
+    if level:
+        raise JumpcadError(f"{path}: {NESTED}")
+
+
+def real_path(path: str | Path) -> Path:
+    """Return where a path leads, all links followed; it need not exist.
+
+    Raises
+    ------
+    JumpcadError
+        If nothing can ever lie there: a loop of links, a name that is too long or has a NUL.
+    """
+    try:
+        real = Path(path).resolve()
+        real.exists()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise JumpcadError(f"{path}: cannot be a path: {getattr(error, 'strerror', None) or error}") from None
+    return real
 
 
 def to_toml(data: dict[str, Any]) -> str:
@@ -114,6 +214,7 @@ def to_toml(data: dict[str, Any]) -> str:
     return tomli_w.dumps(data)
 
 
+@cache
 def templates_folder() -> Path:
     """Return the folder of the shipped templates, in an installed wheel or in a source tree."""
     package = Path(str(importlib.resources.files("jumpcad")))
@@ -129,93 +230,23 @@ def template_names(kind: str) -> list[str]:
 def find_template(kind: str, name_or_path: str | Path) -> Path:
     """Return the TOML file that a template's name or a path stands for.
 
-    A name without suffix or folder is a template; everything else is a path.
+    A template's name without suffix or folder is the template, whatever lies in the current folder.
     """
     text = str(name_or_path)
-    path = Path(text)
-    is_file = os.path.isfile(text)  # unlike Path.is_file, False for a name that is too long
-    if path.suffix == ".toml" or path.parent != Path() or is_file:
-        return path
+    if "\0" in text:
+        raise JumpcadError(f"{text!r}: cannot be a path: it has a NUL")
+    if text.endswith(".toml") or os.path.dirname(text):
+        return Path(text)
     names = template_names(kind)
     if text in names:
         return templates_folder() / kind / f"{text}.toml"
+    if os.path.isfile(text):
+        return Path(text)
     raise JumpcadError(
-        f"{text!r} is neither a TOML file nor one of the {kind} {', '.join(names)}{did_you_mean(text, names)}"
+        f"{shown(text)} is neither a TOML file nor one of the {kind} {', '.join(names)}{did_you_mean(text, names)}"
     )
-
-
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return a hint at the nearest known word, or nothing."""
-    near = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
-    return f" (did you mean {near[0]}?)" if near else ""
 
 
 def _line_error(location: tuple[str, ...], value: Any, reason: str) -> InitErrorDetails:
     message = reason.replace("{", "{{").replace("}", "}}")
     return InitErrorDetails(type=PydanticCustomError("value_error", message), loc=location, input=value)
-
-
-def _complaints(error: ValidationError, model: type[BaseModel], source: str = "", text: str = "") -> list[str]:
-    """Return one clause a bad key: `file:line: key = value: what is wrong`."""
-    clauses = []
-    for item in error.errors():
-        location = tuple(str(step) for step in item["loc"])
-        key = ".".join(location) or model.__name__
-        if item["type"] == "extra_forbidden":
-            clause = f"{key}: unknown key{did_you_mean(location[-1], _known_keys(model, location[:-1]))}"
-        elif item["type"] == "missing":
-            clause = f"{key}: missing"
-        elif not location:  # a validator that speaks of the whole record
-            clause = _reason(item)
-        else:
-            clause = f"{key} = {_shown(item['input'])}: {_reason(item)}"
-        clauses.append(_place(source, text, location) + clause)
-    return clauses
-
-
-def _reason(item: Any) -> str:
-    context = item.get("ctx", {})
-    limits = {
-        "greater_than": ("must be more than", "gt"),
-        "greater_than_equal": ("must be at least", "ge"),
-        "less_than": ("must be less than", "lt"),
-        "less_than_equal": ("must be at most", "le"),
-    }
-    if item["type"] in limits:
-        words, bound = limits[item["type"]]
-        return f"{words} {context[bound]:g}"
-    if item["type"] == "finite_number":
-        return "must be a finite number"
-    reason = str(item["msg"]).removeprefix("Value error, ").removeprefix("Input should be ")
-    return reason if item["type"] == "value_error" else f"must be {reason}"
-
-
-def _shown(value: Any) -> str:
-    shown = repr(value)
-    return shown if len(shown) <= 60 else shown[:57] + "..."
-
-
-def _known_keys(model: type[BaseModel], location: tuple[str, ...]) -> list[str]:
-    """Return the keys known at a nested location of a model."""
-    for step in location:
-        field = model.model_fields.get(step)
-        annotation = field.annotation if field else None
-        if not (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
-            return []
-        model = annotation
-    return list(model.model_fields)
-
-
-def _place(source: str, text: str, location: tuple[str, ...]) -> str:
-    """Return `file:line: ` of a key in a TOML text, or as much of that as is known."""
-    if not source:
-        return ""
-    section = ""
-    for number, line in enumerate(text.splitlines(), start=1):
-        header = re.match(r"\s*\[\[?\s*([^\]]+?)\s*\]\]?", line)
-        if header:
-            section = header.group(1) + "."
-        entry = re.match(r"\s*([\w.\"-]+)\s*=", line)
-        if entry and section + entry.group(1).strip('"') == ".".join(location):
-            return f"{source}:{number}: "
-    return f"{source}: "

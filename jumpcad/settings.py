@@ -5,10 +5,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from jumpcad.arguments import typed
 from jumpcad.files import Record, find_template
 from jumpcad.mechanism.model import Body
 
-NonNegative = Annotated[float, Field(ge=0)]
+Coefficient = Annotated[float, Field(ge=0, le=100)]
 
 
 class Settings(Record):
@@ -23,23 +24,23 @@ class Settings(Record):
     solver_residual: Annotated[
         float, Field(ge=0, le=1e-2, description="PyBullet stops iterating when no constraint is off by more")
     ] = 1e-5
-    gravity_m_s2: Annotated[float, Field(gt=0, le=100)] = 9.81
-    ground_friction: NonNegative = 1.5
-    foot_friction: NonNegative = 1.0
-    body_friction: NonNegative = 0.5
-    rolling_friction_m: NonNegative = 0.0
-    spinning_friction_m: NonNegative = 0.0
+    gravity_m_s2: Annotated[float, Field(ge=0.1, le=100)] = 9.81
+    ground_friction: Coefficient = 1.5
+    foot_friction: Coefficient = 1.0
+    body_friction: Coefficient = 0.5
+    rolling_friction_m: Coefficient = 0.0
+    spinning_friction_m: Coefficient = 0.0
     restitution: Annotated[float, Field(ge=0, le=1)] = 0.0
-    joint_damping_nms_per_rad: NonNegative = 0.001
-    joint_friction_nm: Annotated[float, Field(ge=0, description="dry friction of each joint (its motor)")] = 0.0
-    drag_per_s: Annotated[float, Field(ge=0, description="rate at which drag takes velocity")] = 0.0
+    joint_damping_nms_per_rad: Coefficient = 0.001
+    joint_friction_nm: Annotated[float, Field(ge=0, le=100, description="dry friction of each joint (its motor)")] = 0.0
+    drag_per_s: Annotated[float, Field(ge=0, le=1e3, description="rate at which drag takes velocity")] = 0.0
     flight: Annotated[
         Literal["ballistic", "simulated"],
         Field(description="after take-off: in closed form, or on to the first touchdown"),
     ] = "ballistic"
     max_time_s: Annotated[float, Field(gt=0, le=60, description="of simulated time, at which a run is given up")] = 3.0
     trajectory: Annotated[bool, Field(description="record the poses and energies over time")] = False
-    trajectory_rate_hz: Annotated[float, Field(gt=0, description="poses a second at most")] = 500.0
+    trajectory_rate_hz: Annotated[float, Field(ge=0.01, le=1e6, description="poses a second at most")] = 500.0
     published_quantities: Annotated[
         bool, Field(description="go on to the first contact later than 0.5 s, as the published study did")
     ] = False
@@ -51,6 +52,7 @@ def surface_friction(body: Body, settings: Settings) -> float:
     return settings.foot_friction if on_foot else settings.body_friction
 
 
+@typed
 def load_settings(name_or_path: str | Path) -> Settings:
     """Return the settings of a template (`default`, `screening`, `fine`, `published-table`) or of a TOML file.
 

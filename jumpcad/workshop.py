@@ -5,12 +5,15 @@ A workshop file gives any subset; what it leaves out comes from its `base` (the 
 """
 
 import itertools
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from jumpcad.arguments import typed
+from jumpcad.complaints import shown
 from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     Contradiction,
@@ -22,23 +25,25 @@ from jumpcad.files import (
     template_names,
     to_toml,
 )
+from jumpcad.names import NAME, NAME_RULE, Name, OptionalName, Text
 
 Positive = Annotated[float, Field(gt=0, le=1e4)]
 Share = Annotated[float, Field(gt=0, le=1)]
-Fit = Annotated[float, Field(ge=-0.5, le=1)]
 Role = Literal["links", "body", "gears"]
 
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
 DEFAULT = "default"
+MOST_BASES = 20
+"""Files of a workshop that may build on each other."""
 
 
 class Printer(TomlTable):
     """A machine: usable bed (x, y, z) and nozzle."""
 
-    name: str
+    name: Text
     bed_mm: Annotated[tuple[Positive, Positive, Positive], Field(strict=False)]
     nozzle_mm: Annotated[float, Field(ge=0.1, le=2)]
-    source: str = ""
+    source: Text = ""
 
 
 class Process(TomlTable):
@@ -64,37 +69,42 @@ class Material(TomlTable):
     strength_interlayer_mpa: Positive
     modulus_mpa: Annotated[float, Field(gt=0, le=1e6)]
     price_eur_per_kg: Positive | None = None
-    source: str = ""
+    source: Text = ""
 
 
 class Roles(TomlTable):
     """Which material a kind of part is printed in."""
 
-    links: str
-    body: str
-    gears: str
+    links: Name
+    body: Name
+    gears: Name
 
 
 class Fits(TomlTable):
-    """Every tolerance offset, as modelled. Fits are added per side; diameters of screw holes are complete."""
+    """Every tolerance offset, as modelled. Fits are added per side; diameters of screw holes are complete.
 
-    press_mm: Fit
-    sliding_mm: Fit
-    loose_mm: Fit
-    hole_allowance_diameter_mm: Fit
+    The limits leave room for any printer that can be used: holes come out up to 1 mm too small in diameter, hardly ever
+    too large. What a shaft turns in or passes is never drawn smaller than the shaft; a screw cuts its thread in a hole
+    between its core and its own diameter, and passes one that is wider than itself.
+    """
+
+    press_mm: Annotated[float, Field(ge=-0.2, le=0.5)]
+    sliding_mm: Annotated[float, Field(ge=0, le=0.8)]
+    loose_mm: Annotated[float, Field(ge=0, le=1)]
+    hole_allowance_diameter_mm: Annotated[float, Field(ge=-0.4, le=1)]
     backlash_circumferential_mm: Annotated[float, Field(ge=0, le=1)]
-    m2_tap_mm: Positive
-    m2_clearance_mm: Positive
-    m3_tap_mm: Positive
-    m3_insert_mm: Positive
-    m3_clearance_mm: Positive
-    wall_min_mm: Positive
-    wall_mm: Positive
-    pin_min_mm: Positive
-    hole_min_mm: Positive
+    m2_tap_mm: Annotated[float, Field(ge=1.4, le=2.2)]
+    m2_clearance_mm: Annotated[float, Field(ge=2, le=3.5)]
+    m3_tap_mm: Annotated[float, Field(ge=2.2, le=3.2)]
+    m3_insert_mm: Annotated[float, Field(ge=3, le=6)]
+    m3_clearance_mm: Annotated[float, Field(ge=3, le=5)]
+    wall_min_mm: Annotated[float, Field(ge=0.1, le=10)]
+    wall_mm: Annotated[float, Field(ge=0.1, le=10)]
+    pin_min_mm: Annotated[float, Field(gt=0, le=20)]
+    hole_min_mm: Annotated[float, Field(gt=0, le=20)]
     first_layer_chamfer_mm: Annotated[float, Field(ge=0, le=2)]
     overhang_deg: Annotated[float, Field(ge=0, le=80)]
-    bridge_mm: Positive
+    bridge_mm: Annotated[float, Field(gt=0, le=200)]
 
 
 class BoughtParts(TomlTable):
@@ -103,12 +113,12 @@ class BoughtParts(TomlTable):
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none.
     """
 
-    motors: Annotated[tuple[str, ...], Field(strict=False)]
-    leg_bearing: str
-    roller: str
-    battery: str
-    controller: str
-    driver: str
+    motors: Annotated[tuple[Name, ...], Field(strict=False)]
+    leg_bearing: OptionalName
+    roller: Name
+    battery: Name
+    controller: Name
+    driver: Name
     axle_mm: Positive
 
 
@@ -138,7 +148,7 @@ class Masses(TomlTable):
     """Where printed masses come from; a weighed mass (g, by part) overrides the model."""
 
     model: Literal["printed", "solid"]
-    weighed_g: dict[str, Positive]
+    weighed_g: dict[Name, Positive]
 
 
 class Workshop(Record):
@@ -150,13 +160,13 @@ class Workshop(Record):
     printer: Printer
     process: Process
     roles: Roles
-    materials: dict[str, Material]
+    materials: dict[Name, Material]
     fits: Fits
     bought: BoughtParts
     body: BodyPlates
     safety: Safety
     mass: Masses
-    prices_eur: dict[str, Positive]
+    prices_eur: dict[Name, Positive]
 
     def material_name(self, role: Role) -> str:
         """Return the name of the material that a kind of part is printed in."""
@@ -201,6 +211,7 @@ class Workshop(Record):
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
 
 
+@typed
 def load_workshop(name_or_path: str | Path = DEFAULT) -> Workshop:
     """Return the workshop of a template (`default`) or of a TOML file, with everything that it builds on.
 
@@ -214,25 +225,30 @@ def load_workshop(name_or_path: str | Path = DEFAULT) -> Workshop:
     return Workshop.from_data(data, source=str(path), text=text)
 
 
-def _assembled(path: Path, above: tuple[Path, ...]) -> tuple[dict[str, Any], str]:
+def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]:
     """Return the data of a workshop file on top of its base, and the text of the file itself."""
+    if len(above) > MOST_BASES:
+        raise JumpcadError(f"{above[0]}: more than {MOST_BASES} workshops build on each other; join some of them")
     data, text = read_toml(path)
     whole: dict[str, Any] = {}
     if "base" in data or path != find_template("workshops", DEFAULT):
         base = data.pop("base", DEFAULT)
         if not isinstance(base, str):
-            raise JumpcadError(f"{path}: base = {base!r}: must be the name of a workshop or a path")
+            raise JumpcadError(f"{path}: base = {shown(base)}: must be the name of a workshop or a path")
         beside = path.parent / base
         base_path = beside if base.endswith(".toml") and beside.is_file() else find_template("workshops", base)
-        if base_path.resolve() in (path.resolve(), *above):
-            raise JumpcadError(f"{path}: base = {base!r}: leads back to a file that builds on it")
-        whole, _ = _assembled(base_path, (path.resolve(), *above))
+        real = os.path.realpath(path)  # unlike Path.resolve, also of links that lead round in a circle
+        if os.path.realpath(base_path) in (real, *above):
+            raise JumpcadError(f"{path}: base = {shown(base)}: leads back to a file that builds on it")
+        whole, _ = _assembled(base_path, (*above, real))
     if isinstance(data.get("printer"), str):
         whole["printer"] = read_toml(find_template("printers", data.pop("printer")))[0]
     own = set(data["materials"]) if isinstance(data.get("materials"), dict) else set()
     whole = _merged(whole, data)
     if isinstance(whole.get("roles"), dict) and isinstance(whole.setdefault("materials", {}), dict):
         used = [name for name in whole["roles"].values() if isinstance(name, str)]
+        if wrong := [name for name in sorted({*own, *used}) if not NAME.fullmatch(name)]:
+            raise JumpcadError(f"{path}: {shown(wrong[0])} cannot be the name of a material: {NAME_RULE}")
         if unused := sorted(own - set(used)):
             raise JumpcadError(
                 f"{path}: materials.{unused[0]}: no role uses it; the roles use {', '.join(sorted(set(used)))}"

@@ -1,6 +1,7 @@
 """TOML files that users edit: what is wrong is named by file, line, key, value and limit."""
 
 import os
+import re
 import tomllib
 from pathlib import Path
 from typing import Annotated
@@ -14,11 +15,11 @@ from jumpcad.files import (
     TomlTable,
     did_you_mean,
     find_template,
+    read_json,
     read_toml,
     template_names,
     templates_folder,
     to_toml,
-    write_text_atomically,
 )
 
 
@@ -125,6 +126,17 @@ def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path) -> None:
             find_template("robots", wrong)
 
 
+def test_a_bare_name_is_the_template_whatever_lies_in_the_current_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("kenan-2.0", "mine"):
+        (tmp_path / name).write_text("")
+    assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
+    assert find_template("robots", "./kenan-2.0") == Path("kenan-2.0")
+    assert find_template("robots", "mine") == Path("mine")
+
+
 def test_hint_only_where_something_is_near() -> None:
     assert did_you_mean("kenan2", ["kenan-2.0", "best-bo"]) == " (did you mean kenan-2.0?)"
     assert did_you_mean("zzz", ["kenan-2.0", "best-bo"]) == ""
@@ -135,21 +147,64 @@ def test_toml_reads_back() -> None:
     assert tomllib.loads(to_toml(data)) == data
 
 
-def test_failed_write_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    file = tmp_path / "p.toml"
-    write_text_atomically(file, "old\n")
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("a = " + "[" * 5000 + "]" * 5000, "nested deeper than 20 levels"),
+        ("a = " + "{a = " * 5000 + "1" + "}" * 5000, "nested deeper than 20 levels"),
+        (".".join("a" * 60) + " = 1", "nested deeper than 20 levels"),
+        ("[" + ".".join("a" * 20_000) + "]", "line 1 has more than 200 dots"),
+        ("a = " + "1" * 6000, "an integer of more digits than can be read"),
+        ("nozzle_mm = 0x" + "f" * 6000, "p.toml:1: nozzle_mm = a value too long to show"),
+        ("# " + "x" * (1 << 20), "is larger than 1 MiB"),
+        ("self = 1", "p.toml:1: self: unknown key"),
+        ('"a\\nb\\u001b" = 1', r"'a\\nb\\x1b': unknown key"),
+        ("bed = 3", r"p.toml:1: bed = 3: must be a table: \[bed\] with width_mm"),
+        ("[" + " " * 200_000, "not valid TOML"),
+    ],
+    ids=["lists", "tables", "keys", "long key", "digits", "hexadecimal", "size", "self", "control", "table", "blanks"],
+)
+def test_nonsense_from_strangers_is_one_short_line(tmp_path: Path, text: str, reason: str) -> None:
+    told = complaint(tmp_path, text)
+    assert re.search(reason, told), told
+    assert told.isprintable()
+    assert len(told) < 500
 
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(JumpcadError, match="cannot be written: No space left"):
-        write_text_atomically(file, "new\n")
-    assert file.read_text() == "old\n"
-    assert os.listdir(tmp_path) == ["p.toml"]
+def test_of_twenty_thousand_unknown_keys_ten_are_named(tmp_path: Path) -> None:
+    told = complaint(tmp_path, 'name = "x"\n' + "".join(f"k{number} = 1\n" for number in range(20_000)))
+    assert told.count("unknown key") + told.count("missing") == 10
+    assert told.endswith("and 19991 more")  # the missing bed is one of them
 
 
-def test_written_file_can_be_read_by_others(tmp_path: Path) -> None:
-    write_text_atomically(tmp_path / "p.toml", "é\n")
-    assert (tmp_path / "p.toml").stat().st_mode & 0o777 == 0o644
-    assert (tmp_path / "p.toml").read_bytes() == "é\n".encode()
+def test_pipes_and_devices_are_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.toml")
+    (tmp_path / "zero.toml").symlink_to("/dev/zero")
+    for name in ("pipe.toml", "zero.toml"):
+        with pytest.raises(JumpcadError, match="is a pipe or a device, not a TOML file"):
+            read_toml(tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ('{"a": NaN}', "NaN is no number"),
+        ("[-Infinity]", "-Infinity is no number"),
+        ("[" * 5000 + "]" * 5000, "nested deeper"),
+        ("[" * 21 + "]" * 21, "nested deeper"),
+        ("9" * 6000, "not valid JSON"),
+        ("{", "not valid JSON"),
+    ],
+)
+def test_json_that_is_none(tmp_path: Path, text: str, reason: str) -> None:
+    (tmp_path / "a.json").write_text(text)
+    with pytest.raises(JumpcadError, match=reason):
+        read_json(tmp_path / "a.json")
+
+
+def test_a_record_that_was_changed_behind_its_back_is_found_out() -> None:
+    printer = Printer(name="x", bed=Bed(width_mm=1.0))
+    assert printer.revalidated() == printer
+    wrong = printer.model_copy(update={"bed": Bed.model_construct(width_mm=-1.0)})
+    with pytest.raises(JumpcadError, match=r"^bed\.width_mm = -1\.0: must be more than 0$"):
+        wrong.revalidated()

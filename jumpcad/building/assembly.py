@@ -2,6 +2,7 @@
 
 import math
 from collections import defaultdict
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,8 @@ from jumpcad.catalogue import Bearing, load_catalogue
 from jumpcad.design import Design
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, LEVER_EYE_RADIUS_MM, PAD_WALL_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean
 from jumpcad.layout.layout import Electronics, Layout, make_layout
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Surface, five_bar
@@ -25,11 +28,15 @@ from jumpcad.strength.sizing import Growth, Sections, sections
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
+NOT_IN_EVERY_ROBOT = ("idler", "cam_spacer_left", "idler_spacer_right", "toe_left", "toe_right")
+"""Parts that only some designs have: workshops that know their weights serve the other designs too."""
+
 
 def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
     """Return the robot of a design with its sections grown by factors."""
     layout, holes = layout_of(design, workshop, growth)
     drawn = drawings(layout, holes, name)
+    _require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
     parts = tuple(_printed(drawing, workshop) for drawing in drawn)
@@ -127,6 +134,16 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
             small.spacer(layout, holes, "idler_spacer_right", [idler_right]),
         ]
     return made
+
+
+def _require_parts(weighed: Iterable[str], names: Sequence[str]) -> None:
+    """Refuse weights of parts that neither this robot nor any other has."""
+    known = (*names, *NOT_IN_EVERY_ROBOT)
+    for name in weighed:
+        if name not in known:
+            raise JumpcadError(
+                f"mass.weighed_g.{name}: no such part{did_you_mean(name, known)}; the robot has {', '.join(names)}"
+            )
 
 
 def _printed(drawing: Drawing, workshop: Workshop) -> Part:

@@ -1,5 +1,6 @@
 """The printed robot of a design, strong enough: assembled, judged by strength checks, and grown where it is weak."""
 
+from jumpcad.arguments import typed
 from jumpcad.building.assembly import assembled
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import Design
@@ -31,6 +32,7 @@ GROWS_ON_FAILURE = {
 """What grows when a check fails: a factor of `Growth`."""
 
 
+@typed
 def build(design: Design, workshop: Workshop | None = None, name: str = "robot") -> Robot:
     """Build the printed robot of a design in a workshop; its name, if it has one, is engraved on its plates.
 
@@ -38,10 +40,14 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
 
     Raises
     ------
+    JumpcadError
+        If the workshop was changed to what no file may say, or has the weight of a part that no robot has.
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
+    JumpcadError
+        If an argument is of another type.
     """
-    workshop = workshop or load_workshop("default")
+    workshop = (workshop or load_workshop("default")).revalidated()
     refused = errors(geometry_findings(design))
     if refused:
         raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")

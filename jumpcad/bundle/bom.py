@@ -3,13 +3,12 @@
 Prices come from the workshop, printing times from a slicer; what nobody has told stays blank.
 """
 
-import csv
-import io
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from jumpcad.csv_text import to_csv
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 
@@ -128,10 +127,7 @@ def bill_of_facts(facts: Iterable[Mapping[str, Any]], workshop: Workshop) -> Bil
 
 def write_bom(bill: Bill) -> str:
     """Return the bill of materials as CSV: the lines, plates that were sliced, and all together."""
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerows([COLUMNS, *_rows(bill)])
-    return stream.getvalue()
+    return to_csv([COLUMNS, *_rows(bill)])
 
 
 def _rows(bill: Bill) -> Iterator[Sequence[object]]:

@@ -3,6 +3,7 @@
 The same robot gives the same bytes.
 """
 
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,10 +30,12 @@ from jumpcad.scene.visuals import visuals
 from jumpcad.solids.finish import require_part
 from jumpcad.solids.stl import write_stl
 
-NAME = re.compile(r"\w[\w .+-]*")
+NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
+LONGEST_NAME = 200
+"""Bytes of a robot's name: file systems allow 255 for a name with all that is put before and after it."""
 
 
-def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False) -> Bundle:
+def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False) -> Bundle:
     """Write a robot's bundle.
 
     Parameters
@@ -40,22 +43,28 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
     robot
         With its parts, from `build`.
     folder
-        Is made, with its parents; may be empty or hold an older bundle, which is replaced as a whole.
+        Is made, with its parents; may be empty or hold an older bundle of the robot. The files that it lists are
+        replaced; what a user added stays.
     pictures
         Whether to draw the robot, which takes a quarter of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
+    force
+        Whether to replace another bundle too, and files that a user edited or added under a name of ours.
 
     Raises
     ------
     JumpcadError
-        If the folder holds anything else or cannot be written, or the extra for STEP is missing.
+        If the folder holds anything else, if something of a user's would be lost, if it cannot be written, or if the
+        extra for STEP is missing.
     """
     if not NAME.fullmatch(robot.name):
         raise JumpcadError(f"{robot.name!r} names files: use letters, digits, blanks, '.', '-', '+' and '_'")
+    if len(os.fsencode(robot.name)) > LONGEST_NAME:
+        raise JumpcadError(f"{robot.name!r} names files: use at most {LONGEST_NAME} bytes")
     if step:
         require_step()
-    return write_folder(folder, robot.name, _facts(robot), contents(robot, pictures, step))
+    return write_folder(folder, robot.name, _facts(robot), contents(robot, pictures, step), force)
 
 
 def contents(robot: Robot, pictures: bool, step: bool = False) -> Iterator[tuple[str, str | bytes]]:

@@ -1,23 +1,24 @@
-"""A bundle's folder, written whole or not at all.
+"""A bundle's folder: what jumpcad may replace in it, and what is a user's own.
 
-It is written beside its place and changes places with the old one in one step: whenever a build is killed, a whole
-bundle stands under the name, the old one or the new one, and at most a hidden folder is left over beside it. Where the
-system cannot exchange two folders (see `jumpcad.bundle.swap`) there are two renames, between which there is none.
+What the manifest lists is ours, as long as nobody changed it. Everything else is a user's and stays; what cannot stay
+is refused before anything is written.
 """
 
 import hashlib
 import importlib.metadata
 import json
 import os
-import shutil
-import tempfile
-from collections.abc import Iterable, Mapping
-from pathlib import Path, PurePosixPath
+import stat
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
-from jumpcad.bundle.manifest import FORMAT, MANIFEST, Bundle, is_bundle
-from jumpcad.bundle.swap import exchanged
+from jumpcad.bundle.manifest import FORMAT, MANIFEST, Bundle, open_bundle
+from jumpcad.bundle.place import write_in_place
+from jumpcad.bundle.tree import Tree, above, few, shown, tree
 from jumpcad.errors import JumpcadError
+from jumpcad.files import real_path
 from jumpcad.version import __version__
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")
@@ -25,88 +26,152 @@ LIBRARIES = ("manifold3d", "numpy", "trimesh")
 
 
 def write_folder(
-    folder: str | Path, name: str, facts: Mapping[str, Any], contents: Iterable[tuple[str, str | bytes]]
+    folder: str | Path,
+    name: str,
+    facts: Mapping[str, Any],
+    contents: Iterable[tuple[str, str | bytes]],
+    force: bool = False,
 ) -> Bundle:
-    """Write files and the manifest that knows them, in place of an older bundle.
+    """Write files and the manifest that knows them, in place of those of an older bundle.
 
     Parameters
     ----------
     folder
-        Is made, with its parents; may be empty or hold a bundle, which is replaced as a whole.
+        Is made, with its parents; may be empty or hold a bundle, in which what a user added stays.
     name, facts
         What the manifest says beside the versions and the sha256 of every file.
     contents
         Path and content of every file but the manifest.
+    force
+        Whether to replace the bundle of something else, and files that a user edited or added under a name of ours.
 
     Raises
     ------
     JumpcadError
-        If the folder holds anything else, or cannot be written.
+        If the folder holds anything else, if something of a user's would be lost, or if it cannot be written.
     """
-    target = Path(folder).resolve()
-    _require_free(target)
-    files = {path: data.encode() if isinstance(data, str) else data for path, data in contents}
+    target = _place(folder)
     manifest = {
         "format": FORMAT,
         "name": name,
         "versions": {"jumpcad": __version__} | {lib: importlib.metadata.version(lib) for lib in LIBRARIES},
         **facts,
     }
-    return _put(target, manifest, files)
+    old, new = _held(target), Bundle(target, manifest)
+    if old and old.content != new.content and not force:
+        raise JumpcadError(
+            f"{target}: holds {old.content}, not {new.content}; choose another folder with -o, "
+            "or replace it with --force"
+        )
+    files = {path: data.encode() if isinstance(data, str) else data for path, data in contents}
+    return _put(new, old, files, set(old.files) if old else set(), force)
 
 
-def change_files(bundle: Bundle, contents: Mapping[str, str], versions: Mapping[str, str]) -> Bundle:
-    """Put other contents into files that a bundle has; the manifest then knows them and what wrote them.
+def change_files(
+    bundle: Bundle, contents: Mapping[str, str | bytes], versions: Mapping[str, str], force: bool = False
+) -> Bundle:
+    """Put contents into some files of a bundle, new ones too; the manifest then knows them and what wrote them.
 
     Raises
     ------
     JumpcadError
-        If the folder cannot be read or written.
+        If something of a user's would be lost, or the folder cannot be read or written.
     """
-    target = bundle.folder.resolve()
-    try:
-        files = {path: (target / path).read_bytes() for path in bundle.files}
-    except OSError as error:
-        raise JumpcadError(f"{target}: cannot be read: {error.strerror}") from None
+    target = _place(bundle.folder)
     manifest = {**bundle.manifest, "versions": {**bundle.manifest["versions"], **versions}}
-    return _put(target, manifest, files | {path: text.encode() for path, text in contents.items()})
+    files = {path: data.encode() if isinstance(data, str) else data for path, data in contents.items()}
+    return _put(Bundle(target, manifest), bundle, files, set(files), force)
 
 
-def _put(target: Path, manifest: Mapping[str, Any], files: Mapping[str, bytes]) -> Bundle:
-    """Write files with a manifest that knows their sha256."""
-    known = {**manifest, "files": {path: hashlib.sha256(data).hexdigest() for path, data in sorted(files.items())}}
-    text = json.dumps(known, indent=2, allow_nan=False) + "\n"
+def require_unedited(bundle: Bundle, paths: Iterable[str], force: bool = False) -> None:
+    """Refuse, before the work, what `change_files` would refuse after it: files that are not as jumpcad wrote them.
+
+    Raises
+    ------
+    JumpcadError
+        Naming them.
+    """
+    with _plain_errors(bundle.folder):
+        _kept(bundle, tree(bundle.folder), dict.fromkeys(paths, b""), set(), force)
+
+
+def _put(new: Bundle, old: Bundle | None, files: Mapping[str, bytes], gone: set[str], force: bool) -> Bundle:
+    """Write files in the place of those that go, with a manifest that knows their sha256 and that of what stays."""
+    stays = {} if old is None else {path: digest for path, digest in old.manifest["files"].items() if path not in gone}
+    digests = stays | {path: hashlib.sha256(data).hexdigest() for path, data in files.items()}
+    manifest = {**new.manifest, "files": dict(sorted(digests.items()))}
+    text = json.dumps(manifest, indent=2, allow_nan=False) + "\n"
+    with _plain_errors(new.folder):
+        there = tree(new.folder) if old else {}
+        kept = _kept(old, there, files, gone, force) if old else {}
+        write_in_place(new.folder, {**files, MANIFEST: text.encode()}, there, kept)
+    return Bundle(new.folder, manifest)
+
+
+def _place(folder: str | Path) -> Path:
+    """Return where a folder really lies; refuse one that holds the current folder, which would lose its place."""
+    target = real_path(folder)
     try:
-        _write(target, {**files, MANIFEST: text.encode()})
-    except OSError as error:
-        raise JumpcadError(f"{target}: cannot be written: {error.strerror}") from None
-    return Bundle(target, known)
+        here = Path.cwd().resolve()
+    except OSError:  # somebody removed it
+        return target
+    if target == here or target in here.parents:
+        raise JumpcadError(
+            f"{target}: is or holds the current folder; choose another folder with -o, or leave it first"
+        )
+    return target
 
 
-def _require_free(target: Path) -> None:
-    """Refuse to replace what is not a bundle."""
-    if not target.exists():
-        return
+def _held(target: Path) -> Bundle | None:
+    """Return the bundle that a folder holds, if any; refuse to write over anything else."""
+    if not os.path.lexists(target):
+        return None
     if not target.is_dir():
         raise JumpcadError(f"{target}: is a file; choose another folder with -o")
-    if any(target.iterdir()) and not is_bundle(target):
+    with _plain_errors(target):
+        names = os.listdir(target)
+    if not names:
+        return None
+    if MANIFEST not in names:
         raise JumpcadError(f"{target}: holds files but no {MANIFEST}, so it is not a bundle; choose another with -o")
-
-
-def _write(target: Path, files: Mapping[str, bytes]) -> None:
-    """Write files to a folder beside the target and put it in the target's place."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    workplace = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}."))
     try:
-        fresh = workplace / "new"
-        for path, data in files.items():
-            file = fresh / PurePosixPath(path)
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_bytes(data)
-        if target.exists() and exchanged(fresh, target):
-            return
-        if target.exists():
-            os.rename(target, workplace / "old")
-        os.rename(fresh, target)
-    finally:
-        shutil.rmtree(workplace, ignore_errors=True)
+        return open_bundle(target)
+    except JumpcadError as error:
+        raise JumpcadError(f"{target}: holds files, but is not a bundle; choose another with -o ({error})") from None
+
+
+def _kept(old: Bundle, there: Tree, files: Mapping[str, bytes], gone: set[str], force: bool) -> Tree:
+    """Return what stays in a bundle's folder, in the order of `there`.
+
+    Raises
+    ------
+    JumpcadError
+        If something of a user's would not stay: a file under a name of ours, unless forced; anything else in any case.
+    """
+    touched = there.keys() & {MANIFEST, *gone, *files}
+    solid = {path for path, status in there.items() if path not in touched and not stat.S_ISDIR(status.st_mode)}
+    for path in sorted(touched):
+        if not stat.S_ISREG(there[path].st_mode):
+            raise JumpcadError(f"{old.folder}: {shown(path)}: is no plain file, which belongs there; move it away")
+    folders = {folder for path in files for folder in above(path)}
+    for path in sorted(folders & solid):
+        raise JumpcadError(f"{old.folder}: {shown(path)}: is no folder, which belongs there; move it away")
+    lost = [path for path in sorted(touched - {MANIFEST}) if not force and not old.is_unchanged(path)]
+    lost = [path for path in lost if (old.folder / path).read_bytes() != files.get(path)]
+    if lost:
+        raise JumpcadError(
+            f"{old.folder}: {few(lost)}: edited or added since the bundle was written; "
+            "keep a copy elsewhere, or replace with --force"
+        )
+    ours = {folder for path in old.files for folder in above(path)}
+    needed = {folder for path in solid for folder in above(path)}
+    return {path: status for path, status in there.items() if path in solid | needed or path not in touched | ours}
+
+
+@contextmanager
+def _plain_errors(folder: str | Path) -> Iterator[None]:
+    """Turn what the system says into one line about the folder."""
+    try:
+        yield
+    except OSError as error:
+        raise JumpcadError(f"{folder}: cannot be written: {error.strerror}") from None

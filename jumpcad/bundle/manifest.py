@@ -2,20 +2,71 @@
 
 import hashlib
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, NoReturn
 
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+from jumpcad.bundle.tree import above, is_safe, shown, tree, trouble
 from jumpcad.errors import JumpcadError
 
 MANIFEST = "manifest.json"
 FORMAT = 1
+LARGEST_BYTES = 16_000_000
+"""A manifest has some 20 kB; what is far larger is not read."""
+
+
+def _safe(path: str) -> str:
+    """Let a path pass that stays below the bundle's folder."""
+    if not is_safe(path) or path == MANIFEST:
+        raise ValueError("leads out of the bundle")
+    return path
+
+
+def _apart(files: dict[str, str]) -> dict[str, str]:
+    """Let files pass of which none is the folder of another."""
+    if any(folder in files for path in files for folder in above(path)):
+        raise ValueError("a file is the folder of another")
+    return files
+
+
+Name = Annotated[str, Field(min_length=1, pattern=r"^[^/]*$"), AfterValidator(_safe)]
+Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+
+
+class _MassLine(BaseModel):
+    """Where the mass of a part comes from."""
+
+    model_config = ConfigDict(strict=True, allow_inf_nan=False)
+
+    kind: Literal["printed", "bought"]
+    name: str
+    quantity: Annotated[int, Field(ge=1)]
+    material: str
+    mass_kg: Annotated[float, Field(ge=0.0)]
+    source: str
+
+
+class _Manifest(BaseModel):
+    """What is read of a manifest; it may say more."""
+
+    model_config = ConfigDict(strict=True, allow_inf_nan=False)
+
+    format: int
+    name: Name
+    versions: dict[str, str]
+    masses: list[_MassLine] = []
+    mass_kg: float = 0.0
+    bodies: dict[str, Any] = {}
+    files: Annotated[dict[Annotated[str, AfterValidator(_safe)], Sha256], AfterValidator(_apart)]
 
 
 @dataclass(frozen=True)
 class Bundle:
-    """A folder that holds a robot; `manifest` is what its manifest.json says."""
+    """A folder that holds a robot or the coupon; `manifest` is what its manifest.json says."""
 
     folder: Path
     manifest: Mapping[str, Any]
@@ -26,6 +77,11 @@ class Bundle:
         return str(self.manifest["name"])
 
     @property
+    def content(self) -> str:
+        """What the bundle holds, in words."""
+        return f"the robot {self.name}" if "bodies" in self.manifest else f"the {self.name}"
+
+    @property
     def files(self) -> tuple[str, ...]:
         """The paths of all files but the manifest, relative to the folder."""
         return tuple(self.manifest["files"])
@@ -33,7 +89,25 @@ class Bundle:
     @property
     def urdf(self) -> Path:
         """The URDF file, beside which the loop lies."""
-        return self.folder / "urdf" / f"{self.name}.urdf"
+        self.file(f"urdf/{self.name}.loop.json")
+        return self.file(f"urdf/{self.name}.urdf")
+
+    def file(self, path: str) -> Path:
+        """Return where one of the bundle's files lies.
+
+        Raises
+        ------
+        JumpcadError
+            If the manifest does not list it, or it is no plain file of this folder: missing, a link, behind a link.
+        """
+        wrong = trouble(self.folder, path) if path in self.manifest["files"] else "not in the manifest"
+        if wrong:
+            raise JumpcadError(f"{self.folder}: {shown(path)}: {wrong}; jumpcad build makes the bundle anew")
+        return self.folder / path
+
+    def is_unchanged(self, path: str) -> bool:
+        """Tell whether a plain file is as the manifest says."""
+        return self.manifest["files"].get(path) == _sha256(self.folder / path)
 
 
 def open_bundle(folder: str | Path) -> Bundle:
@@ -45,20 +119,20 @@ def open_bundle(folder: str | Path) -> Bundle:
         If there is none.
     """
     path = Path(folder) / MANIFEST
+    if wrong := trouble(Path(folder), MANIFEST):
+        raise JumpcadError(f"{path}: {wrong}; a bundle has one: jumpcad build makes it")
     try:
-        manifest = json.loads(path.read_text(encoding="utf-8"))
-        if manifest["format"] != FORMAT or not isinstance(manifest["files"], dict):
+        with path.open("rb") as stream:
+            text = stream.read(LARGEST_BYTES + 1)
+        manifest: Any = json.loads(text, parse_constant=_refuse) if len(text) <= LARGEST_BYTES else None
+        if manifest["format"] != FORMAT and isinstance(manifest["format"], int):
             raise JumpcadError(f"{path}: format {manifest['format']}; this version reads {FORMAT}: build it again")
-        return Bundle(Path(folder), manifest)
+        _Manifest.model_validate(manifest)
+        return Bundle(Path(os.path.realpath(folder)), manifest)
     except OSError as error:
-        raise JumpcadError(f"{path}: {error.strerror}; a bundle has one: jumpcad build makes it") from None
-    except (ValueError, KeyError, TypeError):
+        raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
+    except (ValueError, KeyError, TypeError, RecursionError):
         raise JumpcadError(f"{path}: is not the manifest of a bundle: jumpcad build makes it anew") from None
-
-
-def is_bundle(folder: str | Path) -> bool:
-    """Tell whether a folder is that of a bundle."""
-    return (Path(folder) / MANIFEST).is_file()
 
 
 def verify(folder: str | Path) -> list[str]:
@@ -67,14 +141,42 @@ def verify(folder: str | Path) -> list[str]:
     Raises
     ------
     JumpcadError
-        If the folder is not a bundle.
+        If the folder is not a bundle, or a file cannot be read.
     """
     bundle = open_bundle(folder)
     wrong = []
-    for path, digest in bundle.manifest["files"].items():
-        file = bundle.folder / path
-        if not file.is_file():
-            wrong.append(f"{path}: missing")
-        elif hashlib.sha256(file.read_bytes()).hexdigest() != digest:
-            wrong.append(f"{path}: changed")
+    for path in bundle.files:
+        try:
+            reason = trouble(bundle.folder, path) or ("" if bundle.is_unchanged(path) else "changed")
+        except OSError as error:
+            reason = f"cannot be read ({error.strerror})"
+        if reason:
+            wrong.append(f"{path}: {reason}")
     return wrong
+
+
+def unlisted(folder: str | Path) -> list[str]:
+    """Return the paths in a bundle's folder that its manifest does not list: what was added since.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder is not a bundle, or cannot be read.
+    """
+    bundle = open_bundle(folder)
+    try:
+        there = tree(bundle.folder)
+    except OSError as error:
+        raise JumpcadError(f"{error.filename}: cannot be read: {error.strerror}") from None
+    own = {MANIFEST, *bundle.files}.union(*map(above, bundle.files))
+    inner = {parent for path in there for parent in above(path)}
+    return [shown(path) for path in sorted(there.keys() - own - inner)]
+
+
+def _sha256(file: Path) -> str:
+    with file.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def _refuse(constant: str) -> NoReturn:
+    raise ValueError(f"{constant} is no number")

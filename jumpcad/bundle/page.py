@@ -10,6 +10,7 @@ from html import escape
 
 from jumpcad.bundle.bom import BillLine, bill_of_materials, euros
 from jumpcad.checks import constraint_findings
+from jumpcad.exporters.xml import allowed
 from jumpcad.findings import Finding
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.robot import Robot
@@ -30,7 +31,7 @@ NUMERIC = ("quantity", "g each", "€", "margin", "value")
 
 def write_report(robot: Robot, pictures: Mapping[str, bytes]) -> str:
     """Return the page; `pictures` are PNG files by what they show, and become part of it."""
-    name = escape(robot.name)
+    name = escape(allowed(robot.name))
     return "\n".join(
         [
             "<!DOCTYPE html>",
@@ -53,7 +54,7 @@ def write_report(robot: Robot, pictures: Mapping[str, bytes]) -> str:
 def _pictures(pictures: Mapping[str, bytes]) -> Iterator[str]:
     for title, png in pictures.items():
         data = base64.b64encode(png).decode()
-        shown = escape(title)
+        shown = escape(allowed(title))
         yield f'<figure><img alt="{shown}" src="data:image/png;base64,{data}" />'
         yield f"<figcaption>{shown}</figcaption></figure>"
 
@@ -119,5 +120,5 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
         severity = row[-1].partition(":")[0]
         start = f'<tr class="{severity}">' if severity in ("error", "warning") else "<tr>"
         cells = zip(classes, row, strict=True)
-        yield start + "".join(f"<td{kind}>{escape(cell)}</td>" for kind, cell in cells) + "</tr>"
+        yield start + "".join(f"<td{kind}>{escape(allowed(cell))}</td>" for kind, cell in cells) + "</tr>"
     yield "</table>"

@@ -12,7 +12,9 @@ from manifold3d import Manifold, Mesh64
 from jumpcad.bundle.bom import BilledPlate, bill_of_facts, write_bom
 from jumpcad.bundle.folder import change_files
 from jumpcad.bundle.guide import with_bill
+from jumpcad.bundle.inputs import WORKSHOP, kept_workshop
 from jumpcad.bundle.manifest import Bundle, open_bundle, verify
+from jumpcad.bundle.tree import few
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version
@@ -20,12 +22,13 @@ from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import SlabSection
 from jumpcad.transforms import Array
-from jumpcad.workshop import Material, Workshop, load_workshop
+from jumpcad.workshop import Material, Workshop
 
 STRAIGHT_MM = 1e-4
 """Corners nearer than this to a straight line come from the triangles of a wall."""
 SMALLEST_MM2 = 1e-2
 """Cross-sections that differ by less do so because STL files hold 32-bit floats."""
+BOM, GUIDE = "bom.csv", "assembly.md"
 PLATE = re.compile(r"print/(plate-\d+-(.+))\.3mf")
 
 
@@ -103,20 +106,20 @@ def slice_bundle(
         If PrusaSlicer refuses a part.
     """
     if wrong := verify(folder):
-        raise JumpcadError(f"{folder} is not as it was built: {', '.join(wrong)}; jumpcad build makes it anew")
+        raise JumpcadError(f"{folder} is not as it was built: {few(wrong)}; jumpcad build makes it anew")
     bundle = open_bundle(folder)
-    printed = [line for line in bundle.manifest["masses"] if line["kind"] == "printed"]
-    if not printed or "workshop.toml" not in bundle.files:
+    printed = [line for line in bundle.manifest.get("masses", ()) if line["kind"] == "printed"]
+    if not printed or WORKSHOP not in bundle.files:
         raise JumpcadError(f"{folder}: has no printed parts to slice")
     version = slicer_version()
-    built_in = load_workshop(bundle.folder / "workshop.toml")
+    built_in = kept_workshop(bundle)
     workshop = workshop or built_in
-    _require_materials((line["material"] for line in printed), workshop)
+    _require_materials([*(line["material"] for line in printed), *(plate[2] for plate in _plates(bundle))], workshop)
     ignored: dict[str, tuple[str, str]] = {}
     parts, plates = [], []
     for line in printed:
         tell(line["name"])
-        stl, material = bundle.folder / f"stl/{line['name']}.stl", workshop.materials[line["material"]]
+        stl, material = bundle.file(f"stl/{line['name']}.stl"), workshop.materials[line["material"]]
         sliced = slice_part(stl, workshop.printer, workshop.process, material)
         ignored |= sliced.ignored
         modelled = _modelled_grams(stl, workshop, material)
@@ -128,7 +131,7 @@ def slice_bundle(
         sliced = slice_plate(path, workshop.printer, workshop.process, workshop.materials[material_name])
         ignored |= sliced.ignored
         plates.append(SlicedPlate(name, material_name, _some(path, sliced), sliced.time_s))
-    billed = workshop == built_in and "bom.csv" in bundle.files
+    billed = workshop == built_in and {BOM, GUIDE} <= set(bundle.files)
     return SlicedBundle(bundle, version, workshop, billed, tuple(parts), tuple(plates), ignored)
 
 
@@ -145,8 +148,11 @@ def write_times(found: SlicedBundle) -> Bundle:
         {part.name: part.time_s for part in found.parts},
         [BilledPlate(plate.name, plate.material, plate.time_s) for plate in found.plates],
     )
-    guide = (bundle.folder / "assembly.md").read_text(encoding="utf-8")
-    changes = {"bom.csv": write_bom(bill), "assembly.md": with_bill(guide, bill)}
+    try:
+        guide = bundle.file(GUIDE).read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise JumpcadError(f"{bundle.folder}: {GUIDE}: not a text file in UTF-8") from None
+    changes = {BOM: write_bom(bill), GUIDE: with_bill(guide, bill)}
     return change_files(bundle, changes, {"PrusaSlicer": found.version})
 
 
@@ -154,7 +160,7 @@ def _plates(bundle: Bundle) -> Iterator[tuple[Path, str, str]]:
     """Yield file, name and material of each plate."""
     for path in bundle.files:
         if found := PLATE.fullmatch(path):
-            yield bundle.folder / path, found[1], found[2]
+            yield bundle.file(path), found[1], found[2]
 
 
 def _require_materials(names: Iterable[str], workshop: Workshop) -> None:

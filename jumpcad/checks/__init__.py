@@ -5,10 +5,12 @@ front_link_buckling, eye_strength, foot_lug_strength, toe_strength, toe_landing,
 plate_seat, cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
 roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
 motor_torque; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
-solid; `interference` interference; and those of `jumpcad.mechanism.feasibility`: loop, below_ground, tips, too_weak.
+solid; `interference` interference; `engraving` engraving; and those of `jumpcad.mechanism.feasibility`: loop,
+winding, below_ground, tips, too_weak.
 """
 
 from jumpcad.checks.drive import drive_findings
+from jumpcad.checks.engraving import engraving_findings
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import bed_findings, printability_findings
@@ -32,6 +34,7 @@ def check(robot: Mechanism) -> list[Finding]:
         *foot_findings(robot),
         *printability_findings(robot),
         *interference_findings(robot),
+        *engraving_findings(robot),
     ]
 
 

@@ -1,41 +1,50 @@
-"""The command line: parses, calls, prints. Each command imports what it needs when it runs."""
+"""The command line: ready for an interrupt before anything else is loaded."""
 
+import atexit
+import os
+import signal
 import sys
+from typing import TYPE_CHECKING
 
-import typer
-from typer.exceptions import TyperException
+if TYPE_CHECKING:
+    from types import FrameType
 
-from jumpcad.cli import bundle, check, coupon, designs, explore, optimize, reproduce, simulate, slicing, study
-from jumpcad.errors import JumpcadError
-
-app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
-for module in (designs, bundle, check, slicing, coupon, simulate, reproduce, explore, optimize, study):
-    module.register(app)
-
-
-@app.callback()
-def jumpcad() -> None:
-    """From eight numbers to a jumping robot that can be printed, simulated and trusted."""
+INTERRUPTED = 130
+AGAIN_S = 0.02
 
 
 def main() -> None:
-    """Run the command line.
-
-    Errors of the user end in one line on standard error with exit code 2 (1 where the answer is no), an interrupt in
-    130; anything else is a bug and keeps its traceback.
-    """
+    """Run the command line; see `jumpcad.cli.commands.run` for the exit codes, besides 130 for an interrupt."""
+    listening = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # nohup and & have it ignored
+    if listening:
+        signal.signal(signal.SIGINT, _interrupt)
     try:
-        code = app(standalone_mode=False, prog_name="jumpcad")
-        sys.exit(_refuse("interrupted", 130) if code == 130 else code)  # typer turns an interrupt into 130 in silence
-    except TyperException as error:
-        usage = error.format_message()
-        sys.exit(_refuse(f"{usage.rstrip('.')} (see jumpcad --help)", 2) if usage else 0)
-    except JumpcadError as error:
-        sys.exit(_refuse(str(error), error.exit_code))
-    except (KeyboardInterrupt, typer.Abort):
-        sys.exit(_refuse("interrupted", 130))
+        from jumpcad.cli.commands import run
+
+        code = run(sys.argv[1:])
+    except KeyboardInterrupt:
+        from jumpcad.cli.output import complain
+
+        code = complain("interrupted", INTERRUPTED)
+    finally:
+        if listening:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+    atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)  # all is done; an interrupt would only be a traceback
+    sys.exit(code)
 
 
-def _refuse(message: str, exit_code: int) -> int:
-    print(f"jumpcad: {message}", file=sys.stderr)
-    return exit_code
+def _interrupt(number: int, frame: "FrameType | None") -> None:
+    """Raise KeyboardInterrupt; while a module loads, a moment later.
+
+    Compiled modules abort the process then, or take it for a failure of their own.
+    """
+    import threading  # late, as is everything that takes a millisecond
+
+    while frame is not None and frame.f_code is not main.__code__:
+        if frame.f_code.co_filename == "<frozen importlib._bootstrap>":
+            again = threading.Timer(AGAIN_S, os.kill, (os.getpid(), number))
+            again.daemon = True
+            again.start()
+            return
+        frame = frame.f_back
+    raise KeyboardInterrupt

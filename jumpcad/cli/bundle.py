@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
-from jumpcad.cli.subjects import designed
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status
+from jumpcad.cli.subjects import WorkshopOption, bundle_of, design_file, designed, tell_template
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from jumpcad.simulation import Jump
 
 EXPORTS = Path("exports")
+PICTURES = "pictures"
+GIF = "jump.gif"
 WIDE = 140
 """Columns of a table that no terminal shows."""
 
@@ -29,23 +31,31 @@ def register(app: typer.Typer) -> None:
 
 
 def build(
-    design: Annotated[str, typer.Argument(help="A template's name or a design file.", metavar="DESIGN")],
-    workshop: Annotated[str, typer.Option(help="Workshop: a template's name or a file.")] = "default",
+    design: Annotated[str, typer.Argument(help="A template's name, a design file, a bundle.", metavar="DESIGN|BUNDLE")],
+    workshop: WorkshopOption = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Folder of the bundle [exports/NAME].")] = None,
     pictures: Annotated[bool, typer.Option(help="Draw the robot.")] = True,
     step: Annotated[bool, typer.Option("--step", help="Write STEP files of the parts too.")] = False,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Build a robot: parts to print, files to simulate, what to buy, and how far it jumps."""
+    """Build a robot: parts to print, files to simulate, what to buy, and how far it jumps.
+
+    In a folder that holds the robot already, its files are replaced and everything else stays.
+    """
     from jumpcad.bundle.export import export
     from jumpcad.mechanism.capsule import capsule_robot
     from jumpcad.simulation import simulate
     from jumpcad.simulation.engines import default_engine
 
+    tell_template(design)
     with progress(f"building {design}"):
         robot = designed(design, workshop)
+    folder = output or EXPORTS / robot.name
+    if not force:
+        _require_same_design_file(robot, design_file(design), folder)
     with progress(f"writing {robot.name}"):
-        bundle = export(robot, output or EXPORTS / robot.name, pictures, step)
+        bundle = export(robot, folder, pictures, step, force)
     with progress(f"simulating {robot.name}"):
         engine = default_engine()
         printed, capsule = (simulate(one, engine=engine) for one in (robot, capsule_robot(robot.design)))
@@ -61,67 +71,101 @@ def render(
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="Folder [BUNDLE/pictures, or NAME-pictures].")
     ] = None,
-    workshop: Annotated[str, typer.Option(help="Workshop of a design: a template's name or a file.")] = "default",
+    workshop: WorkshopOption = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
-    from jumpcad.bundle.manifest import is_bundle
-    from jumpcad.bundle.renders import jump_gif, renders
+    from jumpcad.bundle.folder import change_files, require_unedited
+    from jumpcad.bundle.renders import RENDERS, jump_gif, renders
+    from jumpcad.outputs import require_free, write_files
     from jumpcad.simulation import Settings, simulate
     from jumpcad.simulation.engines import default_engine
 
+    tell_template(subject)
+    names = [*(f"{name}.png" for name in RENDERS), GIF]
+    bundle = bundle_of(subject, workshop) if output is None else None
+    if bundle:
+        require_unedited(bundle, [f"{PICTURES}/{name}" for name in names], force)
     with progress(f"building {subject}"):
         robot = designed(subject, workshop)
-    beside = Path(subject) / "pictures" if is_bundle(subject) else Path(f"{robot.name}-pictures")
-    folder = output or beside
+    folder = output or (Path(subject, PICTURES) if bundle else Path(f"{robot.name}-{PICTURES}"))
+    if not bundle:
+        for name in names:
+            require_free(folder / name, force)
     with progress(f"drawing {robot.name}"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
     if jump.trajectory is not None:
         with progress(f"filming {robot.name}"):
-            files["jump.gif"] = jump_gif(robot, jump.trajectory)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, data in files.items():
-            (folder / name).write_bytes(data)
-    except OSError as error:
-        raise JumpcadError(f"{folder}: cannot be written: {error.strerror}") from None
+            files[GIF] = jump_gif(robot, jump.trajectory)
+    if bundle:
+        change_files(bundle, {f"{PICTURES}/{name}": data for name, data in files.items()}, {}, force)
+    else:
+        write_files(folder, files)
     if as_json:
         print_json({"folder": str(folder), "files": sorted(files), "verdict": jump.verdict})
         return
     for name in sorted(files):
         print(folder / name)
     if jump.trajectory is None:
-        print(f"no jump.gif: {jump.verdict}")
+        print(f"no {GIF}: {jump.verdict}")
 
 
 def verify(
     bundle: Annotated[Path, typer.Argument(help="A bundle's folder.", metavar="BUNDLE")], as_json: JsonFlag = False
 ) -> None:
-    """Compare a bundle's files with its manifest; the exit code is 1 if one is changed or missing."""
-    from jumpcad.bundle.manifest import open_bundle
+    """Compare a bundle's files with its manifest; the exit code is 1 if one is changed or missing.
+
+    Files that were added are named, but change nothing.
+    """
+    from jumpcad.bundle.manifest import open_bundle, unlisted
     from jumpcad.bundle.manifest import verify as differences
 
-    wrong = differences(bundle)
+    wrong, added = differences(bundle), unlisted(bundle)
     if as_json:
-        print_json({"bundle": str(bundle), "differences": wrong})
+        print_json({"bundle": str(bundle), "differences": wrong, "added": added})
     else:
-        print("\n".join(wrong) or f"{bundle}: {len(open_bundle(bundle).files)} files, all as they were built")
+        whole = f"{bundle}: {len(open_bundle(bundle).files)} files, all as they were built"
+        print("\n".join([*(wrong or [whole]), *(f"{path}: added, not in the manifest" for path in added)]))
     if wrong:
         raise typer.Exit(1)
+
+
+def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
+    """Refuse to replace a bundle of the robot's name that was made from another design file.
+
+    A design file that says something else than the bundle was edited since the build, or is another one. As for make,
+    the dates decide: who edits a file makes it younger than what was built from it.
+    """
+    from jumpcad.bundle.inputs import DESIGN
+    from jumpcad.bundle.manifest import open_bundle
+
+    try:
+        bundle = open_bundle(folder)
+        kept = bundle.file(DESIGN)
+        edited = file.stat().st_mtime_ns >= kept.stat().st_mtime_ns
+        same = kept.read_bytes() == robot.design.to_toml().encode()
+    except (JumpcadError, OSError):
+        return  # no such bundle, or the writing says what is wrong
+    if edited or same or bundle.name != robot.name:
+        return
+    raise JumpcadError(
+        f"{folder}: holds another design, built after {file} was last changed; choose another folder with -o, "
+        "or replace it with --force"
+    )
 
 
 @contextmanager
 def progress(doing: str) -> Iterator[None]:
     """Show on standard error what is being done, where a person watches."""
-    from rich.console import Console
-
-    with Console(stderr=True).status(f"{doing} …"):
+    with status(f"{doing} …"):
         yield
 
 
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return what `build` says at its end."""
+    from jumpcad.checks.engraving import engraving_findings
     from jumpcad.checks.strength import strength_findings
     from jumpcad.findings import errors
 
@@ -141,6 +185,7 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
             "electrical_j": train.electrical_j,
             "efficiency": energy / train.electrical_j,
         },
+        "notes": [finding.message for finding in engraving_findings(robot)],
         "too_weak": [finding.to_dict() for finding in errors(strength_findings(robot))],
         "jump": printed.to_dict(),
         "capsule_jump": capsule.to_dict(),
@@ -148,7 +193,6 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
 
 
 def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table("part", "quantity", "material", "g each", "g", "mass from", box=None, pad_edge=False)
@@ -159,8 +203,8 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
         row = (line["quantity"], line["material"], f"{grams:.2f}", f"{line['quantity'] * grams:.2f}", line["source"])
         table.add_row(line["name"], *map(str, row))
     table.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
-    console = Console()
-    Console(width=console.width if console.is_terminal else WIDE).print(table)
+    screen = console()
+    console(width=screen.width if screen.is_terminal else WIDE).print(table)
     winding, jump = facts["winding"], facts["jump"]
     print()
     print(f"springs        {facts['spring_energy_j']:.4f} J")
@@ -172,6 +216,8 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
         print(f"take-off       {100.0 * jump['takeoff_energy_ratio']:.1f} % of the springs' energy")
     for finding in facts["too_weak"]:
         print(f"too weak       {finding['message']}: {finding['remedy']}")
+    for note in facts["notes"]:
+        print(f"note           {note}")
     print(f"printed robot  {_said(jump)}")
     print(f"as capsules    {_said(facts['capsule_jump'])}")
     print(f"written        {len(facts['files']) + 1} files in {facts['folder']}")

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import JsonFlag, console, print_json
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
@@ -45,8 +45,8 @@ def check(
 
 
 def _print_table(findings: "list[Finding]") -> None:
-    from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
     table = Table(box=None, pad_edge=False)
     for title in ("", "check", "margin", "found"):
@@ -55,8 +55,8 @@ def _print_table(findings: "list[Finding]") -> None:
         remedy = "" if finding.severity == "info" else f" → {finding.remedy}"
         style = STYLES[finding.severity]
         margin = f"{finding.margin:+.3g} {finding.unit}"
-        table.add_row(f"[{style}]{WORDS[finding.severity]}[/]", finding.name, margin, finding.message + remedy)
-    console = Console()
-    console.print(table)
+        table.add_row(Text(WORDS[finding.severity], style), finding.name, margin, finding.message + remedy)
+    screen = console()
+    screen.print(table)
     counts = {severity: sum(finding.severity == severity for finding in findings) for severity in SEVERITIES}
-    console.print(f"{counts['error']} errors, {counts['warning']} warnings, {counts['info']} limits hold")
+    screen.print(f"{counts['error']} errors, {counts['warning']} warnings, {counts['info']} limits hold")

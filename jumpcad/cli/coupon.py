@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 
 FOLDER = Path("exports/coupon")
 WORKSHOP = Path("my-workshop.toml")
@@ -25,13 +25,14 @@ def coupon(
         Path | None,
         typer.Option("-o", "--output", help=f"Folder [{FOLDER}], or with --measured the workshop file [{WORKSHOP}]."),
     ] = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Write a fit coupon to print; with --measured, turn what it says into a workshop file."""
     if measured is not None:
-        facts = _measured(measured, workshop, output or WORKSHOP)
+        facts = _measured(measured, workshop, output or WORKSHOP, force)
     else:
-        facts = _written(workshop, output or FOLDER)
+        facts = _written(workshop, output or FOLDER, force)
     if as_json:
         print_json(facts)
     elif measured is None:
@@ -45,27 +46,27 @@ def coupon(
         )
 
 
-def _written(workshop: str, folder: Path) -> dict[str, Any]:
+def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
     """Write the coupon and return what to say of it."""
     from jumpcad.coupon.export import export_coupon
     from jumpcad.workshop import load_workshop
 
-    bundle = export_coupon(load_workshop(workshop), folder)
+    bundle = export_coupon(load_workshop(workshop), folder, force)
     return {"folder": str(folder), "files": [*bundle.files], "grams": 1000.0 * bundle.manifest["mass_kg"]}
 
 
-def _measured(readings: Path, workshop: str, output: Path) -> dict[str, Any]:
+def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[str, Any]:
     """Write the workshop with the fits that were read, complete; return what changed."""
     from jumpcad.coupon.readings import Readings, measured_workshop
-    from jumpcad.files import require_new_toml, write_text_atomically
+    from jumpcad.outputs import require_target, write_atomically
     from jumpcad.workshop import load_workshop
 
-    require_new_toml(output)
+    require_target(output, (".toml",), force)
     base = load_workshop(workshop)
     found = measured_workshop(Readings.from_toml(readings), base, str(readings))
     before, after = base.fits.model_dump(), found.fits.model_dump()
     changed = {key: value for key, value in after.items() if value != before[key]}
-    write_text_atomically(output, found.to_toml())
+    write_atomically(output, found.to_toml())
     return {
         "workshop": str(output),
         "fits": {key: {"before": before[key], "after": value} for key, value in changed.items()},

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 
 
 def register(app: typer.Typer) -> None:
@@ -16,15 +16,16 @@ def register(app: typer.Typer) -> None:
 def new(
     file: Annotated[Path, typer.Argument(help="The design file to write.", metavar="FILE.toml")],
     template: Annotated[str, typer.Option("--from", help="A template's name or another design file.")] = "kenan-2.0",
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Write a new design file, copied from a template."""
     from jumpcad.design import load_design
-    from jumpcad.files import require_new_toml, write_text_atomically
+    from jumpcad.outputs import require_target, write_atomically
 
-    require_new_toml(file)
+    require_target(file, (".toml",), force)
     design = load_design(template)
-    write_text_atomically(file, design.to_toml())
+    write_atomically(file, design.to_toml())
     if as_json:
         print_json({"file": str(file), "design": design.model_dump()})
     else:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 from jumpcad.cli.searching import (  # fmt: skip
     BoundOption,
     ChooseOption,
@@ -25,6 +25,8 @@ from jumpcad.cli.searching import (  # fmt: skip
     make_model,
     make_pool,
     make_space,
+    require_plots,
+    require_study,
     watching,
 )
 from jumpcad.errors import JumpcadError
@@ -39,8 +41,10 @@ LEAST_R_SQUARED = 0.5
 """Below it, an importance says more of the surrogate's luck than of the robot."""
 
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
-SamplesOption = Annotated[int, typer.Option(help="Designs sampled for pca and importance.")]
-PointsOption = Annotated[int, typer.Option(help="Values of each parameter in a sweep or on a map's side.")]
+SamplesOption = Annotated[int, typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000)]
+PointsOption = Annotated[
+    int, typer.Option(help="Values of each parameter in a sweep or on a map's side.", min=2, max=1000)
+]
 AroundOption = Annotated[str, typer.Option(help="The design about which sweep and feasibility look.", metavar="DESIGN")]
 OverOption = Annotated[str, typer.Option(help="The two parameters of the feasibility map.", metavar="NAME,NAME")]
 
@@ -70,6 +74,7 @@ def explore(
     engine: EngineOption = None,
     limit: LimitOption = 60.0,
     plots: PlotsOption = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Sweep parameters one at a time, find principal components and importance, or map what is refused.
@@ -83,6 +88,8 @@ def explore(
 
     if view not in VIEWS:
         raise JumpcadError(f"{view!r} is not one of the views {', '.join(VIEWS)}{did_you_mean(view, VIEWS)}")
+    require_study(study)
+    require_plots(plots, force)
     space, robot = make_space(fix, bound, choose, None, None, None), make_model(model, workshop, settings, engine)
     aim, centre = find_objective(objective or "fitness"), load_design(around)
     identity = {

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 from jumpcad.cli.searching import (  # fmt: skip
     AroundOption,
     BoundOption,
@@ -29,10 +29,12 @@ from jumpcad.cli.searching import (  # fmt: skip
     make_model,
     make_pool,
     make_space,
+    require_other_files,
+    require_plots,
+    require_study,
     row_data,
     watching,
 )
-from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.search.models import RobotModel
@@ -50,9 +52,11 @@ MethodArgument = Annotated[
 EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate; the robust pick comes on top.")]
 PresetOption = Annotated[str, typer.Option(help="Settings of the genetic algorithm: recommended or published.")]
 BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated together: more than 1 for many workers.")]
-FromOption = Annotated[Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db")]
+FromOption = Annotated[
+    Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
+]
 OutputOption = Annotated[
-    Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml")
+    Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
 
 
@@ -85,6 +89,7 @@ def optimize(
     limit: LimitOption = 60.0,
     output: OutputOption = None,
     plots: PlotsOption = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
@@ -92,6 +97,7 @@ def optimize(
     Every evaluation is kept in the study file, from which the same command goes on after whatever interrupted it. The
     exit code is 1 if every design was refused.
     """
+    from jumpcad.outputs import require_target
     from jumpcad.search.study import FRONTS, Request, run_study
 
     robot = make_model(model, workshop, settings, engine)
@@ -101,13 +107,17 @@ def optimize(
         from_study, _tolerance_mm(robot),
     )  # fmt: skip
     path = study or Path(request.default_name())
+    require_study(path)
     design_file = output or path.with_suffix(".toml")
-    _refuse_foreign_file(design_file)
-    if not as_json:
-        print(f"study {path}: {request.method} on the {model} robot, free parameters: {request.space.dimension}")
+    require_other_files(path, output=design_file, from_study=from_study)
+    require_target(design_file, (".toml",), force)
+    require_plots(plots, force)
     with make_pool(workers, dask, limit) as pool, watching(evaluations, as_json) as watch:
+        if not as_json:
+            print(f"study {path}: {request.method} on the {model} robot, free parameters: {request.space.dimension}")
         result = run_study(request, path, pool, watch)
     if result.winner is not None:
+        require_target(design_file, (".toml",), force)  # once more: a search takes hours
         _write_design(design_file, result.winner, request)
     pictures = _plot(path, plots)
     if as_json:
@@ -123,21 +133,12 @@ def _tolerance_mm(model: "RobotModel") -> float:
     return 0.2 if model.workshop is None else 2.0 * float(model.workshop.fits.sliding_mm)
 
 
-def _refuse_foreign_file(path: Path) -> None:
-    try:
-        foreign = path.exists() and not path.read_text(encoding="utf-8").startswith(HEADING)
-    except (OSError, UnicodeDecodeError) as error:
-        raise JumpcadError(f"{path}: cannot be read: {error}") from None
-    if foreign:
-        raise JumpcadError(f"{path}: exists already, and not from a search; choose another name with -o")
-
-
 def _write_design(path: Path, winner: "Trial", request: "Request") -> None:
-    from jumpcad.files import write_text_atomically
+    from jumpcad.outputs import sealed, write_atomically
 
     name = request.model.describe()["name"]
     heading = f"{HEADING}: {request.method} on the {name} robot, {request.objective} {winner.score:.4g}.\n"
-    write_text_atomically(path, heading + winner.design.to_toml())
+    write_atomically(path, sealed(heading + winner.design.to_toml()))
 
 
 def _plot(path: Path, folder: Path | None) -> list[str]:

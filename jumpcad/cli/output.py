@@ -1,12 +1,124 @@
-"""How commands speak: one JSON document for programs, text for people."""
+"""How commands speak: one JSON document for programs, text for people, one line for errors.
 
+Names of files and what stands in them may hold anything. Control characters are shown escaped, so that nothing but
+what jumpcad says itself moves a terminal's cursor, and nothing is read as markup.
+"""
+
+import contextlib
 import json
 import math
-from typing import Annotated, Any
+import os
+import re
+import sys
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
+from jumpcad.errors import JumpcadError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
 JsonFlag = Annotated[bool, typer.Option("--json", help="Print one JSON document instead of text.")]
+ForceFlag = Annotated[bool, typer.Option("--force", help="Replace files that are there and not as jumpcad wrote them.")]
+
+CONTROL = "[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]"
+"""What moves the cursor, hides or turns around text, and halves of characters (bytes of a path that are no UTF-8)."""
+COLOUR = "\x1b\\[[0-9;]*m"
+
+
+class OutputClosed(Exception):
+    """Nobody reads standard output any more."""
+
+
+def escaped(text: str) -> str:
+    """Return text on one line, its control characters as Python writes them: a line feed as \\n."""
+    return re.sub(CONTROL, _escape, text)
+
+
+def complain(message: str, exit_code: int) -> int:
+    """Print an error as one line on standard error; return the exit code."""
+    if sys.stderr is not None:
+        try:
+            print(f"jumpcad: {escaped(message)}", file=sys.stderr, flush=True)
+        except OSError:  # there is nobody left to tell
+            _discard(sys.stderr)
+    return exit_code
+
+
+class Output:
+    """Standard output for a command: keeps its lines and colours, escapes other control characters.
+
+    Raises
+    ------
+    OutputClosed
+        When written to, if the reader has gone.
+    JumpcadError
+        If it cannot be written, to a full disk, say.
+    """
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write text."""
+        shown = re.sub(f"({COLOUR}|[\n\t])|{CONTROL}", lambda found: found[1] or _escape(found), text)
+        with self._written():
+            self._stream.write(shown)
+        return len(text)
+
+    def flush(self) -> None:
+        """Write what waits."""
+        with self._written():
+            self._stream.flush()
+
+    @contextlib.contextmanager
+    def _written(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            _discard(self._stream)
+            if isinstance(error, BrokenPipeError):
+                raise OutputClosed from None
+            raise JumpcadError(f"standard output cannot be written: {error.strerror}") from None
+
+
+@contextlib.contextmanager
+def standard_output() -> Iterator[None]:
+    """Let a command print whatever its terminal's encoding lacks, and tell at the end if all was written."""
+    _open_streams()
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    if sys.stdout is None:  # closed by who called
+        yield
+        return
+    output = Output(sys.stdout)
+    with contextlib.redirect_stdout(output):
+        try:
+            yield
+        finally:
+            output.flush()
+
+
+def console(**options: Any) -> "Console":
+    """Return a console for tables that takes text as it is."""
+    from rich.console import Console
+
+    return Console(markup=False, emoji=False, **options)
+
+
+@contextlib.contextmanager
+def status(doing: str) -> Iterator[Callable[[str], None]]:
+    """Show on standard error what is being done, where a person watches; yields what changes the words."""
+    from rich.text import Text
+
+    with console(stderr=True).status(Text(escaped(doing))) as shown:
+        yield lambda text: shown.update(Text(escaped(text)))
 
 
 def print_json(data: Any) -> None:
@@ -25,3 +137,24 @@ def _plain(data: Any) -> Any:
     if isinstance(data, float) and not math.isfinite(data):
         return None
     return data
+
+
+def _escape(found: re.Match[str]) -> str:
+    return found[0].encode("unicode_escape").decode()
+
+
+def _open_streams() -> None:
+    """Open what the caller closed of 0, 1 and 2: a file would get the number, and what libraries print, its bytes."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # the lowest number that is free
+
+
+def _discard(stream: TextIO) -> None:
+    """Send what still waits in a stream nowhere: Python would try once more at the end, and say so."""
+    with contextlib.suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, stream.fileno())
+        os.close(nowhere)

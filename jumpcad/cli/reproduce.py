@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import JsonFlag, console, print_json
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -32,15 +32,13 @@ def reproduce(as_json: JsonFlag = False) -> None:
             }
         )
         return
-    from rich.console import Console
-
-    console = Console(highlight=False)
-    console.print(_results(rows))
-    console.print(reproduction.READING)
-    console.print(_hyperparameters(reproduction.HYPERPARAMETERS))
-    console.print("Why the published figures and the evaluator's differ:")
+    screen = console(highlight=False)
+    screen.print(_results(rows))
+    screen.print(reproduction.READING)
+    screen.print(_hyperparameters(reproduction.HYPERPARAMETERS))
+    screen.print("Why the published figures and the evaluator's differ:")
     for reason in reproduction.WHY_THEY_DIFFER:
-        console.print(f"- {reason}")
+        screen.print(f"- {reason}")
 
 
 def _results(rows: "list[Reproduction]") -> "Table":

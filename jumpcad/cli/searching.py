@@ -1,5 +1,6 @@
 """What the commands of the search share: options, the objects made from them, progress, and how rows are shown."""
 
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -8,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad.cli.output import console
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -18,9 +20,11 @@ if TYPE_CHECKING:
     from jumpcad.search.store import Trial
 
 ModelOption = Annotated[str, typer.Option(help="The robot behind the objective: printed, capsule or published.")]
-StudyOption = Annotated[Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db")]
-SeedOption = Annotated[int, typer.Option(help="Decides everything that chance decides.")]
-WorkersOption = Annotated[int | None, typer.Option(help="Processes; one for each core unless given.")]
+StudyOption = Annotated[
+    Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db", dir_okay=False)
+]
+SeedOption = Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)]
+WorkersOption = Annotated[int | None, typer.Option(help="Processes, one for each core unless given; 0 for none.")]
 DaskOption = Annotated[
     str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")
 ]
@@ -45,7 +49,62 @@ WorkshopOption = Annotated[str, typer.Option(help="Workshop of the printed robot
 SettingsOption = Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")]
 EngineOption = Annotated[str | None, typer.Option(help="pybullet or mujoco; the first that is installed.")]
 LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation may take.", metavar="SECONDS")]
-PlotsOption = Annotated[Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER")]
+PlotsOption = Annotated[
+    Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER", file_okay=False)
+]
+
+
+def require_study(study: Path | None) -> None:
+    """Refuse, before a search, a file that cannot be its study.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the file and the way out.
+    """
+    from jumpcad.outputs import require_folder
+
+    if study is None:
+        return
+    if study.suffix != ".db":
+        raise JumpcadError(f"{study}: a study file must end in .db")
+    require_folder(study)
+    if os.path.lexists(study) and not os.path.isfile(study):
+        raise JumpcadError(f"{study}: is there already and is no file; choose another name")
+
+
+def require_other_files(study: Path, **others: Path | None) -> None:
+    """Refuse, before a search, files that are its study file; `others` are by their options: `output` of `--output`.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the option.
+    """
+    from jumpcad.outputs import same_file
+
+    for option, other in others.items():
+        if other is not None and same_file(study, other):
+            raise JumpcadError(f"--{option.replace('_', '-')} {other}: is the study file itself; choose another name")
+
+
+def require_plots(folder: Path | None, force: bool) -> None:
+    """Refuse, before the work, a folder in which pictures cannot be written or would replace a user's own.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the folder or picture and the way out.
+    """
+    from jumpcad.outputs import require_free
+    from jumpcad.report import PICTURES
+
+    if folder is None:
+        return
+    if os.path.lexists(folder) and not os.path.isdir(folder):
+        raise JumpcadError(f"{folder}: is there already and is no folder; choose another name")
+    for name in PICTURES:
+        require_free(folder / f"{name}.svg", force)
 
 
 def make_space(
@@ -96,7 +155,6 @@ def make_pool(workers: int | None, dask: str | None, limit_s: float) -> "Pool":
 @contextmanager
 def watching(total: int, quiet: bool) -> Iterator["Watch"]:
     """Show rate, best and time left on standard error while a search runs, if a terminal is there to see it."""
-    from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     from jumpcad.search.store import SEARCH_PHASES
@@ -105,7 +163,7 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
         TextColumn("{task.fields[rate]}  best {task.fields[best]}"), TimeRemainingColumn(),
     )  # fmt: skip
-    with Progress(*columns, console=Console(stderr=True), disable=quiet or not sys.stderr.isatty()) as progress:
+    with Progress(*columns, console=console(stderr=True), disable=quiet or not sys.stderr.isatty()) as progress:
         task = progress.add_task("search", total=total, rate="", best="–")
         best: list[float] = []
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
-from jumpcad.cli.subjects import designed, written_robot
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.subjects import WorkshopOption, designed, tell_template, written_robot
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -46,11 +46,12 @@ def simulate(
     ],
     capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
-    workshop: Annotated[str, typer.Option(help="Workshop of the printed robot: name or file.")] = "default",
+    workshop: WorkshopOption = None,
     engine: Annotated[str | None, typer.Option(help="pybullet, mujoco or both; the first that is installed.")] = None,
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
     flight: Annotated[bool, typer.Option("--flight", help="Go on to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Simulate one jump: gate, release, take-off, flight.
@@ -59,12 +60,18 @@ def simulate(
     """
     from jumpcad.design import load_design
     from jumpcad.mechanism.capsule import capsule_robot
+    from jumpcad.outputs import require_target
 
     if capsule and published:
         raise JumpcadError("--capsule and --published exclude each other: choose one model")
-    if trajectory and trajectory.suffix not in TRAJECTORY_SUFFIXES:
-        raise JumpcadError(f"{trajectory}: a trajectory file ends in {' or '.join(TRAJECTORY_SUFFIXES)}")
-    written = written_robot(design)
+    if (capsule or published) and workshop is not None:
+        raise JumpcadError(f"--workshop {workshop}: cannot apply to a robot that is not printed; leave it out")
+    if published and (flight or trajectory):
+        raise JumpcadError("--flight and --trajectory cannot apply to --published; leave them out")
+    if trajectory:
+        require_target(trajectory, TRAJECTORY_SUFFIXES, force)
+    tell_template(design)
+    written = written_robot(design, workshop)
     subject = written.design if written else load_design(design)
     if published:
         _published(subject, engine, as_json)
@@ -171,16 +178,16 @@ def _difference_percent(jumps: "list[Jump]") -> float | None:
 
 def _write_trajectory(path: Path, jump: "Jump") -> None:
     """Write the trajectory, one row or object a moment; a refused design has none."""
-    from jumpcad.files import write_text_atomically
+    from jumpcad.outputs import write_atomically
 
     if jump.trajectory is None:
         return
     if path.suffix == ".json":
         columns = {name: values.tolist() for name, values in jump.trajectory.columns().items()}
-        write_text_atomically(path, json.dumps(columns, indent=1) + "\n")
+        write_atomically(path, json.dumps(columns, indent=1) + "\n")
         return
     text = io.StringIO()
     table = csv.DictWriter(text, fieldnames=list(jump.trajectory.columns()), lineterminator="\n")
     table.writeheader()
     table.writerows(jump.trajectory.rows())
-    write_text_atomically(path, text.getvalue())
+    write_atomically(path, text.getvalue())

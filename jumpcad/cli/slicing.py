@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status
 
 if TYPE_CHECKING:
     from jumpcad.bundle.sliced import SlicedBundle
@@ -31,26 +31,25 @@ def slice_command(
             help="Write the workshop, complete, with the sliced grams as weighed masses.", metavar="FILE.toml"
         ),
     ] = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Slice a bundle with PrusaSlicer: grams beside the mass model, printing times, settings that it ignored.
 
     The times go into the bundle's bill of materials and guide, unless another workshop prints it.
     """
-    from rich.console import Console
-
     from jumpcad.bundle.sliced import slice_bundle, write_times
-    from jumpcad.files import require_new_toml, write_text_atomically
+    from jumpcad.outputs import require_target, write_atomically
     from jumpcad.workshop import load_workshop
 
     if write_masses is not None:
-        require_new_toml(write_masses)
+        require_target(write_masses, (".toml",), force)
     printed_by = load_workshop(workshop) if workshop else None
-    with Console(stderr=True).status("slicing …") as status:
-        found = slice_bundle(bundle, printed_by, lambda name: status.update(f"slicing {name} …"))
+    with status("slicing …") as tell:
+        found = slice_bundle(bundle, printed_by, lambda name: tell(f"slicing {name} …"))
     if write_masses is not None:
-        require_new_toml(write_masses)  # once more: slicing takes a minute
-        write_text_atomically(write_masses, found.weighed.to_toml())
+        require_target(write_masses, (".toml",), force)  # once more: slicing takes a minute
+        write_atomically(write_masses, found.weighed.to_toml())
     if found.billed:
         write_times(found)
     if as_json:
@@ -107,7 +106,6 @@ def _tell(found: "SlicedBundle") -> None:
 
 def _print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print a table as wide as it needs to be; columns of figures are set right."""
-    from rich.console import Console
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)
@@ -115,4 +113,4 @@ def _print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
         table.add_column(title, justify="right" if rows[0][number][:1] in "+-0123456789" else "left", no_wrap=True)
     for row in rows:
         table.add_row(*row)
-    Console(width=WIDE).print(table)
+    console(width=WIDE).print(table)

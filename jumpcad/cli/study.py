@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, print_json
-from jumpcad.cli.searching import PlotsOption, row_data
+from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.searching import PlotsOption, require_plots, row_data
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ StudiesArgument = Annotated[
     list[Path], typer.Argument(help="One study to look at, or several to compare.", metavar="F.db…")
 ]
 ExportOption = Annotated[Path | None, typer.Option(help="Write all rows to FILE.csv or FILE.parquet.", metavar="FILE")]
-ListOption = Annotated[int, typer.Option("--list", help="Show the best rows.", metavar="COUNT")]
+ListOption = Annotated[int, typer.Option("--list", help="Show the best rows.", metavar="COUNT", min=0)]
 
 
 def register(app: typer.Typer) -> None:
@@ -29,6 +29,7 @@ def study(
     best: ListOption = 5,
     export: ExportOption = None,
     plots: PlotsOption = None,
+    force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the rows."""
@@ -37,12 +38,13 @@ def study(
 
     if len(files) > 1 and (export or plots):
         raise JumpcadError("--export and --plots are for one study; name one file")
+    require_plots(plots, force)
     summaries = []
     for file in files:
         with StudyStore.read(file) as store:
             summaries.append(_summary(file, store, best))
             if export is not None:
-                write_table(store.rows(), export)
+                write_table(store.rows(), export, force)
             if plots is not None:
                 from jumpcad.search.studies import plot_study
 

@@ -1,34 +1,89 @@
 """What commands are given: a template, a design file, a bundle, or a URDF file."""
 
+import os
+import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
+    from jumpcad.bundle.manifest import Bundle
     from jumpcad.mechanism.model import Mechanism
     from jumpcad.robot import Robot
 
+WorkshopOption = Annotated[
+    str | None, typer.Option(help="Workshop of the printed robot: a template's name or a file.", show_default="default")
+]
 
-def designed(subject: str, workshop: str) -> "Robot":
+
+def tell_template(subject: str) -> None:
+    """Say on standard error that a bare name is the template's, where a bundle of that name lies in this folder."""
+    from jumpcad.bundle.manifest import MANIFEST
+
+    folder = os.path.join(os.curdir, subject)
+    if _is_template(subject) and os.path.lexists(os.path.join(folder, MANIFEST)):
+        print(f"jumpcad: {subject} is the template; write {folder} for the bundle of this name", file=sys.stderr)
+
+
+def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
+    """Return the bundle that a subject stands for, if it stands for one: a folder, unless it is a template's bare name.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder is not a bundle, or a workshop is given for one: it was built in its own.
+    """
+    from jumpcad.bundle.manifest import open_bundle
+
+    if _is_template(subject) or not os.path.isdir(subject):
+        return None
+    bundle = open_bundle(subject)
+    if workshop is not None:
+        raise JumpcadError(
+            f"--workshop {workshop}: {subject} is a bundle, built in a workshop of its own; "
+            f"give {Path(subject, 'design.toml')} to build it in another"
+        )
+    return bundle
+
+
+def designed(subject: str, workshop: str | None) -> "Robot":
     """Return the printed robot of a bundle (from the inputs that it keeps), of a template, or of a design file."""
     from jumpcad.building import build as build_robot
-    from jumpcad.bundle.manifest import is_bundle, open_bundle
+    from jumpcad.bundle.inputs import kept_design, kept_workshop
     from jumpcad.design import load_design
-    from jumpcad.workshop import load_workshop
+    from jumpcad.workshop import DEFAULT, load_workshop
 
-    if is_bundle(subject):
-        bundle = open_bundle(subject)
-        inputs = load_design(bundle.folder / "design.toml"), load_workshop(bundle.folder / "workshop.toml")
-        return build_robot(*inputs, bundle.name)
+    if bundle := bundle_of(subject, workshop):
+        return build_robot(kept_design(bundle), kept_workshop(bundle), bundle.name)
     name = Path(subject).name.removesuffix(".toml")
-    return build_robot(load_design(subject), load_workshop(workshop), name)
+    return build_robot(load_design(subject), load_workshop(workshop or DEFAULT), name)
 
 
-def written_robot(subject: str) -> "Mechanism | None":
+def design_file(subject: str) -> Path:
+    """Return the file in which the design of a bundle, a template or a design file stands."""
+    from jumpcad.files import find_template
+
+    bundle = bundle_of(subject)
+    return bundle.file("design.toml") if bundle else find_template("robots", subject)
+
+
+def written_robot(subject: str, workshop: str | None) -> "Mechanism | None":
     """Return the mechanism of a bundle or a URDF file, read from that file; None for anything else."""
-    from jumpcad.bundle.manifest import is_bundle, open_bundle
     from jumpcad.simulation.from_urdf import robot_from_urdf
 
-    path = Path(subject)
-    if path.suffix == ".urdf":
-        return robot_from_urdf(path)
-    return robot_from_urdf(open_bundle(path).urdf) if is_bundle(path) else None
+    if bundle := bundle_of(subject, workshop):
+        return robot_from_urdf(bundle.urdf)
+    if Path(subject).suffix != ".urdf":
+        return None
+    if workshop is not None:
+        raise JumpcadError(f"--workshop {workshop}: {subject} is simulated as it is written; leave --workshop out")
+    return robot_from_urdf(Path(subject))
+
+
+def _is_template(subject: str) -> bool:
+    from jumpcad.files import template_names
+
+    return subject in template_names("robots")

@@ -7,9 +7,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from jumpcad.bundle.folder import write_folder
-from jumpcad.bundle.manifest import Bundle, is_bundle, verify
+from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, pieces
-from jumpcad.errors import JumpcadError
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.files import templates_folder
 from jumpcad.parts.holes import HoleSizes
@@ -23,18 +22,17 @@ READINGS = "readings.toml"
 GUIDE = "guides/coupon.md"
 
 
-def export_coupon(workshop: Workshop, folder: str | Path) -> Bundle:
+def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -> Bundle:
     """Write the coupon of a workshop: a gauge in every material that a role uses, gears in that of the gears.
 
     Raises
     ------
     JumpcadError
-        If the folder holds anything but a bundle or a coupon whose readings were filled in, or cannot be written.
+        If the folder holds anything but a coupon, or one whose readings were filled in (unless forced), or cannot be
+        written.
     CannotBuildError
         If a piece does not fit the bed.
     """
-    if is_bundle(folder) and f"{READINGS}: changed" in verify(folder):
-        raise JumpcadError(f"{folder}: {READINGS} has been filled in; choose another folder with -o or move it away")
     holes = coupon_holes(workshop)
     made = pieces(holes, list(workshop.materials), workshop.material_name("gears"))
     masses = [
@@ -49,7 +47,7 @@ def export_coupon(workshop: Workshop, folder: str | Path) -> Bundle:
         for piece in made
     ]
     facts = {"mass_kg": sum(_mass_kg(piece, workshop) for piece in made), "masses": masses}
-    return write_folder(folder, "coupon", facts, _contents(workshop, holes, made))
+    return write_folder(folder, "coupon", facts, _contents(workshop, holes, made), force)
 
 
 def _contents(workshop: Workshop, holes: HoleSizes, made: Sequence[Piece]) -> Iterator[tuple[str, str | bytes]]:

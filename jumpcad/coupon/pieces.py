@@ -16,7 +16,7 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.text import text
+from jumpcad.solids.text import engravable, text
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import Workshop
 
@@ -146,7 +146,8 @@ def gauge(holes: HoleSizes, steps: Ladders, title: str) -> Stack:
     rows = gauge_rows(holes, steps)
     across = max(row.size_mm for row in rows) + 2.0 * MARGIN_MM
     left = TITLE_MM + 2.0 * MARGIN_MM
-    letters = [text(title, TITLE_MM).translate((MARGIN_MM, -MARGIN_MM - TITLE_MM))]
+    named = [text(title, TITLE_MM)] if engravable(title).strip() else []
+    letters = [name.translate((MARGIN_MM, -MARGIN_MM - TITLE_MM)) for name in named]
     cut: list[Region] = []
     pegs: list[Region] = []
     y = -2.0 * MARGIN_MM - TITLE_MM

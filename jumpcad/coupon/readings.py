@@ -25,6 +25,7 @@ from jumpcad.coupon.pieces import PEGS_MM, coupon_holes, ladders
 from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable
+from jumpcad.names import Name
 from jumpcad.workshop import Workshop
 
 LEAST_PLAY_MM = 0.05
@@ -60,7 +61,7 @@ class TriedGears(TomlTable):
 class Readings(Record):
     """Everything read from a coupon: gauges by material, and gears."""
 
-    gauge: dict[str, Tried] = Field(default_factory=dict)
+    gauge: dict[Name, Tried] = Field(default_factory=dict)
     gears: TriedGears = TriedGears()
 
     def contradictions(self) -> Iterator[Contradiction]:

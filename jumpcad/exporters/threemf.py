@@ -10,6 +10,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 import numpy.typing as npt
 
+from jumpcad.exporters.xml import allowed
 from jumpcad.printing.plates import Placed, Printable, PrintPlate
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
@@ -59,7 +60,7 @@ def _model(plate: PrintPlate) -> str:
         items.append(_item(numbers[name], placed))
     return (
         f'{XML}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}">\n'
-        f'<metadata name="Title">{escape(plate.name)}</metadata>\n'
+        f'<metadata name="Title">{escape(allowed(plate.name))}</metadata>\n'
         '<metadata name="Application">jumpcad</metadata>\n'
         f"<resources>\n{''.join(objects)}</resources>\n<build>\n{''.join(items)}</build>\n</model>\n"
     )
@@ -70,7 +71,7 @@ def _object(number: int, part: Printable) -> str:
     vertices = _lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.mesh.vertices.astype(np.float32))
     triangles = _lines('<triangle v1="%d" v2="%d" v3="%d"/>\n', part.mesh.faces)
     return (
-        f'<object id="{number}" type="model" name={quoteattr(part.name)}>\n<mesh>\n'
+        f'<object id="{number}" type="model" name={quoteattr(allowed(part.name))}>\n<mesh>\n'
         f"<vertices>\n{vertices}</vertices>\n<triangles>\n{triangles}</triangles>\n</mesh>\n</object>\n"
     )
 

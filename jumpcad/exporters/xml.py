@@ -1,5 +1,6 @@
 """What the XML formats share: elements whose numbers are written so that they read back as the same doubles."""
 
+import re
 import xml.etree.ElementTree as ET
 from typing import TypeAlias
 
@@ -7,9 +8,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
+from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array
 
 Value: TypeAlias = str | float | npt.ArrayLike
+
+FORBIDDEN = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What is no character of XML (XML 1.0, production 2)."""
 
 
 def add(parent: ET.Element, tag: str, text: Value | None = None, **attributes: Value) -> ET.Element:
@@ -28,9 +33,29 @@ def written(value: Value) -> str:
 
 
 def document(root: ET.Element) -> str:
-    """Return an XML document, indented."""
+    """Return an XML document, indented.
+
+    Raises
+    ------
+    JumpcadError
+        If a text holds a character that no XML document may hold.
+    """
     ET.indent(root)
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + allowed(ET.tostring(root, encoding="unicode")) + "\n"
+
+
+def allowed(text: str) -> str:
+    """Return a text that XML may hold; XML has no way to write most control characters, not even escaped.
+
+    Raises
+    ------
+    JumpcadError
+        If it holds another character.
+    """
+    if found := FORBIDDEN.search(text):
+        around = text[max(found.start() - 20, 0) : found.end() + 20]
+        raise JumpcadError(f"{around!r}: XML cannot hold the character U+{ord(found[0]):04X}: leave it out")
+    return text
 
 
 def rpy(rotation: Array) -> Array:

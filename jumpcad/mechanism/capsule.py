@@ -9,6 +9,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Mechanism, five_bar
@@ -22,6 +23,7 @@ LENGTH_PER_RADIUS = 25.0
 """Longest link over the radius of every capsule in the published model."""
 
 
+@typed
 def capsule_robot(design: Design) -> Mechanism:
     """Return the robot of a design that has the published masses and no parts.
 

@@ -21,10 +21,15 @@ TAKEOFF_ENERGY_FACTOR = 1.3
 
 
 def geometry_findings(design: Design) -> list[Finding]:
-    """Return the findings `loop` and `below_ground` of a design; the second only where the first holds."""
+    """Return the findings `loop` and `below_ground` of a design; the second only where the first holds.
+
+    A design whose legs cannot be wound at all has the finding `winding` instead.
+    """
     assembly = design.assembly_margin_mm
     if assembly <= 0:
         return [_loop_finding(assembly, "there is no pose with parallel legs and a flat foot")]
+    if design.compression_rad <= 0:
+        return [_winding_finding(design)]
     linkage = Linkage(design)
     margin = linkage.closing_margin_mm()
     loop = _loop_finding(margin, "foot and front link must reach each other over the whole travel")
@@ -89,6 +94,17 @@ def centre_of_mass_on_foot_mm(mechanism: Mechanism, linkage: Linkage, pose: Pose
 def _complex(point: Array) -> npt.NDArray[np.complex128]:
     """Return points (..., 2) of the x-z plane as x + iz, which exp(-i·angle) turns about +y."""
     return point[..., 0] + 1j * point[..., 1]
+
+
+def _winding_finding(design: Design) -> Finding:
+    """Return the finding of a body that hangs nose-down by more than the legs stand off it at rest."""
+    to_flat = design.rest_angle_deg + math.degrees(design.beta_rad)
+    return Finding(
+        "winding", "error", to_flat, "°",
+        f"there is nothing to wind: the body tilts by {math.degrees(design.beta_rad):.1f}° at rest, so that "
+        f"{to_flat:.1f}° are left of rest_angle_deg = {design.rest_angle_deg:g} to a flat leg",
+        "bring c_coef nearer to 1, or raise d_coef",
+    )  # fmt: skip
 
 
 def _loop_finding(margin_mm: float, why: str) -> Finding:

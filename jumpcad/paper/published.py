@@ -8,6 +8,9 @@ import math
 from dataclasses import dataclass
 from types import ModuleType
 
+import numpy as np
+
+from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.mechanism.capsule import BODY_MASS_KG, DENSITY_KG_M3, LENGTH_PER_RADIUS
 from jumpcad.simulation.engines import import_pybullet
@@ -43,6 +46,7 @@ class PublishedJump:
     energy_j: float
 
 
+@typed
 def simulate(design: Design) -> PublishedJump:
     """Return the jump that the study's simulation gives for a design.
 
@@ -86,7 +90,8 @@ def _geometry(design: Design) -> _Geometry:
     if l3 == l2:
         beta, l1 = 0.0, l4
     else:
-        beta = math.asin((l3 - l2) * math.sin(rest) / l4)
+        # The study's arcsine: the C library's differs in the last bit of one argument in twelve.
+        beta = float(np.arcsin((l3 - l2) * math.sin(rest) / l4))
         l1 = l4 * math.sin(rest - beta) / math.sin(rest)
     return _Geometry(
         l1=l1 / 1000.0,
@@ -122,7 +127,8 @@ def _jump(bullet: ModuleType, client: int, design: Design, geometry: _Geometry) 
                 _, y, z = bullet.getBasePositionAndOrientation(robot, **here)[0]  # before the step
                 height = max(height, z)
                 # The spring's zero is the assembled pose, and its torque is held over the whole step.
-                torque = -math.degrees(angle) * stiffness_nm_per_deg
+                # In this order: math.degrees rounds otherwise, which moves one design in eight by more than 1e-9 m.
+                torque = -angle * 180 / math.pi * stiffness_nm_per_deg
                 bullet.setJointMotorControl2(robot, LEG, bullet.TORQUE_CONTROL, force=torque, **here)
                 if flown > BLIND_S and bullet.getContactPoints(robot, ground, **here):
                     return y - start_y, height

@@ -27,7 +27,7 @@ from jumpcad.solids.outline import (
     strips,
     union,
 )
-from jumpcad.solids.text import text
+from jumpcad.solids.text import engravable, text
 
 RIB_MM = 3.2
 EDGE_MM = 3.2
@@ -44,20 +44,23 @@ TAB_MM = 10.0
 def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     """Return the left plate, at the side of the gears, and the right one with the socket that holds the motor.
 
-    Without a name nothing is engraved.
+    Without a name nothing is engraved, and of a name what the engraving's font has.
     """
+    label = engravable(name).strip()
     motor, lateral = layout.drive.train.motor, layout.lateral
     common = _outline(layout) - _openings(layout, holes)
     y0, y1 = lateral.left_plate
     region = common - hole(holes.loose(motor.shaft_mm), layout.motor_mm)
-    left = _drawing("body_plate_left", holes, [(y0, y1, region)], (y1 - ENGRAVING_MM, y1), name and f"{name} L", "left")
+    left = _drawing(
+        "body_plate_left", holes, [(y0, y1, region)], (y1 - ENGRAVING_MM, y1), name and f"{label} L".strip(), "left"
+    )
     y0, y1 = lateral.right_plate
     play = 2.0 * holes.fits.sliding_mm
     cavity = _motor_box(layout, motor.width_mm + play, motor.height_mm + play)
     window = _motor_box(layout, motor.width_mm - 2.0, motor.height_mm - 2.0)
     taps = union(hole(holes.fits.m2_tap_mm, place) for place in ear_places(layout))
     slabs = [(y0, y1, common - window), (y1, lateral.motor[1], socket_outline(layout) - cavity - taps)]
-    right = _drawing("body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), name and f"{name} R", "right")
+    right = _drawing("body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), name and f"{label} R".strip(), "right")
     return [left, right]
 
 

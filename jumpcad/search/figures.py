@@ -1,5 +1,6 @@
 """Figures as files: no display, one style, the same bytes for the same data."""
 
+import io
 from pathlib import Path
 from typing import Any
 
@@ -7,7 +8,7 @@ import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from jumpcad.errors import JumpcadError
+from jumpcad.outputs import sealed, write_files
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#d9822b", "#8a8f98", "#b3322b"
 STYLE: dict[Any, Any] = {
@@ -33,14 +34,11 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
 
 
 def save(figure: Figure, folder: Path, name: str) -> Path:
-    """Write a figure as `folder/name.svg` and return the path."""
-    path = folder / f"{name}.svg"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with matplotlib.rc_context(STYLE):
-            figure.savefig(path, metadata={"Date": None})
-    except OSError as error:
-        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
+    """Write a figure as `folder/name.svg`, with a seal, and return the path."""
+    stream = io.StringIO()
+    with matplotlib.rc_context(STYLE):
+        figure.savefig(stream, format="svg", metadata={"Date": None})
+    (path,) = write_files(folder, {f"{name}.svg": sealed(stream.getvalue(), "<!-- {} -->")})
     return path
 
 

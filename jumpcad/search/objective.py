@@ -73,12 +73,17 @@ class Objective:
         Raises
         ------
         JumpcadError
-            If the model behind the evaluation does not give the figures that the objective needs.
+            If the model behind the evaluation does not give the figures that the objective needs, or one of them is 0
+            where it divides.
         """
         if not evaluation.feasible:
             return None
         try:
             return float(self.figure(evaluation.metrics))
+        except ZeroDivisionError:
+            raise JumpcadError(
+                f"the objective {self.name} of an evaluation divides by 0: its figures are wrong"
+            ) from None
         except KeyError as missing:
             raise JumpcadError(
                 f"the objective {self.name} needs {missing.args[0]}, which this model does not give: "

@@ -32,6 +32,9 @@ TASK_S = 0.1
 ANSWER_S = 10.0
 """How long a Dask scheduler may take to answer."""
 
+MOST_WORKERS = 256
+LONGEST_S = 86400.0
+
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 
@@ -178,8 +181,9 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
         workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if workers < 0:
         raise JumpcadError(f"workers = {workers} must be at least 1 (0 evaluates without worker processes)")
-    if limit_s <= 0:
-        raise JumpcadError(f"limit = {limit_s:g} s must be more than 0: the time that one evaluation may take")
+    if workers > MOST_WORKERS:
+        raise JumpcadError(f"workers = {workers} must be at most {MOST_WORKERS}; more machines take part by Dask")
+    _require_limit(limit_s)
     if workers == 0:
         return Pool(InProcess, InProcess.shutdown, 1)
 
@@ -191,13 +195,23 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     return Pool(open_executor, lambda executor: executor.shutdown(kill_workers=True), workers, limit_s)
 
 
+def _require_limit(limit_s: float) -> None:
+    if not 0 < limit_s <= LONGEST_S:  # false for what is no number, too
+        raise JumpcadError(
+            f"limit = {limit_s:g} s must be more than 0 and at most {LONGEST_S:g}: the time of one evaluation"
+        )
+
+
 def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
     """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad)."""
+    _require_limit(limit_s)
     try:
         from distributed import Client
+        from distributed.comm import resolve_address
     except ImportError:
         raise JumpcadError("Dask is not installed: pip install 'jumpcad[dask]', or use --workers") from None
     try:
+        resolve_address(address)  # first: a client that was refused its address complains when it is collected, too
         client = Client(address, timeout=ANSWER_S, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         raise JumpcadError(f"no Dask scheduler answers at {address}: {error}") from None

@@ -5,28 +5,40 @@ may read it meanwhile. A row's place is where the search proposed it (phase, ste
 search fills the same places, whoever computes them and however often it is interrupted.
 """
 
+import itertools
 import json
 import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
+from jumpcad.complaints import shown
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.errors import JumpcadError
-from jumpcad.findings import Finding
+from jumpcad.names import without_controls
+from jumpcad.search.database import connect, lock, open_to_read, plain_errors
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.stored import (
+    require_remembered,
+    stored_count,
+    stored_design,
+    stored_evaluation,
+    stored_figure,
+    stored_proposal,
+    stored_text,
+)
 
 APPLICATION_ID = 0x4A554D50
 FORMAT = 1
-PATIENCE_S = 5.0
-"""How long a reader or writer waits for another one to finish."""
 PHASES = ("ga", "bo", "pareto", "nsga2", "sample", "sweep", "margin", "bounds", "robust")
 """All phases, in the order in which a study goes through them; the last three look around the best."""
 SEARCH_PHASES = PHASES[:-3]
+LEARNING_PHASES = ("bo", "pareto")
+"""Phases that, after a first step, go on from the hyperparameters of the step before."""
 
 _SCHEMA = f"""
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -45,6 +57,8 @@ _COLUMNS = (
     "phase", "step", "place", *PARAMETERS,
     "model", "verdict", "score", "metrics", "findings", "detail", "proposal", "duration_s",
 )  # fmt: skip
+_TEXTS = ("phase", "model", "verdict", "metrics", "findings", "detail", "proposal")
+"""Columns that are read as bytes: damaged text is then found in the row that holds it."""
 
 Key = tuple[float, ...]
 
@@ -80,10 +94,10 @@ class Trial:
 class StudyStore:
     """An open study file; made by `StudyStore.write` or `StudyStore.read`."""
 
-    def __init__(self, path: Path | None, connection: sqlite3.Connection, lock: int | None = None) -> None:
+    def __init__(self, path: Path | None, connection: sqlite3.Connection, claim: int | None = None) -> None:
         self.path = path
         self._connection = connection
-        self._lock = lock
+        self._claim = claim
 
     @classmethod
     def write(cls, path: Path | None, identity: Mapping[str, Any]) -> "StudyStore":
@@ -94,35 +108,46 @@ class StudyStore:
         JumpcadError
             If the file holds another study, is no study, is damaged, or is being written by another run.
         """
-        lock = None if path is None else _lock(path)
+        claim = None if path is None else lock(path)
         try:
-            with _plain_errors(path):
-                store = cls(path, _connect(":memory:" if path is None else str(path)), lock)
+            with plain_errors(path):
+                store = cls(path, connect(":memory:" if path is None else os.path.abspath(path)), claim)
                 store._prepare(identity)
             return store
         except BaseException:
-            if lock is not None:
-                os.close(lock)
+            if claim is not None:
+                os.close(claim)
             raise
 
     @classmethod
     def read(cls, path: Path) -> "StudyStore":
-        """Open a study for reading, also while it is being written."""
+        """Open a study for reading, also while it is being written, and in a folder that may not be written to.
+
+        Raises
+        ------
+        JumpcadError
+            If there is no such file, or it is no study, is damaged, or cannot be opened.
+        """
         if not path.is_file():
-            raise JumpcadError(f"{path}: no such study file")
-        with _plain_errors(path):
-            # Not mode=ro: that would leave the log beside the file, which the last one to close should fold in.
-            store = cls(path, _connect(f"{path.absolute().as_uri()}?mode=rw"))
-            store._check_format()
-            store._connection.execute("PRAGMA query_only = ON")
+            reason = "is a folder, a pipe or a device, not a study file" if path.exists() else "no such study file"
+            raise JumpcadError(f"{path}: {reason}")
+        with plain_errors(path):
+            store = cls(path, open_to_read(path))
+            try:
+                store._check_format()
+                store._require("identity", store.identity)
+                store._connection.execute("PRAGMA query_only = ON")
+            except BaseException:
+                store.close()
+                raise
         return store
 
     def close(self) -> None:
         """Close the file."""
         self._connection.close()
-        if self._lock is not None:
-            os.close(self._lock)
-            self._lock = None
+        if self._claim is not None:
+            os.close(self._claim)
+            self._claim = None
 
     def __enter__(self) -> "StudyStore":
         return self
@@ -137,9 +162,17 @@ class StudyStore:
 
     def recall(self, key: str, default: Any = None) -> Any:
         """Return what was remembered under a key."""
-        with _plain_errors(self.path):
+        with plain_errors(self.path):
             found = self._connection.execute("SELECT value FROM study WHERE key = ?", (key,)).fetchone()
-        return default if found is None else json.loads(found[0])
+        if found is None:
+            return default
+        try:
+            value = json.loads(found[0])
+        except (TypeError, ValueError, RecursionError) as error:
+            raise JumpcadError(f"{self.path}: is damaged: its {key} cannot be read ({shown(str(error))})") from None
+        if key == "stages":
+            self._require(key, value)
+        return value
 
     def remember(self, key: str, value: Any) -> None:
         """Keep plain data under a key."""
@@ -148,9 +181,17 @@ class StudyStore:
 
     def rows(self) -> list[Trial]:
         """Return all rows in the order of their study."""
-        with _plain_errors(self.path):
-            records = self._connection.execute(f"SELECT {', '.join(_COLUMNS)} FROM evaluations").fetchall()
-        return sorted((_row(dict(zip(_COLUMNS, record, strict=True))) for record in records), key=lambda r: r.position)
+        columns = (f"CAST({name} AS BLOB)" if name in _TEXTS else name for name in _COLUMNS)
+        with plain_errors(self.path):
+            records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations").fetchall()
+        space = self.identity.get("space", {})
+        free = sum("fixed" not in part for part in space.values())
+        rows = [self._row(dict(zip(_COLUMNS, record, strict=True)), free) for record in records]
+        rows.sort(key=lambda row: row.position)
+        for one, other in itertools.pairwise(rows):
+            if one.position == other.position:
+                raise JumpcadError(f"{self.path}: is damaged: two rows {one.phase} {one.step} {one.place}")
+        return rows
 
     def append(self, rows: Iterable[Trial]) -> None:
         """Add rows, all or none."""
@@ -165,12 +206,13 @@ class StudyStore:
 
     def notes(self) -> list[str]:
         """Return the lines about what happened to the run."""
-        with _plain_errors(self.path):
-            return [text for (text,) in self._connection.execute("SELECT text FROM notes ORDER BY rowid")]
+        with plain_errors(self.path):
+            notes = self._connection.execute("SELECT text FROM notes ORDER BY rowid").fetchall()
+        return [without_controls(str(text)) for (text,) in notes]
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
-        with _plain_errors(self.path):
+        with plain_errors(self.path):
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield
@@ -201,6 +243,32 @@ class StudyStore:
                 f"{self.path}: holds another study ({difference}); repeat its own request or name another file"
             )
 
+    def _require(self, key: str, value: Any) -> None:
+        """Refuse what no study remembers under a key."""
+        try:
+            require_remembered(key, value)
+        except JumpcadError as error:
+            raise JumpcadError(f"{self.path}: is damaged: {error}") from None
+
+    def _row(self, record: dict[str, Any], free: int) -> Trial:
+        """Return a row as it was written in a search of `free` parameters."""
+        try:
+            phase = stored_text(record, "phase")
+            if phase not in PHASES:
+                raise JumpcadError(f"phase = {shown(phase)} is none of {', '.join(PHASES)}")
+            score = None if record["score"] is None else stored_figure(record, "score")
+            step, proposal = stored_count(record, "step"), stored_proposal(record, free)
+            if phase in LEARNING_PHASES and step and "theta" not in proposal:
+                raise JumpcadError("proposal.theta: missing")
+            return Trial(
+                phase, step, stored_count(record, "place"), stored_design(record),
+                stored_evaluation(record), score, stored_text(record, "model"), stored_figure(record, "duration_s"),
+                proposal,
+            )  # fmt: skip
+        except JumpcadError as error:
+            name = " ".join(shown(record[key]).removeprefix("b") for key in ("phase", "step", "place"))
+            raise JumpcadError(f"{self.path}: is damaged: row {name}: {error}") from None
+
     def _check_format(self) -> None:
         application = self._connection.execute("PRAGMA application_id").fetchone()[0]
         version = self._connection.execute("PRAGMA user_version").fetchone()[0]
@@ -208,51 +276,22 @@ class StudyStore:
             raise JumpcadError(f"{self.path}: is not a study file")
         if version != FORMAT:
             raise JumpcadError(f"{self.path}: is a study of format {version}; this version of jumpcad reads {FORMAT}")
+        if _schema(self._connection) != _own_schema():
+            raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: its tables are not ours")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
 
 
-def _connect(target: str) -> sqlite3.Connection:
-    return sqlite3.connect(target, uri=target.startswith("file:"), isolation_level=None, timeout=PATIENCE_S)
+def _schema(connection: sqlite3.Connection) -> list[tuple[str, str, str]]:
+    """Return type, name and definition of everything that a database holds."""
+    return connection.execute("SELECT type, name, sql FROM sqlite_master ORDER BY name").fetchall()
 
 
-def _lock(path: Path) -> int:
-    """Claim a study file for this process until the returned descriptor is closed, or the process ends.
-
-    This kind of lock is apart from those by which SQLite lets readers and a writer take turns.
-    """
-    import fcntl
-
-    try:
-        descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
-    except OSError as error:
-        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        os.close(descriptor)
-        raise JumpcadError(f"{path}: is being written by another run; wait for it, or name another file") from None
-    return descriptor
-
-
-@contextmanager
-def _plain_errors(path: Path | None) -> Iterator[None]:
-    """Turn what SQLite says into one line about the file."""
-    try:
-        yield
-    except sqlite3.IntegrityError:
-        raise
-    except sqlite3.DatabaseError as error:
-        text = str(error)
-        if "locked" in text or "busy" in text:
-            reason = "is locked by another program; close it there and repeat the command"
-        elif "full" in text or "I/O error" in text:
-            reason = f"cannot be written ({text}); free some space and repeat the command: it goes on where it was"
-        elif "readonly" in text or "unable to open" in text:
-            reason = f"cannot be opened ({text})"
-        else:
-            reason = f"is damaged, or is not a study file ({text})"
-        raise JumpcadError(f"{path}: {reason}") from None
+@cache
+def _own_schema() -> list[tuple[str, str, str]]:
+    connection = sqlite3.connect(":memory:")
+    connection.executescript(_SCHEMA)
+    return _schema(connection)
 
 
 def _difference(there: Any, here: Any, name: str = "") -> str:
@@ -263,7 +302,9 @@ def _difference(there: Any, here: Any, name: str = "") -> str:
             if found:
                 return found
         return ""
-    return "" if there == here else f"{name}: {json.dumps(there)} there, {json.dumps(here)} here"
+    if there == here:
+        return ""
+    return f"{without_controls(name)}: {json.dumps(there)[:200]} there, {json.dumps(here)[:200]} here"
 
 
 def _record(row: Trial) -> tuple[Any, ...]:
@@ -276,13 +317,3 @@ def _record(row: Trial) -> tuple[Any, ...]:
 
 
 _text = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), check_circular=False).encode
-
-
-def _row(record: dict[str, Any]) -> Trial:
-    findings = tuple(Finding(**finding) for finding in json.loads(record["findings"]))
-    evaluation = Evaluation(record["verdict"], json.loads(record["metrics"]), findings, record["detail"])
-    return Trial(
-        record["phase"], record["step"], record["place"],
-        Design.from_vector([record[name] for name in PARAMETERS]), evaluation,
-        record["score"], record["model"], record["duration_s"], json.loads(record["proposal"]),
-    )  # fmt: skip

@@ -26,6 +26,8 @@ from jumpcad.search.store import SEARCH_PHASES, StudyStore, Trial
 
 FRONTS = ("pareto", "nsga2")
 """Methods that look for a front instead of one best design."""
+MOST_EVALUATIONS = 1_000_000
+"""A week at two a second."""
 METHODS = ("ga+bo", "ga", "bo", *FRONTS)
 LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 """Packages that decide what is proposed next, beside those that decide an evaluation."""
@@ -72,16 +74,16 @@ class Request:
         if self.method not in METHODS:
             hint = did_you_mean(self.method, METHODS)
             raise JumpcadError(f"{self.method!r} is not one of the methods {', '.join(METHODS)}{hint}")
-        for name, value, least in (
-            ("evaluations", self.evaluations, 1),
-            ("seed", self.seed, 0),
-            ("batch", self.batch, 1),
-            ("tolerance_mm", self.tolerance_mm, 0),
+        for name, value, least, most in (
+            ("evaluations", self.evaluations, 1, MOST_EVALUATIONS),
+            ("seed", self.seed, 0, 2**32 - 1),
+            ("batch", self.batch, 1, MOST_EVALUATIONS),
+            ("tolerance_mm", self.tolerance_mm, 0, 100),
         ):
             if value < least:
                 raise JumpcadError(f"{name} = {value:g} must be at least {least}")
-        if self.seed >= 2**32:
-            raise JumpcadError(f"seed = {self.seed} must be less than 2^32")
+            if value > most:
+                raise JumpcadError(f"{name} = {value} must be at most {most}")
 
     def identity(self, prior: Sequence[Trial]) -> dict[str, Any]:
         """Return all that decides the rows of the study, except how many they are."""

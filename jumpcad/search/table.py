@@ -1,13 +1,13 @@
 """Rows of a study as a table: CSV for everybody, Parquet for many rows."""
 
-import csv
 import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from jumpcad.csv_text import to_csv
 from jumpcad.errors import JumpcadError
-from jumpcad.files import write_text_atomically
+from jumpcad.outputs import require_target, write_atomically
 from jumpcad.search.store import Trial
 
 
@@ -18,39 +18,32 @@ def table(rows: Sequence[Trial]) -> list[dict[str, Any]]:
     return [_record(row, metrics, margins) for row in rows]
 
 
-def write_table(rows: Sequence[Trial], path: Path) -> None:
-    """Write rows to a new `.csv` or `.parquet` file.
+def write_table(rows: Sequence[Trial], path: Path, force: bool = False) -> None:
+    """Write rows to a `.csv` or `.parquet` file, over one that is there only if forced.
 
     Raises
     ------
     JumpcadError
         If the file exists, ends otherwise, or cannot be written; for Parquet also if PyArrow is not installed.
     """
-    if path.exists():
-        raise JumpcadError(f"{path}: exists already; choose another name or remove it first")
+    require_target(path, (".csv", ".parquet"), force)
     records = table(rows)
     if path.suffix == ".csv":
-        stream = io.StringIO()
-        writer = csv.DictWriter(stream, list(records[0]) if records else ["phase"], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(records)
-        write_text_atomically(path, stream.getvalue())
-    elif path.suffix == ".parquet":
-        _write_parquet(records, path)
+        columns = list(records[0]) if records else ["phase"]
+        write_atomically(path, to_csv([columns, *(list(record.values()) for record in records)]))
     else:
-        raise JumpcadError(f"{path}: a table ends in .csv or .parquet")
+        write_atomically(path, _parquet(records))
 
 
-def _write_parquet(records: list[dict[str, Any]], path: Path) -> None:
+def _parquet(records: list[dict[str, Any]]) -> bytes:
     try:
         import pyarrow
         from pyarrow import parquet
     except ImportError:
         raise JumpcadError("PyArrow is not installed: pip install 'jumpcad[parquet]', or export to .csv") from None
-    try:
-        parquet.write_table(pyarrow.Table.from_pylist(records), path)
-    except OSError as error:
-        raise JumpcadError(f"{path}: cannot be written: {error}") from None
+    stream = io.BytesIO()
+    parquet.write_table(pyarrow.Table.from_pylist(records), stream)
+    return stream.getvalue()
 
 
 def _record(row: Trial, metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:

@@ -32,7 +32,7 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
 
     Parameters
     ----------
-    robot
+    mechanism
         Its bodies, joints, loop and spring are simulated.
     settings
         Time step, friction and so on; the default settings if None.

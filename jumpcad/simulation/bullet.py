@@ -54,7 +54,10 @@ class BulletEngine:
             try:
                 yield world
             finally:
-                self._bullet.removeBody(world.robot_id, physicsClientId=self._client)
+                if world.blown_up():  # its NaN would stay in the client, and no later robot would jump
+                    self._bullet.disconnect(physicsClientId=self._client)
+                else:
+                    self._bullet.removeBody(world.robot_id, physicsClientId=self._client)
 
     def _prepare(self, settings: Settings) -> None:
         bullet = self._bullet
@@ -142,6 +145,11 @@ class BulletWorld:
         return State(
             values[:, 0:3], rotation, values[:, 3:6], values[:, 6:9], bullet.getJointState(mechanism, LEG, client)[0]
         )
+
+    def blown_up(self) -> bool:
+        """Say whether a body's place or speed is no number any more."""
+        state = self.state()
+        return not all(np.isfinite(values).all() for values in (state.com_m, state.velocity_m_s))
 
     def _create(self, mechanism: Mechanism, bodies: list[Body], release: Release) -> int:
         bullet, client = self._bullet, self._client

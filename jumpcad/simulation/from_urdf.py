@@ -1,15 +1,43 @@
-"""A robot read back from its URDF file and the JSON file beside it: what is simulated is then what was written."""
+"""A robot read back from its URDF file and the JSON file beside it: what is simulated is then what was written.
 
-import json
+Such files may come from strangers. Both are read strictly, as far as a simulation needs them; whatever no `jumpcad
+build` writes and no mechanism can have is refused, nothing is guessed or set right.
+"""
+
 import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
+from jumpcad.complaints import did_you_mean, shown
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.model import Body, ContactSphere, Joint, Loop, Mechanism, Spring
+from jumpcad.files import read_bytes, read_json
+from jumpcad.mechanism.model import BODY_NAMES, Body, ContactSphere, Joint, Loop, Mechanism, Spring, five_bar
+from jumpcad.names import LONGEST_TEXT, control_character
+from jumpcad.simulation.loop_file import JointName, LoopFile
+from jumpcad.transforms import Array
+
+JOINTS: tuple[JointName, ...] = ("leg", "front", "ankle")
+NUMBERS = {"xyz": 3, "rpy": 3, "scale": 3, "rgba": 4, "damping": 1, "friction": 1}
+"""Attributes that hold numbers wherever they stand, also where no simulation needs them."""
+LARGEST_M = 10.0
+"""How far anything of a robot may be from the origin of its frame."""
+MASS_KG = 1e-6, 1e3
+"""Masses that a body may have."""
+GYRATION_M = 1e-5, 10.0
+"""Radii of gyration that a body may have."""
+TRIANGLE_SHARE = 1e-6
+"""By what share the largest principal moment may exceed the sum of the others, for rounding."""
+LARGEST_EFFORT = 1e6
+"""Limit of a joint's torque (N·m) and speed (rad/s)."""
+SAME_M, SAME_RAD = 1e-6, 1e-6
+"""By how much the mechanism of the URDF may differ from its design's."""
 
 
 def robot_from_urdf(path: Path) -> Mechanism:
@@ -18,57 +46,216 @@ def robot_from_urdf(path: Path) -> Mechanism:
     Raises
     ------
     JumpcadError
-        If the file, or `NAME.loop.json` beside it, is missing, broken, or lacks something.
+        If the file, or `NAME.loop.json` beside it, is missing, broken, lacks something, or holds values that no
+        mechanism can have.
     """
-    from yourdfpy import URDF
-
     beside = path.with_suffix(".loop.json")
     for file in (path, beside):
-        if not file.is_file():
+        if not file.exists():
             raise JumpcadError(f"{file}: no such file; jumpcad build writes the URDF and its loop together")
-    try:
-        model = URDF.load(
-            str(path), build_scene_graph=False, load_meshes=False, build_collision_scene_graph=False,
-            load_collision_meshes=False,
-        ).robot  # fmt: skip
-        extra = json.loads(beside.read_text(encoding="utf-8"))
-        bodies = {link.name: _body(link, extra["surfaces"]) for link in model.links}
-        loop, spring = extra["loop"], extra["spring"]
-        return Mechanism(
-            name=model.name,
-            design=Design(**extra["design"]),
-            bodies=bodies,
-            joints=tuple(_joint(joint, extra["travel_rad"]) for joint in model.joints),
-            loop=Loop(loop["body_a"], np.array(loop["point_a_m"]), loop["body_b"], np.array(loop["point_b_m"])),
-            spring=Spring(spring["joint"], spring["stiffness_nm_per_rad"], spring["wind_rad"]),
-            foot_depth_m=float(extra["foot_depth_m"]),
+    content, data = read_bytes(path, "a URDF file"), read_json(beside)
+    with _named_file(beside):
+        extra = LoopFile.of(data)
+        design = Design(**extra.design)
+    with _named_file(path):
+        root = _parsed(content)
+        links, joints = _named(root, "link", BODY_NAMES), _named(root, "joint", JOINTS)
+        loop = extra.loop
+        mechanism = Mechanism(
+            name=_text(root, "name"),
+            design=design,
+            bodies={name: _body(links[name], extra.surfaces) for name in BODY_NAMES},
+            joints=tuple(_joint(joints[name], extra.travel_rad[name]) for name in JOINTS),
+            loop=Loop(loop.body_a, np.array(loop.point_a_m), loop.body_b, np.array(loop.point_b_m)),
+            spring=Spring(extra.spring.joint, extra.spring.stiffness_nm_per_rad, extra.spring.wind_rad),
+            foot_depth_m=extra.foot_depth_m,
         )
-    except (KeyError, AttributeError, TypeError, ValueError, SyntaxError) as error:
+        _require_mechanism(mechanism)
+    return mechanism
+
+
+@contextmanager
+def _named_file(path: Path) -> Iterator[None]:
+    """Put the name of the file that is wrong before what is wrong."""
+    try:
+        yield
+    except JumpcadError as error:
         raise JumpcadError(f"{path}: not a robot that jumpcad build wrote: {error}") from None
 
 
-def _body(link: Any, surfaces: dict[str, Any]) -> Body:
-    inertial = link.inertial
-    contacts = tuple(
-        ContactSphere(item.name, item.origin[:3, 3].copy(), float(item.geometry.sphere.radius), surfaces[item.name])
-        for item in link.collisions
+class _NoDoctype(ET.TreeBuilder):
+    """Builds trees of documents without a type declaration, in which alone entities can be declared."""
+
+    def doctype(self, name: str, pubid: str | None, system: str | None) -> None:
+        raise JumpcadError("has a document type declaration, which no URDF needs")
+
+
+def _parsed(content: bytes) -> ET.Element:
+    """Return the root of a URDF document."""
+    parser = ET.XMLParser(target=_NoDoctype())
+    try:
+        parser.feed(content)
+        root: ET.Element = parser.close()
+    except (ET.ParseError, ValueError, LookupError) as error:  # the latter two: encodings that are not known
+        raise JumpcadError(f"broken XML: {error}") from None
+    if root.tag != "robot":
+        raise JumpcadError(f"its root is {shown(root.tag)}, not 'robot'")
+    for node in root.iter():
+        for key, count in NUMBERS.items():
+            if key in node.attrib:
+                _numbers(node, key, count)
+    return root
+
+
+def _named(root: ET.Element, tag: str, names: Sequence[str]) -> dict[str, ET.Element]:
+    """Return the elements of a kind by name, which must be exactly those of `names`, each once."""
+    found: dict[str, ET.Element] = {}
+    for node in root.findall(tag):
+        name = _text(node, "name")
+        if name not in names:
+            raise JumpcadError(f"{tag} {shown(name)} is none of {', '.join(names)}{did_you_mean(name, names)}")
+        if name in found:
+            raise JumpcadError(f"{tag} {name} is there twice")
+        found[name] = node
+    if missing := [name for name in names if name not in found]:
+        raise JumpcadError(f"{tag} {missing[0]} is missing")
+    return found
+
+
+def _body(link: ET.Element, surfaces: dict[str, Any]) -> Body:
+    name = _text(link, "name")
+    inertial = _child(link, "inertial", name)
+    com_m, rpy = _origin(inertial, name)
+    mass_kg = _number(_child(inertial, "mass", name), "value", f"{name}: mass", *MASS_KG)
+    node = _child(inertial, "inertia", name)
+    xx, xy, xz, yy, yz, zz = (
+        _number(node, key, f"{name}: inertia", -1e9, 1e9) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     )
-    axes = inertial.origin[:3, :3]
-    tensor = axes @ inertial.inertia @ axes.T
-    return Body(link.name, float(inertial.mass), inertial.origin[:3, 3].copy(), tensor, contacts)
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    _require_inertia(name, mass_kg, tensor)
+    axes = Rotation.from_euler("xyz", rpy).as_matrix()
+    contacts = tuple(_contact(item, name, surfaces) for item in link.findall("collision"))
+    if len({contact.name for contact in contacts}) < len(contacts):
+        raise JumpcadError(f"{name}: two collisions have the same name")
+    return Body(name, mass_kg, com_m, np.einsum("ij,jk,lk->il", axes, tensor, axes), contacts)
 
 
-def _joint(joint: Any, travel_rad: dict[str, list[float]]) -> Joint:
-    turn = joint.origin[:3, :3]
-    lower, upper = travel_rad[joint.name]
+def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:
+    """Refuse a tensor (3, 3) about the centre of mass that no distribution of the mass has.
+
+    Principal moments are positive, and none exceeds the sum of the others (Featherstone, Rigid Body Dynamics
+    Algorithms, section 2.8): a flat body reaches that sum.
+    """
+    low, middle, high = np.linalg.eigvalsh(tensor).tolist()
+    if not low > 0.0:
+        raise JumpcadError(f"{name}: inertia has the principal moment {low:g} kg·m²: must be more than 0")
+    if high > (low + middle) * (1.0 + TRIANGLE_SHARE):
+        raise JumpcadError(
+            f"{name}: inertia has the principal moments {low:g}, {middle:g} and {high:g} kg·m²: "
+            f"none can be more than the other two together"
+        )
+    gyration_m = math.sqrt((low + middle + high) / 2.0 / mass_kg)
+    if not GYRATION_M[0] <= gyration_m <= GYRATION_M[1]:
+        raise JumpcadError(
+            f"{name}: inertia and mass give a radius of gyration of {gyration_m:g} m: "
+            f"must be {GYRATION_M[0]:g}…{GYRATION_M[1]:g}"
+        )
+
+
+def _contact(item: ET.Element, body: str, surfaces: dict[str, Any]) -> ContactSphere:
+    name = _text(item, "name")
+    place = f"{body}: collision {shown(name)}"
+    if name not in surfaces:
+        raise JumpcadError(f"{place}: has no surface in the loop file")
+    centre_m, _ = _origin(item, place)
+    sphere = _child(_child(item, "geometry", place), "sphere", place)
+    return ContactSphere(name, centre_m, _number(sphere, "radius", place, 1e-6, LARGEST_M), surfaces[name])
+
+
+def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> Joint:
+    name = _text(node, "name")
+    place = f"joint {name}"
+    if node.get("type") != "revolute" or not np.array_equal(_numbers(_child(node, "axis", place), "xyz", 3), (0, 1, 0)):
+        raise JumpcadError(f"{place}: must be revolute about the axis 0 1 0")
+    origin_m, (roll, pitch, yaw) = _origin(node, place)
+    if roll or yaw:
+        raise JumpcadError(f"{place}: is turned out of the plane of the mechanism: rpy must be 0 ANGLE 0")
+    limit = _child(node, "limit", place)
+    lower, upper = (_number(limit, key, place, -20.0, 20.0) for key in ("lower", "upper"))
+    if not lower < upper:
+        raise JumpcadError(f"{place}: lower = {lower:g} must be less than upper = {upper:g}")
     return Joint(
-        name=joint.name,
-        parent=joint.parent,
-        child=joint.child,
-        origin_m=joint.origin[:3, 3].copy(),
-        rest_angle_rad=math.atan2(turn[0, 2], turn[0, 0]),
-        lower_rad=lower,
-        upper_rad=upper,
-        effort_nm=float(joint.limit.effort),
-        velocity_rad_s=float(joint.limit.velocity),
+        name=name,
+        parent=_text(_child(node, "parent", place), "link"),
+        child=_text(_child(node, "child", place), "link"),
+        origin_m=origin_m,
+        rest_angle_rad=float(pitch),
+        lower_rad=travel_rad[0],
+        upper_rad=travel_rad[1],
+        effort_nm=_number(limit, "effort", place, 0.0, LARGEST_EFFORT),
+        velocity_rad_s=_number(limit, "velocity", place, 1e-6, LARGEST_EFFORT),
     )
+
+
+def _require_mechanism(mechanism: Mechanism) -> None:
+    """Refuse a tree and a loop that are not those of the design, from which the pose at release comes."""
+    joints, loop, _ = five_bar(mechanism.design, (-mechanism.design.compression_rad, 0.0))
+    for joint in joints:
+        read = mechanism.joint(joint.name)
+        if (read.parent, read.child) != (joint.parent, joint.child):
+            raise JumpcadError(f"joint {joint.name}: must lead from {joint.parent} to {joint.child}")
+        moved_m = float(np.abs(read.origin_m - joint.origin_m).max())
+        turned_rad = abs(read.rest_angle_rad - joint.rest_angle_rad)
+        if moved_m > SAME_M or turned_rad > SAME_RAD:
+            raise JumpcadError(f"joint {joint.name}: its origin is not that of the design in the loop file")
+    if (mechanism.loop.body_a, mechanism.loop.body_b) != (loop.body_a, loop.body_b):
+        raise JumpcadError(f"the loop must join {loop.body_a} and {loop.body_b}")
+    for read_m, point_m in ((mechanism.loop.point_a_m, loop.point_a_m), (mechanism.loop.point_b_m, loop.point_b_m)):
+        if float(np.abs(read_m - point_m).max()) > SAME_M:
+            raise JumpcadError("the points of the loop are not those of the design in the loop file")
+
+
+def _child(node: ET.Element, tag: str, place: str) -> ET.Element:
+    """Return the one child of a kind."""
+    found = node.findall(tag)
+    if len(found) != 1:
+        raise JumpcadError(f"{place}: has {len(found) or 'no'} {tag}, needs one")
+    return found[0]
+
+
+def _text(node: ET.Element, key: str) -> str:
+    text = node.get(key)
+    if not text:
+        raise JumpcadError(f"{node.tag}: has no {key}")
+    if len(text) > LONGEST_TEXT or control_character(text):
+        raise JumpcadError(f"{node.tag}: {key} = {shown(text)}: is too long, or holds a control character")
+    return text
+
+
+def _origin(node: ET.Element, place: str) -> tuple[Array, Array]:
+    """Return where an element lies (3,) in m, and its roll, pitch and yaw (3,) in rad."""
+    origin = _child(node, "origin", place)
+    xyz, rpy = _numbers(origin, "xyz", 3), _numbers(origin, "rpy", 3)
+    if np.abs(xyz).max() > LARGEST_M or np.abs(rpy).max() > 2.0 * math.pi:
+        raise JumpcadError(f"{place}: its origin is further than {LARGEST_M:g} m away, or turned by more than 2π")
+    return xyz, rpy
+
+
+def _number(node: ET.Element, key: str, place: str, lower: float, upper: float) -> float:
+    value = float(_numbers(node, key, 1)[0])
+    if not lower <= value <= upper:
+        raise JumpcadError(f"{place}: {key} = {value:g}: must be {lower:g}…{upper:g}")
+    return value
+
+
+def _numbers(node: ET.Element, key: str, count: int) -> Array:
+    """Return the finite numbers (count,) of an attribute."""
+    text = node.get(key, "")
+    try:
+        plain = text.isascii() and "_" not in text  # Python reads more as numbers than XML does
+        values = np.array([float(word) for word in text.split()[: count + 1] if plain])
+    except ValueError:
+        values = np.empty(0)
+    if len(values) != count or not np.isfinite(values).all():
+        raise JumpcadError(f"{node.tag}: {key} = {shown(text)}: must be {count} finite number{'s' * (count > 1)}")
+    return values

@@ -21,6 +21,8 @@ class MujocoEngine:
 
     def __init__(self) -> None:
         self._mujoco = import_mujoco()
+        # Left alone, it writes a file into the current folder; the audit tells of a run that blew up.
+        self._mujoco.set_mju_user_warning(lambda text: None)
 
     @contextmanager
     def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["MujocoWorld"]:

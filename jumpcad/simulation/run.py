@@ -190,13 +190,14 @@ class Run:
     def _look(self, state: State, record: bool) -> None:
         """Audit a state against the energy at release, counted as that of the springs, and record it if asked for.
 
-        A state that is not finite (a run that blew up) counts as infinitely bad.
+        A state that is not finite (a run that blew up) counts as infinitely bad, and is not recorded.
         """
         gained_j = self.mechanics.energies(state).total_j - self.start_energy_j
         ratio, gap_m = 1.0 + gained_j / self.mechanism.spring.energy_j, self.mechanics.loop_gap_m(state)
-        self.worst_energy_ratio = max(self.worst_energy_ratio, ratio if math.isfinite(ratio) else math.inf)
-        self.worst_gap_m = max(self.worst_gap_m, gap_m if math.isfinite(gap_m) else math.inf)
-        if record and (not self._records or self._records[-1][0] < self.time_s):
+        finite = math.isfinite(ratio) and math.isfinite(gap_m)
+        self.worst_energy_ratio = max(self.worst_energy_ratio, ratio if finite else math.inf)
+        self.worst_gap_m = max(self.worst_gap_m, gap_m if finite else math.inf)
+        if finite and record and (not self._records or self._records[-1][0] < self.time_s):
             self._records.append((self.time_s, state))
 
     def _takeoff(self, time_s: float, state: State, joint_damping_j: float) -> Takeoff:

@@ -20,13 +20,15 @@ TRACED_AT = 100.0  # size at which letters are traced: large enough for smooth c
 def text(label: str, height_mm: float) -> Region:
     """Return a line of text whose capitals have a height, from the origin along +x, standing on y = 0.
 
+    Letters that the font lacks are left out: see `engravable`.
+
     Raises
     ------
     JumpcadError
         If the height is not positive or the label has nothing to draw.
     """
-    font = FT2Font(str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / FONT))
-    font.set_size(TRACED_AT, 72)
+    font = _font()
+    label = engravable(label)
     contours, x = [], 0.0
     for letter in label:
         advance, polygons = _letter(font, letter)
@@ -37,6 +39,19 @@ def text(label: str, height_mm: float) -> Region:
     capital = max(float(polygon[:, 1].max()) for polygon in _letter(font, "H")[1])
     letters = CrossSection(contours, FillRule.NonZero).scale((height_mm / capital, height_mm / capital))
     return letters.simplify(SAGITTA_MM)
+
+
+def engravable(label: str) -> str:
+    """Return what of a label can be engraved: the font has Latin, Greek and Cyrillic letters, but not all there are."""
+    known = _font().get_charmap()
+    return "".join(letter for letter in label if ord(letter) in known)
+
+
+@lru_cache(maxsize=1)
+def _font() -> FT2Font:
+    font = FT2Font(str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / FONT))
+    font.set_size(TRACED_AT, 72)
+    return font
 
 
 def _letter(font: FT2Font, letter: str) -> tuple[float, list]:

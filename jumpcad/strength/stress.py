@@ -82,10 +82,12 @@ class Beam:
 
 
 def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, shell: Shell, upright: bool = False) -> float:
-    """Return the least height of a bar that bears a bending moment.
+    """Return the least height of a bar that bears a bending moment; none at all where there is no moment.
 
     The solid bar's height, the root of 6·M/(b·stress), is the first guess; what the core lacks is then made up for.
     """
+    if moment_nmm == 0.0:
+        return 0.0
     height = math.sqrt(6.0 * moment_nmm / (width_mm * stress_mpa))
     for _ in range(20):
         height *= math.sqrt(float(Beam(width_mm, height, shell, upright).stress_mpa(moment_nmm)) / stress_mpa)

@@ -91,6 +91,37 @@ def test_a_weighed_part_weighs_what_the_scale_says() -> None:
     assert robot.bodies[FOOT].mass_kg - built("kenan-2.0").bodies[FOOT].mass_kg == pytest.approx(gained, rel=1e-9)
 
 
+def weighed(**grams: float) -> Workshop:
+    workshop = load_workshop()
+    return workshop.model_copy(update={"mass": workshop.mass.model_copy(update={"weighed_g": grams})})
+
+
+def test_a_misspelt_weighed_part_is_told_when_the_parts_are_known() -> None:
+    with pytest.raises(
+        JumpcadError, match=r"mass\.weighed_g\.fot: no such part \(did you mean foot\?\); the robot has"
+    ):
+        build(load_design("kenan-2.0"), weighed(fot=12.5))
+
+
+@pytest.mark.parametrize("grams", [-1.0, 0.0, math.nan, math.inf, "5", None, True])
+def test_weights_that_nothing_has_are_refused_in_python_too(grams: float) -> None:
+    with pytest.raises(JumpcadError, match=r"mass\.weighed_g\.foot = .*: must be"):
+        build(load_design("kenan-2.0"), weighed(foot=grams))
+    changed = load_workshop().model_copy(deep=True)
+    changed.mass.weighed_g["foot"] = grams
+    with pytest.raises(JumpcadError, match=r"mass\.weighed_g\.foot = .*: must be"):
+        build(load_design("kenan-2.0"), changed)
+
+
+def test_weights_of_one_robot_do_not_hinder_another() -> None:
+    """Whatever part some robot has may be weighed; robots without it are built as if it were not."""
+    names = {part.name for robot in (geared(), built(LONG_TOES)) for part in robot.parts}
+    others = names - {part.name for part in built("kenan-2.0").parts}
+    assert {"idler", "toe_left", "toe_right"} < others
+    robot = build(load_design("kenan-2.0"), weighed(**dict.fromkeys(others, 1.0)), "kenan-2.0")
+    assert robot.mass_kg == built("kenan-2.0").mass_kg
+
+
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
 def test_body_tensors_belong_to_bodies(name: str) -> None:
     for body in built(name).bodies.values():

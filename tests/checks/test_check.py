@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 import jumpcad
 from jumpcad.checks import constraint_findings
-from jumpcad.cli import app
+from jumpcad.cli.commands import app
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, errors, limit

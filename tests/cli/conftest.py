@@ -1,12 +1,9 @@
 """The command line as a function."""
 
-import sys
 from pathlib import Path
 
 import pytest
-from support.commands import Run
-
-from jumpcad import cli
+from support.commands import Run, exit_code_of
 
 
 @pytest.fixture
@@ -15,10 +12,8 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     monkeypatch.chdir(tmp_path)
 
     def call(*arguments: str) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["jumpcad", *arguments])
-        with pytest.raises(SystemExit) as caught:
-            cli.main()
+        code = exit_code_of(*arguments)
         captured = capsys.readouterr()
-        return int(caught.value.code or 0), captured.out, captured.err
+        return code, captured.out, captured.err
 
     return call

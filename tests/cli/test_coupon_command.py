@@ -65,7 +65,7 @@ def test_readings_that_were_filled_in_are_not_lost(run: Run) -> None:
     Path("c/readings.toml").write_text("[gears]\nturns_freely_mm = 0.1")
     code, out, err = run("coupon", "-o", "c")
     assert (code, out, err.count("\n")) == (2, "", 1)
-    assert "c: readings.toml has been filled in" in err
+    assert "c: readings.toml: edited or added since the bundle was written" in err
     assert "0.1" in Path("c/readings.toml").read_text()
 
 

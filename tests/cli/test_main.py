@@ -10,7 +10,7 @@ import pytest
 from support.commands import Run
 from support.places import ROOT
 
-from jumpcad import cli
+from jumpcad.cli.commands import app
 from jumpcad.design import load_design
 
 HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklearn", "matplotlib", "pygad")
@@ -57,13 +57,16 @@ def test_interrupt_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -
     assert run("new", "robot.toml") == (130, "", "jumpcad: interrupted\n")
 
 
-def test_bug_keeps_its_traceback(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_bug_is_exit_code_3_with_its_traceback(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(_: str) -> None:
         raise ZeroDivisionError
 
     monkeypatch.setattr("jumpcad.design.load_design", broken)
-    with pytest.raises(ZeroDivisionError):
-        run("new", "robot.toml")
+    for more in ((), ("--json",)):
+        code, out, err = run("new", "robot.toml", *more)
+        assert (code, out) == (3, "")
+        assert err.startswith("Traceback")
+        assert err.endswith("\nZeroDivisionError\n")
 
 
 def test_new_writes_a_copy_that_can_be_loaded(run: Run, tmp_path: Path) -> None:
@@ -101,9 +104,9 @@ def test_reproduce_shows_both_worlds(run: Run) -> None:
 
 
 def test_every_command_has_json_and_help(run: Run) -> None:
-    names = [command.callback.__name__ for command in cli.app.registered_commands if command.callback]
+    names = [command.callback.__name__ for command in app.registered_commands if command.callback]
     assert {"new", "simulate", "reproduce"} <= set(names)
-    for command in cli.app.registered_commands:
+    for command in app.registered_commands:
         code, out, err = run(command.name or command.callback.__name__, "--help")
         assert (code, err) == (0, "")
         assert "--json" in out
@@ -112,7 +115,7 @@ def test_every_command_has_json_and_help(run: Run) -> None:
 def test_readme_names_every_command_and_no_other() -> None:
     table = re.findall(r"^\| `jumpcad (\w+)", (ROOT / "README.md").read_text(), re.MULTILINE)
     assert sorted(table) == sorted(
-        command.name or command.callback.__name__ for command in cli.app.registered_commands if command.callback
+        command.name or command.callback.__name__ for command in app.registered_commands if command.callback
     )
 
 

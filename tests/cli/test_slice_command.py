@@ -1,6 +1,7 @@
 """`jumpcad slice`: with PrusaSlicer itself, and with programs that pretend to be it and misbehave."""
 
 import csv
+import hashlib
 import json
 import shutil
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Run
+from support.slicers import OBEDIENT
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle, verify
@@ -20,20 +22,6 @@ from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
 needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
-
-OBEDIENT = """
-import sys
-arguments = sys.argv[1:]
-if "--help" in arguments:
-    sys.exit(print("PrusaSlicer-2.9.1+fake based on Slic3r"))
-value = lambda option: arguments[arguments.index(option) + 1]
-settings = dict(line.rstrip("\\n").split(" = ", 1) for line in open(value("--load")) if " = " in line)
-settings |= {"estimated printing time (normal mode)": "1h 2m 30s"}
-TAMPER
-with open(value("--output"), "w") as gcode:
-    gcode.write("M83\\n;HEIGHT:0.2\\n;TYPE:Perimeter\\nG1 X0 Y0\\nG1 X10 Y0 E100\\n")
-    gcode.writelines(f"; {key} = {value}\\n" for key, value in settings.items())
-"""
 
 
 @pytest.fixture(scope="module")
@@ -229,6 +217,60 @@ def test_changed_and_missing_files_are_named(run: Run, bundle: Path, tmp_path: P
     assert err.count("\n") == 1
 
 
+def test_many_changed_files_are_few_words(run: Run, bundle: Path) -> None:
+    for file in bundle.glob("urdf/meshes/*.stl"):
+        file.unlink()
+    code, _, err = run("slice", str(bundle))
+    assert code == 2
+    assert " more; jumpcad build makes it anew" in err
+    assert err.count(": missing") == 3
+
+
+def test_notes_in_a_bundle_are_in_nobodys_way(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    (bundle / "notes.txt").write_text("mine")
+    assert run("slice", "frog")[0] == 0
+    assert (bundle / "notes.txt").read_text() == "mine"
+
+
+def test_nothing_is_written_or_read_outside_of_a_bundle(
+    run: Run, bundle: Path, pretend: Callable[[str], None], tmp_path: Path
+) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    home = tmp_path / "home"
+    home.mkdir()
+    (home / ".bashrc").write_text("precious")
+    (bundle / "lnk").symlink_to(bundle / "stl")
+    good = (bundle / "manifest.json").read_text()
+    manifest = json.loads(good)
+    manifest["files"]["lnk/../../home/.bashrc"] = hashlib.sha256(b"precious").hexdigest()
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+    code, out, err = run("slice", "frog")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "is not the manifest of a bundle" in err
+
+    (bundle / "manifest.json").write_text(good)
+    (bundle / "bom.csv").rename(home / "bom.csv")
+    (bundle / "bom.csv").symlink_to(home / "bom.csv")
+    before = (home / "bom.csv").read_bytes()
+    code, out, err = run("slice", "frog")
+    assert (code, out) == (2, "")
+    assert "bom.csv: a link" in err
+    assert (home / "bom.csv").read_bytes() == before
+    assert (home / ".bashrc").read_text() == "precious"
+
+
+def test_a_plate_of_an_unknown_material_is_one_line(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    manifest = json.loads((bundle / "manifest.json").read_text())
+    (bundle / "print" / "plate-1-GOLD.3mf").write_bytes(b"x")
+    manifest["files"]["print/plate-1-GOLD.3mf"] = hashlib.sha256(b"x").hexdigest()
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+    code, _, err = run("slice", "frog")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "parts of GOLD" in err
+
+
 def test_what_is_no_bundle_of_parts_is_refused(run: Run, bundle: Path, tmp_path: Path) -> None:
     shutil.copytree(bundle, tmp_path / "bare")
     manifest = json.loads((bundle / "manifest.json").read_text())
@@ -237,7 +279,7 @@ def test_what_is_no_bundle_of_parts_is_refused(run: Run, bundle: Path, tmp_path:
     assert run("slice", "bare") == (2, "", "jumpcad: bare: has no printed parts to slice\n")
     code, _, err = run("slice", "nowhere")
     assert (code, err.count("\n")) == (2, 1)
-    assert "nowhere/manifest.json: No such file" in err
+    assert "nowhere/manifest.json: missing; a bundle has one" in err
 
 
 @pytest.mark.parametrize(

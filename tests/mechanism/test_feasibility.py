@@ -88,6 +88,19 @@ def test_design_without_assembled_pose_is_a_loop_finding(c_coef: float, d_coef: 
     assert "short of closing" in finding.message
 
 
+@pytest.mark.parametrize("change", [{"c_coef": 0.8}, {"d_coef": 1.2}])
+def test_a_body_tilted_by_more_than_its_legs_stand_off_cannot_be_wound(change: dict[str, float]) -> None:
+    """tilt = asin((l3 - l2)·sin(rest)/l4): -69.3° here, where 53.6° would have to be left; the remedies help."""
+    values = [47.2223, 0.3388, 0.5689, 0.263, 0.3217, 53.5764, 200, 28.8995]
+    design = Design.from_vector(values)
+    tilt = math.degrees(math.asin((0.3388 - 1.0) * math.sin(math.radians(53.5764)) / 0.5689))
+    [finding] = geometry_findings(design)
+    assert (finding.name, finding.severity) == ("winding", "error")
+    assert finding.margin == pytest.approx(53.5764 + tilt, abs=1e-9)
+    better = Design(**{**design.model_dump(), **change})
+    assert "winding" not in [finding.name for finding in geometry_findings(better)]
+
+
 def test_margin_of_a_parallelogram_below_ground() -> None:
     """With equal legs the pivots stand l2·sin(rest - δ) above the foot, at every ratio."""
     for ratio in (0.2, 0.5, 0.9):

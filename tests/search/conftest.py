@@ -17,7 +17,14 @@ def evaluator():
     stores = []
 
     def open_campaign(path: Path | None = None, model=None, space=SMALL, prior=(), pool=None) -> Evaluator:
-        store = StudyStore.write(path, {"hill": 1})
+        study = {
+            "model": {"name": "hill"},
+            "objective": "fitness",
+            "method": "ga",
+            "seed": 0,
+            "space": space.describe(),
+        }
+        store = StudyStore.write(path, study)
         stores.append(store)
         return Evaluator(space, find_objective("fitness"), model or Hill(), store, pool or local_pool(0), prior)
 

@@ -13,7 +13,7 @@ import pytest
 from support.places import ROOT
 from typer.testing import CliRunner
 
-from jumpcad.cli import app
+from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
 
@@ -145,18 +145,55 @@ def test_nothing_jumps_is_exit_code_1(folder):
         (["optimize", "--settings", "defalt"], "default"),
         (["optimize", "--around", "nobody"], "neither a TOML file nor one of"),
         (["optimize", "--from-study", "none.db"], "no such study file"),
-        (["optimize", "-o", "mine.toml"], "exists already, and not from a search"),
-        (["optimize", "--study", "mine.toml"], "damaged, or is not a study file"),
+        (["optimize", "-o", "mine.toml"], "exists already; choose another name, or replace it with --force"),
+        (["optimize", "--study", "mine.toml"], "a study file must end in .db"),
+        (["optimize", "--study", ":memory:"], "a study file must end in .db"),
+        (["optimize", "--study", "."], "a study file must end in .db"),
+        (["explore", "sweep", "--study", "mine.toml"], "a study file must end in .db"),
+        (["optimize", "--study", "nowhere/s.db"], "there is no folder nowhere"),
+        (["optimize", "--study", "folder.db"], "is no file"),
+        (["optimize", "--study", "dangling.db", "-o", "aim.toml"], "is no file"),
+        (["optimize", "-o", "nowhere/best.toml"], "there is no folder nowhere"),
+        (["optimize", "-o", "best.db"], "must end in .toml"),
+        (["optimize", "--study", "hard.db", "-o", "mine.toml"], "is the study file itself"),
+        (["optimize", "--study", "soft.db", "-o", "mine.toml"], "is the study file itself"),
+        (["optimize", "--study", "s.db", "--from-study", "./folder.db/../s.db"], "is the study file itself"),
+        (["optimize", "--plots", "mine.toml"], "is no folder"),
+        (["optimize", "--plots", "pictures"], "pictures/history.svg: exists already"),
+        (["explore", "sweep", "--plots", "pictures"], "pictures/sweeps.svg: exists already"),
         (["study", "none.db"], "no such study file"),
     ],
 )
 def test_wrong_requests_are_one_line_and_leave_no_study(folder, arguments, message):
     (folder / "mine.toml").write_text("# my own\n" * 100)
+    os.link("mine.toml", "hard.db")
+    os.symlink("mine.toml", "soft.db")
+    os.symlink("aim.toml", "dangling.db")
+    (folder / "folder.db").mkdir()
+    (folder / "pictures").mkdir()
+    (folder / "pictures" / ("history.svg" if arguments[0] == "optimize" else "sweeps.svg")).write_text("mine")
+    before = sorted(folder.rglob("*"))
     if arguments[0] == "optimize" and "--model" not in arguments:
         arguments = [*arguments, "--model", "capsule", *(["-o", "other.toml"] if "-o" not in arguments else [])]
     assert message in refusal(*arguments)
     assert (folder / "mine.toml").read_text() == "# my own\n" * 100
-    assert not list(folder.glob("study-*"))
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_a_winner_that_somebody_edited_is_kept(folder):
+    search = ["optimize", "ga", *QUICK, "--evaluations", 10, "--study", "s.db", "-o", "best.toml", "--plots", "pics"]
+    run(*search)
+    run(*search[:-2], "--plots", "pics", "--evaluations", 12)  # what jumpcad wrote itself is written again
+    winner = (folder / "best.toml").read_text()
+    mine = winner.replace("c_coef = ", "c_coef = 1.0 # my own; it was ")
+    (folder / "best.toml").write_text(mine)
+    assert "best.toml: exists already" in refusal(*search[:-2], "--evaluations", 12)
+    assert (folder / "best.toml").read_text() == mine
+    run(*search[:-2], "--evaluations", 12, "--force")
+    assert (folder / "best.toml").read_text() == winner
+    (folder / "pics" / "history.svg").write_text("<svg/>")
+    assert "history.svg: exists already" in refusal("study", "s.db", "--plots", "pics")
+    assert (folder / "pics" / "history.svg").read_text() == "<svg/>"
 
 
 def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):

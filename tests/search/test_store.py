@@ -1,6 +1,7 @@
 """The study file: whole, shared, and never taken for another."""
 
 import os
+import random
 import signal
 import sqlite3
 import subprocess
@@ -17,7 +18,13 @@ from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore, Trial
 
 TESTS = [str(Path(__file__).parent), str(Path(__file__).parents[1])]
-IDENTITY = {"seed": 1, "space": {"c_coef": {"fixed": 1.0}}}
+IDENTITY = {
+    "model": {"name": "hill"},
+    "objective": "fitness",
+    "method": "ga",
+    "seed": 1,
+    "space": Space.parse(fix=["c_coef=1"]).describe(),
+}
 
 
 def rows(count, phase="ga", step=0):
@@ -26,7 +33,15 @@ def rows(count, phase="ga", step=0):
     evaluations = [Hill()(design) for design in designs]
     return [
         Trial(
-            phase, step, place, design, evaluation, evaluation.metrics.get("fitness"), "m", 0.1, {"theta": {"a": [0.1]}}
+            phase,
+            step,
+            place,
+            design,
+            evaluation,
+            evaluation.metrics.get("fitness"),
+            "m",
+            0.1,
+            {"theta": {"a": [0.1] * 9}},
         )
         for place, (design, evaluation) in enumerate(zip(designs, evaluations, strict=True))
     ]
@@ -69,7 +84,7 @@ def test_another_study_is_not_overwritten(tmp_path):
     with pytest.raises(JumpcadError, match=r"another study \(seed: 1 there, 2 here\)"):
         StudyStore.write(tmp_path / "s.db", IDENTITY | {"seed": 2})
     with pytest.raises(JumpcadError, match=r"space.c_coef.fixed: 1.0 there, 1.1 here"):
-        StudyStore.write(tmp_path / "s.db", IDENTITY | {"space": {"c_coef": {"fixed": 1.1}}})
+        StudyStore.write(tmp_path / "s.db", IDENTITY | {"space": Space.parse(fix=["c_coef=1.1"]).describe()})
     assert (tmp_path / "s.db").read_bytes() == before
 
 
@@ -87,7 +102,7 @@ def test_one_writer_at_a_time(tmp_path):
 
 def test_locked_by_another_program(tmp_path, monkeypatch):
     StudyStore.write(tmp_path / "s.db", IDENTITY).close()
-    monkeypatch.setattr("jumpcad.search.store.PATIENCE_S", 0.1)
+    monkeypatch.setattr("jumpcad.search.database.PATIENCE_S", 0.1)
     other = sqlite3.connect(tmp_path / "s.db", isolation_level=None)
     other.execute("BEGIN EXCLUSIVE")
     with (
@@ -173,3 +188,141 @@ def test_study_of_another_format(tmp_path):
     sqlite3.connect(tmp_path / "s.db", isolation_level=None).execute("PRAGMA user_version = 99")
     with pytest.raises(JumpcadError, match="format 99"):
         StudyStore.read(tmp_path / "s.db")
+
+
+def edited(path, *statements):
+    """Make a study of rows of two phases, then change it as another program would."""
+    with StudyStore.write(path, IDENTITY) as store:
+        store.remember("stages", [{"method": "ga", "evaluations": 9, "initial": 0}])
+        store.append([*rows(5), *rows(4, "bo", 1)])
+    connection = sqlite3.connect(path)
+    for statement in statements:
+        connection.execute(statement)
+    connection.commit()
+    connection.close()
+    return path
+
+
+def read_all(path):
+    """Read everything that a study holds."""
+    with StudyStore.read(path) as store:
+        return store.rows(), store.recall("stages"), store.notes()
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "reason"),
+    [
+        ("phase", "'x'", r"row 'x' 0 2: phase = 'x' is none of ga, bo"),
+        ("phase", "x'ff'", r"row '\\xff' 0 2: phase = b'\\xff' is no text"),
+        ("step", "'one'", r"step = 'one' is no whole number"),
+        ("place", "-1", r"place = -1 is no whole number of at least 0"),
+        ("c_coef", "'x'", r"row 'ga' 0 2: c_coef = 'x': must be a valid number"),
+        ("c_coef", "9e9", r"c_coef = 9000000000.0: must be at most 3"),
+        ("verdict", "char(27) || '[31m'", r"'\\x1b\[31m' is no name of a verdict"),
+        ("score", "'x'", r"score = 'x' is no plausible number"),
+        ("score", "9e999", r"score = inf is no plausible number"),
+        ("metrics", "'{\"fitness\": NaN}'", r"fitness = nan is no plausible figure"),
+        ("metrics", '\'{"fitness": "x"}\'', r"metrics.fitness: Input should be a valid number"),
+        ("metrics", "'{'", r"metrics: Invalid JSON"),
+        ("metrics", "'[]'", r"metrics: Input should be an object"),
+        ("metrics", "x'7b22ff223a317d'", r"row 'ga' 0 2: metrics: Invalid JSON"),
+        ("findings", "'[{\"name\": 1}]'", r"findings.0.name: Input should be a valid string"),
+        ("findings", "replace(findings, 'unit', 'init')", r"findings.0.(unit|init): "),
+        ("findings", "replace(findings, 'info', 'fine')", r"findings.0.severity: Input should be 'info'"),
+        ("findings", "replace(findings, 'loop', '=1+1')", r"'=1\+1' is no name of a verdict, a finding"),
+        ("proposal", '\'{"theta": {"score": [1.0]}}\'', r"proposal.theta: must be lists of 9 hyperparameters"),
+        ("proposal", "'5'", r"proposal: Input should be an object"),
+        ("duration_s", "'x'", r"duration_s = 'x' is no plausible number"),
+    ],
+)
+def test_a_damaged_row_is_named(tmp_path, column, value, reason):
+    where = "phase = 'ga' AND place = 2"
+    path = edited(tmp_path / "s.db", f"UPDATE evaluations SET {column} = {value} WHERE {where}")
+    with pytest.raises(JumpcadError, match=rf"s.db: is damaged: .*{reason}") as caught:
+        read_all(path)
+    assert str(caught.value).isprintable()
+    with pytest.raises(JumpcadError, match="is damaged"), StudyStore.write(path, IDENTITY) as store:
+        store.rows()
+
+
+@pytest.mark.parametrize(
+    ("statement", "reason"),
+    [
+        ("DELETE FROM study WHERE key = 'identity'", "identity"),
+        ("UPDATE study SET value = '[]' WHERE key = 'identity'", "identity"),
+        ("UPDATE study SET value = replace(value, 'objective', 'x') WHERE key = 'identity'", "identity.objective"),
+        ("UPDATE study SET value = replace(value, 'd_coef', 'x') WHERE key = 'identity'", "must have all eight"),
+        ("UPDATE study SET value = '{' WHERE key = 'stages'", "its stages cannot be read"),
+        ("UPDATE study SET value = '[]' WHERE key = 'stages'", "stages: List should have at least 1"),
+        ("UPDATE study SET value = replace(value, 'ga', 'zz') WHERE key = 'stages'", r"stages.0.method"),
+        (
+            "CREATE VIEW endless AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n FROM r) SELECT n FROM r",
+            "tables",
+        ),
+        ("CREATE TRIGGER t AFTER INSERT ON notes BEGIN DELETE FROM evaluations; END", "tables are not ours"),
+        ("ALTER TABLE evaluations RENAME COLUMN metrics TO m", "tables are not ours"),
+        ("DROP TABLE notes", "tables are not ours"),
+    ],
+)
+def test_a_study_that_another_program_changed(tmp_path, statement, reason):
+    path = edited(tmp_path / "s.db", statement)
+    with pytest.raises(JumpcadError, match=reason) as caught:
+        read_all(path)
+    assert str(caught.value).isprintable()
+
+
+def test_notes_steer_no_terminal(tmp_path):
+    path = edited(tmp_path / "s.db", "INSERT INTO notes VALUES ('a' || char(27) || '[31m' || char(10))")
+    assert read_all(path)[2] == [r"a\x1b[31m\n"]
+
+
+def test_flipped_bits_are_one_line_or_harmless(tmp_path):
+    content, refused = edited(tmp_path / "s.db").read_bytes(), []
+    for seed in range(60):
+        chance, spoilt = random.Random(seed), bytearray(content)
+        for _ in range(chance.choice((1, 2, 5, 20))):
+            spoilt[chance.randrange(len(spoilt))] ^= 1 << chance.randrange(8)
+        if seed % 5 == 0:
+            del spoilt[chance.randrange(len(spoilt)) :]
+        (tmp_path / "s.db").write_bytes(spoilt)
+        try:
+            read_all(tmp_path / "s.db")
+        except JumpcadError as error:
+            refused.append(str(error))
+    assert len(refused) > 15
+    assert all(told.isprintable() for told in refused)
+
+
+def test_a_study_in_a_folder_that_may_not_be_written_to(tmp_path):
+    """As the user `nobody` where the tests run as root, whom no permission stops."""
+    edited(tmp_path / "s.db").chmod(0o444)
+    above = [place for place in tmp_path.parents if place.stat().st_uid == os.geteuid() and len(place.parts) > 2]
+    before = {place: place.stat().st_mode for place in above}
+    tmp_path.chmod(0o555)
+    root = os.geteuid() == 0
+    try:
+        if root:
+            for place in above:
+                place.chmod(0o755)
+            os.seteuid(65534)
+        with pytest.raises(PermissionError):
+            (tmp_path / "new").touch()
+        assert len(read_all(tmp_path / "s.db")[0]) == 9
+    finally:
+        if root:
+            os.seteuid(0)
+        for place, mode in before.items():
+            place.chmod(mode)
+        tmp_path.chmod(0o755)
+    assert os.listdir(tmp_path) == ["s.db"]
+
+
+@pytest.mark.parametrize("name", ["pipe.db", "zero.db", "folder.db"])
+def test_what_is_no_file_is_no_study(tmp_path, name):
+    os.mkfifo(tmp_path / "pipe.db")
+    (tmp_path / "zero.db").symlink_to("/dev/zero")
+    (tmp_path / "folder.db").mkdir()
+    with pytest.raises(JumpcadError, match="is a folder, a pipe or a device"):
+        StudyStore.read(tmp_path / name)
+    with pytest.raises(JumpcadError, match=r"is a pipe or a device|cannot be written"):
+        StudyStore.write(tmp_path / name, IDENTITY)

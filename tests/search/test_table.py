@@ -37,8 +37,8 @@ def test_tables_that_cannot_be_written(rows, tmp_path):
     (tmp_path / "t.csv").write_text("mine")
     for name, message in (
         ("t.csv", "exists already"),
-        ("t.xlsx", "ends in .csv or .parquet"),
-        ("no/t.csv", "cannot be"),
+        ("t.xlsx", "must end in .csv or .parquet"),
+        ("no/t.csv", "there is no folder"),
     ):
         with pytest.raises(JumpcadError, match=message):
             write_table(rows, tmp_path / name)

@@ -74,6 +74,16 @@ def test_audit_rejects_energy_from_nowhere(kenan: Robot, monkeypatch: pytest.Mon
     assert jump.findings[-2].margin < 0
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_run_that_blows_up_is_rejected_and_leaves_no_trace(kenan: Robot) -> None:
+    before = simulate(kenan)
+    jump = simulate(kenan, Settings(joint_damping_nms_per_rad=1e300, trajectory=True))
+    assert (jump.verdict, jump.ballistic_range_m) == ("audit_energy", None)
+    assert jump.trajectory is not None
+    assert np.isfinite(jump.trajectory.position_m).all()
+    assert simulate(kenan).ballistic_range_m == before.ballistic_range_m
+
+
 def test_time_runs_out(kenan: Robot) -> None:
     assert simulate(kenan, Settings(max_time_s=0.01)).verdict == "no_takeoff"
 

@@ -54,7 +54,7 @@ def test_friction_of_the_contacts_is_that_of_the_reference_flights(kenan: Robot)
         ('flight = "long"', r"flight = 'long': must be 'ballistic' or 'simulated'"),
         ("solver_iterations = 50.5", r"solver_iterations = 50.5: must be a valid integer"),
         ("restitution = true", r"restitution = True: must be a valid number"),
-        ("gravity_m_s2 = 0.0", r"gravity_m_s2 = 0.0: must be more than 0"),
+        ("gravity_m_s2 = 0.0", r"gravity_m_s2 = 0.0: must be at least 0.1"),
     ],
 )
 def test_bad_settings_are_named(tmp_path: Path, text: str, message: str) -> None:

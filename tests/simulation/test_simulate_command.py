@@ -81,15 +81,28 @@ def test_trajectory_file(command, tmp_path: Path, suffix: str) -> None:
     assert read == {name: values.tolist() for name, values in expected.trajectory.columns().items()}
 
 
+def test_a_trajectory_replaces_nothing_unasked(command, tmp_path: Path) -> None:
+    path = tmp_path / "path.csv"
+    path.write_text("mine")
+    code, out, err = command("kenan-2.0", "--capsule", "--trajectory", path)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "path.csv: exists already; choose another name, or replace it with --force" in err
+    assert path.read_text() == "mine"
+    assert command("kenan-2.0", "--capsule", "--trajectory", path, "--force")[0] == 0
+    assert path.read_text().startswith("time_s,")
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["kenan-2.0", "--capsule", "--engine", "bulet"], "'bulet' is not an engine"),
         (["kenan-2.0", "--capsule", "--published"], "exclude each other"),
         (["kenan-2.0", "--published", "--engine", "mujoco"], "exists in pybullet alone"),
-        (["kenan-2.0", "--capsule", "--trajectory", "path.txt"], "ends in .csv or .json"),
-        (["kenan-2.0", "--capsule", "--trajectory", "nowhere/path.csv"], "cannot be written"),
+        (["kenan-2.0", "--capsule", "--trajectory", "path.txt"], "must end in .csv or .json"),
+        (["kenan-2.0", "--capsule", "--trajectory", "nowhere/path.csv"], "there is no folder nowhere"),
         (["kenan-2.0", "--capsule", "--trajectory", "a.csv", "--engine", "both"], "records one engine"),
+        (["kenan-2.0", "--published", "--trajectory", "a.csv"], "cannot apply to --published"),
+        (["kenan-2.0", "--capsule", "--workshop", "fine"], "--workshop fine: cannot apply"),
         (["kenan-2.0", "--capsule", "--settings", "quick"], "'quick' is neither a TOML file nor"),
         (["kenan-3.0", "--capsule"], "did you mean kenan-2.0"),
     ],

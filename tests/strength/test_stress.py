@@ -62,6 +62,10 @@ def test_height_for_bears_exactly_what_was_asked(shell: Shell) -> None:
         assert Beam(8.0, height, shell).stress_mpa(moment) == pytest.approx(15.0, rel=1e-6)
 
 
+def test_what_bears_nothing_needs_no_height() -> None:
+    assert height_for_mm(0.0, 6.0, 20.0, SHELL) == 0.0
+
+
 def test_uniform_cantilever_energy() -> None:
     # Castigliano: U = P²·l³/(6·E·I) for an end load P, with M = P·l
     force, length, modulus = 15.6, 100.0, 2000.0

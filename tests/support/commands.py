@@ -1,6 +1,20 @@
 """Commands as tests call them."""
 
+import sys
 from collections.abc import Callable
+
+import pytest
+
+from jumpcad import cli
 
 Run = Callable[..., tuple[int, str, str]]
 """`run("new", "frog.toml")` returns exit code, standard output and standard error."""
+
+
+def exit_code_of(*arguments: str) -> int:
+    """Run `jumpcad ARGUMENTS` in this process and return its exit code."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "argv", ["jumpcad", *arguments])
+        with pytest.raises(SystemExit) as caught:
+            cli.main()
+    return int(caught.value.code or 0)

@@ -1,0 +1,214 @@
+"""The figures that the README shows, by name, each as the text that ought to stand there; `readme.py` compares them.
+
+What follows from the templates alone takes some seconds: `of_robots`, `of_prototypes`, `of_best_printable`. `of_search`
+and `of_speed` take minutes: they run the search again, and the benchmarks of this folder.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from start import children_cpu_s
+
+from jumpcad import published
+from jumpcad.building import build
+from jumpcad.design import SEARCH_BOUNDS, load_design
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.paper.reproduction import PRINTED, Printed
+from jumpcad.robot import Robot
+from jumpcad.search.models import RobotModel
+from jumpcad.search.objective import find_objective
+from jumpcad.search.robust import varied_lengths, varied_parameters
+from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.workshop import load_workshop
+
+HERE = Path(__file__).parent
+ROBOTS = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+PROTOTYPES = tuple(row for row in PRINTED if row.measured is not None)
+SEARCH = ("optimize", "--evaluations", "240", "--seed", "0")
+PUBLISHED_MS = 40.0
+"""CPU time of one published simulation on the machine that all CPU times are scaled to."""
+GRAVITY_M_S2 = Settings().gravity_m_s2
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a search ended with: a row of `jumpcad optimize --json`, and its CPU time with that of its workers."""
+
+    winner: dict[str, Any]
+    cpu_s: float
+
+
+@cache
+def built(name: str) -> tuple[Robot, Jump, Jump]:
+    """Return a template's printed robot, its jump, and that of the capsule robot, as `jumpcad build` does."""
+    robot, flight = build(load_design(name), name=name), Settings(flight="simulated")
+    return robot, simulate(robot, flight), simulate(capsule_robot(robot.design), flight)
+
+
+def mm(length_m: float | None) -> str:
+    """Return a length in whole millimetres."""
+    assert length_m is not None
+    return f"{1000.0 * length_m:.0f} mm"
+
+
+def grams(masses_kg: Iterable[float]) -> str:
+    """Return masses in whole grams."""
+    return " and ".join(f"{1000.0 * mass:.0f} g" for mass in masses_kg)
+
+
+def percent(shares: Iterable[float]) -> str:
+    """Return shares in whole per cent."""
+    return " and ".join(f"{100.0 * share:.0f} %" for share in shares)
+
+
+def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    """Return a table whose first column is text; the others are figures."""
+    lines = [head, ("---", *["--:"] * (len(head) - 1)), *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def of_robots() -> dict[str, str]:
+    """Return the table of all templates."""
+    measured = {row.template: row.measured for row in PROTOTYPES}
+    rows = []
+    for name in ROBOTS:
+        robot, jump, capsules = built(name)
+        assert robot.layout is not None
+        real = measured.get(name)
+        rows.append(
+            (f"`{name}`", mm(jump.ballistic_range_m), mm(jump.com_rise_m), grams([robot.mass_kg]),
+             f"{robot.spring.energy_j:.3f} J", f"{robot.layout.drive.train.electrical_j:.2f} J",
+             mm(capsules.ballistic_range_m), f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
+        )  # fmt: skip
+    head = ("design", "range", "rise", "mass", "energy in the springs", "winding energy (electrical)",
+            "range with the study's masses", "real robot: distance, height")  # fmt: skip
+    return {"robots": table(head, rows)}
+
+
+def of_prototypes() -> dict[str, str]:
+    """Return the prototypes' measured jumps beside the simulated ones, and what the measured ones would need."""
+    columns = [_prototype(row) for row in PROTOTYPES]
+    head = ("", *(f"{row.title}, {what}" for row in PROTOTYPES for what in ("distance", "height")))
+    rows = [(label, *(cell for column in columns for cell in column[label])) for label in columns[0]]
+    robots, jumps, capsules = zip(*(built(row.template) for row in PROTOTYPES), strict=True)
+    (first_m, second_m), (first, second) = (row.measured.distance_m for row in PROTOTYPES if row.measured), jumps
+    return {
+        "prototypes": table(head, rows),
+        "first touchdown": mm(capsules[1].touchdown_distance_m),
+        "damping": percent([second.energy.joint_damping_j / second.spring_energy_j]),
+        "printed masses": grams(robot.mass_kg for robot in robots),
+        "study's masses": grams(jump.mass_kg for jump in capsules),
+        "energy needed": percent(map(_least_energy_share, PROTOTYPES)),
+        "measured growth": f"{second_m / first_m:.2f}",
+        "simulated growth": f"{second.ballistic_range_m / first.ballistic_range_m:.2f}",
+    }
+
+
+def _prototype(row: Printed) -> dict[str, tuple[str, str]]:
+    """Return distance and height of a prototype, by where they come from."""
+    assert row.measured is not None
+    again, (_, jump, capsules) = published.simulate(load_design(row.template)), built(row.template)
+    return {
+        "the real robot, measured by the study": (mm(row.measured.distance_m), mm(row.measured.height_m)),
+        "the study's simulation (`--published`)": (mm(again.distance_m), mm(again.base_height_m)),
+        "jumpcad, printed robot": (mm(jump.ballistic_range_m), mm(jump.com_rise_m)),
+        "jumpcad, the study's masses (`--capsule`)": (mm(capsules.ballistic_range_m), mm(capsules.com_rise_m)),
+    }
+
+
+def _least_energy_share(row: Printed) -> float:
+    """Return the energy of a flight of the measured distance and height over that of the springs.
+
+    A flight of distance R and height h takes m·g·(h + R²/16h); if a part of h is gained before take-off, more.
+    """
+    assert row.measured is not None
+    robot, distance, height = built(row.template)[0], row.measured.distance_m, row.measured.height_m
+    return robot.mass_kg * GRAVITY_M_S2 * (height + distance**2 / (16.0 * height)) / robot.spring.energy_j
+
+
+def of_best_printable() -> dict[str, str]:
+    """Return what can be said of the template `best-printable` alone."""
+    design, workshop = load_design("best-printable"), load_workshop("default")
+    length_mm = 2.0 * workshop.fits.sliding_mm  # a link has the play of a sliding fit at both ends
+    generator = np.random.default_rng(0)
+    neighbours = varied_parameters(design, generator) + varied_lengths(design, length_mm, generator)
+    model, score = RobotModel("printed", workshop), find_objective("fitness").score
+    refused = sum(score(model(neighbour)) is None for neighbour in neighbours)
+    bounds = [
+        f"`{name}` ({side})"
+        for name, bound in SEARCH_BOUNDS.items()
+        for side, limit in (("lower", bound.lower), ("upper", bound.upper))
+        if getattr(design, name) == limit
+    ]
+    return {
+        "command": f"`jumpcad {' '.join(SEARCH)}`",
+        "best fitness": f"{built('best-printable')[1].fitness:.2f}",
+        "bounds": f"{len(bounds)} parameters: {', '.join(bounds)}",
+        "neighbours": f"Of {len(neighbours)} neighbours, half with parameters ±1 %, half with lengths "
+        f"±{length_mm:g} mm, {refused or 'none'} {'is' if refused < 2 else 'are'} rejected",
+    }
+
+
+@cache
+def outcome(model: str) -> Outcome:
+    """Run the search and return what it ended with."""
+    before = children_cpu_s()
+    with tempfile.TemporaryDirectory() as folder:
+        files = ["--study", f"{folder}/study.db", "-o", f"{folder}/winner.toml"]
+        answer = _json("-m", "jumpcad", *SEARCH, "--model", model, *files)
+    return Outcome(answer["winner"], children_cpu_s() - before)
+
+
+def of_search() -> dict[str, str]:
+    """Return what printability costs: the score of the search, against that of the same search without it."""
+    printed, capsules = (outcome(model).winner["score"] for model in ("printed", "capsule"))
+    return {
+        "cost of printability": percent([1.0 - printed / capsules]),
+        "both scores": f"{printed:.2f} against {capsules:.2f}",
+    }
+
+
+def of_speed() -> dict[str, str]:
+    """Return the table of CPU times, scaled to a machine on which one published simulation takes `PUBLISHED_MS`."""
+    evaluator = _json(str(HERE / "evaluator.py"), "--rounds", "3")["speed"]
+    evaluate = _json(str(HERE / "evaluate.py"), "--rounds", "1")
+    building = _json(str(HERE / "build.py"), "kenan-2.0")["kenan-2.0"]
+    start = _json(str(HERE / "start.py"))
+    scale = PUBLISHED_MS / evaluator["published"]["cpu_ms"]
+    scale_there = PUBLISHED_MS / evaluate["speed"]["published_ms"]
+
+    def ms(value: float) -> str:
+        return f"{value:.{int(value < 10.0)}f} ms"
+
+    def s(value: float) -> str:
+        return f"{scale * value:.{int(scale * value < 10.0)}f} s"
+
+    rows = (
+        ("one published simulation", ms(PUBLISHED_MS), "`evaluator.py`"),
+        ("one simulation of the capsule robot", ms(scale * evaluator["default"]["cpu_ms"]), "`evaluator.py`"),
+        ("`jumpcad.evaluate`: one printed robot built, simulated, checked",
+         ms(scale_there * evaluate["speed"]["evaluate_ms"]), "`evaluate.py`"),
+        ("… of this, the masses of its parts", ms(scale_there * evaluate["stages_ms"]["printed masses"]),
+         "`evaluate.py`"),
+        ("`jumpcad build kenan-2.0`", s(building["total"]), "`build.py`"),
+        ("… of this, pictures", s(building["pictures"]), "`build.py`"),
+        ("`jumpcad --help`", s(start["help_s"]), "`start.py`"),
+        ("the search for `best-printable`, all workers together", s(outcome("printed").cpu_s), "`readme.py`"),
+    )  # fmt: skip
+    return {"speed": table(("what", "CPU time", "computed by"), rows)}
+
+
+def _json(*arguments: str) -> Any:
+    """Return what Python prints with these arguments and `--json`."""
+    here = os.environ | {"PYTHONPATH": str(HERE.parent)}
+    done = subprocess.run([sys.executable, *arguments, "--json"], check=True, stdout=subprocess.PIPE, env=here)
+    return json.loads(done.stdout)

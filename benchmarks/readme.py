@@ -1,0 +1,121 @@
+"""Is every figure of the README what the program gives today? Exit code 1 and a list of what differs, if not.
+
+Compared are the README's figures between `<!-- NAME -->` and `<!-- / -->`, the template `best-printable` and its
+picture. Words have to be the same. Numbers may be a unit of their last digit apart; those of the search, which another
+processor or library may send along another path, 1 %; CPU times, a factor of 1.5.
+
+Run `python benchmarks/readme.py [--cheap] [--write]`. `--cheap` leaves out the search and the CPU times: some seconds
+instead of some minutes; the tests do that. `--write` corrects README, template and picture.
+"""
+
+import argparse
+import re
+import sys
+from collections.abc import Callable, Iterator
+from itertools import zip_longest
+from pathlib import Path
+
+import figures
+
+from jumpcad.bundle.renders import renders
+from jumpcad.design import Design
+from jumpcad.files import write_text_atomically
+
+ROOT = Path(__file__).parents[1]
+README = ROOT / "README.md"
+TEMPLATE = ROOT / "templates" / "robots" / "best-printable.toml"
+PICTURE = ROOT / "docs" / "best-printable.png"
+COMMAND = " ".join(("jumpcad", *figures.SEARCH))
+HEADING = f"# Found by `{COMMAND}` (GA, then BO, on the printed robot in the default workshop).\n"
+SEARCH_SLACK = 0.01
+SPEED_SLACK = 1.0 - 1.0 / 1.5
+"""By how much of the greater one two numbers may be apart."""
+
+Maker = Callable[[], dict[str, str]]
+CHEAP: dict[Maker, float] = {figures.of_robots: 0.0, figures.of_prototypes: 0.0, figures.of_best_printable: 0.0}
+COSTLY: dict[Maker, float] = {figures.of_search: SEARCH_SLACK, figures.of_speed: SPEED_SLACK}
+
+FIGURE = re.compile(r"<!-- ([\w' -]+) -->(\n?)(.*?)(\n?)<!-- / -->", re.S)
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+
+
+def shown(readme: str) -> dict[str, str]:
+    """Return the figures that a README shows, by name."""
+    return {found[1]: found[3] for found in FIGURE.finditer(readme)}
+
+
+def rewritten(readme: str, made: dict[str, str]) -> str:
+    """Return a README with other figures."""
+    return FIGURE.sub(
+        lambda found: f"<!-- {found[1]} -->{found[2]}{made.get(found[1], found[3])}{found[4]}<!-- / -->", readme
+    )
+
+
+def differences(name: str, written: str, made: str, slack: float = 0.0) -> Iterator[str]:
+    """Yield a sentence for every line of a figure that says something else than it ought to."""
+    for there, here in zip_longest(written.splitlines(), made.splitlines(), fillvalue=""):
+        numbers = zip(NUMBER.findall(there), NUMBER.findall(here), strict=False)
+        if NUMBER.sub("0", there) != NUMBER.sub("0", here) or any(apart(*pair, slack) for pair in numbers):
+            yield f"README.md, {name}: says {there!r}, should say {here!r}"
+
+
+def apart(written: str, made: str, slack: float = 0.0) -> bool:
+    """Whether two numbers differ by more than a unit of their last digit, and by more than the slack."""
+    digits = min(len(number.partition(".")[2]) for number in (written, made))
+    one, other = float(written), float(made)
+    return abs(one - other) > max(1.001 * 10.0**-digits, slack * max(one, other))
+
+
+def template_differences(winner: Design, score: float) -> Iterator[str]:
+    """Yield a sentence if the template's fitness is not that of the search, or its heading not that of the command."""
+    if not TEMPLATE.read_text(encoding="utf-8").startswith(HEADING):
+        yield f"{TEMPLATE.name}: does not begin with {HEADING.rstrip()!r}"
+    held = figures.built("best-printable")[1].fitness
+    if abs(held - score) > SEARCH_SLACK * score:
+        yield f"{TEMPLATE.name}: has fitness {held:.4g}; `{COMMAND}` ends with {score:.4g} at {winner.to_vector()}"
+
+
+def picture_differences(write: bool) -> Iterator[str]:
+    """Yield a sentence if the template's picture is not what is drawn today."""
+    picture = renders(figures.built("best-printable")[0])["rest"]
+    if write:
+        PICTURE.write_bytes(picture)
+    elif PICTURE.read_bytes() != picture:
+        yield f"{PICTURE.name}: is not the picture of best-printable at rest"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Compare or write; print what differs and return 1 if something does."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cheap", action="store_true", help="without the search and the CPU times")
+    parser.add_argument("--write", action="store_true", help="correct README, template and picture")
+    options = parser.parse_args(arguments)
+    wrong: list[str] = []
+    if not options.cheap:
+        winner = figures.outcome("printed").winner
+        design = Design(**winner["design"])
+        if options.write:
+            write_text_atomically(TEMPLATE, HEADING + design.to_toml())
+        wrong += template_differences(design, winner["score"])
+    wrong += picture_differences(options.write)
+    readme = README.read_text(encoding="utf-8")
+    written, names = shown(readme), set[str]()
+    for make, slack in (CHEAP if options.cheap else CHEAP | COSTLY).items():
+        made = make()
+        names |= made.keys()
+        if options.write:
+            readme = rewritten(readme, made)
+        else:
+            for name in made.keys() & written.keys():
+                wrong += differences(name, written[name], made[name], slack)
+    wrong += [f"README.md, {name}: is missing" for name in sorted(names - written.keys())]
+    if not options.cheap:
+        wrong += [f"README.md, {name}: nothing computes it" for name in sorted(written.keys() - names)]
+    if options.write:
+        write_text_atomically(README, readme)
+    print("\n".join(wrong) or "every figure is what the program gives")
+    return int(bool(wrong))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,64 @@
+"""The public functions that take a robot or a design: a design is built first, in the default workshop."""
+
+from pathlib import Path
+
+from jumpcad.arguments import typed
+from jumpcad.building import build
+from jumpcad.bundle.export import export as export_robot
+from jumpcad.bundle.manifest import Bundle
+from jumpcad.checks import check as check_robot
+from jumpcad.design import Design
+from jumpcad.findings import Finding
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.robot import Robot
+from jumpcad.settings import Settings
+from jumpcad.simulation import Jump
+from jumpcad.simulation import simulate as simulate_mechanism
+
+
+@typed
+def simulate(robot: Mechanism | Design, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
+    """Let a robot jump; see `jumpcad.simulation.simulate`.
+
+    Raises
+    ------
+    JumpcadError
+        If an argument is of another type, the engine is unknown or not installed, or cannot do what the settings ask.
+    CannotBuildError
+        If a design cannot be built.
+    """
+    return simulate_mechanism(_built(robot), settings, engine)
+
+
+@typed
+def check(robot: Mechanism | Design) -> list[Finding]:
+    """Return the findings of every check on a robot, kept limits included; see `jumpcad.checks.check`.
+
+    Raises
+    ------
+    JumpcadError
+        If it is neither robot nor design.
+    CannotBuildError
+        If a design cannot be built.
+    """
+    return check_robot(_built(robot))
+
+
+@typed
+def export(
+    robot: Robot | Design, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False
+) -> Bundle:
+    """Write a robot's bundle; see `jumpcad.bundle.export.export`.
+
+    Raises
+    ------
+    JumpcadError
+        If an argument is of another type, or the bundle cannot be written without losing something of a user's.
+    CannotBuildError
+        If a design cannot be built.
+    """
+    return export_robot(build(robot) if isinstance(robot, Design) else robot, folder, pictures, step, force)
+
+
+def _built(subject: Mechanism | Design) -> Mechanism:
+    return build(subject) if isinstance(subject, Design) else subject

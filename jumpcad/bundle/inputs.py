@@ -1,0 +1,39 @@
+"""What a bundle keeps of its inputs: from it the same robot is built again."""
+
+from jumpcad.bundle.manifest import Bundle
+from jumpcad.design import Design, load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.files import read_toml
+from jumpcad.workshop import Workshop, load_workshop
+
+DESIGN = "design.toml"
+WORKSHOP = "workshop.toml"
+
+
+def kept_design(bundle: Bundle) -> Design:
+    """Return the design of a bundle.
+
+    Raises
+    ------
+    JumpcadError
+        If its file is missing, is a link, or is not a design.
+    """
+    return load_design(bundle.file(DESIGN))
+
+
+def kept_workshop(bundle: Bundle) -> Workshop:
+    """Return the workshop of a bundle.
+
+    Raises
+    ------
+    JumpcadError
+        If its file is missing, is a link, is not a workshop, or leads to a file outside of the bundle.
+    """
+    path = bundle.file(WORKSHOP)
+    data, _ = read_toml(path)
+    for key in ("base", "printer"):
+        if isinstance(data.get(key), str):
+            raise JumpcadError(
+                f"{path}: {key} = {data[key]!r}: a bundle's workshop is complete and names no other file"
+            )
+    return load_workshop(path)

@@ -1,0 +1,124 @@
+"""A folder put in its place whole or not at all.
+
+It is written beside its place and changes places with the old one in one step: whenever a build is killed, a whole
+folder stands under the name, the old one or the new one, and at most a hidden one is left over beside it. Where the
+system cannot exchange two folders (see `jumpcad.bundle.swap`) there are two renames, between which there is none.
+
+What is kept of the old folder is linked into the new one before they change places, so that there is no moment at
+which the name stands for less than all of it.
+"""
+
+import os
+import shutil
+import stat
+import tempfile
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path, PurePosixPath
+
+from jumpcad.bundle.swap import exchanged
+from jumpcad.bundle.tree import Tree
+from jumpcad.errors import JumpcadError
+
+
+def write_in_place(target: Path, files: Mapping[str, bytes], there: Tree, kept: Tree) -> None:
+    """Write files, and what is kept of the target, to a folder beside it and put that in the target's place.
+
+    Parameters
+    ----------
+    target
+        The folder; is made, with its parents.
+    files
+        Path and content of all files that are written.
+    there, kept
+        What the folder holds, and what of it stays: linked, not copied, with its date and permissions.
+
+    Raises
+    ------
+    OSError, JumpcadError
+        If the folder cannot be written, or something cannot be kept; nothing is changed then.
+    """
+    target.parent.mkdir(parents=True, exist_ok=True)
+    workplace = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name[:32]}."))
+    try:
+        fresh = workplace / "new"
+        _fill(fresh, files, target, kept)
+        _copy_modes(target, fresh, there, kept)
+        left = _change_places(fresh, target, workplace / "old")
+    except BaseException:
+        shutil.rmtree(workplace, ignore_errors=True)  # the target has all that is in there
+        raise
+    _clear(left, there)
+    try:
+        workplace.rmdir()
+    except OSError:
+        raise JumpcadError(f"{target}: is written, but what was changed in it meanwhile is in {left}") from None
+
+
+def _fill(fresh: Path, files: Mapping[str, bytes], target: Path, kept: Tree) -> None:
+    """Write files into a new folder and link there what is kept of the target."""
+    fresh.mkdir()
+    for path, data in files.items():
+        file = fresh / PurePosixPath(path)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(data)
+    for path, status in kept.items():
+        if stat.S_ISDIR(status.st_mode):
+            (fresh / path).mkdir(exist_ok=True)
+        else:
+            _link(target / path, fresh / path)
+
+
+def _link(file: Path, place: Path) -> None:
+    """Give a file, or a link itself, a second name; copy it where that cannot be."""
+    try:
+        os.link(file, place, follow_symlinks=False)
+    except (OSError, NotImplementedError):
+        try:
+            if not (file.is_symlink() or file.is_file()):
+                raise JumpcadError(f"{file}: is no plain file and cannot be kept; move it away") from None
+            shutil.copy2(file, place, follow_symlinks=False)
+        except OSError as error:
+            raise JumpcadError(f"{file}: cannot be kept ({error.strerror}); move it away") from None
+
+
+def _copy_modes(target: Path, fresh: Path, there: Tree, kept: Tree) -> None:
+    """Let the new folder and those in it be open to whom the old ones are; a user's keep their dates too."""
+    for path in reversed([path for path, status in there.items() if stat.S_ISDIR(status.st_mode)]):
+        if (fresh / path).is_dir():
+            (shutil.copystat if path in kept else shutil.copymode)(target / path, fresh / path)
+    if target.exists():
+        shutil.copymode(target, fresh)
+
+
+def _change_places(fresh: Path, target: Path, aside: Path) -> Path:
+    """Put a new folder in the target's place; return where the old one is then."""
+    if not os.path.lexists(target):
+        os.rename(fresh, target)
+        return fresh
+    if exchanged(fresh, target):
+        return fresh
+    try:
+        os.rename(target, aside)
+        os.rename(fresh, target)
+    except BaseException:
+        if aside.exists() and not target.exists():
+            os.rename(aside, target)
+        raise
+    return aside
+
+
+def _clear(folder: Path, known: Tree) -> None:
+    """Remove what is known of a folder, and the folder if nothing else is in it; what changed meanwhile stays."""
+    with suppress(OSError):
+        for place in (folder, *(folder / path for path, before in known.items() if stat.S_ISDIR(before.st_mode))):
+            place.chmod(stat.S_IRWXU)
+    for path, before in reversed(known.items()):
+        with suppress(OSError):
+            now = os.lstat(folder / path)
+            if stat.S_ISDIR(now.st_mode):
+                os.rmdir(folder / path)
+            elif (now.st_ino, now.st_size, now.st_mtime_ns) == (before.st_ino, before.st_size, before.st_mtime_ns):
+                os.unlink(folder / path)
+    with suppress(OSError):
+        folder.rmdir()

@@ -1,0 +1,19 @@
+"""Is the robot's name on its plates as it was given?"""
+
+from jumpcad.findings import Finding
+from jumpcad.robot import Robot
+from jumpcad.solids.text import engravable
+
+
+def engraving_findings(robot: Robot) -> list[Finding]:
+    """Return `engraving` for a name with letters that cannot be engraved; they are left out."""
+    lacking = "".join(dict.fromkeys(letter for letter in robot.name if not engravable(letter)))
+    if robot.layout is None or not lacking:
+        return []
+    return [
+        Finding(
+            "engraving", "warning", -float(len(lacking)), "letters",
+            f"the engraving's font has no {lacking!r}: the plates of {robot.name!r} go without",
+            "use Latin, Greek or Cyrillic letters, if the plates shall show all of the name",
+        )
+    ]  # fmt: skip

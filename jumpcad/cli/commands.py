@@ -1,0 +1,71 @@
+"""All commands, and what becomes of their errors. Each command imports what it needs when it runs."""
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+
+import typer
+from pydantic import ValidationError
+from typer.exceptions import TyperException
+
+from jumpcad.cli import bundle, check, coupon, designs, explore, optimize, reproduce, simulate, slicing, study
+from jumpcad.cli.output import OutputClosed, complain, standard_output
+from jumpcad.errors import JumpcadError
+
+WRONG_REQUEST, BUG = 2, 3
+OUTPUT_CLOSED = 141
+"""As a shell says it of a program that SIGPIPE ended."""
+
+app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
+for module in (designs, bundle, check, slicing, coupon, simulate, reproduce, explore, optimize, study):
+    module.register(app)
+
+
+@app.callback()
+def jumpcad() -> None:
+    """From eight numbers to a jumping robot that can be printed, simulated and trusted."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Carry out a command; return its exit code.
+
+    0 is done. Errors of the user end in one line on standard error: 2 for a wrong request, 1 where the answer is no.
+    Anything unforeseen is a bug, 3 with its traceback. Where the reader of the output has gone (`| head`) it is 141.
+    """
+    try:
+        with standard_output():
+            return _carry_out(list(arguments))
+    except OutputClosed:
+        return OUTPUT_CLOSED
+    except TyperException as error:
+        usage = _usage(error)
+        return complain(f"{usage} (see jumpcad --help)", WRONG_REQUEST) if usage else 0
+    except JumpcadError as error:
+        return complain(str(error), error.exit_code)
+    except Exception:
+        print(traceback.format_exc(), end="", file=sys.stderr)
+        return BUG
+
+
+def _usage(error: TyperException) -> str:
+    """Return what is wrong with the arguments, with the wrong value; nothing where none were given (and help was)."""
+    usage = error.format_message().rstrip(".")
+    if isinstance(error.__cause__, ValidationError):
+        return f"{usage}, not {error.__cause__.errors()[0]['input']!r}"
+    return usage
+
+
+def _carry_out(arguments: list[str]) -> int:
+    """Parse and call. Not by way of `app()`, which gives interrupts and lost readers exit codes of its own."""
+    try:
+        os.getcwd()
+    except FileNotFoundError:
+        raise JumpcadError("the current folder was deleted: change into another one") from None
+    command = typer.main.get_command(app)
+    try:
+        with command.make_context("jumpcad", arguments) as context:
+            command.invoke(context)
+    except typer.Exit as end:
+        return end.exit_code
+    return 0

@@ -1,0 +1,130 @@
+"""What is wrong with values that users wrote, in words: one clause a bad key, and never more than a few."""
+
+import difflib
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+MOST_NAMED = 10
+"""Bad keys that are named; of the others only their number is told."""
+LONGEST = 60
+"""Characters of a value that are shown."""
+LIMITS = {
+    "greater_than": ("must be more than", "gt"),
+    "greater_than_equal": ("must be at least", "ge"),
+    "less_than": ("must be less than", "lt"),
+    "less_than_equal": ("must be at most", "le"),
+}
+OF_A_TABLE = ("model_type", "model_attributes_type", "dict_type")
+OF_A_LIST = ("tuple_type", "list_type")
+
+
+def complaints(error: ValidationError, model: type[BaseModel], source: str = "", text: str = "") -> list[str]:
+    """Return one clause a bad key, `file:line: key = value: what is wrong`, for the first ten of them.
+
+    Parameters
+    ----------
+    error
+        What validation found.
+    model
+        What was validated.
+    source
+        Where the values come from: a file, or nothing.
+    text
+        The TOML text of the file, in which the lines of the keys are looked up.
+    """
+    items = error.errors(include_url=False)
+    lines = _lines(text)
+    clauses = []
+    for item in items[:MOST_NAMED]:
+        location = tuple(str(step) for step in item["loc"] if step != "[key]")
+        line = lines.get(".".join(location))
+        place = "" if not source else f"{source}: " if line is None else f"{source}:{line}: "
+        clauses.append(place + _clause(item, location, model))
+    if len(items) > MOST_NAMED:
+        clauses.append(f"and {len(items) - MOST_NAMED} more")
+    return clauses
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """Return a hint at the nearest known word, or nothing."""
+    near = difflib.get_close_matches(word[:LONGEST], list(known), n=1, cutoff=0.6)
+    return f" (did you mean {near[0]}?)" if near else ""
+
+
+def shown(value: Any) -> str:
+    """Return a value as it is shown in one line: without control characters, and shortened."""
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):  # Python writes no integer of more than 4300 digits, and nothing endless
+        return "a value too long to show"
+    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
+
+
+def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:
+    key = ".".join(_step(step) for step in location) or model.__name__
+    if item["type"] == "extra_forbidden":
+        return f"{key}: unknown key{did_you_mean(location[-1], _known_keys(model, location[:-1]))}"
+    if item["type"] == "missing":
+        return f"{key}: missing"
+    if not location:  # a validator that speaks of the whole record
+        return _reason(item, location, model)
+    if item["loc"][-1] == "[key]":
+        return f"{key}: {_reason(item, location, model)}"
+    return f"{key} = {shown(item['input'])}: {_reason(item, location, model)}"
+
+
+def _step(name: str) -> str:
+    """Return a key's name as it is shown: bare where it is short and plain."""
+    return name if name and name.isprintable() and len(name) <= LONGEST else shown(name)
+
+
+def _reason(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:
+    kind, context = item["type"], item.get("ctx", {})
+    if kind in LIMITS:
+        words, bound = LIMITS[kind]
+        return f"{words} {context[bound]:g}"
+    if kind in OF_A_TABLE:
+        keys = _known_keys(model, location)
+        some = ", ".join(keys[:MOST_NAMED]) + ", …" * (len(keys) > MOST_NAMED)
+        return f"must be a table: [{'.'.join(map(_step, location))}]{' with ' * bool(keys)}{some}"
+    if kind in OF_A_LIST:
+        return "must be a list"
+    if kind in ("too_long", "too_short"):
+        count = context.get("max_length", context.get("min_length"))
+        return f"must have {count} values, not {context['actual_length']}"
+    if kind == "finite_number":
+        return "must be a finite number"
+    reason = str(item["msg"]).removeprefix("Value error, ").removeprefix("Input should be ")
+    return reason if kind == "value_error" else f"must be {reason}"
+
+
+def _known_keys(model: type[BaseModel], location: tuple[str, ...]) -> list[str]:
+    """Return the keys known at a nested location of a model."""
+    annotation: Any = model
+    for step in location:
+        if _is_model(annotation):
+            field = annotation.model_fields.get(step)
+            annotation = field.annotation if field else None
+        else:  # a table whose keys the user chooses: what its values are
+            annotation = (getattr(annotation, "__args__", None) or (None,))[-1]
+    return list(annotation.model_fields) if _is_model(annotation) else []
+
+
+def _is_model(annotation: Any) -> bool:
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)
+
+
+def _lines(text: str) -> dict[str, int]:
+    """Return the line of each key of a TOML text, as far as keys are written one a line."""
+    section = ""
+    found: dict[str, int] = {}
+    for number, line in enumerate(text.split("\n"), start=1):
+        if header := re.match(r"\s*\[\[?([^\]]*)\]", line):
+            section = header[1].strip().replace('"', "") + "."
+            found.setdefault(section[:-1], number)
+        elif entry := re.match(r"""\s*("[^"]*"|[\w."-]+)\s*=""", line):
+            found.setdefault(section + entry[1].replace('"', ""), number)
+    return found

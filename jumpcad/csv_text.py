@@ -1,0 +1,31 @@
+"""Tables as CSV text in which no cell is a formula, whatever program opens them."""
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+
+FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
+"""What makes a spreadsheet compute a cell (OWASP, CSV injection), in the full width of East Asian scripts too."""
+
+
+def to_csv(rows: Iterable[Sequence[object]]) -> str:
+    """Return rows as CSV, the first of them the heading; text that would be a formula gets an apostrophe before it."""
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
+    return stream.getvalue()
+
+
+def _cell(value: object) -> object:
+    """Return a value as it is safe in a cell: numbers as they are, also those that are written out."""
+    if not isinstance(value, str) or _is_number(value):
+        return value
+    text = value.replace("\r\n", "\n").replace("\r", "\n")  # a lone \r is not quoted, and would begin another row
+    return f"'{text}" if text.startswith(FORMULA) else text
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

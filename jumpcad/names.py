@@ -1,0 +1,54 @@
+"""Names and free text that users and strangers choose: what they may hold, since they end in files and on terminals."""
+
+import re
+import unicodedata
+from typing import Annotated
+
+from pydantic import AfterValidator
+from pydantic_core import PydanticCustomError
+
+NAME = re.compile(r"\w[\w .,()+-]{0,49}")
+"""What a name is: it begins no formula and no hidden file, and holds no separator of paths and no markup."""
+NAME_RULE = "a name has 1 to 50 letters, digits, blanks and . , + - _ ( ), and begins with a letter, a digit or _"
+LONGEST_TEXT = 1000
+CONTROL = ("Cc", "Cf", "Cs", "Zl", "Zp")
+"""Unicode categories: control and format characters, halves of surrogate pairs, separators of lines."""
+
+
+def control_character(text: str) -> str:
+    """Return the first character that can steer a terminal or break a line, as `U+0007`, or nothing."""
+    if text.isprintable():  # at once for nearly every text
+        return ""
+    return next((f"U+{ord(letter):04X}" for letter in text if unicodedata.category(letter) in CONTROL), "")
+
+
+def without_controls(text: str) -> str:
+    """Return a text with the escapes of Python in place of its control characters."""
+    if text.isprintable():
+        return text
+    return "".join(
+        letter.encode("unicode_escape").decode() if unicodedata.category(letter) in CONTROL else letter
+        for letter in text
+    )
+
+
+def _name(value: str) -> str:
+    if not NAME.fullmatch(value):
+        raise PydanticCustomError("value_error", NAME_RULE)
+    return value
+
+
+def _text(value: str) -> str:
+    if found := control_character(value):
+        raise PydanticCustomError("value_error", f"holds the control character {found}: leave it out")
+    if len(value) > LONGEST_TEXT:
+        raise PydanticCustomError("value_error", f"has {len(value)} characters, more than {LONGEST_TEXT}: shorten it")
+    return value
+
+
+Name = Annotated[str, AfterValidator(_name)]
+"""A name that may become part of a file's name."""
+OptionalName = Annotated[str, AfterValidator(lambda value: value and _name(value))]
+"""A name, or empty where there is none."""
+Text = Annotated[str, AfterValidator(_text)]
+"""A line of free text."""

@@ -1,0 +1,155 @@
+"""Files that are written where a user says: whole or not at all, and never over what is the user's own.
+
+One rule holds for every command: what is there already is replaced only if jumpcad wrote it and nobody has changed it
+since, or with `--force`. A bundle knows its files by its manifest; a text file that is written again and again bears
+a seal; of any other file nobody can tell.
+"""
+
+import hashlib
+import os
+import secrets
+import shutil
+import stat
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+
+from jumpcad.errors import JumpcadError
+
+SEAL = "Written by jumpcad; SHA-256 of the lines above: "
+
+
+def write_atomically(path: Path, data: str | bytes) -> None:
+    """Write a file so that `path` holds all of it or what it held before; text is written in UTF-8.
+
+    Raises
+    ------
+    JumpcadError
+        If it cannot be written.
+    """
+    _write_all({path: data})
+
+
+def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
+    """Write files into a folder, which is made with its parents; return them. All are written or none.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder or a file cannot be written.
+    """
+    made = not folder.is_dir()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise JumpcadError(f"{folder}: cannot be written: {error.strerror}") from None
+    paths = {folder / name: data for name, data in files.items()}
+    try:
+        _write_all(paths)
+    except BaseException:
+        if made:
+            with suppress(OSError):
+                folder.rmdir()
+        raise
+    return list(paths)
+
+
+def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -> None:
+    """Refuse a file to be written whose name ends otherwise, that has no folder to lie in, or that is a user's own.
+
+    Raises
+    ------
+    JumpcadError
+        Saying which.
+    """
+    if path.suffix not in suffixes:
+        raise JumpcadError(f"{path}: must end in {' or '.join(suffixes)}")
+    require_folder(path)
+    require_free(path, force)
+
+
+def require_folder(path: Path) -> None:
+    """Refuse a file to be written that has no folder to lie in.
+
+    Raises
+    ------
+    JumpcadError
+        Naming both.
+    """
+    if not os.path.isdir(path.parent):
+        raise JumpcadError(f"{path}: cannot be written: there is no folder {path.parent}")
+
+
+def require_free(path: Path, force: bool = False) -> None:
+    """Refuse to write over a file that is not sealed by jumpcad, unless forced, and over what is no plain file at all.
+
+    Raises
+    ------
+    JumpcadError
+        Naming the path and the way out.
+    """
+    try:
+        mode = os.lstat(path).st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return
+    except OSError as error:
+        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
+    if not stat.S_ISREG(mode):
+        raise JumpcadError(f"{path}: is there already and is no plain file; choose another name")
+    if not force and not _is_sealed(path):
+        raise JumpcadError(f"{path}: exists already; choose another name, or replace it with --force")
+
+
+def sealed(text: str, comment: str = "# {}") -> str:
+    """Return text with a last line by which `require_free` knows it again, as long as nobody changes it.
+
+    Parameters
+    ----------
+    text
+        Ends with a line break.
+    comment
+        How the file's format writes a comment.
+    """
+    return f"{text}{comment.format(SEAL + _sha256(text.encode()))}\n"
+
+
+def same_file(one: Path, other: Path) -> bool:
+    """Tell whether two paths lead to one file, also by links, and also if it is not there yet."""
+    if os.path.realpath(one) == os.path.realpath(other):
+        return True
+    try:
+        return os.path.samefile(one, other)
+    except OSError:
+        return False
+
+
+def _is_sealed(path: Path) -> bool:
+    try:
+        lines = path.read_bytes().splitlines(keepends=True)
+    except OSError:
+        return False
+    return bool(lines) and (SEAL + _sha256(b"".join(lines[:-1]))).encode() in lines[-1]
+
+
+def _sha256(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
+
+
+def _write_all(files: Mapping[Path, str | bytes]) -> None:
+    """Write files under other names beside their own, then give all of them their names."""
+    waiting = {path: path.parent / f".jumpcad-{secrets.token_hex(8)}" for path in files}
+    try:
+        for path, data in files.items():
+            with waiting[path].open("xb") as stream:  # as open to others as the user's umask says
+                stream.write(data.encode() if isinstance(data, str) else data)
+            if path.exists():
+                shutil.copymode(path, waiting[path])
+        for path in files:
+            os.replace(waiting[path], path)
+    except BaseException as error:
+        for temporary in waiting.values():
+            with suppress(OSError):
+                os.unlink(temporary)
+        if isinstance(error, OSError):
+            raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
+        raise

@@ -1,0 +1,92 @@
+"""The SQLite file under a study: how it is opened and claimed, and what its errors mean."""
+
+import os
+import sqlite3
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from jumpcad.errors import JumpcadError
+from jumpcad.names import without_controls
+
+PATIENCE_S = 5.0
+"""How long a reader or writer waits for another one to finish."""
+
+
+def connect(target: str) -> sqlite3.Connection:
+    """Return a connection to a path, or to a `file:` address, that runs nothing which the file itself defines."""
+    connection = sqlite3.connect(target, uri=target.startswith("file:"), isolation_level=None, timeout=PATIENCE_S)
+    connection.execute("PRAGMA trusted_schema = OFF")
+    return connection
+
+
+def open_to_read(path: Path) -> sqlite3.Connection:
+    """Return a connection to a file that may be read.
+
+    It is opened for writing if that is allowed: the last one to close then folds the log beside the file into it. What
+    may not be written to is read with the log, or, where there is none, as a file that does not change.
+    """
+    log = path.with_name(f"{path.name}-wal")
+    ways = ["mode=rw", "mode=ro"]
+    if not (log.exists() and log.stat().st_size):
+        ways.append("mode=ro&immutable=1")
+    for way in ways:
+        connection = connect(f"{path.absolute().as_uri()}?{way}")
+        try:
+            connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
+            return connection
+        except sqlite3.OperationalError as error:
+            connection.close()
+            if way == ways[-1] or not _name(error).startswith(("SQLITE_CANTOPEN", "SQLITE_READONLY")):
+                raise
+    raise AssertionError
+
+
+def lock(path: Path) -> int:
+    """Claim a study file for this process until the returned descriptor is closed, or the process ends.
+
+    This kind of lock is apart from those by which SQLite lets readers and a writer take turns.
+    """
+    import fcntl
+
+    try:
+        descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+    except OSError as error:
+        raise JumpcadError(f"{path}: cannot be written: {error.strerror}") from None
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise JumpcadError(f"{path}: is a pipe or a device, not a study file")
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(descriptor)
+        raise JumpcadError(f"{path}: is being written by another run; wait for it, or name another file") from None
+    return descriptor
+
+
+@contextmanager
+def plain_errors(path: Path | None) -> Iterator[None]:
+    """Turn what SQLite says into one line about the file."""
+    try:
+        yield
+    except sqlite3.IntegrityError:
+        raise
+    except UnicodeDecodeError:  # in a message of SQLite's about a damaged file
+        raise JumpcadError(f"{path}: is damaged, or is not a study file (text that is none)") from None
+    except sqlite3.DatabaseError as error:
+        name, text = _name(error), without_controls(str(error))[:200]
+        if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
+            reason = "is locked by another program; close it there and repeat the command"
+        elif name.startswith(("SQLITE_FULL", "SQLITE_IOERR")):
+            reason = f"cannot be written ({text}); free some space and repeat the command: it goes on where it was"
+        elif name.startswith(("SQLITE_READONLY", "SQLITE_CANTOPEN")):
+            reason = f"cannot be opened ({text})"
+        else:
+            reason = f"is damaged, or is not a study file ({text})"
+        raise JumpcadError(f"{path}: {reason}") from None
+
+
+def _name(error: sqlite3.Error) -> str:
+    """Return SQLite's name of an error, where it is SQLite's."""
+    return str(getattr(error, "sqlite_errorname", ""))

@@ -1,0 +1,169 @@
+"""What a study file holds, made sure of: such files come from strangers, and disks make mistakes."""
+
+import math
+import re
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic_core import PydanticCustomError
+
+from jumpcad.complaints import shown
+from jumpcad.design import PARAMETERS, Design
+from jumpcad.errors import JumpcadError
+from jumpcad.files import TomlTable
+from jumpcad.findings import Finding
+from jumpcad.names import Name
+from jumpcad.search.objective import Evaluation
+
+STRICT = ConfigDict(strict=True, extra="forbid")
+WORD = re.compile(r"[A-Za-z]\w{0,79}", re.ASCII)
+"""What names of verdicts, findings, figures and parameters look like."""
+LARGEST = 1e12
+"""No figure of a jumping robot comes near."""
+
+Count = Annotated[int, Field(ge=0)]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Logarithm = Annotated[float, Field(ge=-100, le=100)]
+
+
+class _Named(TomlTable):
+    model_config = ConfigDict(extra="allow")
+
+    name: Name
+
+
+class _Range(TomlTable):
+    lower: float | None = None
+    upper: float | None = None
+    fixed: float | None = None
+    choices: Annotated[list[float], Field(min_length=1)] | None = None
+
+
+def _whole(space: dict[str, _Range]) -> dict[str, _Range]:
+    if tuple(space) != PARAMETERS:
+        raise PydanticCustomError("value_error", "must have all eight parameters of a design, in their order")
+    for name, part in space.items():
+        if list(part.model_fields_set) not in (["fixed"], ["choices"]) and part.model_fields_set != {"lower", "upper"}:
+            raise PydanticCustomError("value_error", f"{name} must be fixed, have lower and upper, or choices")
+    return space
+
+
+class _Identity(TomlTable):
+    """What readers of a study rely on; whether the rest is the same is for the writer to compare."""
+
+    model_config = ConfigDict(extra="allow")
+
+    model: _Named
+    objective: Name
+    method: Name
+    seed: Count
+    space: Annotated[dict[str, _Range], AfterValidator(_whole)]
+
+
+class _Stage(TomlTable):
+    method: Literal["ga", "bo", "pareto", "nsga2"]
+    evaluations: Count
+    initial: Count = 0
+
+
+_REMEMBERED: dict[str, TypeAdapter[Any]] = {
+    "identity": TypeAdapter(_Identity),
+    "stages": TypeAdapter(Annotated[list[_Stage], Field(min_length=1)]),
+}
+_METRICS = TypeAdapter(dict[str, float], config=STRICT)
+_FINDINGS = TypeAdapter(tuple[Finding, ...], config=STRICT)
+_PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]]], config=STRICT)
+
+
+def require_remembered(key: str, value: Any) -> None:
+    """Refuse what a study cannot have remembered as its `identity` or its `stages`.
+
+    Raises
+    ------
+    JumpcadError
+        Saying what is wrong.
+    """
+    _validated(_REMEMBERED[key].validate_python, key, value)
+
+
+def stored_design(record: Mapping[str, Any]) -> Design:
+    """Return the design of a row.
+
+    Raises
+    ------
+    JumpcadError
+        If a parameter is no number or out of range.
+    """
+    return Design(**{name: record[name] for name in PARAMETERS})
+
+
+def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
+    """Return the outcome of a row, whose texts are still bytes.
+
+    Raises
+    ------
+    JumpcadError
+        If it is not one that was written.
+    """
+    metrics = _validated(_METRICS.validate_json, "metrics", record["metrics"])
+    findings = _validated(_FINDINGS.validate_json, "findings", record["findings"])
+    verdict = stored_text(record, "verdict")
+    for name in (verdict, *metrics, *(finding.name for finding in findings)):
+        if not WORD.fullmatch(name):
+            raise JumpcadError(f"{shown(name)} is no name of a verdict, a finding or a figure")
+    for name, value in metrics.items():
+        if not abs(value) <= LARGEST:
+            raise JumpcadError(f"{name} = {value:g} is no plausible figure")
+    for finding in findings:
+        if math.isnan(finding.margin):  # infinite it may be: the audit of a simulation that blew up
+            raise JumpcadError(f"the margin of {finding.name} is not a number")
+    return Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
+
+
+def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
+    """Return what the optimiser thought of a row's design; hyperparameters fit a space of `free` parameters.
+
+    Raises
+    ------
+    JumpcadError
+        If it is not one that was written.
+    """
+    proposal: dict[str, Any] = _validated(_PROPOSAL.validate_json, "proposal", record["proposal"])
+    thetas = proposal.get("theta", {})
+    if not isinstance(thetas, dict) or any(len(theta) != free + 2 for theta in thetas.values()):
+        raise JumpcadError(f"proposal.theta: must be lists of {free + 2} hyperparameters")
+    return proposal
+
+
+def stored_text(record: Mapping[str, Any], key: str) -> str:
+    """Return a text of a row, which comes as bytes."""
+    try:
+        return bytes.decode(record[key], "utf-8")
+    except (TypeError, UnicodeDecodeError):
+        raise JumpcadError(f"{key} = {shown(record[key])} is no text") from None
+
+
+def stored_count(record: Mapping[str, Any], key: str) -> int:
+    """Return a number of a row that counts something."""
+    value = record[key]
+    if not isinstance(value, int) or value < 0:
+        raise JumpcadError(f"{key} = {shown(value)} is no whole number of at least 0")
+    return value
+
+
+def stored_figure(record: Mapping[str, Any], key: str) -> float:
+    """Return a number of a row."""
+    value = record[key]
+    if not isinstance(value, float) or not abs(value) <= LARGEST:
+        raise JumpcadError(f"{key} = {shown(value)} is no plausible number")
+    return value
+
+
+def _validated(validate: Any, key: str, value: Any) -> Any:
+    try:
+        return validate(value)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        place = ".".join(str(step) for step in (key, *first["loc"]))
+        raise JumpcadError(f"{place if place.isprintable() else shown(place)}: {first['msg']}") from None

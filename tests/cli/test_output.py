@@ -1,0 +1,165 @@
+"""Whatever stands behind standard output, whatever a file is called, whenever Ctrl-C is pressed: one line, one code."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.commands import Run
+
+from jumpcad.cli.output import escaped
+from jumpcad.design import load_design
+
+JUMPCAD = [sys.executable, "-m", "jumpcad"]
+LIGHT = ["simulate", "kenan-2.0", "--capsule"]
+SEARCH = ["optimize", "ga", "--model", "capsule", "--study", "s.db"]
+SWEEP = ["explore", "sweep", "--model", "capsule", "--study", "s.db"]
+
+SURROUNDINGS = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONUNBUFFERED": ""}
+"""Buffered, as for most people: errors come when the buffer is written."""
+
+needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
+
+
+def called(*arguments: str, shell: str = "", folder: Path, **environment: str) -> tuple[int, str, str]:
+    """Run the command in a process of its own, redirected by a shell's words."""
+    line = f'exec "$@" {shell}'
+    env = {**SURROUNDINGS, **environment}
+    done = subprocess.run(["sh", "-c", line, "sh", *JUMPCAD, *arguments], capture_output=True, cwd=folder, env=env)
+    return done.returncode, done.stdout.decode("utf-8"), done.stderr.decode("utf-8")
+
+
+@needs_full
+@pytest.mark.parametrize("arguments", [LIGHT, ["check", "kenan-2.0", "--json"], ["--help"]], ids=" ".join)
+def test_a_full_disk_behind_standard_output_is_one_line(tmp_path: Path, arguments: list[str]) -> None:
+    code, _, err = called(*arguments, shell=">/dev/full", folder=tmp_path)
+    assert (code, err) == (2, "jumpcad: standard output cannot be written: No space left on device\n")
+
+
+@needs_full
+def test_an_error_that_nobody_can_read_keeps_its_exit_code(tmp_path: Path) -> None:
+    assert called("fly", shell="2>/dev/full", folder=tmp_path) == (2, "", "")
+
+
+@pytest.mark.parametrize("arguments", [LIGHT, ["check", "kenan-2.0", "--json"]], ids=" ".join)
+def test_a_reader_that_has_gone_is_no_error(tmp_path: Path, arguments: list[str]) -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [*JUMPCAD, *arguments]
+    done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, cwd=tmp_path, env=SURROUNDINGS)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+@pytest.mark.parametrize("shell", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_are_no_error(tmp_path: Path, shell: str) -> None:
+    code, _, err = called(*LIGHT, shell=shell, folder=tmp_path)
+    assert (code, err) == (0, "")
+
+
+def test_what_an_encoding_lacks_is_shown_escaped(tmp_path: Path) -> None:
+    (tmp_path / "机.toml").write_text(load_design("kenan-2.0").to_toml())
+    code, out, err = called("simulate", "机.toml", "--capsule", folder=tmp_path, PYTHONIOENCODING="ascii")
+    assert (code, err) == (0, "")
+    assert out.startswith(r"\u673a.toml, capsule robot")
+    assert r"\xb0" in out  # a degree sign
+
+
+def test_a_deleted_folder_is_one_line(tmp_path: Path) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    done = subprocess.run(
+        ["sh", "-c", 'rmdir ../gone; exec "$@"', "sh", *JUMPCAD, *LIGHT], capture_output=True, text=True, cwd=gone,
+        env=SURROUNDINGS,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "jumpcad: the current folder was deleted: change into another one\n"
+
+
+PRESSED = """
+import os, signal, sys
+class Pressed:
+    def find_spec(self, name, path=None, target=None):
+        if name == {module!r}:
+            try:
+                os.kill(os.getpid(), signal.SIGINT)
+            except KeyboardInterrupt:  # as compiled modules do
+                raise ImportError("initialization failed") from None
+sys.meta_path.insert(0, Pressed())
+sys.argv = ["jumpcad", "simulate", "kenan-2.0"]
+from jumpcad.cli import main
+main()
+"""
+
+
+@pytest.mark.parametrize("module", ["typer", "numpy", "jumpcad.simulation"])
+def test_an_interrupt_while_modules_load_is_exit_code_130(tmp_path: Path, module: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", PRESSED.format(module=module)], capture_output=True, text=True, cwd=tmp_path,
+        env=SURROUNDINGS,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "jumpcad: interrupted\n")
+
+
+def test_an_error_is_one_line_whatever_the_file_is_called(run: Run) -> None:
+    assert run("simulate", "a\nb[/red]\x1b[2J\u202e\udcff.toml") == (
+        2, "", "jumpcad: a\\nb[/red]\\x1b[2J\\u202e\\udcff.toml: no such file\n",
+    )  # fmt: skip
+    assert escaped("Käfer 机器人 🐸 µ−°…") == "Käfer 机器人 🐸 µ−°…"
+
+
+@pytest.mark.parametrize("name", ["[/x].toml", "a\x1b[2Jb.toml", "[red]x.toml"])
+def test_names_are_no_markup_and_move_no_cursor(run: Run, tmp_path: Path, name: str) -> None:
+    file = tmp_path / name
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(load_design("kenan-2.0").to_toml())
+    code, out, err = run("simulate", name, "--capsule")
+    assert (code, err) == (0, "")
+    assert out.startswith(f"{escaped(name)}, capsule robot")
+    assert "\x1b" not in out
+    code, _, err = run("build", name, "--no-pictures")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "use letters, digits" in err
+
+
+def test_a_name_as_long_as_a_file_system_allows_is_refused(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / f"{'x' * 250}.toml"
+    file.write_text(load_design("kenan-2.0").to_toml())
+    code, out, err = run("build", file.name, "--no-pictures")
+    assert (code, out) == (2, "")
+    assert err.endswith("use at most 200 bytes\n")
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_link_to_itself_is_no_folder(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "loop").symlink_to("loop")
+    code, out, err = run("build", "kenan-2.0", "--no-pictures", "-o", "loop")
+    assert (code, out) == (2, "")
+    assert err.startswith("jumpcad: loop: cannot be a path")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        *([*SWEEP, "--points", number] for number in ("-1", "0", "1", "1001", "nan", "1e3", "9" * 30)),
+        *([*SWEEP, "--seed", number] for number in ("-1", "4294967296")),
+        *(["explore", "pca", *SWEEP[2:], "--samples", number] for number in ("-1", "0", "19", "100001")),
+        *([*SEARCH, "--evaluations", number] for number in ("-1", "0", "1000001", "9" * 30, "1.5")),
+        *([*SEARCH, "--seed", number] for number in ("-1", "4294967296", "nan")),
+        *([*SEARCH, "--workers", number] for number in ("-1", "nan")),
+        *([*SEARCH, "--limit", number] for number in ("-1", "0", "nan", "inf", "86401")),
+        *([*SEARCH, "--around", "best-bo", "--within", number] for number in ("-1", "0", "nan", "inf", "101")),
+        *([*SEARCH, "--batch", number] for number in ("-1", "0", "9" * 30)),
+        [*SEARCH[:-1], "."],
+        [*SWEEP[:-1], "."],
+    ],
+    ids=lambda arguments: " ".join(arguments[-2:]),
+)
+def test_a_number_that_no_search_can_have_is_one_line(run: Run, tmp_path: Path, arguments: list[str]) -> None:
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("jumpcad: ")
+    assert err.count("\n") == 1
+    assert arguments[-1] in err
+    assert list(tmp_path.iterdir()) == []

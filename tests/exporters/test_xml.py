@@ -1,0 +1,55 @@
+"""XML has no way to write a control character: such a text is refused, by every format."""
+
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+
+import pytest
+
+from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.page import write_report
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters.threemf import write_threemf
+from jumpcad.exporters.urdf import write_urdf
+from jumpcad.exporters.xml import add, allowed, document
+from jumpcad.names import NAME
+from jumpcad.printing.plates import packed
+from jumpcad.robot import Robot
+
+
+@pytest.mark.parametrize("letter", ["\x7f", "\x9b", "é", "机", "😀", "\t"])
+def test_what_is_written_is_what_a_parser_reads(letter: str) -> None:
+    root = ET.Element("a")
+    add(root, "b", letter)
+    assert ET.fromstring(document(root))[0].text == letter
+
+
+@pytest.mark.parametrize("letter", ["\x00", "\x01", "\x0b", "\x1b", "\ufffe"])
+def test_what_no_parser_reads_is_not_written(letter: str) -> None:
+    root = ET.Element("a")
+    add(root, "b", letter)
+    with pytest.raises(ET.ParseError):
+        ET.fromstring(f"<a>{letter}</a>")
+    with pytest.raises(JumpcadError, match=rf"U\+{ord(letter):04X}") as caught:
+        document(root)
+    assert str(caught.value).isprintable()
+
+
+def test_surrogates_are_refused() -> None:
+    with pytest.raises(JumpcadError, match=r"U\+D800"):
+        allowed("\ud800")
+
+
+def test_no_format_writes_a_robot_whose_name_has_a_control_character(small_robot: Robot) -> None:
+    robot = replace(small_robot, name="a\x01")
+    for write in (write_urdf, lambda robot: write_report(robot, {})):
+        with pytest.raises(JumpcadError, match=r"U\+0001"):
+            write(robot)
+    plate = packed(small_robot.parts[:1], (250.0, 210.0, 220.0), 5.0)[0]
+    with pytest.raises(JumpcadError, match=r"U\+0001"):
+        write_threemf(replace(plate, material="\x01"))
+
+
+def test_every_article_of_a_bill_can_be_given_a_price(small_robot: Robot) -> None:
+    """Prices are named by the beginnings of articles, which must therefore be names."""
+    for item in bill_of_materials(small_robot).items:
+        assert NAME.fullmatch(item.name[:50]), item.name

@@ -1,0 +1,137 @@
+"""What hostile inputs meet: a sandbox, good files to spoil, and a count of tries and failures at the end of a run."""
+
+import importlib.util
+import json
+import os
+import resource
+import shutil
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support.commands import exit_code_of
+from support.sandbox import Sandbox
+from support.slicers import OBEDIENT
+
+from jumpcad import simulation
+
+ENGINES = tuple(name for name in ("pybullet", "mujoco") if importlib.util.find_spec(name))
+TRIES: Counter[str] = Counter()
+FAILURES: Counter[str] = Counter()
+
+
+@dataclass(frozen=True)
+class Originals:
+    """Good files, made once: a robot's bundle, a coupon, and a study of a few evaluations."""
+
+    bundle: Path
+    coupon: Path
+    study: Path
+
+    @property
+    def urdf(self) -> bytes:
+        return (self.bundle / "urdf" / "kenan-2.0.urdf").read_bytes()
+
+    @property
+    def loop(self) -> dict[str, Any]:
+        return json.loads((self.bundle / "urdf" / "kenan-2.0.loop.json").read_text())
+
+    @property
+    def manifest(self) -> dict[str, Any]:
+        return json.loads((self.bundle / "manifest.json").read_text())
+
+
+@pytest.fixture(scope="session")
+def originals(tmp_path_factory: pytest.TempPathFactory) -> Originals:
+    """Make the good files with the command line itself."""
+    folder = tmp_path_factory.mktemp("originals")
+    made = Originals(folder / "bundle", folder / "coupon", folder / "study.db")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MPLCONFIGDIR", str(folder / "matplotlib"))
+        assert exit_code_of("build", "kenan-2.0", "-o", str(made.bundle), "--no-pictures", "--json") == 0
+        assert exit_code_of("coupon", "-o", str(made.coupon), "--json") == 0
+        search = ("--model", "capsule", "--evaluations", "6", "--workers", "0", "--study", str(made.study), "--json")
+        assert exit_code_of("optimize", *search) == 0
+        assert exit_code_of("study", str(made.study), "--plots", str(folder / "plots"), "--json") == 0
+    return made
+
+
+@pytest.fixture
+def sandbox(
+    originals: Originals,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+    request: pytest.FixtureRequest,
+) -> Iterator[Sandbox]:
+    """Yield the folders in which a command is tried; every try in them is counted."""
+    monkeypatch.setenv("MPLCONFIGDIR", str(originals.bundle.parent / "matplotlib"))
+    place = Sandbox(tmp_path / "sandbox", monkeypatch, capfd)
+    yield place
+    request.node.user_properties.append(("tries", place.tries))
+
+
+@pytest.fixture(autouse=True)
+def slicer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put a program that slices nothing in the slicer's place."""
+    program = tmp_path / "programs" / "prusa-slicer"
+    program.parent.mkdir()
+    program.write_text(f"#!{sys.executable}\n{OBEDIENT.replace('TAMPER', '')}")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+
+
+@pytest.fixture
+def bundle(sandbox: Sandbox, originals: Originals) -> Path:
+    """Return the folder of a bundle in the sandbox, `robot`."""
+    return Path(shutil.copytree(originals.bundle, sandbox.work / "robot"))
+
+
+@pytest.fixture
+def study(sandbox: Sandbox, originals: Originals) -> Path:
+    """Return a study in the sandbox, `study.db`."""
+    return Path(shutil.copy(originals.study, sandbox.work / "study.db"))
+
+
+@pytest.fixture(scope="session")
+def good_jump() -> dict[str, str]:
+    """Return what each engine prints of a good robot; filled in before anything hostile is tried."""
+    return {}
+
+
+@pytest.fixture
+def still_works(sandbox: Sandbox, good_jump: dict[str, str]) -> Callable[[str], None]:
+    """Return what asserts that an engine gives the result that it always gives, whatever came before."""
+    for engine in ENGINES if not good_jump else ():
+        good_jump[engine] = sandbox.call("simulate", "kenan-2.0", "--capsule", "--json", "--engine", engine).out
+
+    def check(engine: str) -> None:
+        done = sandbox.call("simulate", "kenan-2.0", "--capsule", "--json", "--engine", engine)
+        if done.out != good_jump[engine]:
+            simulation._engine.cache_clear()  # a fresh one for the cases to come
+            pytest.fail(f"{engine} no longer simulates a good robot as before: {done.out[:120]}")
+
+    return check
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Count the tries and failures of a class of inputs: the module `test_CLASS`."""
+    name = Path(report.nodeid.split("::")[0]).stem.removeprefix("test_")
+    FAILURES[name] += report.failed
+    if report.when == "teardown":
+        TRIES[name] += dict(report.user_properties).get("tries", 0)
+
+
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """Print the counts."""
+    terminalreporter.section("hostile inputs")
+    terminalreporter.write_line(f"{'class':12}{'tries':>8}{'failures':>10}")
+    for name in sorted(TRIES):
+        terminalreporter.write_line(f"{name:12}{TRIES[name]:8}{FAILURES[name]:10}")
+    terminalreporter.write_line(f"{'all':12}{TRIES.total():8}{FAILURES.total():10}")
+    spent = sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    terminalreporter.write_line(f"{spent:.0f} s of CPU in this process and those that it started")

@@ -1,0 +1,308 @@
+"""Faults while a command runs: full disks, locked folders, interrupts, lost workers, streams that nobody reads."""
+
+import contextlib
+import ctypes
+import errno
+import os
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hostile.conftest import Originals
+from support.sandbox import Sandbox
+
+SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0", "--study")
+CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH = 1, 2
+WRITERS: dict[str, tuple[str, ...]] = {
+    "new": ("new", "r.toml"),
+    "build": ("build", "kenan-2.0", "--no-pictures", "-o", "there"),
+    "build over": ("build", "kenan-2.0", "--no-pictures", "-o", "robot"),
+    "coupon": ("coupon", "-o", "there"),
+    "readings": ("coupon", "--measured", "readings.toml", "-o", "w.toml"),
+    "trajectory": ("simulate", "kenan-2.0", "--capsule", "--trajectory", "t.csv"),
+    "search": (*SEARCH, "s.db"),
+    "table": ("study", "study.db", "--export", "t.csv"),
+    "pictures": ("study", "study.db", "--plots", "there"),
+    "drawings": ("render", "robot", "-o", "there"),
+    "times": ("slice", "robot"),
+}
+"""A command for every kind of file that is written."""
+LOCKED = {
+    "robot/manifest.json": ("verify", "robot"),
+    "robot/design.toml": ("build", "robot", "-o", "there"),
+    "robot/urdf": ("simulate", "robot"),
+    "readings.toml": WRITERS["readings"],
+    "study.db": ("study", "study.db"),
+}
+"""What cannot be read, and a command that would."""
+
+
+@pytest.fixture(autouse=True)
+def laid(sandbox: Sandbox, originals: Originals) -> None:
+    """Lay what the commands read."""
+    shutil.copytree(originals.bundle, sandbox.work / "robot")
+    shutil.copy(originals.study, sandbox.work / "study.db")
+    sandbox.write("readings.toml", "[gauge.PETG]\naxle_press_mm = 0.1\n")
+
+
+@contextlib.contextmanager
+def full_disk(left: int) -> Iterator[None]:
+    """Let no file grow beyond some bytes: writing on fails, in every library, as on a full disk."""
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (left, limits[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+
+
+@contextlib.contextmanager
+def as_anybody() -> Iterator[None]:
+    """Let permissions bind this process, root or not: take its right to override them, for a while."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    head = struct.pack("Ii", 0x20080522, 0)  # version 3 of capabilities(7), of this thread
+    data = ctypes.create_string_buffer(24)
+    assert libc.capget(head, data) == 0
+    rights = list(struct.unpack("6I", data.raw))
+    bound = [rights[0] & ~(1 << CAP_DAC_OVERRIDE | 1 << CAP_DAC_READ_SEARCH), *rights[1:]]
+    assert libc.capset(head, struct.pack("6I", *bound)) == 0
+    try:
+        yield
+    finally:
+        libc.capset(head, struct.pack("6I", *rights))
+
+
+@pytest.mark.parametrize("left", [160, 4096])
+@pytest.mark.parametrize("command", [name for name in WRITERS if name != "times"])
+def test_a_full_disk_leaves_all_or_nothing(sandbox: Sandbox, command: str, left: int) -> None:
+    small = command in ("new", "readings") and left == 4096
+    study = ["s.db", "s.db-wal", "s.db-shm"] if command == "search" else []  # goes on from there
+    with full_disk(left):
+        sandbox.run(*WRITERS[command], exits=(0,) if small else (2,), writes=["r.toml", "w.toml"], leaves=study)
+
+
+@pytest.mark.parametrize("command", ["new", "build over", "coupon", "readings", "trajectory", "table"])
+def test_a_failing_rename_leaves_all_as_it_was(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    for name in ("replace", "rename", "link"):
+        monkeypatch.setattr(os, name, fail)
+    sandbox.run(*WRITERS[command], exits=(0, 2), writes=["robot"] if command == "build over" else [])
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="rights of root are taken as Linux has them")
+@pytest.mark.parametrize("command", WRITERS)
+def test_a_locked_folder_is_said(sandbox: Sandbox, command: str) -> None:
+    for folder in (sandbox.work, sandbox.work / "robot"):
+        folder.chmod(0o555)
+    try:
+        with as_anybody():
+            sandbox.run(*WRITERS[command], exits=(2,))
+    finally:
+        for folder in (sandbox.work, sandbox.work / "robot"):
+            folder.chmod(0o755)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="rights of root are taken as Linux has them")
+def test_a_study_in_a_locked_folder_is_read(sandbox: Sandbox) -> None:
+    (sandbox.work / "study.db").chmod(0o444)
+    sandbox.work.chmod(0o555)
+    try:
+        with as_anybody():
+            assert sandbox.run("study", "study.db", "--json", exits=(0,)).data["evaluations"] == 6
+    finally:
+        sandbox.work.chmod(0o755)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="rights of root are taken as Linux has them")
+@pytest.mark.parametrize(
+    "path", ["robot/manifest.json", "robot/design.toml", "robot/urdf", "readings.toml", "study.db"]
+)
+def test_a_locked_file_is_said(sandbox: Sandbox, path: str) -> None:
+    mode = (sandbox.work / path).stat().st_mode
+    (sandbox.work / path).chmod(0o000)
+    try:
+        with as_anybody():
+            done = sandbox.call(*LOCKED[path])
+    finally:
+        (sandbox.work / path).chmod(mode)
+    sandbox.tries += 1
+    assert (done.code, done.err.count("\n")) == (2, 1), done.err[-300:]
+
+
+def raising(error: BaseException) -> Callable[..., Any]:
+    def fail(*_: object, **__: object) -> None:
+        raise error
+
+    return fail
+
+
+@pytest.mark.parametrize("place", ["jumpcad.design.load_design", "json.dumps", "os.fsync", "hashlib.sha256"])
+@pytest.mark.parametrize("command", ["new", "build over", "coupon"])
+def test_an_interrupt_leaves_nothing_half(
+    sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, place: str, command: str
+) -> None:
+    """Where the command comes by the place at all."""
+    with monkeypatch.context() as patch:
+        patch.setattr(place, raising(KeyboardInterrupt()))
+        done = sandbox.call(*WRITERS[command])
+    sandbox.tries += 1
+    assert done.code in (0, 130)
+    if done.code == 130:
+        assert done.err == "jumpcad: interrupted\n"
+        assert not [path for path in sandbox.work.iterdir() if path.name.startswith(".")]
+        assert sandbox.call("verify", "robot").code == 0
+
+
+BUGS = {"division": ZeroDivisionError("a bug"), "key": KeyError("a bug"), "type": TypeError("a bug")}
+
+
+@pytest.mark.parametrize("bug", BUGS)
+@pytest.mark.parametrize("command", ["simulate", "build"])
+def test_a_bug_is_3_with_its_traceback(
+    sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, bug: str, command: str
+) -> None:
+    monkeypatch.setattr("jumpcad.design.load_design", raising(BUGS[bug]))
+    done = sandbox.run(command, "kenan-2.0", exits=(3,))
+    assert "Traceback" in done.err
+    assert "a bug" in done.err
+
+
+def test_no_memory_is_said_or_a_bug(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("jumpcad.building.build", raising(MemoryError()))
+    sandbox.run("build", "kenan-2.0", "-o", "there", exits=(2, 3))
+
+
+def test_what_a_killed_build_left_is_no_harm(sandbox: Sandbox) -> None:
+    sandbox.write(".robot.abcd1234/new/stl/foot.stl", "half")
+    sandbox.write(".r.toml.abcd1234", "half")
+    sandbox.run(*WRITERS["build over"], exits=(0,), writes=["robot"])
+    sandbox.run(*WRITERS["new"], exits=(0,), writes=["r.toml"])
+
+
+@pytest.mark.parametrize("way", ["SIGKILL", "SIGTERM", "exit"])
+def test_a_lost_worker_is_no_lost_search(sandbox: Sandbox, way: str) -> None:
+    """Workers find the trap when they load the model, in the file that every Python runs at its start."""
+    death = "os._exit(7)" if way == "exit" else f"os.kill(os.getpid(), signal.{way})"
+    sandbox.write(
+        "trap/sitecustomize.py",
+        "import os, signal, sys\n"
+        "def hook(event, arguments):\n"
+        "    loaded = event == 'import' and arguments[0] == 'jumpcad.mechanism.capsule'\n"
+        "    if loaded and 'loky' in ' '.join(sys.orig_argv):\n"
+        f"        {death}\n"
+        "sys.addaudithook(hook)\n",
+    )
+    package = Path(__file__).parents[2]
+    words = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "2", "--workers", "1", "--study", "s.db")
+    sandbox.process(
+        *words, "--json", exits=(0, 1, 2), writes=["s.toml"], leaves=["s.db", "s.db-wal", "s.db-shm"],
+        environment={"PYTHONPATH": f"{sandbox.work / 'trap'}:{package}"},
+    )  # fmt: skip
+
+
+INTERRUPTED_AT = ["typer", "pydantic", "numpy", "jumpcad.cli.simulate", "jumpcad.design", "pybullet"]
+
+
+@pytest.mark.parametrize("module", INTERRUPTED_AT)
+def test_ctrl_c_in_the_first_moments_is_one_line(sandbox: Sandbox, module: str) -> None:
+    """The signal comes when a module is asked for, so that the moment is the same in every run."""
+    program = (
+        "import os, signal, sys\n"
+        "def hook(event, arguments):\n"
+        f"    if event == 'import' and arguments[0] == {module!r}:\n"
+        "        os.kill(os.getpid(), signal.SIGINT)\n"
+        "from jumpcad.cli import main\n"
+        "sys.addaudithook(hook)\n"
+        "main()\n"
+    )
+    early = module in ("typer", "jumpcad.cli.simulate")  # loaded by then, on some versions
+    exits = (0, 130) if early or module == "pybullet" else (130,)
+    sandbox.process("simulate", "kenan-2.0", "--capsule", exits=exits, program=program)
+
+
+@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("study", "study.db"), ("--help",)])
+def test_a_full_standard_output_is_said(sandbox: Sandbox, command: tuple[str, ...]) -> None:
+    with open("/dev/full", "wb") as full:
+        sandbox.process(*command, exits=(2,), stdout=full)
+
+
+@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("simulate", "no.toml")])
+def test_a_full_standard_error_is_borne(sandbox: Sandbox, command: tuple[str, ...]) -> None:
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "jumpcad", *command], stdout=subprocess.PIPE, stderr=full, timeout=60,
+            env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}, check=False,
+        )  # fmt: skip
+    sandbox.tries += 1
+    assert done.returncode == (2 if "no.toml" in command else 0)
+
+
+@pytest.mark.parametrize("descriptors", [(1,), (2,), (0, 1), (0, 1, 2)], ids=str)
+def test_closed_streams_are_borne(sandbox: Sandbox, descriptors: tuple[int, ...]) -> None:
+    """And the numbers of those that are closed do not become those of a user's files."""
+
+    def close() -> None:
+        for descriptor in descriptors:
+            os.close(descriptor)
+
+    sandbox.process("new", "r.toml", exits=(0,), writes=["r.toml"], prepare=close)
+    assert "carrying_link_mm" in (sandbox.work / "r.toml").read_text()
+
+
+def test_a_reader_that_has_left_is_no_error(sandbox: Sandbox) -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    sandbox.process("study", "study.db", exits=(0, 1, 141, -signal.SIGPIPE), stdout=writing)
+    os.close(writing)
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252"])
+@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("check", "机器人.toml"), ("reproduce",)])
+def test_a_terminal_of_another_encoding_is_borne(sandbox: Sandbox, command: tuple[str, ...], encoding: str) -> None:
+    sandbox.run(*command, exits=(0, 2), encoding=encoding)
+
+
+def test_a_locale_of_ascii_is_borne(sandbox: Sandbox) -> None:
+    surroundings = {"PYTHONIOENCODING": "ascii", "LC_ALL": "C", "PYTHONUTF8": "0"}
+    sandbox.process("reproduce", exits=(0,), environment=surroundings)
+    sandbox.process("simulate", "机器人.toml", exits=(2,), environment=surroundings)
+
+
+@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("new", "r.toml"), ("coupon",)])
+def test_a_deleted_folder_is_said(sandbox: Sandbox, command: tuple[str, ...]) -> None:
+    gone = sandbox.work / "gone"
+    gone.mkdir()
+
+    def leave() -> None:
+        os.chdir(gone)
+        os.rmdir(gone)
+
+    sandbox.process(*command, exits=(0, 2) if command[0] == "simulate" else (2,), prepare=leave, leaves=["gone"])
+
+
+SURROUNDINGS = {
+    "no home": {"HOME": ""},
+    "a home that is none": {"HOME": "/no/such/folder"},
+    "no temporary folder": {"TMPDIR": "/no/such/folder"},
+    "a terminal of no columns": {"COLUMNS": "0", "TERM": "dumb"},
+    "a terminal of words": {"COLUMNS": "wide", "LINES": "high", "TERM": "\x1b"},
+    "no locale": {"LC_ALL": "klingon", "LANG": "x"},
+}
+
+
+@pytest.mark.parametrize("case", SURROUNDINGS)
+def test_odd_surroundings_are_borne(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, case: str) -> None:
+    for name, value in SURROUNDINGS[case].items():
+        monkeypatch.setenv(name, value)
+    sandbox.run("new", "r.toml", exits=(0,), writes=["r.toml"])
+    sandbox.run("build", "kenan-2.0", "--no-pictures", "-o", "there", exits=(0,), writes=["there"])
+    sandbox.run("study", "study.db", exits=(0,))

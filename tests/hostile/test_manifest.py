@@ -1,0 +1,202 @@
+"""Bundles from strangers: a manifest's values and paths, files that are links, files that are something else."""
+
+import hashlib
+import json
+import os
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hostile.conftest import Originals
+from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
+from support.sandbox import ANY, Sandbox
+
+COMMANDS = ("verify", "simulate", "slice", "build")
+
+
+def ask(sandbox: Sandbox, command: str, exits: tuple[int, ...]) -> None:
+    """Give the bundle `robot` to a command that reads it; `slice` may write into it, `build` beside it."""
+    more = ("-o", "again", "--no-pictures") if command == "build" else ()
+    writes = {"slice": ("robot",), "build": ("again",)}.get(command, ())
+    sandbox.run(command, "robot", *more, "--json", exits=exits, writes=writes)
+
+
+def with_file(originals: Originals, path: str, digest: str) -> str:
+    """Return a manifest that lists one more file."""
+    manifest = originals.manifest
+    manifest["files"][path] = digest
+    return json.dumps(manifest)
+
+
+@pytest.mark.parametrize("number", range(60))
+def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, bundle: Path, originals: Originals, number: int) -> None:
+    generator = np.random.default_rng(number)
+    manifest = originals.manifest
+    found = [place for place in places(manifest) if place[0] != "bodies"]
+    tops = [place for place in found if len(place) == 1]
+    place = tops[number] if number < len(tops) else found[int(generator.integers(len(found)))]
+    value = str(generator.choice(list(JSON_VALUES)))
+    sandbox.case = f"{place} = {value}"
+    (bundle / "manifest.json").write_text(with_value(manifest, place, JSON_VALUES[value]))
+    for command in ("verify", "simulate", "slice"):
+        ask(sandbox, command, ANY)
+
+
+ESCAPES = {
+    "above": "../../home/.bashrc",
+    "above later": "stl/../../../home/.bashrc",
+    "absolute": "{home}/.bashrc",
+    "through a link": "lnk/.bashrc",
+    "up from a link": "lnk/../home/.bashrc",
+    "windows": "..\\..\\home\\.bashrc",
+    "drive": "C:\\home\\.bashrc",
+    "home": "~/.bashrc",
+    "itself": ".",
+    "parent": "..",
+    "nothing": "",
+    "doubled": "stl//cam.stl",
+    "dotted": "./stl/cam.stl",
+    "nul": "stl/\0cam.stl",
+    "line": "stl/a\nb.stl",
+    "colour": "stl/\x1b[31m.stl",
+    "half a character": "stl/\ud800.stl",
+    "long": "x" * 5000,
+    "deep": "a/" * 1500 + "b",
+    "manifest": "manifest.json",
+}
+OUTSIDE = ("above", "above later", "absolute", "through a link", "up from a link")
+"""Paths at which a user's file lies, listed here with its very sha256."""
+
+
+@pytest.mark.parametrize(
+    ("case", "command"),
+    [(case, command) for case in ESCAPES for command in COMMANDS if case in OUTSIDE or command != "build"],
+)
+def test_no_path_leads_out_of_a_bundle(
+    sandbox: Sandbox, bundle: Path, originals: Originals, case: str, command: str
+) -> None:
+    (bundle / "lnk").symlink_to(sandbox.home)
+    digest = hashlib.sha256((sandbox.home / ".bashrc").read_bytes()).hexdigest()
+    path = ESCAPES[case].replace("{home}", str(sandbox.home))
+    (bundle / "manifest.json").write_text(with_file(originals, path, digest))
+    ask(sandbox, command, (2,) if case in OUTSIDE and command in ("verify", "slice") else ANY)
+
+
+LINKS = {
+    "bill": ("bom.csv", "home/.bashrc"),
+    "guide": ("assembly.md", "home/.bashrc"),
+    "design": ("design.toml", "outside/design.toml"),
+    "workshop": ("workshop.toml", "outside/workshop.toml"),
+    "urdf": ("urdf/kenan-2.0.urdf", "outside/robot.urdf"),
+    "folder": ("stl", "outside/stl"),
+    "urdf folder": ("urdf", "outside/urdf"),
+    "manifest": ("manifest.json", "outside/manifest.json"),
+}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("case", LINKS)
+def test_a_link_in_a_bundle_is_not_followed_out_of_it(
+    sandbox: Sandbox, bundle: Path, originals: Originals, case: str, command: str
+) -> None:
+    """What stands under the name is moved away and linked to, so that all digests are right."""
+    name, target = LINKS[case]
+    place = sandbox.root / target
+    if place.exists():
+        digest = hashlib.sha256(place.read_bytes()).hexdigest()
+        (bundle / name).unlink()
+        (bundle / "manifest.json").write_text(with_file(originals, name, digest))
+    else:
+        shutil.move(bundle / name, place)
+    (bundle / name).symlink_to(place)
+    ask(sandbox, command, (2,) if command == "slice" or (command == "verify" and case != "manifest") else ANY)
+
+
+NAMES = {
+    "path": "../../report",
+    "absolute": "/dev/null",
+    "empty": "",
+    "dot": "..",
+    "folder": "a/b",
+    "line": "a\nb",
+    "colour": "\x1b[31mred",
+    "nul": "a\0b",
+    "markup": "[/x]",
+    "long": "x" * 5000,
+}
+
+
+@pytest.mark.parametrize(
+    ("case", "command"),
+    [(case, command) for case in NAMES for command in ("simulate", "slice")] + [("path", "build"), ("nul", "build")],
+)
+def test_a_robots_name_is_no_path(
+    sandbox: Sandbox, bundle: Path, originals: Originals, case: str, command: str
+) -> None:
+    manifest = originals.manifest | {"name": NAMES[case]}
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+    ask(sandbox, command, ANY)
+
+
+@pytest.mark.parametrize("name", ["../../report", "/etc/passwd", "a\nb", "\x1b[31m", "[/x]", "=1+1", ""])
+@pytest.mark.parametrize("key", ["name", "material"])
+def test_a_parts_name_is_no_path(sandbox: Sandbox, bundle: Path, originals: Originals, key: str, name: str) -> None:
+    manifest = originals.manifest
+    manifest["masses"][0][key] = name
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+    ask(sandbox, "slice", (2,))
+
+
+@pytest.mark.parametrize("case", [*DOCUMENTS, *accidents(20, 6)])
+def test_what_is_no_manifest_is_refused(sandbox: Sandbox, bundle: Path, case: str) -> None:
+    spoils: dict[str, Spoil] = DOCUMENTS | accidents(20, 6)
+    (bundle / "manifest.json").write_bytes(spoils[case]((bundle / "manifest.json").read_bytes()))
+    for command in ("verify", "simulate"):
+        ask(sandbox, command, ANY)
+
+
+@pytest.mark.parametrize("kind", ["manifest-pipe", "manifest-folder", "manifest-device", "file-pipe", "file-folder"])
+def test_what_is_no_file_is_not_read(sandbox: Sandbox, bundle: Path, kind: str) -> None:
+    what, _, how = kind.partition("-")
+    path = bundle / ("manifest.json" if what == "manifest" else "bom.csv")
+    path.unlink()
+    if how == "pipe":
+        os.mkfifo(path)
+    elif how == "folder":
+        path.mkdir()
+    else:
+        path.symlink_to("/dev/zero")
+    sandbox.process("verify", "robot", "--json", exits=(1, 2))
+    sandbox.process("simulate", "robot", "--json")
+
+
+def test_a_file_that_is_not_listed_is_named(sandbox: Sandbox, bundle: Path) -> None:
+    sandbox.write("robot/stl/extra.stl", "solid")
+    said = sandbox.run("verify", "robot", "--json", exits=(0, 1))
+    assert "stl/extra.stl" in said.out
+
+
+def change_design(bundle: Path, text: str) -> None:
+    """Put another design in a bundle, listed as its own."""
+    manifest = json.loads((bundle / "manifest.json").read_text())
+    manifest["files"]["design.toml"] = hashlib.sha256(text.encode()).hexdigest()
+    (bundle / "design.toml").write_text(text)
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+
+
+CONTENTS: dict[str, Callable[[str], str]] = {
+    "empty": lambda text: "",
+    "nan": lambda text: text.replace("100.0", "nan", 1),
+    "control": lambda text: text + '"\\u001b[2J" = 1\n',
+    "huge": lambda text: text.replace("100.0", "1e308", 1),
+    "noise": lambda text: "\x00\x01",
+}
+
+
+@pytest.mark.parametrize("command", ["build", "render", "check"])
+@pytest.mark.parametrize("case", CONTENTS)
+def test_inputs_in_a_bundle_are_as_strange_as_any(sandbox: Sandbox, bundle: Path, case: str, command: str) -> None:
+    change_design(bundle, CONTENTS[case]((bundle / "design.toml").read_text()))
+    sandbox.run(command, "robot", "--json", exits=(2,))

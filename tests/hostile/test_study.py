@@ -1,0 +1,159 @@
+"""Study files from strangers, and those that an accident has spoilt: values, tables, bytes, and what is no file."""
+
+import json
+import os
+import shutil
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
+from support.sandbox import ANY, Sandbox
+
+from jumpcad.design import PARAMETERS
+
+COLUMNS = (
+    "phase", "step", PARAMETERS[0], "model", "verdict", "score", "metrics", "findings", "detail",
+    "proposal", "duration_s",
+)  # fmt: skip
+VALUES = {
+    "text": "'x'",
+    "empty": "''",
+    "bytes": "x'00ff00'",
+    "infinity": "9e999",
+    "minus": "-1",
+    "huge": "9223372036854775807",
+    "null-json": "'null'",
+    "list": "'[]'",
+    "nan-json": '\'{"fitness": NaN, "x": Infinity}\'',
+    "deep": "'" + JSON_VALUES["deep"] + "'",
+    "formula": "'=HYPERLINK(\"http://x\")'",
+    "escape": "char(27) || '[31m' || char(10) || '[/x]'",
+    "million": "hex(zeroblob(500000))",
+}
+SCHEMES = {
+    "no-study": "DROP TABLE study",
+    "no-evaluations": "DROP TABLE evaluations",
+    "no-notes": "DROP TABLE notes",
+    "no-rows": "DELETE FROM evaluations",
+    "no-identity": "DELETE FROM study WHERE key = 'identity'",
+    "no-stages": "DELETE FROM study WHERE key = 'stages'",
+    "renamed": "ALTER TABLE evaluations RENAME TO e",
+    "renamed-column": "ALTER TABLE evaluations RENAME COLUMN score TO points",
+    "more-columns": "ALTER TABLE evaluations ADD COLUMN more TEXT",
+    "view": "ALTER TABLE evaluations RENAME TO e; CREATE VIEW evaluations AS SELECT * FROM e",
+    "view-of-a-file": "DROP TABLE notes; CREATE VIEW notes AS SELECT readfile('/etc/passwd') AS text",
+    "trigger": "CREATE TRIGGER t AFTER INSERT ON notes BEGIN DELETE FROM evaluations; END",
+    "other-application": "PRAGMA application_id = 1",
+    "other-format": "PRAGMA user_version = 99",
+    "format-zero": "PRAGMA user_version = 0",
+    "notes-of-bytes": "INSERT INTO notes VALUES (x'ff00')",
+    "notes-of-a-terminal": "INSERT INTO notes VALUES (char(27) || '[2J' || char(10) || char(155))",
+    "utf-16": "VACUUM",
+}
+
+
+def spoil(study: Path, statements: str) -> None:
+    """Change a study as any SQLite client can."""
+    with closing(sqlite3.connect(study)) as connection:
+        connection.executescript(statements)
+    for more in ("-wal", "-shm"):
+        study.with_name(study.name + more).unlink(missing_ok=True)
+
+
+def ask(sandbox: Sandbox, exits: tuple[int, ...] = ANY) -> None:
+    """Read a study in every way that is cheap."""
+    sandbox.run("study", "study.db", "--json", exits=exits)
+    sandbox.run("study", "study.db", exits=exits)
+    sandbox.run("study", "study.db", "--export", "rows.csv", "--json", exits=exits, writes=["rows.csv"])
+
+
+@pytest.mark.parametrize("value", VALUES)
+@pytest.mark.parametrize("column", COLUMNS)
+def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, study: Path, column: str, value: str) -> None:
+    first = "rowid = (SELECT min(rowid) FROM evaluations)"
+    spoil(study, f"UPDATE evaluations SET {column} = {VALUES[value]} WHERE {first}")
+    ask(sandbox)
+
+
+@pytest.mark.parametrize("number", range(30))
+@pytest.mark.parametrize("key", ["identity", "stages"])
+def test_a_strange_description_is_borne_or_refused(sandbox: Sandbox, study: Path, key: str, number: int) -> None:
+    with closing(sqlite3.connect(study)) as connection:
+        good = json.loads(connection.execute("SELECT value FROM study WHERE key = ?", (key,)).fetchone()[0])
+    generator = np.random.default_rng(number)
+    found = list(places(good))
+    tops = [place for place in found if len(place) == 1]
+    place = tops[number] if number < len(tops) else found[int(generator.integers(len(found)))]
+    value = str(generator.choice(list(JSON_VALUES)))
+    sandbox.case = f"{place} = {value}"
+    text = with_value(good, place, JSON_VALUES[value]).replace("'", "''")
+    spoil(study, f"UPDATE study SET value = '{text}' WHERE key = '{key}'")
+    ask(sandbox)
+
+
+@pytest.mark.parametrize("case", SCHEMES)
+def test_a_strange_scheme_is_borne_or_refused(sandbox: Sandbox, study: Path, case: str) -> None:
+    spoil(study, SCHEMES[case])
+    ask(sandbox)
+
+
+@pytest.mark.parametrize("case", [*DOCUMENTS, *accidents(60, 10)])
+def test_an_accident_is_borne_or_refused(sandbox: Sandbox, study: Path, case: str) -> None:
+    spoils: dict[str, Spoil] = DOCUMENTS | accidents(60, 10)
+    study.write_bytes(spoils[case](study.read_bytes()))
+    ask(sandbox)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_an_accident_in_the_last_page_is_borne_or_refused(sandbox: Sandbox, study: Path, seed: int) -> None:
+    """Texts fill the last pages, and SQLite does not check them."""
+    data = study.read_bytes()
+    spoilt = accidents(12, 0)[f"flip-{seed}"](data[len(data) // 2 :])
+    study.write_bytes(data[: len(data) // 2] + spoilt)
+    ask(sandbox)
+
+
+def test_a_view_without_end_is_refused(sandbox: Sandbox, study: Path) -> None:
+    endless = "WITH RECURSIVE n(text) AS (SELECT 'x' UNION ALL SELECT text FROM n) SELECT text FROM n"
+    spoil(study, f"DROP TABLE notes; CREATE VIEW notes AS {endless}")
+    sandbox.process("study", "study.db", "--json", exits=(2,))
+
+
+@pytest.mark.parametrize("command", ["study", "from", "continue"])
+@pytest.mark.parametrize("kind", ["folder", "pipe", "loop", "dangling", "device", "nothing", "empty", "foreign"])
+def test_what_is_no_study_is_refused_and_kept(sandbox: Sandbox, kind: str, command: str) -> None:
+    path = sandbox.work / "study.db"
+    if kind == "folder":
+        path.mkdir()
+    elif kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "empty":
+        path.touch()
+    elif kind == "foreign":
+        with closing(sqlite3.connect(path)) as connection:
+            connection.executescript("CREATE TABLE photos (x); INSERT INTO photos VALUES (1)")
+    elif kind != "nothing":
+        path.symlink_to({"loop": "study.db", "dangling": "nowhere", "device": "/dev/zero"}[kind])
+    search = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0", "--json")
+    if command == "study":
+        sandbox.run("study", "study.db", "--json", exits=(2,))
+    elif command == "from":
+        sandbox.run(*search, "--from", "study.db", "--study", "new.db", exits=(2,))
+    elif kind in ("nothing", "empty"):
+        sandbox.run(*search, "--study", "study.db", exits=(0, 1), writes=["study.db", "study.toml"])
+    else:
+        sandbox.run(*search, "--study", "study.db", exits=(2,))
+
+
+@pytest.mark.parametrize("name", ["a?mode=memory.db", "a#b.db", "a%00b.db", "file:x.db", "機械.db", "a b.db", "-a.db"])
+def test_a_study_may_have_any_name(sandbox: Sandbox, study: Path, name: str) -> None:
+    shutil.move(study, sandbox.work / name)
+    sandbox.run("study", "--json", "--", name, exits=(0,))
+
+
+def test_a_log_of_another_study_beside_it_does_no_harm(sandbox: Sandbox, study: Path) -> None:
+    sandbox.write("study.db-wal", b"\x37\x7f\x06\x82" + bytes(4096))
+    sandbox.run("study", "study.db", "--json", writes=["study.db-wal", "study.db-shm"])

@@ -1,0 +1,291 @@
+"""Designs, workshops, settings and coupon readings: values, keys, names and files that nobody foresaw."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import strategies as st
+from support.mutations import DIGITS, DOCUMENTS, NESTED, Spoil, accidents
+from support.sandbox import ANY, Sandbox
+
+from jumpcad.design import PARAMETERS, load_design
+from jumpcad.files import to_toml
+from jumpcad.workshop import load_workshop
+
+DESIGN = load_design("kenan-2.0").to_toml()
+VALUES = {
+    "nan": "nan",
+    "infinity": "-inf",
+    "minus": "-1",
+    "zero": "0",
+    "overflow": "1e999",
+    "digits": DIGITS,
+    "text": '"long"',
+    "true": "true",
+    "list": "[1.0]",
+    "table": "{ a = 1 }",
+    "date": "1979-05-27",
+    "deep": "[" * NESTED + "]" * NESTED,
+    "escape": '"\\u001b[31m\\n[/x]"',
+    "nothing": "",
+}
+READINGS = "[gauge.PETG]\naxle_press_mm = 0.1\naxle_sliding_mm = 0.2\npegs_mm = [4.0, 6.0, 8.0]\n[gears]\n"
+KEYS = {
+    "workshop": ["[fits]\npress_mm", "[fits]\nbridge_mm", "[process]\nperimeters", "[process]\ninfill", "printer",
+                 "[printer]\nbed_mm", "[printer]\nname", "[roles]\nlinks", "roles", "[materials]\nPETG", "base",
+                 "[materials.PETG]\ndensity_g_cm3", "[bought]\nmotors", "[bought]\nbattery", "[bought]\naxle_mm",
+                 "[safety]\njumps", "[mass]\nmodel", "[mass.weighed_g]\nfoot", "[prices_eur]\nscrew", "fits"],
+    "settings": ["dt_s", "solver_iterations", "gravity_m_s2", "ground_friction", "flight", "max_time_s",
+                 "trajectory_rate_hz", "trajectory", "drag_per_s"],
+    "readings": ["[gauge.PETG]\naxle_press_mm", "[gauge.PETG]\npegs_mm", "[gauge]\nPETG", "gauge", "gears",
+                 "[gears]\nturns_freely_mm"],
+}  # fmt: skip
+NEVER = ("nan", "infinity", "overflow", "deep", "nothing", "date")
+"""Values that are right under no key."""
+
+
+def ask(sandbox: Sandbox, kind: str, exits: tuple[int, ...] = ANY) -> None:
+    """Give the file `x.toml` to the cheapest command that reads all of it."""
+    commands = {
+        "design": ("simulate", "x.toml", "--capsule"),
+        "workshop": ("coupon", "--measured", "readings.toml", "--workshop", "x.toml", "-o", "w.toml"),
+        "settings": ("simulate", "kenan-2.0", "--capsule", "--settings", "x.toml"),
+        "readings": ("coupon", "--measured", "x.toml", "-o", "w.toml"),
+    }
+    if kind == "workshop":
+        sandbox.write("readings.toml", READINGS)
+    sandbox.run(*commands[kind], "--json", exits=exits, writes=["w.toml"])
+
+
+@pytest.mark.parametrize("number", range(48))
+def test_a_strange_number_in_a_design_is_refused(sandbox: Sandbox, number: int) -> None:
+    key, value = PARAMETERS[number % 8], list(VALUES)[(number // 8 + number) % len(VALUES)]
+    sandbox.case = f"{key} = {value}"
+    lines = [f"{key} = {VALUES[value]}" if line.startswith(key) else line for line in DESIGN.splitlines()]
+    sandbox.write("x.toml", "\n".join(lines))
+    ask(sandbox, "design", (2,))
+
+
+@pytest.mark.parametrize("value", VALUES)
+@pytest.mark.parametrize(("kind", "key"), [(kind, key) for kind, keys in KEYS.items() for key in keys])
+def test_a_strange_value_is_borne_or_refused(sandbox: Sandbox, kind: str, key: str, value: str) -> None:
+    sandbox.write("x.toml", f"{key} = {VALUES[value]}\n")
+    ask(sandbox, kind, (2,) if value in NEVER else ANY)
+
+
+TEXTS: dict[str, str] = {
+    "unknown keys": "".join(f"key_{n} = 1\n" for n in range(20_000)),
+    "unknown tables": "".join(f"[table_{n}]\n" for n in range(5_000)),
+    "a long key": "k" * 100_000 + " = 1\n",
+    "a long value": f'carrying_link_mm = "{"v" * 1_000_000}"\n',
+    "deep arrays": f"carrying_link_mm = {'[' * NESTED}{']' * NESTED}\n",
+    "deep tables": f"{'a = { ' * NESTED}{'}' * NESTED}\n",
+    "a deep key": ".".join("a" * NESTED) + " = 1\n",
+    "a deep table": "[" + ".".join("a" * NESTED) + "]\n",
+    "digits": f"carrying_link_mm = {DIGITS}\n",
+    "digits after the point": f"carrying_link_mm = 1.{DIGITS}\n",
+    "a key of a terminal": '"\\u001b[2J\\u0007" = 1\n',
+    "a key of two lines": '"a\\nb" = 1\n',
+    "a key of markup": '"[/x]" = 1\n',
+    "a key of half a character": '"\\ud800" = 1\n',
+    "a key of nothing": '"" = 1\n',
+    "a key of direction": '"\\u202e\\u2028" = 1\n',
+    "a key twice": "c_coef = 1\nc_coef = 2\n",
+    "a raw control character": "c_coef = 1 # \x07\n",
+    "a value of a terminal": 'c_coef = "\\u001b]0;x\\u0007"\n',
+    "braces": 'c_coef = "{0} {x} %s"\n',
+}
+
+
+@pytest.mark.parametrize("kind", ["design", "workshop", "settings", "readings"])
+@pytest.mark.parametrize("case", TEXTS)
+def test_a_strange_text_is_refused(sandbox: Sandbox, kind: str, case: str) -> None:
+    sandbox.write("x.toml", TEXTS[case])
+    ask(sandbox, kind, (2,))
+
+
+@pytest.mark.parametrize("case", [*DOCUMENTS, *accidents(12, 4)])
+def test_a_spoilt_design_is_borne_or_refused(sandbox: Sandbox, case: str) -> None:
+    spoils: dict[str, Spoil] = DOCUMENTS | accidents(12, 4)
+    sandbox.write("x.toml", spoils[case](DESIGN.encode()))
+    ask(sandbox, "design")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_spoilt_workshop_is_borne_or_refused(sandbox: Sandbox, seed: int) -> None:
+    text = load_workshop("default").to_toml().encode()
+    sandbox.write("x.toml", accidents(12, 0)[f"flip-{seed}"](text))
+    ask(sandbox, "workshop")
+
+
+BASES: dict[str, Callable[[Path], str]] = {
+    "itself": lambda folder: "x.toml",
+    "a folder": lambda folder: "thesis",
+    "a folder's name": lambda folder: "thesis.toml",
+    "a pipe": lambda folder: os.mkfifo(folder / "pipe.toml") or "pipe.toml",
+    "a device": lambda folder: os.symlink("/dev/zero", folder / "zero.toml") or "zero.toml",
+    "a loop": lambda folder: os.symlink("loop.toml", folder / "loop.toml") or "loop.toml",
+    "a missing file": lambda folder: "no/such.toml",
+    "another kind": lambda folder: "../../templates/robots/kenan-2.0.toml",
+    "a user's file": lambda folder: "../home/.bashrc",
+    "nothing": lambda folder: "",
+    "a line": lambda folder: "a\\nb.toml",
+    "a colour": lambda folder: "\\u001b[31m.toml",
+    "nul": lambda folder: "a\\u0000.toml",
+    "a long name": lambda folder: "x" * 5000 + ".toml",
+}
+
+
+@pytest.mark.parametrize("key", ["base", "printer"])
+@pytest.mark.parametrize("case", BASES)
+def test_a_workshop_stands_on_no_strange_ground(sandbox: Sandbox, case: str, key: str) -> None:
+    sandbox.write("readings.toml", READINGS)
+    sandbox.write("x.toml", f'{key} = "{BASES[case](sandbox.work)}"\n')
+    if case in ("a pipe", "a device"):
+        sandbox.process("coupon", "--workshop", "x.toml", "-o", "gauges", exits=(2,))
+    else:
+        ask(sandbox, "workshop", (2,))
+
+
+@pytest.mark.parametrize("count", [100, 1500])
+def test_a_chain_of_workshops_ends(sandbox: Sandbox, count: int) -> None:
+    for n in range(count):
+        sandbox.write(f"w{n}.toml", f'base = "w{n + 1}.toml"\n')
+    sandbox.write(f"w{count}.toml", "[process]\ninfill = 0.2\n")
+    sandbox.write("x.toml", 'base = "w0.toml"\n')
+    ask(sandbox, "workshop", (0, 2) if count == 100 else (2,))
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device", "memory", "folder", "loop"])
+@pytest.mark.parametrize("argument", ["design", "workshop", "settings", "readings"])
+def test_what_is_no_file_is_refused(sandbox: Sandbox, argument: str, kind: str) -> None:
+    path = sandbox.work / "x.toml"
+    if kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "folder":
+        path.mkdir()
+    else:
+        path.symlink_to({"device": "/dev/zero", "memory": "/proc/self/mem", "loop": "x.toml"}[kind])
+    if kind in ("folder", "loop", "memory"):
+        ask(sandbox, argument, (2,))
+        return
+    option = {"design": "--around", "workshop": "--workshop", "settings": "--settings", "readings": "--measured"}
+    words = ("optimize", "--model", "printed", "--study", "s.db", "--evaluations", "1")
+    sandbox.process(*(("coupon",) if argument == "readings" else words), option[argument], "x.toml", exits=(2,))
+
+
+MATERIALS = {
+    "path": "x/../../../report",
+    "path up": "x/../../../../report",
+    "path further up": "x/../../../../../report",
+    "absolute": "/dev/full",
+    "parent": "..",
+    "formula": '=HYPERLINK("http://x")',
+    "at": "@SUM(1)",
+    "control": "a\u0001b",
+    "colour": "\u001b[31mPLA",
+    "line": "a\nb",
+    "markup": "[/x]",
+    "xml": '<a>&"',
+    "long": "x" * 300,
+    "empty": "",
+    "blank": " ",
+    "foreign": "聚乳酸",
+    "braces": "{workshop}",
+}
+
+
+@pytest.mark.parametrize("case", MATERIALS)
+def test_a_materials_name_stays_a_name(sandbox: Sandbox, case: str) -> None:
+    """What is not refused is written as files, tables and XML that others read."""
+    name = MATERIALS[case]
+    data = {
+        "roles": {"links": name, "body": "PLA", "gears": "PETG"},
+        "materials": {name: {"density_g_cm3": 1.2, "strength_in_plane_mpa": 40.0, "strength_interlayer_mpa": 20.0,
+                             "modulus_mpa": 2000.0}},
+    }  # fmt: skip
+    sandbox.write("x.toml", to_toml(data))
+    sandbox.run("coupon", "--workshop", "x.toml", "-o", "gauges", "--json", writes=["gauges"])
+    sandbox.run("build", "kenan-2.0", "--workshop", "x.toml", "-o", "robot", "--no-pictures", writes=["robot"])
+
+
+NONSENSE = {
+    "a part that no robot has": "[mass.weighed_g]\nmain_legg = 5.0\n",
+    "a negative weight": "[mass.weighed_g]\nmain_leg = -5.0\n",
+    "a weight of tons": "[mass.weighed_g]\nmain_leg = 1e300\n",
+    "fits that cut into everything": "[fits]\npress_mm = -0.5\nsliding_mm = -0.5\nloose_mm = -0.5\n",
+    "one material for all": 'roles = "PLA"\n',
+    "a price of a name of markup": '[prices_eur]\n"[/x]" = 1.0\n',
+    "a price that is a formula": '[prices_eur]\n"=1+1" = 1.0\n',
+    "a printer named in colour": '[printer]\nname = "\\u001b[31m\\u0001"\n',
+    "a printer of formulas": '[printer]\nname = "=1+1"\nsource = "@x"\n',
+    "an endless bed": "[printer]\nbed_mm = [1e4, 1e4, 1e4]\n",
+    "a motor of markup": '[bought]\nmotors = ["[/x]"]\n',
+    "a roller of a path": '[bought]\nroller = "../../x"\n',
+}
+REFUSED = ("a part that no robot has", "a negative weight", "fits that cut into everything", "one material for all",
+           "a motor of markup", "a roller of a path")  # fmt: skip
+
+
+@pytest.mark.parametrize("case", NONSENSE)
+def test_nonsense_in_a_workshop_is_named(sandbox: Sandbox, case: str) -> None:
+    sandbox.write("x.toml", NONSENSE[case])
+    done = sandbox.run(
+        "build", "kenan-2.0", "--workshop", "x.toml", "-o", "robot", "--no-pictures", "--json",
+        exits=(1, 2) if case in REFUSED else ANY, writes=["robot"],
+    )  # fmt: skip
+    assert "dictionary" not in done.err
+    assert "instance of" not in done.err
+
+
+CORNERS = [tuple(float(bound) for bound in np.random.default_rng(seed).uniform(0, 1, 8).round()) for seed in range(40)]
+LIMITS = ((20, 400), (0.3, 3), (0.1, 3), (0.1, 3), (0.01, 0.99), (5, 90), (0.1, 200), (1, 89))
+"""What a design can be, by its own documentation."""
+
+
+def write_design(sandbox: Sandbox, vector: list[float]) -> None:
+    sandbox.write("x.toml", to_toml(dict(zip(PARAMETERS, vector, strict=True))))
+
+
+@pytest.mark.parametrize("corner", CORNERS, ids=lambda corner: "".join(str(int(side)) for side in corner))
+def test_a_design_in_a_corner_ends_in_a_verdict(sandbox: Sandbox, corner: tuple[float, ...]) -> None:
+    write_design(sandbox, [low + side * (high - low) for side, (low, high) in zip(corner, LIMITS, strict=True)])
+    ask(sandbox, "design", (0, 1))
+
+
+HOLDS_BADLY = [47.2223, 0.3388, 0.5689, 0.263, 0.3217, 53.5764, 200, 28.8995]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_valid_design_is_built_or_cannot_be(sandbox: Sandbox, seed: int) -> None:
+    """About a known troublemaker, and anywhere near the searched box."""
+    generator = np.random.default_rng(seed)
+    vector = np.array(HOLDS_BADLY) * (generator.uniform(0.97, 1.03, 8) if seed else 1.0)
+    if seed > 3:
+        vector = np.array([100, 1, 0.833, 0.934, 0.46, 70, 9.2, 40]) * generator.uniform(0.6, 1.25, 8)
+    limits = np.array(LIMITS)
+    write_design(sandbox, np.clip(vector, limits[:, 0], limits[:, 1]).tolist())
+    sandbox.run("check", "x.toml", "--json", exits=(0, 1))
+
+
+@settings(
+    derandomize=True, max_examples=60, deadline=None, database=None, phases=[Phase.generate],
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)  # fmt: skip
+@given(st.tuples(*(st.floats(low, high) for low, high in LIMITS)))
+def test_any_valid_design_ends_in_a_verdict(sandbox: Sandbox, vector: tuple[float, ...]) -> None:
+    write_design(sandbox, [*vector])
+    ask(sandbox, "design", (0, 1))
+
+
+@settings(
+    derandomize=True, max_examples=60, deadline=None, database=None, phases=[Phase.generate],
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)  # fmt: skip
+@given(st.text(max_size=200))
+def test_any_text_is_borne_or_refused(sandbox: Sandbox, text: str) -> None:
+    sandbox.write("x.toml", text.encode("utf-8", "replace"))
+    ask(sandbox, "design", (2,))

@@ -1,0 +1,176 @@
+"""URDF and loop files from strangers: read as they were written, or refused in one line."""
+
+import json
+import os
+import random
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.robot import Robot
+from jumpcad.simulation.from_urdf import robot_from_urdf
+
+KENAN = capsule_robot(load_design("kenan-2.0"))
+URDF, LOOP = write_urdf(KENAN), write_loop(KENAN)
+HEAD = '<?xml version="1.0" encoding="utf-8"?>\n'
+LAUGHS = "".join(f'<!ENTITY a{n + 1} "{f"&a{n};" * 10}">' for n in range(9))
+TRIES = 60
+"""Mutations of each kind; thousands were tried when this was written."""
+
+
+@pytest.fixture
+def read(tmp_path: Path) -> Callable[..., Robot]:
+    """Return a function that reads a robot from the texts of its two files."""
+
+    def read_texts(urdf: str | bytes = URDF, loop: str | bytes = LOOP) -> Robot:
+        for name, text in (("k.urdf", urdf), ("k.loop.json", loop)):
+            (tmp_path / name).write_bytes(text.encode() if isinstance(text, str) else text)
+        return robot_from_urdf(tmp_path / "k.urdf")
+
+    return read_texts
+
+
+def element(tag: str, **attributes: str) -> str:
+    """The text of the first such element of the URDF, with other attributes."""
+    text = re.search(rf"<{tag} [^>]*>", URDF)[0]  # type: ignore[index]
+    for key, value in attributes.items():
+        text = re.sub(rf'\b{key}="[^"]*"', f'{key}="{value}"', text)
+    return re.sub(rf"<{tag} [^>]*>", text, URDF, count=1)
+
+
+@pytest.mark.parametrize(
+    ("urdf", "reason"),
+    [
+        (element("mass", value="0"), "body: mass: value = 0: must be 1e-06…1000"),
+        (element("mass", value="-0.1"), "mass: value = -0.1: must be"),
+        (element("mass", value="nan"), "mass: value = 'nan': must be 1 finite number"),
+        (element("mass", value="1e400"), "must be 1 finite number"),
+        (element("mass", value="1_0"), "must be 1 finite number"),
+        (element("inertia", ixx="0"), "principal moment 0 kg·m²: must be more than 0"),
+        (element("inertia", izz="-1e-5"), "principal moment -1e-05 kg·m²: must be more than 0"),
+        (element("inertia", iyy="1e-9"), "none can be more than the other two together"),
+        (element("inertia", ixx="1e6", iyy="1e6", izz="1e6"), "a radius of gyration of"),
+        (element("inertia", ixy="inf"), "ixy = 'inf': must be 1 finite number"),
+        (element("origin", xyz="0 0"), "xyz = '0 0': must be 3 finite numbers"),
+        (element("origin", xyz="100 0 0"), "its origin is further than 10 m away"),
+        (element("sphere", radius="-1"), "radius = -1: must be"),
+        (element("axis", xyz="1 0 0"), "joint leg: must be revolute about the axis 0 1 0"),
+        (element("limit", lower="3"), "lower = 3 must be less than upper"),
+        (element("limit", effort="-1"), "joint leg: effort = -1: must be"),
+        (element("limit", velocity="0"), "joint leg: velocity = 0: must be"),
+        (element("dynamics", damping="NaN"), "damping = 'NaN': must be 1 finite number"),
+        (element("parent", link="foot"), "joint leg: must lead from body to main_leg"),
+        (URDF.replace('link name="foot"', 'link name="fot"'), r"link 'fot' is none of .*did you mean foot\?"),
+        (URDF.replace('link name="foot"', 'link name="body"'), "link body is there twice"),
+        (re.sub(r'<joint name="ankle".*?</joint>', "", URDF, flags=re.DOTALL), "joint ankle is missing"),
+        (re.sub(r"<inertial>.*?</inertial>", "", URDF, count=1, flags=re.DOTALL), "body: has no inertial, needs one"),
+        (re.sub(r'<joint name="leg" type="revolute">\s*<origin xyz="-0\.0', r"\g<0>1", URDF), "origin is not that"),
+        (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r [<!ENTITY a0 "ha">{LAUGHS}]>').replace("kenan", "&a9;"), "type decl"),
+        (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r [<!ENTITY e SYSTEM "file:///etc/passwd">]>'), "type decl"),
+        (URDF.replace(HEAD, f'{HEAD}<!DOCTYPE r SYSTEM "http://localhost/r.dtd">'), "type decl"),
+        (f"{HEAD}<robot name='x'>{'<link>' * 70_000}{'</link>' * 70_000}</robot>", "link: has no name"),
+        (URDF.replace("utf-8", "no-such-code"), "broken XML"),
+        (URDF + " " * (1 << 20), "is larger than 1 MiB"),
+        ("", "broken XML"),
+        ("<a/>", "its root is 'a', not 'robot'"),
+    ],
+)  # fmt: skip
+def test_what_no_mechanism_has_is_refused(read: Callable[..., Robot], urdf: str, reason: str) -> None:
+    assert urdf != URDF
+    with pytest.raises(JumpcadError, match=reason) as caught:
+        read(urdf)
+    assert str(caught.value).isprintable()
+
+
+def changed(value: Any, *path: str | int) -> str:
+    """The loop file with one value changed, or left out where the value is a hole."""
+    data = json.loads(LOOP)
+    inner = data
+    for step in path[:-1]:
+        inner = inner[step]
+    inner[path[-1]] = value
+    return json.dumps(data)
+
+
+@pytest.mark.parametrize(
+    ("loop", "reason"),
+    [
+        (changed(float("nan"), "foot_depth_m"), "NaN is no number"),
+        (changed(float("inf"), "spring", "wind_rad"), "Infinity is no number"),
+        (changed(10**400, "spring", "wind_rad"), "wind_rad = 1000"),
+        (changed(-1.0, "spring", "stiffness_nm_per_rad"), "must be more than 0"),
+        (changed("ankle", "spring", "joint"), "spring.joint = 'ankle': must be 'leg'"),
+        (changed(0.0, "foot_depth_m"), "foot_depth_m = 0.0: must be more than 0"),
+        (changed([0.1, 0.0], "loop", "point_a_m"), "loop.point_a_m.2: missing"),
+        (changed([0.2, 0.0, 0.0], "loop", "point_a_m"), "points of the loop are not those of the design"),
+        (changed("body", "loop", "body_a"), "the loop must join front_link and foot"),
+        (changed(1e9, "design", "carrying_link_mm"), "must be at most 400"),
+        (changed(3, "design"), r"design = 3: must be a table: \[design\]"),
+        (changed(150.0, "design", "carrying_link_mm"), "joint leg: its origin is not that of the design"),
+        (changed({}, "travel_rad"), "travel_rad"),
+        (changed("ice", "surfaces", "back"), "surfaces.back = 'ice': must be 'foot' or 'body'"),
+        (changed({}, "surfaces"), "collision 'back_pivot': has no surface"),
+        (changed(1, "self"), "self: unknown key"),
+        ("[]", "is no table of values"),
+        ("[" * 5000 + "]" * 5000, "nested deeper than 20 levels"),
+        ("9" * 6000, "not valid JSON"),
+        (b"\xff", "not a text file in UTF-8"),
+    ],
+)
+def test_what_no_loop_file_says_is_refused(read: Callable[..., Robot], loop: str | bytes, reason: str) -> None:
+    with pytest.raises(JumpcadError, match=reason) as caught:
+        read(loop=loop)
+    assert str(caught.value).isprintable()
+
+
+def test_pipes_and_devices_do_not_block(tmp_path: Path) -> None:
+    (tmp_path / "k.loop.json").write_text(LOOP)
+    os.mkfifo(tmp_path / "k.urdf")
+    with pytest.raises(JumpcadError, match="is a pipe or a device"):
+        robot_from_urdf(tmp_path / "k.urdf")
+    (tmp_path / "k.urdf").unlink()
+    (tmp_path / "k.urdf").symlink_to("/dev/zero")
+    with pytest.raises(JumpcadError, match="is a pipe or a device"):
+        robot_from_urdf(tmp_path / "k.urdf")
+
+
+def test_a_flat_body_is_a_body(read: Callable[..., Robot]) -> None:
+    """Of a lamina the largest moment is the sum of the others, up to the rounding of whoever wrote it."""
+    robot = read(element("inertia", ixx="1.1e-5", ixy="0", ixz="0", iyy="2.2e-5", iyz="0", izz="3.3000001e-5"))
+    assert robot.bodies["body"].inertia_kg_m2.trace() == pytest.approx(6.6e-5)
+
+
+def spoilt(text: str, seed: int) -> bytes:
+    """A text with flipped bytes, cut short, or with a piece left out or repeated."""
+    chance, content = random.Random(seed), bytearray(text.encode())
+    start = chance.randrange(len(content))
+    end = start + chance.randrange(1, 400)
+    if seed % 4 == 0:
+        for _ in range(chance.randrange(1, 8)):
+            content[chance.randrange(len(content))] ^= 1 << chance.randrange(8)
+    elif seed % 4 == 1:
+        del content[start:]
+    elif seed % 4 == 2:
+        del content[start:end]
+    else:
+        content[start:start] = content[start:end]
+    return bytes(content)
+
+
+@pytest.mark.parametrize("file", ["urdf", "loop"])
+def test_accidents_are_one_line_or_harmless(read: Callable[..., Robot], file: str) -> None:
+    refused = []
+    for seed in range(TRIES):
+        try:
+            read(**{file: spoilt({"urdf": URDF, "loop": LOOP}[file], seed)})
+        except JumpcadError as error:
+            refused.append(str(error))
+    assert len(refused) > TRIES // 2
+    assert all(told.isprintable() for told in refused)

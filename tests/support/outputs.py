@@ -1,0 +1,120 @@
+"""What a tree of files holds, what changed in it, and whether what was written can be read by others."""
+
+import csv
+import hashlib
+import json
+import os
+import re
+import stat
+import zipfile
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
+"""Characters that no text may hold: all control characters but tab and line feed, line separators, half characters."""
+FORMULA = re.compile(r"\s*[=+\-@]")
+"""How a cell begins that a spreadsheet computes."""
+TEXTS = (".csv", ".html", ".json", ".md", ".sdf", ".toml", ".urdf", ".xml")
+XMLS = (".sdf", ".urdf", ".xml")
+
+
+@dataclass(frozen=True)
+class State:
+    """What a path is: its kind, permissions, content (hash or target), and when it was changed (ns; files only)."""
+
+    kind: str
+    mode: int
+    content: str = ""
+    changed_ns: int = 0
+
+
+Snapshot = dict[str, State]
+"""State by path relative to the root."""
+
+
+def snapshot(root: Path) -> Snapshot:
+    """Return the state of everything in a tree; links are not followed."""
+    found = {}
+    for folder, folders, files in os.walk(root):
+        for name in (*folders, *files):
+            path = os.path.join(folder, name)
+            found[os.path.relpath(path, root)] = _state(path)
+    return found
+
+
+def _state(path: str) -> State:
+    status = os.lstat(path)
+    mode = stat.S_IMODE(status.st_mode)
+    if stat.S_ISLNK(status.st_mode):
+        return State("link", mode, os.readlink(path))
+    if stat.S_ISREG(status.st_mode):
+        digest = hashlib.sha256(Path(path).read_bytes()).hexdigest()
+        return State("file", mode, digest, status.st_mtime_ns)
+    return State("folder" if stat.S_ISDIR(status.st_mode) else "device", mode)
+
+
+def changes(before: Snapshot, after: Snapshot, allowed: Collection[str], kept: Collection[str]) -> Iterator[str]:
+    """Yield what was made, changed or removed outside of the allowed places, or within the kept ones."""
+    for name in sorted(before.keys() | after.keys()):
+        if _lies_in(name, allowed) and not _lies_in(name, kept):
+            continue
+        if name not in before:
+            yield f"made {name!a}"
+        elif name not in after:
+            yield f"removed {name!a}"
+        elif before[name] != after[name]:
+            yield f"changed {name!a}"
+
+
+def _lies_in(name: str, places: Collection[str]) -> bool:
+    return any(name == place or name.startswith(f"{place}/") for place in places)
+
+
+def file_faults(path: Path) -> Iterator[str]:
+    """Yield why a file cannot be read as what its name says, or would run in its reader."""
+    try:
+        if path.suffix == ".3mf":
+            with zipfile.ZipFile(path) as package:
+                for name in package.namelist():
+                    if name.endswith((".model", ".rels", ".xml")):
+                        ElementTree.fromstring(package.read(name))
+        if path.suffix not in TEXTS:
+            return
+        text = path.read_text(encoding="utf-8")
+        if found := CONTROL.search(text):
+            yield f"control character {found[0]!a}"
+        if path.suffix == ".json":
+            strict_json(text)
+        elif path.suffix == ".csv":
+            yield from formulas(text)
+        elif path.suffix in XMLS:
+            ElementTree.fromstring(text)
+    except (ValueError, SyntaxError, zipfile.BadZipFile, csv.Error) as error:
+        yield f"{type(error).__name__}: {str(error)[:200]}"
+
+
+def formulas(text: str) -> Iterator[str]:
+    """Yield the cells of a CSV table that a spreadsheet computes; signed numbers are none."""
+    csv.field_size_limit(10_000_000)
+    for row in csv.reader(text.splitlines()):
+        yield from (f"a formula: {cell[:60]!a}" for cell in row if FORMULA.match(cell) and not _is_number(cell))
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def strict_json(text: str) -> Any:
+    """Return a JSON document; ValueError where it has NaN or an infinity, as Python alone reads them."""
+
+    def refuse(name: str) -> None:
+        raise ValueError(f"{name} is no JSON")
+
+    return json.loads(text, parse_constant=refuse)

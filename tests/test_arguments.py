@@ -1,0 +1,110 @@
+"""Whatever is given to a public function, it works or says in one line what it takes."""
+
+import itertools
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import jumpcad
+from jumpcad.arguments import typed
+from jumpcad.errors import JumpcadError
+
+ODD: list[Any] = [
+    None, "", "x\n[/red]y", "a\0b.toml", "x" * 5000, b"kenan-2.0", 0, -1, float("nan"), float("inf"), 10**400, True, [],
+    [1.0] * 7, ["1"] * 8, np.zeros(8), np.zeros((2, 4)), {}, {"a": 1}, {1.0}, object(), int, iter([1.0] * 8), jumpcad,
+    Path("nowhere.toml"), Path(),
+]  # fmt: skip
+
+DESIGN = jumpcad.load_design("kenan-2.0")
+CAPSULE = jumpcad.capsule_robot(DESIGN)
+
+CALLS = {
+    "build design": jumpcad.build,
+    "build workshop": lambda odd: jumpcad.build(DESIGN, 0 if odd is None else odd),
+    "build name": lambda odd: jumpcad.build(DESIGN, None, odd if not isinstance(odd, str) else 0),
+    "capsule_robot": jumpcad.capsule_robot,
+    "check": jumpcad.check,
+    "evaluate design": jumpcad.evaluate,
+    "evaluate workshop": lambda odd: jumpcad.evaluate(DESIGN, 0 if odd is None else odd),
+    "evaluate settings": lambda odd: jumpcad.evaluate(DESIGN, None, 0 if odd is None else odd),
+    "evaluate engine": lambda odd: jumpcad.evaluate(DESIGN, None, None, odd),
+    "export robot": lambda odd: jumpcad.export(odd, "out"),
+    "export folder": lambda odd: jumpcad.export(CAPSULE, odd),
+    "load_design": jumpcad.load_design,
+    "load_settings": jumpcad.load_settings,
+    "load_workshop": jumpcad.load_workshop,
+    "published": jumpcad.published.simulate,
+    "simulate robot": jumpcad.simulate,
+    "simulate settings": lambda odd: jumpcad.simulate(CAPSULE, 0 if odd is None else odd),
+    "simulate engine": lambda odd: jumpcad.simulate(CAPSULE, None, odd),
+    "Design": jumpcad.Design,
+    "Design value": lambda odd: jumpcad.Design(**{**DESIGN.model_dump(), "c_coef": odd}),
+    "from_vector": jumpcad.Design.from_vector,
+    "from_vector value": lambda odd: jumpcad.Design.from_vector([odd] * 8),
+    "Settings": jumpcad.Settings,
+    "Settings value": lambda odd: jumpcad.Settings(dt_s=odd),
+    "Workshop": jumpcad.Workshop,
+    "Workshop value": lambda odd: jumpcad.Workshop(printer=odd),
+}
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_nonsense_is_refused(call: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    for odd in ODD:
+        with pytest.raises(JumpcadError):
+            CALLS[call](odd)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_name_in_place_of_a_design_says_how_to_load_it() -> None:
+    with pytest.raises(JumpcadError) as caught:
+        jumpcad.build("kenan-2.0")
+    assert str(caught.value) == (
+        "build() takes a Design, not 'kenan-2.0' (str): jumpcad.load_design('kenan-2.0') makes one"
+    )
+
+
+def test_missing_and_unknown_arguments_are_named() -> None:
+    with pytest.raises(JumpcadError, match=r"build\(design, workshop=None, name='robot'\): missing .*'design'"):
+        jumpcad.build()
+    with pytest.raises(JumpcadError, match="unexpected keyword argument 'colour'"):
+        jumpcad.simulate(CAPSULE, colour="red")
+
+
+def test_values_without_names_are_refused() -> None:
+    with pytest.raises(JumpcadError, match=r"Design takes its values by name, Design\(carrying_link_mm=…\), not 100"):
+        jumpcad.Design(100.0, 1.0)
+
+
+def test_all_that_annotations_allow_passes() -> None:
+    @typed
+    def told(what: Any, name: str | Path | None = None, loud: bool = False) -> tuple[Any, ...]:
+        return what, name, loud
+
+    for what, name in itertools.product((1, None, "a"), ("a", Path("a"), None)):
+        assert told(what, name=name) == (what, name, False)
+    with pytest.raises(JumpcadError, match=r"told\(\) takes a text or a path as name, not 1 \(int\)"):
+        told(1, 1)
+    with pytest.raises(JumpcadError, match=r"told\(\) takes True or False as loud, not 'yes' \(str\)"):
+        told(1, None, "yes")
+
+
+def test_a_design_is_built_where_a_robot_is_wanted(tmp_path: Path) -> None:
+    robot = jumpcad.build(DESIGN)
+    assert jumpcad.check(DESIGN) == jumpcad.check(robot)
+    assert jumpcad.simulate(DESIGN).ballistic_range_m == jumpcad.simulate(robot).ballistic_range_m
+    ours, theirs = (jumpcad.export(one, tmp_path / str(n), pictures=False) for n, one in enumerate((DESIGN, robot)))
+    assert ours.files == theirs.files
+
+
+def test_a_vector_may_be_of_any_numbers() -> None:
+    for kind in (list, tuple, np.array, np.float32):
+        assert jumpcad.Design.from_vector(kind([100, 1, 1, 1, 0.5, 60, 8, 40])).carrying_link_mm == 100.0
+
+
+def test_a_robot_of_which_nothing_is_seen_is_not_exported(tmp_path: Path) -> None:
+    with pytest.raises(JumpcadError, match=r"takes one from jumpcad.build\(\)"):
+        jumpcad.export(CAPSULE, tmp_path / "out")

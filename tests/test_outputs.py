@@ -1,0 +1,135 @@
+"""What is written is whole or not there, and nothing of a user's is replaced unasked."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.elsewhere import environment
+
+from jumpcad.errors import JumpcadError
+from jumpcad.outputs import require_free, require_target, same_file, sealed, write_atomically, write_files
+
+
+def test_text_and_bytes_are_written_as_they_are(tmp_path: Path) -> None:
+    write_atomically(tmp_path / "text", "é\r\n")
+    write_atomically(tmp_path / "bytes", b"\x00\r\n")
+    assert (tmp_path / "text").read_bytes() == b"\xc3\xa9\r\n"
+    assert (tmp_path / "bytes").read_bytes() == b"\x00\r\n"
+    assert sorted(os.listdir(tmp_path)) == ["bytes", "text"]
+
+
+@pytest.mark.parametrize(("mask", "mode"), [(0o022, 0o644), (0o077, 0o600), (0o002, 0o664)])
+def test_a_new_file_is_as_open_as_the_umask_says(tmp_path: Path, mask: int, mode: int) -> None:
+    before = os.umask(mask)
+    try:
+        write_atomically(tmp_path / "p.toml", "")
+    finally:
+        os.umask(before)
+    assert (tmp_path / "p.toml").stat().st_mode & 0o777 == mode
+
+
+def test_a_private_file_stays_private(tmp_path: Path) -> None:
+    file = tmp_path / "p.toml"
+    file.write_text("old")
+    file.chmod(0o600)
+    write_atomically(file, "new")
+    assert (file.read_text(), file.stat().st_mode & 0o777) == ("new", 0o600)
+
+
+FULL = """
+import resource, signal, sys
+from pathlib import Path
+from jumpcad.errors import JumpcadError
+from jumpcad.outputs import write_atomically, write_files
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+for write in (lambda: write_atomically(Path("old"), "new" * 1000),
+              lambda: write_files(Path("there"), {"old": b"n", "big": b"n" * 3000, "new": b"n"}),
+              lambda: write_files(Path("fresh"), {"small": b"n", "big": b"n" * 3000})):
+    try:
+        write()
+    except JumpcadError as error:
+        print(error)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="the size of files is limited as POSIX has it")
+def test_a_full_disk_leaves_the_old_files_and_nothing_else(tmp_path: Path) -> None:
+    (tmp_path / "there").mkdir()
+    for name in ("old", "there/old"):
+        (tmp_path / name).write_text("old")
+    path = os.pathsep.join(sys.path)
+    done = subprocess.run(
+        [sys.executable, "-c", FULL], cwd=tmp_path, capture_output=True, text=True, env=environment(PYTHONPATH=path)
+    )
+    assert [line.split(":")[0] for line in done.stdout.splitlines()] == ["old", "there/big", "fresh/big"], done.stderr
+    left = {str(file.relative_to(tmp_path)): file.read_text() for file in tmp_path.rglob("*") if file.is_file()}
+    assert left == {"old": "old", "there/old": "old"}
+    assert not (tmp_path / "fresh").exists()
+
+
+def test_an_interrupt_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_atomically(tmp_path / "p.toml", "new\n")
+    assert os.listdir(tmp_path) == []
+
+
+def test_files_of_users_are_not_replaced_unasked(tmp_path: Path) -> None:
+    file, link, folder = (tmp_path / f"{name}.toml" for name in ("file", "link", "folder"))
+    require_free(file)
+    file.write_text("mine")
+    link.symlink_to("file.toml")
+    folder.mkdir()
+    with pytest.raises(JumpcadError, match=r"file\.toml: exists already; choose another name, or replace it with --f"):
+        require_free(file)
+    require_free(file, force=True)
+    for path in (link, folder):
+        with pytest.raises(JumpcadError, match="is no plain file; choose another name"):
+            require_free(path, force=True)
+
+
+@pytest.mark.parametrize("comment", ["# {}", "<!-- {} -->"])
+def test_a_sealed_file_is_known_until_it_is_edited(tmp_path: Path, comment: str) -> None:
+    file = tmp_path / "best.toml"
+    text = sealed("a = 1\nb = 2\n", comment)
+    file.write_text(text)
+    require_free(file)
+    for edited in (text.replace("1", "3", 1), text + "c = 3\n", "c = 3\n" + text, "a = 1\nb = 2\n", ""):
+        assert edited != text
+        file.write_text(edited)
+        with pytest.raises(JumpcadError, match="exists already"):
+            require_free(file)
+
+
+def test_a_target_has_a_fitting_name_and_a_folder(tmp_path: Path) -> None:
+    require_target(tmp_path / "t.csv", (".csv", ".json"))
+    with pytest.raises(JumpcadError, match=r"t\.txt: must end in \.csv or \.json"):
+        require_target(tmp_path / "t.txt", (".csv", ".json"))
+    with pytest.raises(JumpcadError, match="cannot be written: there is no folder"):
+        require_target(tmp_path / "no" / "t.csv", (".csv",))
+
+
+def test_one_file_under_many_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("a").write_text("")
+    Path("other").write_text("")
+    os.link("a", "hard")
+    os.symlink("a", "soft")
+    os.symlink("future", "early")
+    for name in ("./a", str(tmp_path / "a"), "hard", "soft"):
+        assert same_file(Path("a"), Path(name))
+    assert same_file(Path("early"), Path("future"))
+    assert not same_file(Path("a"), Path("other"))
+    assert not same_file(Path("a"), Path("future"))
+
+
+def test_a_folder_that_cannot_be_made_is_one_line(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(JumpcadError, match="file: cannot be written"):
+        write_files(tmp_path / "file", {"a": b""})

@@ -1,0 +1,95 @@
+"""What the README says is so: its figures, its commands and options, its lines of Python (about 6 s)."""
+
+import importlib
+import re
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import typer
+
+from jumpcad.cli import app
+from jumpcad.files import template_names
+
+ROOT = Path(__file__).parents[1]
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+COMMANDS = dict(re.findall(r"^\| `jumpcad ([a-z]+)[^|]*(\|.*) \|$", TEXT, re.M))
+
+
+@pytest.fixture(scope="module")
+def readme() -> ModuleType:
+    """The program that computes the figures."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    try:
+        return importlib.import_module("readme")
+    finally:
+        sys.path.pop(0)
+
+
+def test_figures_that_follow_from_the_templates(readme: ModuleType, capsys: pytest.CaptureFixture[str]) -> None:
+    code = readme.main(["--cheap"])
+    assert (code, capsys.readouterr().out) == (0, "every figure is what the program gives\n")
+
+
+def test_wrong_figures_are_named_and_corrected(
+    readme: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    copies = {name: tmp_path / getattr(readme, name).name for name in ("README", "PICTURE")}
+    copies["README"].write_text(re.sub("(`kenan-2.0` [|]) 194 mm", r"\1 199 mm", TEXT), encoding="utf-8")
+    copies["PICTURE"].write_bytes(b"another picture")
+    for name, path in copies.items():
+        monkeypatch.setattr(readme, name, path)
+    monkeypatch.setattr(readme, "CHEAP", {readme.figures.of_robots: 0.0})
+    assert readme.main(["--cheap"]) == 1
+    found = capsys.readouterr().out.splitlines()
+    assert len(found) == 2
+    assert found[0].startswith("best-printable.png: is not the picture")
+    assert re.match(r"README.md, robots: says .* 199 mm .*, should say .* 194 mm", found[1])
+    assert readme.main(["--cheap", "--write"]) == 0
+    assert copies["README"].read_text(encoding="utf-8") == TEXT
+    assert copies["PICTURE"].read_bytes() == (ROOT / "docs" / "best-printable.png").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "slack", "apart"),
+    [
+        ("910", "911", 0.0, False), ("910", "912", 0.0, True), ("0.65", "0.67", 0.0, True),
+        ("9.05", "9.13", 0.01, False), ("9.05", "9.15", 0.01, True),
+        ("4.0", "5.9", 1 / 3, False), ("4.0", "6.1", 1 / 3, True),
+    ],
+)  # fmt: skip
+def test_how_far_apart_numbers_may_be(readme: ModuleType, one: str, other: str, slack: float, apart: bool) -> None:
+    assert readme.apart(one, other, slack) is apart
+    assert readme.apart(other, one, slack) is apart
+
+
+def test_other_words_differ_whatever_the_numbers(readme: ModuleType) -> None:
+    assert list(readme.differences("rejected", "none is", "1 is", slack=1.0))
+    assert not list(readme.differences("rejected", "2 are", "3 are"))
+
+
+def test_every_command_is_described_with_options_that_it_has() -> None:
+    commands = typer.main.get_command(app).commands
+    assert set(COMMANDS) == set(commands)
+    for name, description in COMMANDS.items():
+        described = set(re.findall(r"`(-{1,2}[a-z-]+)", description))
+        assert described <= {option for parameter in commands[name].params for option in parameter.opts}
+
+
+def test_every_command_has_json() -> None:
+    for name, command in typer.main.get_command(app).commands.items():
+        assert any("--json" in parameter.opts for parameter in command.params), name
+
+
+def test_templates_are_named() -> None:
+    (names,) = re.findall(r"a template's name \((.*?)\)", TEXT)
+    assert sorted(re.findall("`([^`]+)`", names)) == template_names("robots")
+
+
+def test_lines_of_python_run(capsys: pytest.CaptureFixture[str]) -> None:
+    (code,) = re.findall(r"```python\n(.*?)```", TEXT, re.S)
+    names: dict[str, object] = {}
+    exec(code, names)
+    assert capsys.readouterr().out.startswith("jump 0.19")
+    assert {"distance_m", "base_height_m", "energy_j"} <= vars(names["paper"]).keys()
