@@ -1,7 +1,7 @@
 """The figures that the README shows, by name, each as the text that ought to stand there; `readme.py` compares them.
 
-What follows from the templates alone takes some seconds: `of_robots`, `of_prototypes`, `of_best_printable`. `of_search`
-and `of_speed` take minutes: they run the search again, and the benchmarks of this folder.
+What follows from the templates alone takes some seconds: `of_robots`, `of_prototypes`, `of_best_printable`. The others
+take minutes: they run the search, PrusaSlicer and the benchmarks of this folder.
 """
 
 import json
@@ -21,6 +21,7 @@ from start import children_cpu_s
 from jumpcad import published
 from jumpcad.building import build
 from jumpcad.design import SEARCH_BOUNDS, load_design
+from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.paper.reproduction import PRINTED, Printed
 from jumpcad.robot import Robot
@@ -175,6 +176,17 @@ def of_search() -> dict[str, str]:
         "cost of printability": percent([1.0 - printed / capsules]),
         "both scores": f"{printed:.2f} against {capsules:.2f}",
     }
+
+
+def of_masses() -> dict[str, str]:
+    """Return how far PrusaSlicer's grams are from the mass model's, at worst, in all shipped workshops."""
+    sliced = []
+    for workshop in template_names("workshops"):
+        with tempfile.TemporaryDirectory() as folder:
+            _json("-m", "jumpcad", "build", "kenan-2.0", "--workshop", workshop, "-o", folder + "/b", "--no-pictures")
+            sliced.append(_json("-m", "jumpcad", "slice", folder + "/b"))
+    worst = max(abs(part["difference"]) for one in sliced for part in one["parts"])
+    return {"mass model": f"{100.0 * worst:.1f} % of PrusaSlicer {sliced[0]['slicer']}"}
 
 
 def of_speed() -> dict[str, str]:

@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 
 from jumpcad import load_design, load_workshop
-from jumpcad.outputs import write_atomically
+from jumpcad.files.outputs import write_atomically
 from jumpcad.search import plots
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.explore import sweep

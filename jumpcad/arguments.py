@@ -8,8 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
-from jumpcad.complaints import LONGEST, shown
 from jumpcad.errors import JumpcadError
+from jumpcad.files.complaints import LONGEST, described
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -56,11 +56,6 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
         return function(*args, **kwargs)
 
     return checked
-
-
-def described(value: Any) -> str:
-    """Return a value and its type, short enough for one line."""
-    return f"{shown(value)} ({type(value).__name__})" if value is not None else "None"
 
 
 def _classes(hint: Any) -> tuple[type, ...]:

@@ -14,9 +14,10 @@ from typing import Annotated, Self
 
 from pydantic import Field
 
-from jumpcad.arguments import described, typed
+from jumpcad.arguments import typed
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, find_template, to_toml
+from jumpcad.files.complaints import described
 
 
 class Design(Record):

@@ -13,7 +13,6 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from jumpcad.arguments import typed
-from jumpcad.complaints import shown
 from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     Contradiction,
@@ -25,7 +24,8 @@ from jumpcad.files import (
     template_names,
     to_toml,
 )
-from jumpcad.names import NAME, NAME_RULE, Name, OptionalName, Text
+from jumpcad.files.complaints import shown
+from jumpcad.files.names import NAME, NAME_RULE, Name, OptionalName, Text
 
 Positive = Annotated[float, Field(gt=0, le=1e4)]
 Share = Annotated[float, Field(gt=0, le=1)]

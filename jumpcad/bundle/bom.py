@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from jumpcad.csv_text import to_csv
+from jumpcad.files.csv_text import to_csv
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
 

@@ -78,7 +78,7 @@ def render(
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
     from jumpcad.bundle.folder import change_files, require_unedited
     from jumpcad.bundle.renders import RENDERS, jump_gif, renders
-    from jumpcad.outputs import require_free, write_files
+    from jumpcad.files.outputs import require_free, write_files
     from jumpcad.simulation import Settings, simulate
     from jumpcad.simulation.engines import default_engine
 

@@ -58,7 +58,7 @@ def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
 def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[str, Any]:
     """Write the workshop with the fits that were read, complete; return what changed."""
     from jumpcad.coupon.readings import Readings, measured_workshop
-    from jumpcad.outputs import require_target, write_atomically
+    from jumpcad.files.outputs import require_target, write_atomically
     from jumpcad.workshop import load_workshop
 
     require_target(output, (".toml",), force)

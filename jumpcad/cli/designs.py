@@ -21,7 +21,7 @@ def new(
 ) -> None:
     """Write a new design file, copied from a template."""
     from jumpcad.design import load_design
-    from jumpcad.outputs import require_target, write_atomically
+    from jumpcad.files.outputs import require_target, write_atomically
 
     require_target(file, (".toml",), force)
     design = load_design(template)

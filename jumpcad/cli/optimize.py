@@ -97,7 +97,7 @@ def optimize(
     Every evaluation is kept in the study file, from which the same command goes on after whatever interrupted it. The
     exit code is 1 if every design was refused.
     """
-    from jumpcad.outputs import require_target
+    from jumpcad.files.outputs import require_target
     from jumpcad.search.study import FRONTS, Request, run_study
 
     robot = make_model(model, workshop, settings, engine)
@@ -134,7 +134,7 @@ def _tolerance_mm(model: "RobotModel") -> float:
 
 
 def _write_design(path: Path, winner: "Trial", request: "Request") -> None:
-    from jumpcad.outputs import sealed, write_atomically
+    from jumpcad.files.outputs import sealed, write_atomically
 
     name = request.model.describe()["name"]
     heading = f"{HEADING}: {request.method} on the {name} robot, {request.objective} {winner.score:.4g}.\n"

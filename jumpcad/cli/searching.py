@@ -62,7 +62,7 @@ def require_study(study: Path | None) -> None:
     JumpcadError
         Naming the file and the way out.
     """
-    from jumpcad.outputs import require_folder
+    from jumpcad.files.outputs import require_folder
 
     if study is None:
         return
@@ -81,7 +81,7 @@ def require_other_files(study: Path, **others: Path | None) -> None:
     JumpcadError
         Naming the option.
     """
-    from jumpcad.outputs import same_file
+    from jumpcad.files.outputs import same_file
 
     for option, other in others.items():
         if other is not None and same_file(study, other):
@@ -96,8 +96,8 @@ def require_plots(folder: Path | None, force: bool) -> None:
     JumpcadError
         Naming the folder or picture and the way out.
     """
-    from jumpcad.outputs import require_free
-    from jumpcad.report import PICTURES
+    from jumpcad.files.outputs import require_free
+    from jumpcad.search.figures import PICTURES
 
     if folder is None:
         return

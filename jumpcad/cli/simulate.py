@@ -59,8 +59,8 @@ def simulate(
     The exit code is 0 for a jump and 1 if the design is refused or does not jump.
     """
     from jumpcad.design import load_design
+    from jumpcad.files.outputs import require_target
     from jumpcad.mechanism.capsule import capsule_robot
-    from jumpcad.outputs import require_target
 
     if capsule and published:
         raise JumpcadError("--capsule and --published exclude each other: choose one model")
@@ -178,7 +178,7 @@ def _difference_percent(jumps: "list[Jump]") -> float | None:
 
 def _write_trajectory(path: Path, jump: "Jump") -> None:
     """Write the trajectory, one row or object a moment; a refused design has none."""
-    from jumpcad.outputs import write_atomically
+    from jumpcad.files.outputs import write_atomically
 
     if jump.trajectory is None:
         return

@@ -39,7 +39,7 @@ def slice_command(
     The times go into the bundle's bill of materials and guide, unless another workshop prints it.
     """
     from jumpcad.bundle.sliced import slice_bundle, write_times
-    from jumpcad.outputs import require_target, write_atomically
+    from jumpcad.files.outputs import require_target, write_atomically
     from jumpcad.workshop import load_workshop
 
     if write_masses is not None:

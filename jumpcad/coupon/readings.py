@@ -25,7 +25,7 @@ from jumpcad.coupon.pieces import PEGS_MM, coupon_holes, ladders
 from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable
-from jumpcad.names import Name
+from jumpcad.files.names import Name
 from jumpcad.workshop import Workshop
 
 LEAST_PLAY_MM = 0.05

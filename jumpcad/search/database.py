@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from jumpcad.errors import JumpcadError
-from jumpcad.names import without_controls
+from jumpcad.files.names import without_controls
 
 PATIENCE_S = 5.0
 """How long a reader or writer waits for another one to finish."""

@@ -8,7 +8,13 @@ import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from jumpcad.outputs import sealed, write_files
+from jumpcad.files.outputs import sealed, write_files
+
+PICTURES = (
+    "history", "slices", "parallel", "pareto", "acquisition-first", "acquisition",
+    "sweeps", "pca", "importance", "feasibility",
+)  # fmt: skip
+"""The names of all pictures of a study, then of those of the design space."""
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#d9822b", "#8a8f98", "#b3322b"
 STYLE: dict[Any, Any] = {

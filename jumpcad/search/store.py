@@ -16,10 +16,10 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
-from jumpcad.complaints import shown
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.errors import JumpcadError
-from jumpcad.names import without_controls
+from jumpcad.files.complaints import shown
+from jumpcad.files.names import without_controls
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.stored import (

@@ -8,12 +8,12 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
 
-from jumpcad.complaints import shown
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
+from jumpcad.files.complaints import shown
+from jumpcad.files.names import Name
 from jumpcad.findings import Finding
-from jumpcad.names import Name
 from jumpcad.search.objective import Evaluation
 
 STRICT = ConfigDict(strict=True, extra="forbid")

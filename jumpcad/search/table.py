@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from jumpcad.csv_text import to_csv
 from jumpcad.errors import JumpcadError
-from jumpcad.outputs import require_target, write_atomically
+from jumpcad.files.csv_text import to_csv
+from jumpcad.files.outputs import require_target, write_atomically
 from jumpcad.search.store import Trial
 
 

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.complaints import did_you_mean, shown
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import read_bytes, read_json
+from jumpcad.files.complaints import did_you_mean, shown
+from jumpcad.files.names import LONGEST_TEXT, control_character
 from jumpcad.mechanism.model import BODY_NAMES, Body, ContactSphere, Joint, Loop, Mechanism, Spring, five_bar
-from jumpcad.names import LONGEST_TEXT, control_character
 from jumpcad.simulation.loop_file import JointName, LoopFile
 from jumpcad.transforms import Array
 

@@ -11,7 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.exporters.xml import add, allowed, document
-from jumpcad.names import NAME
+from jumpcad.files.names import NAME
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
 

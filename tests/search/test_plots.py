@@ -4,11 +4,10 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from jumpcad.report import PICTURES
 
 from jumpcad.design import Design
 from jumpcad.search import plots
-from jumpcad.search.figures import save
+from jumpcad.search.figures import PICTURES, save
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space

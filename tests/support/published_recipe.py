@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pybullet
+from pybullet_utils.bullet_client import BulletClient
 
 TICK = 1 / 240
 
@@ -24,10 +25,11 @@ def recipe_jump(parameters: Sequence[float]) -> tuple[float, float]:
     delta = ratio * (rest + beta)
     l1, l2, l3, l4, l5 = (length / 1000 for length in (l1_mm, l2_mm, l3_mm, l4_mm, l5_mm))
     radius = max(l2_mm, l3_mm, l5_mm) / 25 / 1000
-    client = pybullet.connect(pybullet.DIRECT)
+    world = BulletClient(pybullet.DIRECT)
     try:
-        ground = pybullet.createMultiBody(0, pybullet.createCollisionShape(pybullet.GEOM_PLANE))
-        pybullet.changeDynamics(ground, -1, lateralFriction=1.5)
+        world.setPhysicsEngineParameter(contactBreakingThreshold=0.02)  # Bullet's default, but kept for a whole process
+        ground = world.createMultiBody(0, world.createCollisionShape(pybullet.GEOM_PLANE))
+        world.changeDynamics(ground, -1, lateralFriction=1.5)
         links = [  # length, where on the parent, half-turn's sine on x and y with its cosine, parent (0 is the base)
             (l2, [0, 0, l1 / 2], [np.sin(-rest / 2), 0, 0, np.cos(rest / 2)], 0),
             (l3, [0, 0, -l1 / 2], [np.sin(-rest / 2), 0, 0, np.cos(rest / 2)], 0),
@@ -36,14 +38,14 @@ def recipe_jump(parameters: Sequence[float]) -> tuple[float, float]:
             (l5, [0, 0, 0], [0, np.sin((np.pi + toe) / 2), 0, np.cos((np.pi + toe) / 2)], 3),
         ]
         middles = [[0, 0, -length / 2] for length, *_ in links]
-        robot = pybullet.createMultiBody(
+        robot = world.createMultiBody(
             baseMass=0.07,
-            baseCollisionShapeIndex=pybullet.createCollisionShape(pybullet.GEOM_CAPSULE, radius=radius, height=l1),
+            baseCollisionShapeIndex=world.createCollisionShape(pybullet.GEOM_CAPSULE, radius=radius, height=l1),
             basePosition=[0, 0, max(l2, l3)],
             baseOrientation=[np.sin((np.pi / 2 + beta) / 2), 0, 0, np.cos((np.pi / 2 + beta) / 2)],
             linkMasses=[1200 * length * np.pi * radius**2 for length, *_ in links],
             linkCollisionShapeIndices=[
-                pybullet.createCollisionShape(
+                world.createCollisionShape(
                     pybullet.GEOM_CAPSULE, radius=radius, height=length, collisionFramePosition=middle
                 )
                 for (length, *_), middle in zip(links, middles, strict=True)
@@ -58,44 +60,44 @@ def recipe_jump(parameters: Sequence[float]) -> tuple[float, float]:
             linkJointAxis=[[1, 0, 0]] * 5,
         )
         for joint, angle in ((0, delta), (1, -delta), (4, delta)):
-            pybullet.resetJointState(robot, joint, angle)
+            world.resetJointState(robot, joint, angle)
         pivots = ([0, 0, -l3 / 2], [0, 0, -l4 / 2])
-        pybullet.createConstraint(robot, 4, robot, 1, pybullet.JOINT_POINT2POINT, [1, 0, 0], *pivots)
+        world.createConstraint(robot, 4, robot, 1, pybullet.JOINT_POINT2POINT, [1, 0, 0], *pivots)
         for link in range(5):
-            pybullet.changeDynamics(
+            world.changeDynamics(
                 robot, link, lateralFriction=1.0, spinningFriction=0.15, rollingFriction=0.01, restitution=0.9,
                 jointDamping=0.001,
             )  # fmt: skip
-        pybullet.setGravity(0, 0, -9.81)
-        return _run(robot, ground, delta, k_nmm_per_deg / 1000)
+        world.setGravity(0, 0, -9.81)
+        return _run(world, robot, ground, delta, k_nmm_per_deg / 1000)
     finally:
-        pybullet.disconnect(client)
+        world.disconnect()
 
 
-def _run(robot: int, ground: int, delta: float, k_nm_per_deg: float) -> tuple[float, float]:
+def _run(world: BulletClient, robot: int, ground: int, delta: float, k_nm_per_deg: float) -> tuple[float, float]:
     """Settle 0.5 s, hold the wound pose 0.5 s, let go, look for contacts again after 0.5 s; at most 10 s in all."""
     clock = near_clock = free_clock = start_y = top = 0.0
     near = free = False
     while clock < 10:
-        _, y, z = pybullet.getBasePositionAndOrientation(robot)[0]
-        angle = pybullet.getJointState(robot, 0)[0]
+        _, y, z = world.getBasePositionAndOrientation(robot)[0]
+        angle = world.getJointState(robot, 0)[0]
         if free:
             top = max(top, z)
             torque = -(angle * 180 / np.pi) * k_nm_per_deg
-            pybullet.setJointMotorControl2(robot, 0, pybullet.TORQUE_CONTROL, force=torque)
+            world.setJointMotorControl2(robot, 0, pybullet.TORQUE_CONTROL, force=torque)
             if free_clock <= 0.5:
                 free_clock += TICK
-            elif pybullet.getContactPoints(robot, ground):
+            elif world.getContactPoints(robot, ground):
                 return y - start_y, top
         elif clock >= 0.5:
-            pybullet.setJointMotorControl2(robot, 0, pybullet.POSITION_CONTROL, targetPosition=delta)
+            world.setJointMotorControl2(robot, 0, pybullet.POSITION_CONTROL, targetPosition=delta)
             near = near or abs(angle - delta) < 2 * np.pi / 180
             if near:
                 near_clock += TICK
             if near_clock > 0.5:
                 for joint in range(5):
-                    pybullet.setJointMotorControl2(robot, joint, pybullet.VELOCITY_CONTROL, force=0.001)
+                    world.setJointMotorControl2(robot, joint, pybullet.VELOCITY_CONTROL, force=0.001)
                 start_y, free = y, True
-        pybullet.stepSimulation()
+        world.stepSimulation()
         clock += TICK
     return 0.0, top

@@ -1,26 +1,16 @@
-"""Reading the TOML files that users edit, with errors that name file, line, key, value and limit."""
+"""Reading files that may come from strangers: regular files of bounded size and depth, errors in one line."""
 
-import importlib.resources
 import json
 import os
 import stat
 import tomllib
-from collections.abc import Iterable
-from functools import cache
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import tomli_w
-from pydantic import BaseModel, ConfigDict, ValidationError
-from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from jumpcad.arguments import described
-from jumpcad.complaints import complaints, shown
-from jumpcad.complaints import did_you_mean as did_you_mean
 from jumpcad.errors import JumpcadError
-
-Contradiction = tuple[tuple[str, ...], Any, str]
-"""Where a value stands, the value, and what is wrong with it."""
+from jumpcad.files.complaints import shown
 
 LARGEST_BYTES = 1 << 20
 """Size of the largest file that is read; those of this program have some kilobytes."""
@@ -28,60 +18,6 @@ DEEPEST = 20
 """Levels of tables and lists that a file may have; those of this program have four."""
 NESTED = f"nested deeper than {DEEPEST} levels"
 MOST_DOTS = 200
-
-
-class TomlTable(BaseModel):
-    """A validated group of values: no unknown keys, no NaN, no guessing of types, immutable."""
-
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True, strict=True)
-
-
-class Record(TomlTable):
-    """A `TomlTable` that users make by name, in Python or as a TOML file; errors are `JumpcadError`."""
-
-    def __init__(self, /, *unnamed: Any, **values: Any) -> None:
-        if unnamed:
-            first = next(iter(type(self).model_fields))
-            raise JumpcadError(
-                f"{type(self).__name__} takes its values by name, {type(self).__name__}({first}=…), "
-                f"not {described(unnamed[0])}"
-            )
-        try:
-            super().__init__(**values)
-            if wrong := list(self.contradictions()):
-                raise ValidationError.from_exception_data(type(self).__name__, [_line_error(*item) for item in wrong])
-        except ValidationError as error:
-            raise JumpcadError("; ".join(complaints(error, type(self)))) from error
-
-    def contradictions(self) -> Iterable[Contradiction]:
-        """Return values that are allowed alone but not together."""
-        return ()
-
-    def revalidated(self) -> Self:
-        """Return the same record, validated anew: copies with changes, and changed dictionaries, never were.
-
-        Raises
-        ------
-        JumpcadError
-            If a value is out of range, of the wrong type, or contradicts another.
-        """
-        return type(self)(**self.model_dump(warnings=False))
-
-    @classmethod
-    def from_toml(cls, path: Path) -> Self:
-        """Read a record from a TOML file; every bad key is named with its line, all at once."""
-        data, text = read_toml(path)
-        return cls.from_data(data, source=str(path), text=text)
-
-    @classmethod
-    def from_data(cls, data: dict[str, Any], source: str, text: str = "") -> Self:
-        """Validate parsed data that came from `source`; `text` is searched for the lines of bad keys."""
-        try:
-            return cls(**data)
-        except JumpcadError as error:
-            if isinstance(error.__cause__, ValidationError):
-                raise JumpcadError("; ".join(complaints(error.__cause__, cls, source, text))) from None
-            raise
 
 
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
@@ -212,41 +148,3 @@ def real_path(path: str | Path) -> Path:
 def to_toml(data: dict[str, Any]) -> str:
     """Return `data` as TOML text; the same data gives the same text."""
     return tomli_w.dumps(data)
-
-
-@cache
-def templates_folder() -> Path:
-    """Return the folder of the shipped templates, in an installed wheel or in a source tree."""
-    package = Path(str(importlib.resources.files("jumpcad")))
-    installed = package / "templates"
-    return installed if installed.is_dir() else package.parent / "templates"
-
-
-def template_names(kind: str) -> list[str]:
-    """Return the names of the shipped templates of a kind (`robots`, `workshops`, …), sorted."""
-    return sorted(path.stem for path in (templates_folder() / kind).glob("*.toml"))
-
-
-def find_template(kind: str, name_or_path: str | Path) -> Path:
-    """Return the TOML file that a template's name or a path stands for.
-
-    A template's name without suffix or folder is the template, whatever lies in the current folder.
-    """
-    text = str(name_or_path)
-    if "\0" in text:
-        raise JumpcadError(f"{text!r}: cannot be a path: it has a NUL")
-    if text.endswith(".toml") or os.path.dirname(text):
-        return Path(text)
-    names = template_names(kind)
-    if text in names:
-        return templates_folder() / kind / f"{text}.toml"
-    if os.path.isfile(text):
-        return Path(text)
-    raise JumpcadError(
-        f"{shown(text)} is neither a TOML file nor one of the {kind} {', '.join(names)}{did_you_mean(text, names)}"
-    )
-
-
-def _line_error(location: tuple[str, ...], value: Any, reason: str) -> InitErrorDetails:
-    message = reason.replace("{", "{{").replace("}", "}}")
-    return InitErrorDetails(type=PydanticCustomError("value_error", message), loc=location, input=value)

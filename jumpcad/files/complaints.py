@@ -63,6 +63,11 @@ def shown(value: Any) -> str:
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
 
 
+def described(value: Any) -> str:
+    """Return a value and its type, short enough for one line."""
+    return f"{shown(value)} ({type(value).__name__})" if value is not None else "None"
+
+
 def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:
     key = ".".join(_step(step) for step in location) or model.__name__
     if item["type"] == "extra_forbidden":

@@ -5,7 +5,7 @@ import io
 
 import pytest
 
-from jumpcad.csv_text import to_csv
+from jumpcad.files.csv_text import to_csv
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+x", "-x", "@SUM(A1)", "\tx", "\n=1", "＝1+1", "-1+cmd|' /C calc'!A0"])

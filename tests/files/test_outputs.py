@@ -9,7 +9,7 @@ import pytest
 from support.elsewhere import environment
 
 from jumpcad.errors import JumpcadError
-from jumpcad.outputs import require_free, require_target, same_file, sealed, write_atomically, write_files
+from jumpcad.files.outputs import require_free, require_target, same_file, sealed, write_atomically, write_files
 
 
 def test_text_and_bytes_are_written_as_they_are(tmp_path: Path) -> None:
@@ -42,7 +42,7 @@ FULL = """
 import resource, signal, sys
 from pathlib import Path
 from jumpcad.errors import JumpcadError
-from jumpcad.outputs import write_atomically, write_files
+from jumpcad.files.outputs import write_atomically, write_files
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
 for write in (lambda: write_atomically(Path("old"), "new" * 1000),

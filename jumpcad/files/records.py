@@ -1,0 +1,74 @@
+"""Validated values that users make by name, in Python or as a TOML file."""
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, Self
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files.complaints import complaints, described
+from jumpcad.files.reading import read_toml
+
+Contradiction = tuple[tuple[str, ...], Any, str]
+"""Where a value stands, the value, and what is wrong with it."""
+
+
+class TomlTable(BaseModel):
+    """A validated group of values: no unknown keys, no NaN, no guessing of types, immutable."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True, strict=True)
+
+
+class Record(TomlTable):
+    """A `TomlTable` that users make by name, in Python or as a TOML file; errors are `JumpcadError`."""
+
+    def __init__(self, /, *unnamed: Any, **values: Any) -> None:
+        if unnamed:
+            first = next(iter(type(self).model_fields))
+            raise JumpcadError(
+                f"{type(self).__name__} takes its values by name, {type(self).__name__}({first}=…), "
+                f"not {described(unnamed[0])}"
+            )
+        try:
+            super().__init__(**values)
+            if wrong := list(self.contradictions()):
+                raise ValidationError.from_exception_data(type(self).__name__, [_line_error(*item) for item in wrong])
+        except ValidationError as error:
+            raise JumpcadError("; ".join(complaints(error, type(self)))) from error
+
+    def contradictions(self) -> Iterable[Contradiction]:
+        """Return values that are allowed alone but not together."""
+        return ()
+
+    def revalidated(self) -> Self:
+        """Return the same record, validated anew: copies with changes, and changed dictionaries, never were.
+
+        Raises
+        ------
+        JumpcadError
+            If a value is out of range, of the wrong type, or contradicts another.
+        """
+        return type(self)(**self.model_dump(warnings=False))
+
+    @classmethod
+    def from_toml(cls, path: Path) -> Self:
+        """Read a record from a TOML file; every bad key is named with its line, all at once."""
+        data, text = read_toml(path)
+        return cls.from_data(data, source=str(path), text=text)
+
+    @classmethod
+    def from_data(cls, data: dict[str, Any], source: str, text: str = "") -> Self:
+        """Validate parsed data that came from `source`; `text` is searched for the lines of bad keys."""
+        try:
+            return cls(**data)
+        except JumpcadError as error:
+            if isinstance(error.__cause__, ValidationError):
+                raise JumpcadError("; ".join(complaints(error.__cause__, cls, source, text))) from None
+            raise
+
+
+def _line_error(location: tuple[str, ...], value: Any, reason: str) -> InitErrorDetails:
+    message = reason.replace("{", "{{").replace("}", "}}")
+    return InitErrorDetails(type=PydanticCustomError("value_error", message), loc=location, input=value)
