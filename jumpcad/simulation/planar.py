@@ -58,7 +58,7 @@ class PlanarWorld:
         self._aside_m = [robot.bodies[name].com_m[1] for name in BODY_NAMES]
         self.joint_damping_j = 0.0
         self.moment = kernel.released(
-            self.model, -robot.spring.wind_rad, effects.release_rad_s, complex(0.0, robot.foot_depth_m)
+            self.model, -robot.spring.wind_rad, float(effects.release_rad_s), complex(0.0, robot.foot_depth_m)
         )
 
     def go_to(self, moment: Moment) -> None:
@@ -83,11 +83,11 @@ class PlanarWorld:
             If the loop reaches a dead point, beyond which the leg's angle does not say how the links lie.
         """
         before = kernel.advance(self.model, self.moment, self.settings.dt_s, steps - 1)
-        self.go_to(kernel.step(self.model, before, self.settings.dt_s))
+        self.go_to(kernel.advance(self.model, before, self.settings.dt_s, 1))
         if not self.moment.closed:
             raise JumpcadError(
-                f"foot and front link come into line with the leg {math.degrees(before.leg_rad):.1f}° from rest, where "
-                'the planar engine ends: use --engine pybullet or flight = "ballistic"'
+                "foot and front link come into line in flight, where the planar engine ends: use --engine pybullet or "
+                'flight = "ballistic"'
             )
         return before.leg_rad
 

@@ -332,14 +332,14 @@ def contact_of(model: Model, ground: Ground, gains: Gains, free: Motion, last: C
 
 @compiled
 def settle(
-    model: Model, ground: Ground, inertia: Inertia, free: Motion, last: Contact, held: bool, leg_rad_s: float
+    model: Model, ground: Ground, inertia: Inertia, free: Motion, last: Contact, held: bool
 ) -> tuple[Motion, Contact, float]:
-    """Return velocities after a step, the ground's impulses, and what holds the leg joint at a rate if it is held."""
+    """Return velocities after a step, the ground's impulses, and what holds the leg joint still if it is held."""
     by_x, by_z = response(inertia, 1.0 + 0j, 0.0, 0.0), response(inertia, 1j, 0.0, 0.0)
     by_foot, by_leg = response(inertia, 0j, 1.0, 0.0), response(inertia, 0j, 0.0, 1.0)
     gains, hold = Gains(by_x, by_z, by_foot), 0.0
     if held:
-        hold = (leg_rad_s - free.leg) / by_leg.leg
+        hold = -free.leg / by_leg.leg
         free = plus(free, by_leg, hold)
         gains = Gains(
             plus(by_x, by_leg, -by_x.leg / by_leg.leg),
@@ -360,14 +360,14 @@ def settle_with_friction(
 ) -> tuple[Motion, Contact, float]:
     """Do as `settle`, with dry friction on the leg joint: all of it against the motion, or what holds it still."""
     if limit_ns == 0.0:
-        return settle(model, ground, inertia, free, last, False, 0.0)
+        return settle(model, ground, inertia, free, last, False)
     against = -limit_ns if free.leg >= 0.0 else limit_ns
     for friction in (against, -against):
         rubbed = plus(free, response(inertia, 0j, 0.0, 1.0), friction)
-        after, contact, _ = settle(model, ground, inertia, rubbed, last, False, 0.0)
+        after, contact, _ = settle(model, ground, inertia, rubbed, last, False)
         if after.leg * friction <= 0.0:
             return after, contact, friction
-    return settle(model, ground, inertia, free, last, True, 0.0)
+    return settle(model, ground, inertia, free, last, True)
 
 
 @compiled
@@ -379,7 +379,6 @@ def step(model: Model, moment: Moment, dt: float) -> Moment:
     turn = complex(math.cos(foot_rad), -math.sin(foot_rad))
     ground, links = Ground(ankle, turn, half), links_at(model, leg_rad)
     inertia = inertia_at(model, links, turn)
-    stop_rad_s = max((model.stop_rad - leg_rad) / half, 0.0)
     last, pins, middle = moment.contact, moment.pins_nm, before
     after, contact, friction_ns, stop_ns = before, last, 0.0, 0.0
     for _ in range(2):
@@ -387,9 +386,9 @@ def step(model: Model, moment: Moment, dt: float) -> Moment:
         free = plus(before, response(inertia, ankle_n, foot_nm, leg_nm), dt)
         after, contact, friction_ns = settle_with_friction(model, ground, inertia, free, last, dt * pins)
         stop_ns = 0.0
-        if after.leg > stop_rad_s:
+        if after.leg > 0.0 and leg_rad + half * after.leg > model.stop_rad:
             rubbed = plus(free, response(inertia, 0j, 0.0, 1.0), friction_ns)
-            after, contact, stop_ns = settle(model, ground, inertia, rubbed, last, True, stop_rad_s)
+            after, contact, stop_ns = settle(model, ground, inertia, rubbed, last, True)
         change = plus(after, before, -1.0)
         middle = plus(before, change, 0.5)
         pins = pin_torque(model, links, ground, middle, change, contact)
@@ -451,9 +450,10 @@ def released(model: Model, leg_rad: float, leg_rad_s: float, ankle_m: complex) -
 
 @compiled
 def advance(model: Model, moment: Moment, dt: float, steps: int) -> Moment:
-    """Return the moment a number of time steps later."""
+    """Return the moment a number of time steps later, or the first at which the loop is open."""
     for _ in range(steps):
-        moment = step(model, moment, dt)
+        if moment.closed:
+            moment = step(model, moment, dt)
     return moment
 
 

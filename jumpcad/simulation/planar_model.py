@@ -84,7 +84,10 @@ class Model(NamedTuple):
 
 
 def planar_model(robot: Robot, settings: Settings, effects: Effects) -> Model:
-    """Return a robot's mechanism in the plane, left and right on top of each other."""
+    """Return a robot's mechanism in the plane, left and right on top of each other.
+
+    Every number is a float or a complex: a tuple with integers would be another type, compiled anew.
+    """
     design = robot.design
     bodies = [robot.bodies[name] for name in BODY_NAMES]
     foot, body = robot.bodies[FOOT], robot.bodies[BODY]
@@ -106,8 +109,8 @@ def planar_model(robot: Robot, settings: Settings, effects: Effects) -> Model:
         one_sided_spring=effects.one_sided_spring,
         damping_nms_per_rad=settings.joint_damping_nms_per_rad,
         joint_friction_nm=settings.joint_friction_nm,
-        pin_friction_m=tuple(effects.pin_friction * radius for radius in effects.pin_radius_m),
-        stop_rad=effects.stop_rad,
+        pin_friction_m=tuple(float(effects.pin_friction * radius) for radius in effects.pin_radius_m),
+        stop_rad=float(effects.stop_rad),
         friction=settings.ground_friction * surface_friction(foot, settings),
         sole_m=sole,
         sole_radius_m=sole_radius,

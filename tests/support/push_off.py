@@ -1,0 +1,42 @@
+"""The last contact of a general engine before the springs are spent: the planar engine's take-off."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, _engine, mujoco
+from jumpcad.simulation.mechanics import Mechanics, ballistics
+from jumpcad.simulation.run import AIRBORNE_S
+
+GIVEN_UP_S = 0.3
+RESOLVED_STEPS = 32.0
+"""Time constant of MuJoCo's contacts over its own step at which a sliding foot no longer chatters."""
+
+
+def last_contact_range_m(robot: Robot, settings: Settings, engine: str) -> float | None:
+    """Return the ballistic range after the last contact before the springs are spent; None if the robot stays down."""
+    mechanics = Mechanics(robot, settings.gravity_m_s2)
+    hold = round(AIRBORNE_S / settings.dt_s)
+    with _engine(engine).world(robot, settings) as world:
+        start = left = world.state()
+        aloft = 0
+        for _ in range(round(GIVEN_UP_S / settings.dt_s)):
+            leg_rad = world.advance(1)
+            aloft = 0 if world.loaded() else aloft + 1
+            if aloft == 1:
+                left = world.state()
+            if leg_rad >= 0 and aloft >= hold and mechanics.velocity_m_s(world.state())[2] > 0:
+                places = [mechanics.centre_of_mass_m(state) for state in (start, left)]
+                return ballistics(*places, mechanics.velocity_m_s(left), settings.gravity_m_s2).range_m
+    return None
+
+
+@contextmanager
+def resolved_contacts() -> Iterator[None]:
+    """Give MuJoCo's contacts a time constant that its steps resolve."""
+    usual = mujoco.SOFTNESS_STEPS
+    mujoco.SOFTNESS_STEPS = RESOLVED_STEPS
+    try:
+        yield
+    finally:
+        mujoco.SOFTNESS_STEPS = usual
