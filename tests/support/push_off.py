@@ -1,16 +1,11 @@
 """The last contact of a general engine before the springs are spent: the planar engine's take-off."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, _engine, mujoco
 from jumpcad.simulation.mechanics import Mechanics, ballistics
 from jumpcad.simulation.run import AIRBORNE_S
 
 GIVEN_UP_S = 0.3
-RESOLVED_STEPS = 32.0
-"""Time constant of MuJoCo's contacts over its own step at which a sliding foot no longer chatters."""
 
 
 def last_contact_range_m(robot: Robot, settings: Settings, engine: str) -> float | None:
@@ -31,12 +26,14 @@ def last_contact_range_m(robot: Robot, settings: Settings, engine: str) -> float
     return None
 
 
-@contextmanager
-def resolved_contacts() -> Iterator[None]:
-    """Give MuJoCo's contacts a time constant that its steps resolve."""
+def softer_mujoco_range_m(robot: Robot, settings: Settings, softness_steps: float) -> float | None:
+    """Do as `last_contact_range_m` in MuJoCo, contacts and loop with another time constant (of MuJoCo's own steps).
+
+    At the usual 2 steps a sliding foot chatters; longer ones give way under it. Only many short steps avoid both.
+    """
     usual = mujoco.SOFTNESS_STEPS
-    mujoco.SOFTNESS_STEPS = RESOLVED_STEPS
+    mujoco.SOFTNESS_STEPS = softness_steps
     try:
-        yield
+        return last_contact_range_m(robot, settings, "mujoco")
     finally:
         mujoco.SOFTNESS_STEPS = usual
