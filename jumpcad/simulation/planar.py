@@ -1,4 +1,4 @@
-"""The planar engine: the push-off in x-z by a compiled loop, some hundred times as fast as a general engine.
+"""The planar engine: the push-off in x-z by a compiled loop, some fifty times as fast as that of a general engine.
 
 It holds the mechanism without its left and right, and neglects what the body's spheres touch before take-off (and says
 so where they do). What a run decides is decided in `Run`, but for the take-off: here it is the last contact before the

@@ -416,7 +416,7 @@ def _more_losses(
     friction_ns: float,
     stop_ns: float,
 ) -> Losses:
-    """Return the losses after a step: impulses times the mean of the velocities before and after."""  # fmt: skip
+    """Return the losses after a step: impulses times the mean of the velocities before and after."""
     damped = 1.0 + links.pin1[1] * links.pin1[1] + links.pin1[2] * links.pin1[2]
     along = contact.along_ns * (middle.ankle.real - ground.ankle_m.imag * middle.foot)
     up, turning = contact.first_ns + contact.second_ns, turning_impulse(model, ground, contact)

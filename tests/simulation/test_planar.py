@@ -103,7 +103,7 @@ def test_dry_friction_in_the_joints_costs_energy(kenan: Robot) -> None:
     dry = simulate(kenan, Settings(joint_damping_nms_per_rad=0.0, joint_friction_nm=torque), "planar")
     assert dry.energy is not None
     assert dry.energy.joint_damping_j == pytest.approx(3 * torque * kenan.spring.wind_rad, rel=0.1)
-    stuck = simulate(kenan, Settings(joint_friction_nm=kenan.design.peak_spring_torque_nm), "planar")
+    stuck = simulate(kenan, Settings(joint_friction_nm=kenan.design.peak_spring_torque_nm, max_time_s=0.1), "planar")
     assert stuck.verdict == "no_takeoff"
 
 
