@@ -12,6 +12,7 @@ import pytest
 from support.flights import Flight
 from support.push_off import last_contact_range_m, softer_mujoco_range_m
 
+from jumpcad import cli
 from jumpcad.building import build
 from jumpcad.capsule import capsule_robot
 from jumpcad.design import Design, load_design
@@ -232,3 +233,12 @@ def test_a_dead_point_in_flight_is_said(jumping: list[Flight]) -> None:
     with pytest.raises(JumpcadError, match=r"into line in flight.*pybullet") as caught:
         world.advance(200)
     assert "\n" not in str(caught.value)
+
+
+def test_the_command_line_knows_it(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.argv", ["jumpcad", "simulate", "kenan-2.0", "--capsule", "--engine", "planar", "--json"])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    document = json.loads(capsys.readouterr().out)
+    assert not end.value.code
+    assert (document["engine"], document["verdict"]) == ("planar", "jump")
