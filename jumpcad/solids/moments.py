@@ -129,7 +129,7 @@ def prism_moments(area: Array, z0_mm: npt.ArrayLike, z1_mm: npt.ArrayLike) -> Ar
         *(a * height, sx * height, sy * height, a * lever),
         *(sxx * height, syy * height, a * square, sxy * height, sy * lever, sx * lever),
     ]
-    return np.sum(columns, axis=1)
+    return np.asarray(np.sum(columns, axis=1))
 
 
 def mesh_moments(solid: Manifold) -> Array:

@@ -1,0 +1,45 @@
+"""How parts lie on the bed: along it, or askew, against the diagonal's geometry."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.errors import CannotBuildError
+from jumpcad.printing.bed import fit_to_bed, require_bed
+
+BED = (180.0, 120.0, 100.0)
+
+
+def fit(x, y, z=10.0, bed=BED):
+    corners = np.array([[0.0, 0.0], [x, 0.0], [x, y], [0.0, y]])
+    return fit_to_bed(np.array([[0.0, 0.0, 0.0], [x, y, z]]), lambda: corners, bed)
+
+
+def test_a_part_lies_along_the_bed_with_the_least_side_left_as_margin():
+    assert fit(150.0, 100.0).angle_deg == 0.0
+    assert fit(150.0, 100.0).margin_mm == pytest.approx(20.0)
+    assert fit(100.0, 150.0).angle_deg == 90.0
+    assert fit(100.0, 100.0, 95.0).margin_mm == pytest.approx(5.0)
+
+
+def test_a_thin_part_as_long_as_the_diagonal_lies_askew():
+    diagonal = math.hypot(*BED[:2])
+    askew = fit(diagonal - 8.0, 5.0)
+    assert askew.margin_mm >= 0.0
+    assert 0.0 < askew.angle_deg < 90.0
+    angle = math.radians(askew.angle_deg)
+    assert (diagonal - 8.0) * math.cos(angle) + 5.0 * math.sin(angle) <= BED[0]
+    assert (diagonal - 8.0) * math.sin(angle) + 5.0 * math.cos(angle) <= BED[1]
+    assert fit(diagonal + 1.0, 5.0).margin_mm < 0.0
+
+
+def test_a_part_of_the_beds_size_fits():
+    assert fit(*BED).margin_mm == pytest.approx(0.0)
+
+
+def test_a_part_too_tall_or_too_long_is_refused_with_its_size():
+    for size in ((50.0, 50.0, 101.0), (260.0, 20.0, 10.0)):
+        bounds = np.array([np.zeros(3), size])
+        with pytest.raises(CannotBuildError, match=rf"part leg of {size[0]:.1f}×.*180\.0×120\.0×100\.0 mm"):
+            require_bed("leg", bounds, lambda: bounds[:, :2], BED)  # noqa: B023
