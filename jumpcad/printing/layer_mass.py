@@ -8,15 +8,15 @@ as bridges, with round threads of the nozzle's diameter d, d + 0.05 mm apart.
 
 import math
 from collections.abc import Hashable, Mapping, Sequence
-from functools import lru_cache
 from typing import Literal, NamedTuple, Protocol
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from manifold3d import CrossSection, JoinType, OpType
 
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.printing.runs import LayerRun, Numbers, jumps_of, runs_of
-from jumpcad.solids.moments import areas_and_borders, border_mm, mass_of, prism_moments
+from jumpcad.solids.moments import areas_and_borders, borders_mm, mass_of, prism_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2, Sections
 from jumpcad.transforms import Array
@@ -34,12 +34,8 @@ BRIDGE_GAP_MM = 0.05
 """Distance between the threads of a bridge (fixed in PrusaSlicer's Flow.hpp, BRIDGE_EXTRA_SPACING)."""
 
 
-KNOWN_SHAPES = 128
-"""How many masses are remembered: gears and small parts, some twenty a robot, serve many designs."""
-
-
 class Weighable(Hashable, Protocol):
-    """What can be sliced and weighed, z up from the bed (mm); equal shapes are weighed once."""
+    """What can be sliced and weighed, z up from the bed (mm)."""
 
     @property
     def bounds_mm(self) -> Array:
@@ -74,11 +70,14 @@ Case = tuple[int, Window]
 """What a filling depends on: the number of a layer's outline, and its window."""
 
 
-@lru_cache(maxsize=KNOWN_SHAPES)
+_KNOWN: WeakKeyDictionary[Weighable, dict[Hashable, MassProperties]] = WeakKeyDictionary()
+"""Masses of shapes, for as long as someone keeps the shape: gears and small parts serve many designs."""
+
+
 def mass_properties(
     shape: Weighable, density_g_cm3: float, process: Process, nozzle_mm: float, model: MassModel = "printed"
 ) -> MassProperties:
-    """Return mass, centre and inertia of one part in its printing frame (kg, m).
+    """Return mass, centre and inertia of one part in its printing frame (kg, m); equal shapes are weighed once.
 
     Parameters
     ----------
@@ -91,8 +90,11 @@ def mass_properties(
     model
         `solid` for volume times density, `printed` for the layer model.
     """
-    moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
-    return mass_of(moments, density_g_cm3)
+    known, case = _KNOWN.setdefault(shape, {}), (density_g_cm3, process, nozzle_mm, model)
+    if case not in known:
+        moments = printed_moments(shape, process, nozzle_mm) if model == "printed" else shape.moments
+        known[case] = mass_of(moments, density_g_cm3)
+    return known[case]
 
 
 def line_spacing_mm(width_mm: float, height_mm: float) -> float:
@@ -127,9 +129,9 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
     void = (process.line_width_mm - spacing) / 2.0
     shell = process.perimeters * spacing + void
     cases = [(int(which[middle]), _window(middle, which, jumps, process)) for middle in middles]
-    cores = {number: _core(outlines[number], shell, spacing) for number in {number for number, _ in cases}}
+    cores = _cores({number: outlines[number] for number, _ in cases}, shell, spacing)
     fillings = {
-        (number, window): _filled(cores[number], _common(window, outlines), process.solid_below_area_mm2)
+        (number, window): _filled(cores[number], window, outlines, process.solid_below_area_mm2)
         for number, window in dict.fromkeys(cases)
     }
     bridged = _bridged(runs, cases, fillings, max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9)))
@@ -160,42 +162,41 @@ def _window(middle: int, which: Numbers, jumps: Sequence[int], process: Process)
     return tuple(number for number in numbers if number != which[middle])
 
 
-def _common(window: Window, outlines: Sequence[Region]) -> Region | None:
-    """Return what all outlines of a window have in common; None where the window sets no limit."""
-    if window is None:
-        return NOTHING
-    return CrossSection.batch_boolean([outlines[number] for number in window], OpType.Intersect) if window else None
+def _cores(outlines: Mapping[int, Region], shell_mm: float, spacing_mm: float) -> dict[int, Region]:
+    """Return what is inside the perimeters of outlines, each under its number.
 
-
-def _core(outline: Region, shell_mm: float, spacing_mm: float) -> Region:
-    """Return what is inside the perimeters; nothing where that is all narrower than a line, as they widen to fill it.
-
-    So does PrusaSlicer (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
+    It is nothing where that is all narrower than a line, as perimeters widen to fill it. So does PrusaSlicer
+    (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
     """
-    core = outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
-    if core.is_empty():
-        return NOTHING
-    narrow = (
-        2.0 * core.area() < spacing_mm * border_mm(core) and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
-    )
-    return NOTHING if narrow else core
+    inside = {
+        number: outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
+        for number, outline in outlines.items()
+    }
+    borders = borders_mm(list(inside.values())).tolist()
+    cores = {}
+    for (number, core), border in zip(inside.items(), borders, strict=True):
+        slim = 2.0 * core.area() < spacing_mm * border
+        narrow = slim and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
+        cores[number] = NOTHING if narrow else core
+    return cores
 
 
-def _filled(core: Region, common: Region | None, solid_below_mm2: float) -> Filling:
-    """Return how a core is filled: sparsely where it lies in `common`, if that is given, and solidly elsewhere.
+def _filled(core: Region, window: Window, outlines: Sequence[Region], solid_below_mm2: float) -> Filling:
+    """Return how a core is filled: sparsely where it lies in all outlines of a window, and solidly elsewhere.
 
     Pieces of the sparse region that are so small as to be filled are solid.
     """
-    if common is not None and common.is_empty():
+    if window is None or core.is_empty():
         return Filling(core, NOTHING)
-    sparse = core if common is None else core ^ common
+    common = CrossSection.batch_boolean([outlines[number] for number in window], OpType.Intersect) if window else core
+    sparse = core ^ common if window else core
     if solid_below_mm2 > 0.0:
         pieces = sparse.decompose()
         large = [piece for piece in pieces if piece.area() >= solid_below_mm2]
         if len(large) < len(pieces):
             kept = CrossSection.compose(large)
             return Filling(core - kept, kept)
-    if common is None or core.area() - sparse.area() < SMALLEST_AREA_MM2:
+    if core.area() - sparse.area() < SMALLEST_AREA_MM2:
         return Filling(NOTHING, core, all_sparse=True)
     if sparse.area() < SMALLEST_AREA_MM2:
         return Filling(core, NOTHING)

@@ -4,6 +4,7 @@ Unlike a `Stack` its cross-section changes from layer to layer. The section at a
 same numbers as the solid: a bar's is a set of rectangles, a finger's the hull of two discs.
 """
 
+import itertools
 import math
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
@@ -184,12 +185,13 @@ class Turned:
     def contours_at(self, heights_mm: Array) -> list[Contours]:
         """Return the block's outlines at heights (n,), turned and moved."""
         sections = self.block.contours_at(heights_mm)
-        known = {contour.tobytes(): contour for contours in sections for contour in contours}
+        keys = [[contour.tobytes() for contour in contours] for contours in sections]
+        known = dict(zip(itertools.chain(*keys), itertools.chain(*sections), strict=True))
         if not known:
             return sections
         ends = np.cumsum([len(contour) for contour in known.values()])[:-1]
         moved = dict(zip(known, np.split(self._moved(np.concatenate(list(known.values()))), ends), strict=True))
-        return [[moved[contour.tobytes()] for contour in contours] for contours in sections]
+        return [[moved[key] for key in at_height] for at_height in keys]
 
     def _moved(self, points_mm: Array) -> Array:
         cos, sin = math.cos(self.angle_rad), math.sin(self.angle_rad)
@@ -245,11 +247,11 @@ class Blocks:
     def sections_at(self, heights_mm: npt.ArrayLike) -> Sections:
         """Return the same as outlines that differ, which no chamfer narrows."""
         heights = np.asarray(heights_mm, dtype=float)
-        numbers: dict[tuple[tuple[bytes, ...], ...], int] = {}
+        numbers: dict[tuple[int, tuple[bytes, ...]], int] = {}
         regions: list[Region] = []
         which = []
         for added, removed in zip(_gathered(self.added, heights), _gathered(self.removed, heights), strict=True):
-            case = tuple(tuple(contour.tobytes() for contour in contours) for contours in (added, removed))
+            case = len(added), tuple([contour.tobytes() for contour in (*added, *removed)])
             number = numbers.setdefault(case, len(regions))
             if number == len(regions):
                 region = CrossSection(added) if added else NOTHING

@@ -6,7 +6,7 @@ and what it shares with another stack all follow from the polygons, without a me
 
 import functools
 import itertools
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -64,15 +64,17 @@ class Slab:
         """Thickness of the slab (mm)."""
         return self.z1_mm - self.z0_mm
 
-    @functools.cached_property
-    def _key(self) -> Hashable:
-        return self.z0_mm, self.z1_mm, self.inset_mm, self.number, corners_key(self.outline)
+    @property
+    def _numbers(self) -> tuple[float, float, float, int]:
+        return self.z0_mm, self.z1_mm, self.inset_mm, self.number
 
     def __eq__(self, other: object) -> bool:
-        return self is other or (isinstance(other, Slab) and self._key == other._key)
+        if not isinstance(other, Slab) or self._numbers != other._numbers:
+            return False
+        return self.outline is other.outline or corners_key(self.outline) == corners_key(other.outline)
 
     def __hash__(self) -> int:
-        return hash(self._key)
+        return hash((self._numbers, self.outline.bounds()))  # quicker than the corners, which few slabs need
 
 
 SlabLike = Slab | tuple[float, float, Region]

@@ -34,6 +34,15 @@ def test_a_thin_part_as_long_as_the_diagonal_lies_askew():
     assert fit(diagonal + 1.0, 5.0).margin_mm < 0.0
 
 
+def test_a_slanting_bar_is_turned_to_the_diagonal():
+    """A bar at -30° and as long as the diagonal but 2 mm fits at a turn of 30° and the diagonal's own angle."""
+    end = 214.0 * np.array([math.cos(math.radians(30.0)), -math.sin(math.radians(30.0))])
+    bounds = np.array([[0.0, end[1], 0.0], [end[0], 0.0, 5.0]])
+    askew = fit_to_bed(bounds, lambda: np.array([[0.0, 0.0], end]), BED)
+    assert askew.margin_mm >= 0.0
+    assert askew.angle_deg == pytest.approx(30.0 + math.degrees(math.atan2(BED[1], BED[0])), abs=1.0)
+
+
 def test_a_part_of_the_beds_size_fits():
     assert fit(*BED).margin_mm == pytest.approx(0.0)
 

@@ -102,6 +102,7 @@ def test_stacks_that_are_made_alike_are_equal_and_others_are_not():
     assert hash(made()) == hash(made())
     assert len({made(), made().moved(), made((0.1, 0.0)), made((0.0, 0.1)), made().mirrored().mirrored()}) == 3
     assert made() != made().chamfered(0.35, 0.2)
+    assert Stack.of([(0, 3, disc(9))]) != Stack.of([(0, 4, disc(9))])
 
 
 def test_shared_volume_of_coaxial_cylinders():
