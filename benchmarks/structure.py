@@ -1,4 +1,4 @@
-"""The structure of the package in figures: rooms, floors, imports that run up, loose modules, files an addition touches.
+"""The structure of the package in figures: rooms, floors, imports that run up, what an addition touches.
 
     python benchmarks/structure.py [CHECKOUT]
 
