@@ -24,6 +24,12 @@ TRAY_MM = 1.6
 """Thickness of the electronics trays; judgement: eight layers of 0.2 mm."""
 SOCKET_WALL_MM = 1.6
 """Wall of the motor's socket; judgement: four lines of a 0.4 mm nozzle."""
+SOCKET_PLAY_MM = 0.3
+"""Between the motor and its socket where room is kept for both; judgement: more than a sliding fit."""
+MOTOR_CAP_MM = 2.4
+"""Thickness of the cap that holds the motor in its socket; judgement: an M2 head sunk into 1 mm of it."""
+TERMINALS_MM = 0.5
+"""Between the motor's rear face and the plate, in which a window lets its terminals through; judgement."""
 CAP_EAR_MM = 5.6
 """How far the ears for the motor cap's screws reach beyond the socket: an M2 head of 3.8 mm (ISO 4762) and a wall."""
 TOE_TIP_WIDTH_MM = 5.0

@@ -8,18 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.catalogue import Battery, Bearing, Board
+from jumpcad.catalogue import Battery, Bearing, Board, Motor
 from jumpcad.design import Design
 from jumpcad.dimensions import (
-    CAP_EAR_MM,
     CLEAR_MM,
     GAP_MM,
-    SOCKET_WALL_MM,
     SPACER_RADIUS_MM,
     STANDOFF_RADIUS_MM,
     TRAY_MM,
 )
 from jumpcad.drive import Drive
+from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.places import around, best_place, grid_candidates, ring_candidates
@@ -37,6 +36,11 @@ class Electronics:
     battery: Battery
     controller: Board
     driver: Board
+
+    @property
+    def names(self) -> str:
+        """What they are, in words."""
+        return f"{self.battery.name}, {self.controller.name} and {self.driver.name}"
 
     @property
     def length_mm(self) -> float:
@@ -124,6 +128,7 @@ def make_layout(
     lever_y = (-sections.thickness_mm / 2.0 - 2.6, lateral.cam[1] + 1.7)
     moving = link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, CLEAR_MM)
     _require_legs_apart(linkage, sections)
+    _require_shaft(train.motor, lateral)
     wheel = train.stages[-1].wheel
     hub_things = [
         disc("left spring", hub, spring.outer_diameter_mm / 2.0 + CLEAR_MM, lateral.spring_left),
@@ -148,9 +153,8 @@ def make_layout(
         )
     )
     idler, motor, angle = _train_places(obstacles, drive, lateral, cam_axis)
-    motor_half = _motor_half_mm(train.motor.width_mm, train.motor.height_mm)
     obstacles += [
-        box_obstacle("motor", motor, motor_half, angle, inside),
+        box_obstacle("motor", motor, socket_half_mm(train.motor), angle, inside),
         disc("pinion", motor, train.stages[0].pinion.tip_radius_mm + CLEAR_MM, lateral.gears[-1]),
     ]
     if idler is not None:
@@ -190,10 +194,14 @@ def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
         )
 
 
-def _motor_half_mm(width_mm: float, height_mm: float) -> tuple[float, float]:
-    """Return the half sizes of the motor's socket: along its direction, and across it with the ears."""
-    wall = 0.3 + SOCKET_WALL_MM
-    return width_mm / 2.0 + wall, height_mm / 2.0 + wall + CAP_EAR_MM
+def _require_shaft(motor: Motor, lateral: Lateral) -> None:
+    """Refuse a motor whose shaft does not reach into its pinion by its diameter (judgement; usual for hubs)."""
+    needed = lateral.gears[-1][0] + motor.shaft_mm - lateral.motor[1]
+    if motor.shaft_length_mm < needed - 1e-9:
+        raise CannotBuildError(
+            f"the shaft of motor {motor.name} is {motor.shaft_length_mm:g} mm long; {needed:.1f} mm reach through its "
+            f"cap and {motor.shaft_mm:g} mm into its pinion: allow a motor with a longer shaft"
+        )
 
 
 def _require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y: tuple[float, float]) -> None:
@@ -229,10 +237,13 @@ def _train_places(
 ) -> tuple[Array | None, Array, float]:
     """Return the idler's place (two stages), the motor's, and the motor's direction."""
     stages, motor = drive.train.stages, drive.train.motor
-    half = _motor_half_mm(motor.width_mm, motor.height_mm)
-    body_y = (lateral.inside[0], lateral.motor_cap[1])
+    half = socket_half_mm(motor)
+    body_y = (lateral.inside[0], lateral.gears[-1][0] - GAP_MM)
     target = np.array([0.0, 14.0])
-    remedy = "raise d_coef or carrying_link_mm (a longer body), or allow a smaller motor"
+    remedy = (
+        "raise d_coef or carrying_link_mm (a longer body), or allow a smaller motor than "
+        f"{motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
+    )
 
     def motor_place(around: Array, extra: list[Obstacle]) -> tuple[Array, float]:
         places, angles = ring_candidates(around, stages[0].centre_distance_mm)
@@ -287,7 +298,8 @@ def _tray_place(
     index = best_place(
         "battery and electronics", obstacles, places + np.array([0.0, half[1]]), half, 0.0, inside,
         lambda p: np.abs(p[:, 0] - target[0]) + 1.2 * np.abs(p[:, 1] - half[1]),
-        "raise d_coef or carrying_link_mm (a longer body), or choose a smaller battery",
+        "raise d_coef or carrying_link_mm (a longer body), or choose a smaller battery or smaller boards: "
+        f"{electronics.names} take {electronics.length_mm:.1f} x {electronics.height_mm:.1f} mm",
     )  # fmt: skip
     return places[index]
 

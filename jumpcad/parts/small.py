@@ -23,8 +23,6 @@ TRAY_EDGE_MM, TRAY_LEDGE_MM = 5.0, 2.0
 CAP_HEAD_MM = 3.9
 """Counterbore for an M2 button head of 3.5 mm (ISO 7380)."""
 CAP_HEAD_DEPTH_MM = 1.4
-MOTOR_BOSS_MM = 4.4
-"""Hole in the motor's cap for the boss around its shaft (4 mm on N20 gearboxes)."""
 
 
 def motor_cap(layout: Layout, holes: HoleSizes) -> Drawing:
@@ -32,15 +30,15 @@ def motor_cap(layout: Layout, holes: HoleSizes) -> Drawing:
     y0, y1 = layout.lateral.motor_cap
     motor = layout.drive.train.motor
     pose = lying_on_right(y0, *layout.motor_mm) @ pose_about_z(-layout.motor_angle_rad)
-    stack = _cap(motor.width_mm, motor.height_mm, y1 - y0, holes.fits.m2_clearance_mm)
+    stack = _cap(motor.width_mm, motor.height_mm, holes.running(motor.boss_mm), y1 - y0, holes.fits.m2_clearance_mm)
     return Drawing("motor_cap", "body", stack, (Placement(BODY, pose),))
 
 
 @lru_cache(maxsize=32)
-def _cap(width_mm: float, height_mm: float, thickness_mm: float, screw_mm: float) -> Stack:
-    """Return the cap of a motor about its axis, ears along y, seats of the screws' heads on top."""
+def _cap(width_mm: float, height_mm: float, boss_mm: float, thickness_mm: float, screw_mm: float) -> Stack:
+    """Return the cap of a motor about its axis, ears along y, with a hole for its boss and seats for screws' heads."""
     ears = [(0.0, sign * ear_reach_mm(height_mm)) for sign in (-1.0, 1.0)]
-    outline = socket_about_axis(width_mm, height_mm) - hole(MOTOR_BOSS_MM)
+    outline = socket_about_axis(width_mm, height_mm) - hole(boss_mm)
     seat = thickness_mm - CAP_HEAD_DEPTH_MM
     screws, heads = (union(hole(diameter, ear) for ear in ears) for diameter in (screw_mm, CAP_HEAD_MM))
     return Stack.of([(0.0, seat, outline - screws), (seat, thickness_mm, outline - heads)])

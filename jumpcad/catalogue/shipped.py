@@ -1,73 +1,16 @@
-"""Bought parts: a catalogue of motors, bearings, fasteners, electronics and spring wire, read from the templates.
-
-Every table names the source of its figures. Lengths in mm, masses in g, torques in N·m.
-"""
+"""The shipped catalogue, read from the templates, and what a user's own parts make of it (mm, g, N·m)."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import lru_cache
-from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from pydantic import PositiveFloat
 
+from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor
 from jumpcad.errors import JumpcadError
-from jumpcad.files import Record, did_you_mean, read_toml, templates_folder
-
-
-class Motor(Record):
-    """A brushed gear motor. Its axis lies along its body; width and height are across it, the shaft is D-shaped."""
-
-    name: str
-    ratio: PositiveFloat
-    voltage_v: PositiveFloat
-    no_load_rpm: PositiveFloat
-    no_load_current_a: PositiveFloat
-    stall_torque_nm: PositiveFloat
-    stall_current_a: PositiveFloat
-    mass_g: PositiveFloat
-    width_mm: PositiveFloat
-    height_mm: PositiveFloat
-    body_length_mm: PositiveFloat
-    shaft_mm: PositiveFloat
-    shaft_flat_mm: PositiveFloat
-    shaft_length_mm: PositiveFloat
-
-
-class Bearing(Record):
-    """A ball bearing."""
-
-    name: str
-    bore_mm: PositiveFloat
-    outer_mm: PositiveFloat
-    width_mm: PositiveFloat
-    mass_g: PositiveFloat
-    static_load_n: PositiveFloat
-
-
-class Battery(Record):
-    """A battery pack: length along the robot, width across it."""
-
-    name: str
-    description: str
-    length_mm: PositiveFloat
-    width_mm: PositiveFloat
-    height_mm: PositiveFloat
-    mass_g: PositiveFloat
-    voltage_v: PositiveFloat
-    capacity_mah: PositiveFloat
-
-
-class Board(Record):
-    """A circuit board with what stands on it."""
-
-    name: str
-    description: str
-    length_mm: PositiveFloat
-    width_mm: PositiveFloat
-    height_mm: PositiveFloat
-    mass_g: PositiveFloat
+from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 
 
 class Screw(Record):
@@ -129,26 +72,33 @@ class Wire(Record):
     tensile_strength_mpa: list[PositiveFloat]
 
 
-Article = TypeVar("Article", bound=Record)
+Thing = TypeVar("Thing", bound=TomlTable)
 
 
-class Shelf(Mapping[str, Article], Generic[Article]):
-    """Articles of one kind by name; an unknown name is an error with a hint."""
+class Shelf(Mapping[str, Thing], Generic[Thing]):
+    """Things of one kind by name; an unknown name is an error with a hint."""
 
-    def __init__(self, kind: str, items: dict[str, Article]) -> None:
-        self._kind, self._items = kind, items
+    def __init__(self, kind: str, items: Mapping[str, Thing]) -> None:
+        self._kind, self._items = kind, dict(items)
 
-    def __getitem__(self, name: str) -> Article:
+    def __getitem__(self, name: str) -> Thing:
         if name not in self._items:
             known = ", ".join(self._items)
             raise JumpcadError(f"no {self._kind} {name!r} in the catalogue ({known}){did_you_mean(name, self._items)}")
         return self._items[name]
 
-    def __iter__(self) -> Any:
+    def __contains__(self, name: object) -> bool:
+        return name in self._items
+
+    def __iter__(self) -> Iterator[str]:
         return iter(self._items)
 
     def __len__(self) -> int:
         return len(self._items)
+
+    def with_own(self, items: Mapping[str, Thing]) -> "Shelf[Thing]":
+        """Return the shelf with a user's things after its own."""
+        return Shelf(self._kind, {**self._items, **items})
 
 
 @dataclass(frozen=True)
@@ -166,6 +116,22 @@ class Catalogue:
     wire: Wire
     rod_density_g_cm3: float
 
+    def with_own(
+        self,
+        motors: Mapping[str, Motor],
+        bearings: Mapping[str, Bearing],
+        batteries: Mapping[str, Battery],
+        boards: Mapping[str, Board],
+    ) -> "Catalogue":
+        """Return the catalogue with a user's own parts beside the shipped ones."""
+        return replace(
+            self,
+            motors=self.motors.with_own(motors),
+            bearings=self.bearings.with_own(bearings),
+            batteries=self.batteries.with_own(batteries),
+            boards=self.boards.with_own(boards),
+        )
+
     def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
         """Return the mass of a steel rod (g)."""
         return self.rod_density_g_cm3 * math.pi / 4.0 * diameter_mm**2 * length_mm / 1000.0
@@ -175,14 +141,15 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    motors = _read(folder / "motors.toml")
+    motors, bearings, electronics, fasteners = (
+        read_toml(folder / f"{name}.toml")[0] for name in ("motors", "bearings", "electronics", "fasteners")
+    )
     defaults = motors.pop("defaults")
-    electronics, fasteners = _read(folder / "electronics.toml"), _read(folder / "fasteners.toml")
     return Catalogue(
-        motors=_shelf("motor", Motor, {name: defaults | values for name, values in motors.items()}),
-        bearings=_shelf("bearing", Bearing, _read(folder / "bearings.toml")),
-        batteries=_shelf("battery", Battery, electronics["batteries"]),
-        boards=_shelf("board", Board, electronics["boards"]),
+        motors=_articles("motor", Motor, motors, defaults),
+        bearings=_articles("bearing", Bearing, bearings),
+        batteries=_articles("battery", Battery, electronics["batteries"] | {"source": electronics["source"]}),
+        boards=_articles("board", Board, electronics["boards"] | {"source": electronics["source"]}),
         screws=_shelf("screw", Screw, fasteners["screws"]),
         nuts=_shelf("nut", Nut, fasteners["nuts"]),
         washers=_shelf("washer", Washer, fasteners["washers"]),
@@ -192,11 +159,13 @@ def load_catalogue() -> Catalogue:
     )
 
 
-def _read(path: Path) -> dict[str, Any]:
-    data, _ = read_toml(path)
-    data.pop("source")
-    return data
+def _articles(
+    kind: str, model: type[AnyArticle], tables: dict[str, Any], defaults: Mapping[str, Any] | None = None
+) -> Shelf[AnyArticle]:
+    """Return the articles of a file whose `source` is that of all of them."""
+    common = {"source": tables["source"]} | dict(defaults or {})
+    return _shelf(kind, model, {name: common | table for name, table in tables.items() if name != "source"})
 
 
-def _shelf(kind: str, model: type[Article], tables: dict[str, Any]) -> Shelf[Article]:
-    return Shelf(kind, {name: model(name=name, **values) for name, values in tables.items()})
+def _shelf(kind: str, model: type[Thing], tables: Mapping[str, Mapping[str, Any]]) -> Shelf[Thing]:
+    return Shelf(kind, {name: model(name=name, **table) for name, table in tables.items()})
