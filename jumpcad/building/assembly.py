@@ -11,7 +11,7 @@ from jumpcad.catalogue import Bearing
 from jumpcad.design import Design
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, LEVER_EYE_RADIUS_MM, PAD_WALL_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.layout.layout import Electronics, Layout, make_layout
 from jumpcad.mechanism.mass import MassProperties, combined
@@ -104,8 +104,24 @@ def _hub_and_drive(
         ]
         stronger = next((index for index in range(number, len(bearings)) if enough[index]), len(bearings) - 1)
         if stronger == number:
+            _require_hub_room(drive, holes)
             return holes, sizes, drive
         number = stronger
+
+
+def _require_hub_room(drive: Drive, holes: HoleSizes) -> None:
+    """Refuse bearings whose seat meets the roller's screw in the lever, or whose hub meets the cam axle's spacer."""
+    if holes.bearing is None:
+        return
+    wall = holes.hub_radius_mm - holes.hub_bore_mm / 2.0
+    to_screw = drive.cam.lever_length_mm - holes.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
+    to_spacer = math.hypot(*drive.cam.cam_axis_mm) - SPACER_RADIUS_MM - GAP_MM - wall
+    largest = 2.0 * (min(to_screw, to_spacer) - holes.fits.press_mm)
+    if holes.bearing.outer_mm > largest:
+        raise CannotBuildError(
+            f"the leg's bearing {holes.bearing.name} is {holes.bearing.outer_mm:g} mm outside; {largest:.1f} mm fit "
+            "beside the roller's screw and the cam's axle: choose a smaller bought.leg_bearing"
+        )
 
 
 def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:

@@ -24,13 +24,14 @@ class Screw(Record):
     button_head_height_mm: PositiveFloat
     lengths_mm: list[PositiveFloat]
 
-    def length_for(self, needed_mm: float) -> float:
-        """Return the shortest length kept that is at least what is needed (mm)."""
+    def length_for(self, needed_mm: float, remedy: str = "choose thinner parts") -> float:
+        """Return the shortest length kept that is at least what is needed (mm); `remedy` is what a user may change."""
         for length in self.lengths_mm:
             if length >= needed_mm - 1e-9:
                 return length
         raise JumpcadError(
-            f"no {self.name} screw of {needed_mm:.1f} mm; the longest kept is {self.lengths_mm[-1]:g} mm"
+            f"no {self.name} screw of {needed_mm:.1f} mm; the longest kept is {self.lengths_mm[-1]:g} mm: "
+            f"{remedy}"
         )
 
 

@@ -15,6 +15,9 @@ from jumpcad.dimensions import (
     GAP_MM,
     SPACER_RADIUS_MM,
     STANDOFF_RADIUS_MM,
+    STRAP_EDGE_MM,
+    STRAP_SLOT_MM,
+    TRAY_LENGTH_MIN_MM,
     TRAY_MM,
 )
 from jumpcad.drive import Drive
@@ -45,12 +48,14 @@ class Electronics:
     @property
     def length_mm(self) -> float:
         """Along x: the battery, or both boards one behind the other."""
-        return max(self.battery.length_mm, self.controller.width_mm + self.driver.width_mm + 1.0) + 2.0
+        boards = self.controller.width_mm + self.driver.width_mm + 1.0
+        return max(max(self.battery.length_mm, boards) + 2.0, TRAY_LENGTH_MIN_MM)
 
     @property
     def width_mm(self) -> float:
-        """Across the robot (y)."""
-        return max(self.battery.width_mm, self.controller.length_mm, self.driver.length_mm) + 2.0
+        """Across the robot (y): the battery with its strap, or a board."""
+        strap = 2.0 * (1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM)
+        return max(self.battery.width_mm + strap, self.controller.length_mm + 2.0, self.driver.length_mm + 2.0)
 
     @property
     def upper_tray_mm(self) -> float:
