@@ -272,7 +272,9 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]
         whole, _ = _assembled(base_path, (*above, real))
     if isinstance(data.get("printer"), str):
         whole["printer"] = read_toml(find_template("printers", data.pop("printer")))[0]
-    data |= {kind: _completed(kind, data[kind], str(path), text) for kind in OWN_PARTS if isinstance(data.get(kind), dict)}
+    data |= {
+        kind: _completed(kind, data[kind], str(path), text) for kind in OWN_PARTS if isinstance(data.get(kind), dict)
+    }
     own = set(data["materials"]) if isinstance(data.get("materials"), dict) else set()
     whole = _merged(whole, data)
     if isinstance(whole.get("roles"), dict) and isinstance(whole.setdefault("materials", {}), dict):

@@ -30,8 +30,7 @@ class Screw(Record):
             if length >= needed_mm - 1e-9:
                 return length
         raise JumpcadError(
-            f"no {self.name} screw of {needed_mm:.1f} mm; the longest kept is {self.lengths_mm[-1]:g} mm: "
-            f"{remedy}"
+            f"no {self.name} screw of {needed_mm:.1f} mm; the longest kept is {self.lengths_mm[-1]:g} mm: {remedy}"
         )
 
 
@@ -169,4 +168,4 @@ def _articles(
 
 
 def _shelf(kind: str, model: type[Thing], tables: Mapping[str, Mapping[str, Any]]) -> Shelf[Thing]:
-    return Shelf(kind, {name: model(name=name, **table) for name, table in tables.items()})
+    return Shelf(kind, {name: model.model_validate({"name": name, **table}) for name, table in tables.items()})

@@ -250,8 +250,16 @@ def _train_places(
         f"{motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
     )
 
+    tip = stages[0].pinion.tip_radius_mm
+    meshes_with = "cam gear" if len(stages) == 1 else "idler wheel"
+
     def motor_place(around: Array, extra: list[Obstacle]) -> tuple[Array, float]:
         places, angles = ring_candidates(around, stages[0].centre_distance_mm)
+        others = [obstacle for obstacle in obstacles + extra if obstacle.name != meshes_with]
+        free = clearance(others, places, (0.0, 0.0), 0.0, lateral.gears[-1]) >= tip
+        if not free.any():
+            raise CannotBuildError(f"no room for the pinion of {tip:.1f} mm radius on the motor: {remedy}")
+        places, angles = places[free], angles[free]
         index = best_place(
             "motor", obstacles + extra, places, half, angles, body_y,
             lambda p: np.linalg.norm(p - target, axis=1), remedy,
@@ -306,7 +314,7 @@ def _tray_place(
         "raise d_coef or carrying_link_mm (a longer body), or choose a smaller battery or smaller boards: "
         f"{electronics.names} take {electronics.length_mm:.1f} x {electronics.height_mm:.1f} mm",
     )  # fmt: skip
-    return places[index]
+    return np.asarray(places[index])
 
 
 def _standoffs(

@@ -57,8 +57,8 @@ def roller_bearing(workshop: Workshop) -> Bearing:
     roller, screw = workshop.catalogue.bearings[workshop.bought.roller], workshop.catalogue.screws["M3"]
     if roller.bore_mm != screw.diameter_mm:
         raise JumpcadError(
-            f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not sit on the {screw.name} screw '
-            f"that holds it: choose a bearing with a bore of {screw.diameter_mm:g} mm"
+            f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not sit on the {screw.name} '
+            f"screw that holds it: choose a bearing with a bore of {screw.diameter_mm:g} mm"
         )
     return roller
 
