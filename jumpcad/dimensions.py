@@ -22,8 +22,22 @@ STANDOFF_RADIUS_MM = 3.2
 
 TRAY_MM = 1.6
 """Thickness of the electronics trays; judgement: eight layers of 0.2 mm."""
+TAB_MM = 10.0
+"""Length along x of a tray's tab in its slot; judgement."""
+TRAY_LENGTH_MIN_MM = 30.0
+"""Least length of a tray: its two tabs, 1 mm to either end, and 8 mm between them; judgement."""
+STRAP_SLOT_MM = (2.0, 4.0)
+"""Slots beside the battery for a strap, across the robot and along it; judgement: straps of cable tie width."""
+STRAP_EDGE_MM = 2.0
+"""From a strap's slot to the plate; judgement: a wall and the tray's play."""
 SOCKET_WALL_MM = 1.6
 """Wall of the motor's socket; judgement: four lines of a 0.4 mm nozzle."""
+SOCKET_PLAY_MM = 0.3
+"""Between the motor and its socket where room is kept for both; judgement: more than a sliding fit."""
+MOTOR_CAP_MM = 2.4
+"""Thickness of the cap that holds the motor in its socket; judgement: an M2 head sunk into 1 mm of it."""
+TERMINALS_MM = 0.5
+"""Between the motor's rear face and the plate, in which a window lets its terminals through; judgement."""
 CAP_EAR_MM = 5.6
 """How far the ears for the motor cap's screws reach beyond the socket: an M2 head of 3.8 mm (ISO 4762) and a wall."""
 TOE_TIP_WIDTH_MM = 5.0

@@ -2,17 +2,30 @@
 
 A workshop file gives any subset; what it leaves out comes from its `base` (the shipped `default` unless named).
 `printer = "mini"` takes a shipped printer whole; the names under `[roles]` choose materials, shipped or the file's own.
+`[motors.NAME]` and the like are parts of the user's own beside those of the catalogue; `like = "n20-298"` in such a
+table takes over every figure of a shipped part that the table does not give, but not its source.
 """
 
 import itertools
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from jumpcad.arguments import typed
+from jumpcad.catalogue import (
+    Article,
+    Battery,
+    Bearing,
+    Board,
+    Catalogue,
+    Motor,
+    OwnParts,
+    StockSpring,
+    load_catalogue,
+)
 from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     Contradiction,
@@ -24,7 +37,7 @@ from jumpcad.files import (
     template_names,
     to_toml,
 )
-from jumpcad.files.complaints import shown
+from jumpcad.files.complaints import place, shown
 from jumpcad.files.names import NAME, NAME_RULE, Name, OptionalName, Text
 
 Positive = Annotated[float, Field(gt=0, le=1e4)]
@@ -33,6 +46,8 @@ Role = Literal["links", "body", "gears"]
 
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
 DEFAULT = "default"
+OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs")
+"""Tables of the user's own parts; `springs` are kept for reference, since the generator winds its own."""
 MOST_BASES = 20
 """Files of a workshop that may build on each other."""
 
@@ -108,7 +123,7 @@ class Fits(TomlTable):
 
 
 class BoughtParts(TomlTable):
-    """Names in the hardware catalogue; an empty list of motors allows every one.
+    """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none.
     """
@@ -154,7 +169,8 @@ class Masses(TomlTable):
 class Workshop(Record):
     """Everything that a robot depends on beside its eight numbers.
 
-    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials.
+    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials. `motors`,
+    `bearings`, `batteries`, `boards` and `springs` are the user's own parts alone.
     """
 
     printer: Printer
@@ -167,6 +183,16 @@ class Workshop(Record):
     safety: Safety
     mass: Masses
     prices_eur: dict[Name, Positive]
+    motors: OwnParts[Motor] = Field(default_factory=dict)
+    bearings: OwnParts[Bearing] = Field(default_factory=dict)
+    batteries: OwnParts[Battery] = Field(default_factory=dict)
+    boards: OwnParts[Board] = Field(default_factory=dict)
+    springs: OwnParts[StockSpring] = Field(default_factory=dict)
+
+    @property
+    def catalogue(self) -> Catalogue:
+        """The shipped catalogue with the user's own parts."""
+        return load_catalogue().with_own(self.motors, self.bearings, self.batteries, self.boards)
 
     def material_name(self, role: Role) -> str:
         """Return the name of the material that a kind of part is printed in."""
@@ -178,7 +204,8 @@ class Workshop(Record):
 
     def to_toml(self) -> str:
         """Return the workshop as a complete TOML document that reads back the same."""
-        return to_toml(self.model_dump(exclude_none=True))
+        data = self.model_dump(exclude_none=True)
+        return to_toml({key: value for key, value in data.items() if value or key not in OWN_PARTS})
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield the values that do not go together."""
@@ -209,6 +236,8 @@ class Workshop(Record):
         for role, name in self.roles.model_dump().items():
             if name not in self.materials:
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
+        for kind in OWN_PARTS:
+            yield from _own_contradictions(kind, getattr(self, kind))
 
 
 @typed
@@ -243,6 +272,9 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]
         whole, _ = _assembled(base_path, (*above, real))
     if isinstance(data.get("printer"), str):
         whole["printer"] = read_toml(find_template("printers", data.pop("printer")))[0]
+    data |= {
+        kind: _completed(kind, data[kind], str(path), text) for kind in OWN_PARTS if isinstance(data.get(kind), dict)
+    }
     own = set(data["materials"]) if isinstance(data.get("materials"), dict) else set()
     whole = _merged(whole, data)
     if isinstance(whole.get("roles"), dict) and isinstance(whole.setdefault("materials", {}), dict):
@@ -272,6 +304,24 @@ def _material(path: Path, name: str, own: Any) -> Any:
     return own
 
 
+def _completed(kind: str, tables: dict[str, Any], source: str, text: str) -> dict[str, Any]:
+    """Return own parts in which `like` has been replaced by the figures of the shipped part that it names."""
+    shipped: Mapping[str, Article] = getattr(load_catalogue(), kind, {})
+    completed = {}
+    for name, table in tables.items():
+        if isinstance(table, dict) and "like" in table and NAME.fullmatch(name):
+            like, key = table["like"], f"{kind}.{name}.like"
+            if not isinstance(like, str) or like not in shipped:
+                known = ", ".join(shipped) or "there are none"
+                hint = did_you_mean(like, shipped) if isinstance(like, str) else ""
+                where = place(source, text, key)
+                raise JumpcadError(f"{where}: {key} = {shown(like)}: is no shipped part of this kind ({known}){hint}")
+            figures = shipped[like].model_dump(exclude={"source"})
+            table = figures | {key: value for key, value in table.items() if key != "like"}
+        completed[name] = table
+    return completed
+
+
 def _merged(base: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
     """Return nested data with the values of `over` in place of those of `base`."""
     merged = dict(base)
@@ -279,6 +329,19 @@ def _merged(base: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
         both = isinstance(value, dict) and isinstance(merged.get(key), dict)
         merged[key] = _merged(merged[key], value) if both else value
     return merged
+
+
+def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Contradiction]:
+    """Yield what is wrong with the user's own parts of a kind."""
+    shipped: Mapping[str, Article] = getattr(load_catalogue(), kind, {})
+    for key, part in parts.items():
+        if key in shipped:
+            reason = f'is the name of a shipped part: choose another one, and like = "{key}" takes its figures over'
+            yield (kind, key), key, reason
+        if part.name != key:
+            yield (kind, key, "name"), part.name, "a part has its table's name: leave it out"
+        for where, value, reason in part.contradictions():
+            yield (kind, key, *where), value, reason
 
 
 def _not_ascending(fits: Fits, keys: tuple[str, ...]) -> Iterator[Contradiction]:

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from jumpcad.catalogue import Bearing, load_catalogue
+from jumpcad.catalogue import Bearing
 from jumpcad.design import Design
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, LEVER_EYE_RADIUS_MM, PAD_WALL_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, Drive, DriveLimits, SpringLimits, TrainLimits, synthesise
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.layout.layout import Electronics, Layout, make_layout
 from jumpcad.mechanism.mass import MassProperties, combined
@@ -22,7 +22,15 @@ from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
-from jumpcad.strength.bearings import allowed_n, bearing_load_n, first_guess, hub_bearings, hub_width_mm, wound_forces_n
+from jumpcad.strength.bearings import (
+    allowed_n,
+    bearing_load_n,
+    first_guess,
+    hub_bearings,
+    hub_width_mm,
+    roller_bearing,
+    wound_forces_n,
+)
 from jumpcad.strength.fatigue import spring_share
 from jumpcad.strength.sizing import Growth, Sections, sections
 from jumpcad.transforms import in_metres
@@ -40,7 +48,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
     parts = tuple(_printed(drawing, workshop) for drawing in drawn)
-    hardware = tuple(shopping.bought_parts(layout, holes, load_catalogue(), workshop.bought))
+    hardware = tuple(shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought))
     joints, loop, spring = five_bar(design, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
     return Robot(
         name=name,
@@ -61,9 +69,8 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth | None = None) 
     """Return the plan of a design in a workshop, and the bores of its parts."""
     growth = growth or Growth()
     small.require_axle(workshop)
-    catalogue = load_catalogue()
-    chosen = workshop.bought
-    roller = catalogue.bearings[chosen.roller]
+    catalogue, chosen = workshop.catalogue, workshop.bought
+    roller = roller_bearing(workshop)
     holes, sizes, drive = _hub_and_drive(design, workshop, roller, growth)
     electronics = Electronics(
         catalogue.batteries[chosen.battery], catalogue.boards[chosen.controller], catalogue.boards[chosen.driver]
@@ -88,7 +95,7 @@ def _hub_and_drive(
         holes, sizes = HoleSizes.of(workshop, bearing), sections(design, workshop, hub_width_mm(bearing), growth)
         wanted = _drive_limits(workshop, sizes, roller, holes)
         if drive is None or wanted != limits:
-            drive, limits = synthesise(design, wanted), wanted
+            drive, limits = synthesise(design, wanted, workshop.catalogue), wanted
         forces = wound_forces_n(design, drive)
         enough = [
             other is None
@@ -97,8 +104,24 @@ def _hub_and_drive(
         ]
         stronger = next((index for index in range(number, len(bearings)) if enough[index]), len(bearings) - 1)
         if stronger == number:
+            _require_hub_room(drive, holes)
             return holes, sizes, drive
         number = stronger
+
+
+def _require_hub_room(drive: Drive, holes: HoleSizes) -> None:
+    """Refuse bearings whose seat meets the roller's screw in the lever, or whose hub meets the cam axle's spacer."""
+    if holes.bearing is None:
+        return
+    wall = holes.hub_radius_mm - holes.hub_bore_mm / 2.0
+    to_screw = drive.cam.lever_length_mm - holes.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
+    to_spacer = math.hypot(*drive.cam.cam_axis_mm) - SPACER_RADIUS_MM - GAP_MM - wall
+    largest = 2.0 * (min(to_screw, to_spacer) - holes.fits.press_mm)
+    if holes.bearing.outer_mm > largest:
+        raise CannotBuildError(
+            f"the leg's bearing {holes.bearing.name} is {holes.bearing.outer_mm:g} mm outside; {largest:.1f} mm fit "
+            "beside the roller's screw and the cam's axle: choose a smaller bought.leg_bearing"
+        )
 
 
 def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
@@ -225,6 +248,8 @@ def _drive_limits(workshop: Workshop, sizes: Sections, roller: Bearing, holes: H
             backlash_circumferential_mm=fits.backlash_circumferential_mm,
             stress_mpa=gears.strength_in_plane_mpa / safety.strength_factor,
             tip_min_mm=process.line_width_mm,
+            pinion_root_min_mm=axle_radius + fits.wall_mm,
+            shaft_wall_mm=fits.press_mm + fits.wall_mm,
             cam_gear_root_min_mm=(sizes.key_mm + 2.0 * fits.press_mm) / math.sqrt(3.0) + fits.wall_mm,
         ),
         motors=workshop.bought.motors,

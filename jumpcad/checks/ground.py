@@ -83,7 +83,8 @@ def _body_discs(robot: Robot) -> tuple[Array, Array]:
     discs.append((layout.hub_mm, layout.drive.spring.outer_diameter_mm / 2.0))
     discs.append((layout.cam_axis_mm, layout.drive.cam.outer_radius_mm))
     discs.append((layout.cam_axis_mm, layout.drive.train.stages[-1].wheel.tip_radius_mm))
-    discs.append((layout.motor_mm, layout.drive.train.motor.height_mm))
+    motor = layout.drive.train.motor
+    discs.append((layout.motor_mm, max(motor.width_mm, motor.height_mm)))
     if layout.idler_mm is not None:
         discs.append((layout.idler_mm, layout.drive.train.stages[0].wheel.tip_radius_mm))
     half = layout.electronics.length_mm / 2.0

@@ -24,7 +24,10 @@ def steel_findings(case: LoadCase) -> Iterator[Finding]:
 def _pins(case: LoadCase) -> Iterator[Finding]:
     """Yield those of axles, pins and the roller's screw."""
     layout, lateral = case.layout, case.layout.lateral
-    remedy = "raise bought.axle_mm with its bearings, or lower stiffness_nmm_per_deg or compression_ratio"
+    remedy = (
+        "raise bought.axle_mm with its bearings, bring the plates closer (a shorter motor, a narrower battery or "
+        "board), or lower stiffness_nmm_per_deg or compression_ratio"
+    )
     names = {
         "leg_axle": "the leg's axle, wound",
         "cam_axle": "the cam's axle, wound",

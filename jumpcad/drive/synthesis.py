@@ -22,7 +22,7 @@ LEAST_COMPRESSION_RAD = math.radians(0.5)
 class DriveLimits:
     """Everything that the drive needs to know of the workshop and of the parts around it.
 
-    The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `motor_distance_min_mm`, `idler_distance_min_mm`
+    The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `cam_room_mm`, `idler_distance_min_mm`
     and `cam_speed_max_rad_s` are tightened by the spring and the cam that were found.
 
     Attributes
@@ -34,8 +34,6 @@ class DriveLimits:
     axle_radius_mm
         Around an axle, with what turns on it or holds it apart: the leg's where the cam gear passes it, beside the
         spring, and an idler's beside the cam.
-    motor_half_mm
-        From the motor's axis to the outside of what holds it, where it is narrowest.
     fall_s
         From release to the leg's swing past rest, during which the cam turns on (judgement: releases of this size take
         15 to 30 ms).
@@ -52,7 +50,6 @@ class DriveLimits:
     motors: tuple[str, ...] = ()
     gap_mm: float = 0.8
     axle_radius_mm: float = 3.2
-    motor_half_mm: float = 6.9
     fall_s: float = 0.03
     face_widths_mm: tuple[float, ...] = (5.0, 6.5, 8.0)
     more_gap_mm: tuple[float, ...] = (0.0, 2.5, 5.0, 7.5, 10.0)
@@ -137,12 +134,11 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
 def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
     """Return what motor and gears must respect beside a cam."""
     room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
-    motor = cam.outer_radius_mm + limits.motor_half_mm + limits.gap_mm
-    idler = cam.outer_radius_mm + limits.axle_radius_mm + limits.gap_mm
+    around = cam.outer_radius_mm + limits.gap_mm
     return replace(
         limits.train,
         cam_gear_tip_max_mm=min(limits.train.cam_gear_tip_max_mm, room),
-        motor_distance_min_mm=max(limits.train.motor_distance_min_mm, motor),
-        idler_distance_min_mm=max(limits.train.idler_distance_min_mm, idler),
+        cam_room_mm=max(limits.train.cam_room_mm, around),
+        idler_distance_min_mm=max(limits.train.idler_distance_min_mm, around + limits.axle_radius_mm),
         cam_speed_max_rad_s=min(limits.train.cam_speed_max_rad_s, limits.cam.reserve_rad / limits.fall_s),
     )

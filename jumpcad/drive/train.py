@@ -15,6 +15,7 @@ import numpy.typing as npt
 from jumpcad.catalogue import Motor
 from jumpcad.drive.cam import CamLaw
 from jumpcad.drive.gears import Gear, GearPair, centre_distance_mm, gear_pair, least_shift
+from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.transforms import Array
@@ -47,11 +48,15 @@ class TrainLimits:
     tip_min_mm
         Least width of a tooth's tip: one line of the nozzle.
     pinion_root_min_mm, cam_gear_root_min_mm
-        Least root radius: shaft or axle, its fit and a wall; for the cam gear, its key and a wall.
+        Least root radius: an idler's axle, its fit and a wall; for the cam gear, its key and a wall.
+    shaft_wall_mm
+        Fit and wall around the motor's shaft in its pinion.
     cam_gear_tip_max_mm
         Room for the cam gear beside what surrounds the leg's pivot; without limit unless given.
     motor_distance_min_mm
-        Least distance of the motor's axis from the cam's.
+        Least distance of the motor's axis from the cam's, whatever the motor.
+    cam_room_mm
+        Radius around the cam's axis that the motor's socket must leave free.
     idler_distance_min_mm
         Least distance of an idler's axle from the cam's: it crosses the plane in which the cam turns.
     axle_mm
@@ -72,13 +77,25 @@ class TrainLimits:
     stress_mpa: float = 10.0
     tip_min_mm: float = 0.4
     pinion_root_min_mm: float = 3.2
+    shaft_wall_mm: float = 1.7
     cam_gear_root_min_mm: float = 5.6
     cam_gear_tip_max_mm: float = math.inf
     motor_distance_min_mm: float = 12.0
+    cam_room_mm: float = 0.0
     idler_distance_min_mm: float = 0.0
     axle_mm: float = 4.0
     cam_speed_max_rad_s: float = 4.6
     seconds_per_gram: float = 2.0
+
+    def beside(self, motor: Motor) -> "TrainLimits":
+        """Return the limits with those that a motor's shaft and socket set."""
+        root = motor.shaft_mm / 2.0 + self.shaft_wall_mm
+        distance = self.cam_room_mm + min(socket_half_mm(motor))
+        return replace(
+            self,
+            pinion_root_min_mm=max(self.pinion_root_min_mm, root),
+            motor_distance_min_mm=max(self.motor_distance_min_mm, distance),
+        )
 
 
 @dataclass(frozen=True)
@@ -137,10 +154,21 @@ def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) 
 
 def least_tip_mm(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) -> float:
     """Return the least tip radius of a cam gear that needs no second pair, were there room; infinite if none does."""
-    pairs = _last_pairs(_printable_pairs(limits), law, replace(limits, cam_gear_tip_max_mm=math.inf))
-    ratio = min(_least_ratio(law, motor, limits, 1) for motor in motors)
-    good = (pairs["wheel"] >= ratio * pairs["pinion"]) & (pairs["distance_mm"] >= limits.motor_distance_min_mm)
-    return float(pairs["tip_mm"][good].min(initial=math.inf))
+    least = math.inf
+    for beside, group in _by_shape(motors, limits).items():
+        pairs = _last_pairs(_printable_pairs(beside), law, replace(beside, cam_gear_tip_max_mm=math.inf))
+        ratio = min(_least_ratio(law, motors[number], beside, 1) for number in group)
+        good = (pairs["wheel"] >= ratio * pairs["pinion"]) & (pairs["distance_mm"] >= beside.motor_distance_min_mm)
+        least = float(pairs["tip_mm"][good].min(initial=least))
+    return least
+
+
+def _by_shape(motors: Sequence[Motor], limits: TrainLimits) -> dict[TrainLimits, list[int]]:
+    """Return the numbers of the motors that set the same limits; those of one family do."""
+    groups: dict[TrainLimits, list[int]] = {}
+    for number, motor in enumerate(motors):
+        groups.setdefault(limits.beside(motor), []).append(number)
+    return groups
 
 
 def _allowed_nm(motor: Motor, limits: TrainLimits) -> float:
@@ -166,20 +194,23 @@ def _by_cost(
 ) -> Iterator[tuple[Motor, tuple[GearPair, ...]]]:
     """Yield motors with a number of gear pairs that turn the cam, the lightest and quickest first.
 
-    The cost is the mass of the gears as full discs of PETG, with the winding time converted to it.
+    The cost is the mass of motor and gears, these as full discs of PETG, with the winding time converted to it.
     """
-    candidates = _candidates(law, limits, count)
     efficiency = _efficiency(limits, count)
     found: list[tuple[float, int, int]] = []
-    for number, motor in enumerate(motors):
-        good = np.flatnonzero(candidates[:, 0] >= _least_ratio(law, motor, limits, count))
-        for row in good[np.argsort(candidates[good, 1], kind="stable")][:4]:
-            ratio, area = candidates[row, :2]
-            seconds = _winding_s(law, motor, ratio, efficiency)
-            mass_g = 1.27e-3 * math.pi / 4 * area * limits.face_width_mm
-            found.append((mass_g + seconds / limits.seconds_per_gram, number, int(row)))
+    candidates: dict[int, Array] = {}
+    for beside, group in _by_shape(motors, limits).items():
+        of_shape = _candidates(law, beside, count)
+        for number in group:
+            motor, candidates[number] = motors[number], of_shape
+            good = np.flatnonzero(of_shape[:, 0] >= _least_ratio(law, motor, limits, count))
+            for row in good[np.argsort(of_shape[good, 1], kind="stable")][:4]:
+                ratio, area = of_shape[row, :2]
+                seconds = _winding_s(law, motor, ratio, efficiency)
+                mass_g = motor.mass_g + 1.27e-3 * math.pi / 4 * area * limits.face_width_mm
+                found.append((mass_g + seconds / limits.seconds_per_gram, number, int(row)))
     for _, number, row in sorted(found):
-        pairs = candidates[row, 2:].reshape(count, 3)
+        pairs = candidates[number][row, 2:].reshape(count, 3)
         stages = (
             gear_pair(int(p), int(w), float(m), limits.face_width_mm, limits.backlash_circumferential_mm)
             for p, w, m in pairs

@@ -40,12 +40,18 @@ def complaints(error: ValidationError, model: type[BaseModel], source: str = "",
     clauses = []
     for item in items[:MOST_NAMED]:
         location = tuple(str(step) for step in item["loc"] if step != "[key]")
-        line = lines.get(".".join(location))
+        line = lines.get(".".join(location[:-1] if item["type"] == "missing" else location))
         place = "" if not source else f"{source}: " if line is None else f"{source}:{line}: "
         clauses.append(place + _clause(item, location, model))
     if len(items) > MOST_NAMED:
         clauses.append(f"and {len(items) - MOST_NAMED} more")
     return clauses
+
+
+def place(source: str, text: str, key: str) -> str:
+    """Return where a dotted key stands in a TOML text that came from `source`: `file:line`, or the file alone."""
+    line = _lines(text).get(key)
+    return source if line is None else f"{source}:{line}"
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
@@ -115,7 +121,8 @@ def _known_keys(model: type[BaseModel], location: tuple[str, ...]) -> list[str]:
             annotation = field.annotation if field else None
         else:  # a table whose keys the user chooses: what its values are
             annotation = (getattr(annotation, "__args__", None) or (None,))[-1]
-    return list(annotation.model_fields) if _is_model(annotation) else []
+    fields = annotation.model_fields if _is_model(annotation) else {}
+    return [name for name, field in fields.items() if not field.exclude]
 
 
 def _is_model(annotation: Any) -> bool:

@@ -8,13 +8,10 @@ lies across, its shaft to the left.
 from dataclasses import dataclass
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import GAP_MM, ROLLER_HEAD_MM, ROLLER_WASHER_MM
+from jumpcad.dimensions import GAP_MM, MOTOR_CAP_MM, ROLLER_HEAD_MM, ROLLER_WASHER_MM, TERMINALS_MM
+from jumpcad.drive.socket import front_length_mm
 
 Interval = tuple[float, float]
-
-MOTOR_CAP_MM = 2.4
-TERMINALS_MM = 0.5
-"""Between the motor's rear face and the plate; the terminals reach through a window in the plate."""
 
 
 @dataclass(frozen=True)
@@ -80,8 +77,9 @@ def lateral_stack(
         gears.append((y, y + width))
         y += width + GAP_MM
     left = y
-    cap = (gears[-1][0] - GAP_MM - MOTOR_CAP_MM, gears[-1][0] - GAP_MM)
-    body = (cap[0] - motor.body_length_mm, cap[0])
+    front = gears[-1][0] - GAP_MM - front_length_mm(motor)
+    cap = (front, front + MOTOR_CAP_MM)
+    body = (front - motor.body_length_mm, front)
     spring_right = (-spring_left[1], -spring_left[0])
     right = min(body[0] - TERMINALS_MM, spring_right[0] - GAP_MM, left - tray_width_mm)
     lug = (half + GAP_MM, half + GAP_MM + lug_mm)

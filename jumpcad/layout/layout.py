@@ -8,18 +8,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.catalogue import Battery, Bearing, Board
+from jumpcad.catalogue import Battery, Bearing, Board, Motor
 from jumpcad.design import Design
 from jumpcad.dimensions import (
-    CAP_EAR_MM,
     CLEAR_MM,
     GAP_MM,
-    SOCKET_WALL_MM,
     SPACER_RADIUS_MM,
     STANDOFF_RADIUS_MM,
+    STRAP_EDGE_MM,
+    STRAP_SLOT_MM,
+    TRAY_LENGTH_MIN_MM,
     TRAY_MM,
 )
 from jumpcad.drive import Drive
+from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.places import around, best_place, grid_candidates, ring_candidates
@@ -39,14 +41,21 @@ class Electronics:
     driver: Board
 
     @property
+    def names(self) -> str:
+        """What they are, in words."""
+        return f"{self.battery.name}, {self.controller.name} and {self.driver.name}"
+
+    @property
     def length_mm(self) -> float:
         """Along x: the battery, or both boards one behind the other."""
-        return max(self.battery.length_mm, self.controller.width_mm + self.driver.width_mm + 1.0) + 2.0
+        boards = self.controller.width_mm + self.driver.width_mm + 1.0
+        return max(max(self.battery.length_mm, boards) + 2.0, TRAY_LENGTH_MIN_MM)
 
     @property
     def width_mm(self) -> float:
-        """Across the robot (y)."""
-        return max(self.battery.width_mm, self.controller.length_mm, self.driver.length_mm) + 2.0
+        """Across the robot (y): the battery with its strap, or a board."""
+        strap = 2.0 * (1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM)
+        return max(self.battery.width_mm + strap, self.controller.length_mm + 2.0, self.driver.length_mm + 2.0)
 
     @property
     def upper_tray_mm(self) -> float:
@@ -124,6 +133,7 @@ def make_layout(
     lever_y = (-sections.thickness_mm / 2.0 - 2.6, lateral.cam[1] + 1.7)
     moving = link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, CLEAR_MM)
     _require_legs_apart(linkage, sections)
+    _require_shaft(train.motor, lateral)
     wheel = train.stages[-1].wheel
     hub_things = [
         disc("left spring", hub, spring.outer_diameter_mm / 2.0 + CLEAR_MM, lateral.spring_left),
@@ -148,9 +158,8 @@ def make_layout(
         )
     )
     idler, motor, angle = _train_places(obstacles, drive, lateral, cam_axis)
-    motor_half = _motor_half_mm(train.motor.width_mm, train.motor.height_mm)
     obstacles += [
-        box_obstacle("motor", motor, motor_half, angle, inside),
+        box_obstacle("motor", motor, socket_half_mm(train.motor), angle, inside),
         disc("pinion", motor, train.stages[0].pinion.tip_radius_mm + CLEAR_MM, lateral.gears[-1]),
     ]
     if idler is not None:
@@ -190,10 +199,14 @@ def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
         )
 
 
-def _motor_half_mm(width_mm: float, height_mm: float) -> tuple[float, float]:
-    """Return the half sizes of the motor's socket: along its direction, and across it with the ears."""
-    wall = 0.3 + SOCKET_WALL_MM
-    return width_mm / 2.0 + wall, height_mm / 2.0 + wall + CAP_EAR_MM
+def _require_shaft(motor: Motor, lateral: Lateral) -> None:
+    """Refuse a motor whose shaft does not reach into its pinion by its diameter (judgement; usual for hubs)."""
+    needed = lateral.gears[-1][0] + motor.shaft_mm - lateral.motor[1]
+    if motor.shaft_length_mm < needed - 1e-9:
+        raise CannotBuildError(
+            f"the shaft of motor {motor.name} is {motor.shaft_length_mm:g} mm long; {needed:.1f} mm reach through its "
+            f"cap and {motor.shaft_mm:g} mm into its pinion: allow a motor with a longer shaft"
+        )
 
 
 def _require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y: tuple[float, float]) -> None:
@@ -229,13 +242,24 @@ def _train_places(
 ) -> tuple[Array | None, Array, float]:
     """Return the idler's place (two stages), the motor's, and the motor's direction."""
     stages, motor = drive.train.stages, drive.train.motor
-    half = _motor_half_mm(motor.width_mm, motor.height_mm)
-    body_y = (lateral.inside[0], lateral.motor_cap[1])
+    half = socket_half_mm(motor)
+    body_y = (lateral.inside[0], lateral.gears[-1][0] - GAP_MM)
     target = np.array([0.0, 14.0])
-    remedy = "raise d_coef or carrying_link_mm (a longer body), or allow a smaller motor"
+    remedy = (
+        "raise d_coef or carrying_link_mm (a longer body), or allow a smaller motor than "
+        f"{motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
+    )
+
+    tip = stages[0].pinion.tip_radius_mm
+    meshes_with = "cam gear" if len(stages) == 1 else "idler wheel"
 
     def motor_place(around: Array, extra: list[Obstacle]) -> tuple[Array, float]:
         places, angles = ring_candidates(around, stages[0].centre_distance_mm)
+        others = [obstacle for obstacle in obstacles + extra if obstacle.name != meshes_with]
+        free = clearance(others, places, (0.0, 0.0), 0.0, lateral.gears[-1]) >= tip
+        if not free.any():
+            raise CannotBuildError(f"no room for the pinion of {tip:.1f} mm radius on the motor: {remedy}")
+        places, angles = places[free], angles[free]
         index = best_place(
             "motor", obstacles + extra, places, half, angles, body_y,
             lambda p: np.linalg.norm(p - target, axis=1), remedy,
@@ -287,9 +311,10 @@ def _tray_place(
     index = best_place(
         "battery and electronics", obstacles, places + np.array([0.0, half[1]]), half, 0.0, inside,
         lambda p: np.abs(p[:, 0] - target[0]) + 1.2 * np.abs(p[:, 1] - half[1]),
-        "raise d_coef or carrying_link_mm (a longer body), or choose a smaller battery",
+        "raise d_coef or carrying_link_mm (a longer body), or choose a smaller battery or smaller boards: "
+        f"{electronics.names} take {electronics.length_mm:.1f} x {electronics.height_mm:.1f} mm",
     )  # fmt: skip
-    return places[index]
+    return np.asarray(places[index])
 
 
 def _standoffs(

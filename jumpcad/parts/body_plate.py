@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial import Delaunay
 
-from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF_PAD_MM, TRAY_MM
+from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF_PAD_MM, TAB_MM, TRAY_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
@@ -37,8 +37,6 @@ TEXT_HEIGHTS_MM = (4.5, 3.5)
 TEXT_EDGE_MM = 0.8
 """Around a label, at least: two lines of a nozzle."""
 TEXT_STEP_MM = 1.0
-TAB_MM = 10.0
-"""Length along x of a tray's tab in its slot."""
 
 
 def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:

@@ -56,7 +56,7 @@ class HoleSizes:
             return [(y0_mm, y1_mm, hole(self.running(self.axle_mm)))]
         seat = hole(self.press(self.bearing.outer_mm))
         width = self.bearing.width_mm
-        shoulder = hole(self.bearing.outer_mm - 1.2)
+        shoulder = hole(max(self.bearing.outer_mm - 1.2, self.running(self.axle_mm)))
         return [(y0_mm, y0_mm + width, seat), (y0_mm + width, y1_mm - width, shoulder), (y1_mm - width, y1_mm, seat)]
 
     def chamfered(self, stack: Stack) -> Stack:

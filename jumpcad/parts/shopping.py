@@ -103,7 +103,7 @@ def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: 
     slabs = [(0.0, ROLLER_WASHER_MM, _round(washer.outer_mm, washer.bore_mm))]
     yield bought("roller_washer", "washer M3 ISO 7089", MAIN_LEG, washer.mass_g, slabs, (end[0], high, end[1]))
     head = lateral.cam[1]
-    length = screw.length_for(head - low + nut.height_mm)
+    length = screw.length_for(head - low + nut.height_mm, "choose a narrower bought.leg_bearing or bought.roller")
     shank = (head - length, head)
     yield _screw("roller_screw", MAIN_LEG, end, shank, 1.0, screw, catalogue)
     slabs = [(-nut.height_mm, 0.0, _hexagon(nut.across_flats_mm, screw.diameter_mm))]
@@ -177,7 +177,7 @@ def _standoffs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     for number, place in enumerate(layout.standoffs_mm, start=1):
         at = (place[0], low, place[1])
         yield bought(f"standoff_{number}", article, BODY, mass, [(0.0, length, region)], at)
-        shank = screw.length_for(plate + SCREW_END_MM)
+        shank = screw.length_for(plate + SCREW_END_MM, "lower body.plate_mm")
         left = (high + plate - shank, high + plate)
         right = (low - plate, low - plate + shank)
         yield _screw(f"standoff_{number}_screw_left", BODY, place, left, 1.0, screw, catalogue)

@@ -4,11 +4,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.dimensions import COLLAR_RADIUS_MM, GAP_MM, SPACER_RADIUS_MM, TRAY_MM
+from jumpcad.dimensions import COLLAR_RADIUS_MM, GAP_MM, SPACER_RADIUS_MM, STRAP_SLOT_MM, TAB_MM, TRAY_MM
 from jumpcad.errors import JumpcadError
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.body_plate import TAB_MM, ear_reach_mm, socket_about_axis, tray_slots
+from jumpcad.parts.body_plate import ear_reach_mm, socket_about_axis, tray_slots
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right, upright
 from jumpcad.solids.outline import disc, hole, rectangle, ring, union
@@ -17,14 +17,13 @@ from jumpcad.transforms import pose_about_z
 from jumpcad.workshop import Workshop
 
 COLLAR_MM = 3.0
-STRAP_SLOT_MM = (2.0, 4.0)
 TRAY_EDGE_MM, TRAY_LEDGE_MM = 5.0, 2.0
 """Of a tray's window: from the tray's ends, and what it leaves under the narrowest thing that lies on a tray."""
+WINDOW_MIN_MM = 4.0
+"""Least width of the window: that of its round ends."""
 CAP_HEAD_MM = 3.9
 """Counterbore for an M2 button head of 3.5 mm (ISO 7380)."""
 CAP_HEAD_DEPTH_MM = 1.4
-MOTOR_BOSS_MM = 4.4
-"""Hole in the motor's cap for the boss around its shaft (4 mm on N20 gearboxes)."""
 
 
 def motor_cap(layout: Layout, holes: HoleSizes) -> Drawing:
@@ -32,15 +31,15 @@ def motor_cap(layout: Layout, holes: HoleSizes) -> Drawing:
     y0, y1 = layout.lateral.motor_cap
     motor = layout.drive.train.motor
     pose = lying_on_right(y0, *layout.motor_mm) @ pose_about_z(-layout.motor_angle_rad)
-    stack = _cap(motor.width_mm, motor.height_mm, y1 - y0, holes.fits.m2_clearance_mm)
+    stack = _cap(motor.width_mm, motor.height_mm, holes.running(motor.boss_mm), y1 - y0, holes.fits.m2_clearance_mm)
     return Drawing("motor_cap", "body", stack, (Placement(BODY, pose),))
 
 
 @lru_cache(maxsize=32)
-def _cap(width_mm: float, height_mm: float, thickness_mm: float, screw_mm: float) -> Stack:
-    """Return the cap of a motor about its axis, ears along y, seats of the screws' heads on top."""
+def _cap(width_mm: float, height_mm: float, boss_mm: float, thickness_mm: float, screw_mm: float) -> Stack:
+    """Return the cap of a motor about its axis, ears along y, with a hole for its boss and seats for screws' heads."""
     ears = [(0.0, sign * ear_reach_mm(height_mm)) for sign in (-1.0, 1.0)]
-    outline = socket_about_axis(width_mm, height_mm) - hole(MOTOR_BOSS_MM)
+    outline = socket_about_axis(width_mm, height_mm) - hole(boss_mm)
     seat = thickness_mm - CAP_HEAD_DEPTH_MM
     screws, heads = (union(hole(diameter, ear) for ear in ears) for diameter in (screw_mm, CAP_HEAD_MM))
     return Stack.of([(0.0, seat, outline - screws), (seat, thickness_mm, outline - heads)])
@@ -121,8 +120,9 @@ def trays(layout: Layout, holes: HoleSizes) -> Drawing:
         for sign in (-1.0, 1.0)
     ]
     narrowest = min(electronics.battery.width_mm, electronics.controller.length_mm, electronics.driver.length_mm)
-    window = rectangle((length - 2.0 * TRAY_EDGE_MM, narrowest - 2.0 * TRAY_LEDGE_MM), corner_radius_mm=2.0)
-    region = union([floor, *tabs]) - union([*slots, window])
+    across = narrowest - 2.0 * TRAY_LEDGE_MM
+    window = [rectangle((length - 2.0 * TRAY_EDGE_MM, across), corner_radius_mm=2.0)] if across >= WINDOW_MIN_MM else []
+    region = union([floor, *tabs]) - union([*slots, *window])
     levels = (0.0, electronics.upper_tray_mm)
     placements = tuple(
         Placement(BODY, upright(layout.tray_mm[1] + level, layout.tray_mm[0], middle_y)) for level in levels

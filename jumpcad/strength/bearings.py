@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from jumpcad.catalogue import Bearing, load_catalogue
+from jumpcad.catalogue import Bearing
 from jumpcad.design import Design
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.drive import Drive
@@ -33,10 +33,10 @@ def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
         If none of the catalogue has the axle's bore.
     """
     name, axle = workshop.bought.leg_bearing, workshop.bought.axle_mm
-    catalogue = load_catalogue().bearings
     if not name:
         return [None]
-    named = list(catalogue.values()) if name == ANY else [catalogue[name]]
+    known = workshop.catalogue.bearings
+    named = list(known.values()) if name == ANY else [known[name]]
     fitting = [bearing for bearing in named if bearing.bore_mm == axle]
     if not fitting:
         raise JumpcadError(
@@ -44,6 +44,23 @@ def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
             'change one of them, or run the hub on its axle (leg_bearing = "")'
         )
     return [*sorted(fitting, key=lambda bearing: bearing.mass_g)]
+
+
+def roller_bearing(workshop: Workshop) -> Bearing:
+    """Return the bearing that runs on the cam.
+
+    Raises
+    ------
+    JumpcadError
+        If its bore is not that of the screw that holds it.
+    """
+    roller, screw = workshop.catalogue.bearings[workshop.bought.roller], workshop.catalogue.screws["M3"]
+    if roller.bore_mm != screw.diameter_mm:
+        raise JumpcadError(
+            f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not sit on the {screw.name} '
+            f"screw that holds it: choose a bearing with a bore of {screw.diameter_mm:g} mm"
+        )
+    return roller
 
 
 def first_guess(bearings: list[Bearing | None], design: Design, workshop: Workshop) -> int:

@@ -1,0 +1,22 @@
+"""Bought parts: motors, bearings, batteries, boards, springs, fasteners and wire, shipped and the user's own."""
+
+from jumpcad.catalogue.articles import Article, Battery, Bearing, Board, Motor, OwnParts, StockSpring
+from jumpcad.catalogue.shipped import Catalogue, Nut, Screw, Shelf, Standoff, Washer, Wire, load_catalogue
+
+__all__ = [
+    "Article",
+    "Battery",
+    "Bearing",
+    "Board",
+    "Catalogue",
+    "Motor",
+    "Nut",
+    "OwnParts",
+    "Screw",
+    "Shelf",
+    "Standoff",
+    "StockSpring",
+    "Washer",
+    "Wire",
+    "load_catalogue",
+]

@@ -1,0 +1,171 @@
+"""The shipped catalogue, read from the templates, and what a user's own parts make of it (mm, g, N·m)."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, Generic, TypeVar
+
+from pydantic import PositiveFloat
+
+from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor
+from jumpcad.errors import JumpcadError
+from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
+
+
+class Screw(Record):
+    """A metric screw size with its heads and the lengths that shops keep."""
+
+    name: str
+    diameter_mm: PositiveFloat
+    cylinder_head_mm: PositiveFloat
+    cylinder_head_height_mm: PositiveFloat
+    button_head_mm: PositiveFloat
+    button_head_height_mm: PositiveFloat
+    lengths_mm: list[PositiveFloat]
+
+    def length_for(self, needed_mm: float, remedy: str = "choose thinner parts") -> float:
+        """Return the shortest length kept that is at least what is needed (mm); `remedy` is what a user may change."""
+        for length in self.lengths_mm:
+            if length >= needed_mm - 1e-9:
+                return length
+        raise JumpcadError(
+            f"no {self.name} screw of {needed_mm:.1f} mm; the longest kept is {self.lengths_mm[-1]:g} mm: {remedy}"
+        )
+
+
+class Nut(Record):
+    """A hexagon nut."""
+
+    name: str
+    across_flats_mm: PositiveFloat
+    height_mm: PositiveFloat
+    mass_g: PositiveFloat
+
+
+class Washer(Record):
+    """A flat washer."""
+
+    name: str
+    outer_mm: PositiveFloat
+    bore_mm: PositiveFloat
+    height_mm: PositiveFloat
+    mass_g: PositiveFloat
+
+
+class Standoff(Record):
+    """A hexagon standoff with threads at both ends, cut to any length."""
+
+    name: str
+    across_flats_mm: PositiveFloat
+    density_g_cm3: PositiveFloat
+    bore_mm: PositiveFloat
+
+
+class Wire(Record):
+    """Spring steel wire: preferred diameters and the minimum tensile strength at each."""
+
+    source: str
+    modulus_mpa: PositiveFloat
+    density_g_cm3: PositiveFloat
+    diameters_mm: list[PositiveFloat]
+    tensile_strength_mpa: list[PositiveFloat]
+
+
+Thing = TypeVar("Thing", bound=TomlTable)
+
+
+class Shelf(Mapping[str, Thing], Generic[Thing]):
+    """Things of one kind by name; an unknown name is an error with a hint."""
+
+    def __init__(self, kind: str, items: Mapping[str, Thing]) -> None:
+        self._kind, self._items = kind, dict(items)
+
+    def __getitem__(self, name: str) -> Thing:
+        if name not in self._items:
+            known = ", ".join(self._items)
+            raise JumpcadError(f"no {self._kind} {name!r} in the catalogue ({known}){did_you_mean(name, self._items)}")
+        return self._items[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._items
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def with_own(self, items: Mapping[str, Thing]) -> "Shelf[Thing]":
+        """Return the shelf with a user's things after its own."""
+        return Shelf(self._kind, {**self._items, **items})
+
+
+@dataclass(frozen=True)
+class Catalogue:
+    """All bought parts that a robot can be made of."""
+
+    motors: Shelf[Motor]
+    bearings: Shelf[Bearing]
+    batteries: Shelf[Battery]
+    boards: Shelf[Board]
+    screws: Shelf[Screw]
+    nuts: Shelf[Nut]
+    washers: Shelf[Washer]
+    standoffs: Shelf[Standoff]
+    wire: Wire
+    rod_density_g_cm3: float
+
+    def with_own(
+        self,
+        motors: Mapping[str, Motor],
+        bearings: Mapping[str, Bearing],
+        batteries: Mapping[str, Battery],
+        boards: Mapping[str, Board],
+    ) -> "Catalogue":
+        """Return the catalogue with a user's own parts beside the shipped ones."""
+        return replace(
+            self,
+            motors=self.motors.with_own(motors),
+            bearings=self.bearings.with_own(bearings),
+            batteries=self.batteries.with_own(batteries),
+            boards=self.boards.with_own(boards),
+        )
+
+    def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
+        """Return the mass of a steel rod (g)."""
+        return self.rod_density_g_cm3 * math.pi / 4.0 * diameter_mm**2 * length_mm / 1000.0
+
+
+@lru_cache(maxsize=1)
+def load_catalogue() -> Catalogue:
+    """Return the shipped catalogue."""
+    folder = templates_folder() / "hardware"
+    motors, bearings, electronics, fasteners = (
+        read_toml(folder / f"{name}.toml")[0] for name in ("motors", "bearings", "electronics", "fasteners")
+    )
+    defaults = motors.pop("defaults")
+    return Catalogue(
+        motors=_articles("motor", Motor, motors, defaults),
+        bearings=_articles("bearing", Bearing, bearings),
+        batteries=_articles("battery", Battery, electronics["batteries"] | {"source": electronics["source"]}),
+        boards=_articles("board", Board, electronics["boards"] | {"source": electronics["source"]}),
+        screws=_shelf("screw", Screw, fasteners["screws"]),
+        nuts=_shelf("nut", Nut, fasteners["nuts"]),
+        washers=_shelf("washer", Washer, fasteners["washers"]),
+        standoffs=_shelf("standoff", Standoff, fasteners["standoffs"]),
+        wire=Wire.from_toml(folder / "wire.toml"),
+        rod_density_g_cm3=fasteners["rods"]["density_g_cm3"],
+    )
+
+
+def _articles(
+    kind: str, model: type[AnyArticle], tables: dict[str, Any], defaults: Mapping[str, Any] | None = None
+) -> Shelf[AnyArticle]:
+    """Return the articles of a file whose `source` is that of all of them."""
+    common = {"source": tables["source"]} | dict(defaults or {})
+    return _shelf(kind, model, {name: common | table for name, table in tables.items() if name != "source"})
+
+
+def _shelf(kind: str, model: type[Thing], tables: Mapping[str, Mapping[str, Any]]) -> Shelf[Thing]:
+    return Shelf(kind, {name: model.model_validate({"name": name, **table}) for name, table in tables.items()})

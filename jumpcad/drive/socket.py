@@ -1,0 +1,15 @@
+"""What a motor takes of the body: its socket around it, and the way from its front to its pinion (mm)."""
+
+from jumpcad.catalogue import Motor
+from jumpcad.dimensions import CAP_EAR_MM, MOTOR_CAP_MM, SOCKET_PLAY_MM, SOCKET_WALL_MM
+
+
+def socket_half_mm(motor: Motor) -> tuple[float, float]:
+    """Return the half sizes of a motor's socket: along its width, and along its height with the cap's ears."""
+    wall = SOCKET_PLAY_MM + SOCKET_WALL_MM
+    return motor.width_mm / 2.0 + wall, motor.height_mm / 2.0 + wall + CAP_EAR_MM
+
+
+def front_length_mm(motor: Motor) -> float:
+    """Return how far the cap, or a boss that is longer, reaches from the motor's front."""
+    return max(MOTOR_CAP_MM, motor.boss_length_mm)

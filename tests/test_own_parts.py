@@ -1,0 +1,313 @@
+"""A user's own parts: read, refused, kept in a bundle, and built into robots that pass every check."""
+
+import filecmp
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from support.commands import exit_code_of
+
+from jumpcad.building import build
+from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.catalogue import load_catalogue
+from jumpcad.checks import check
+from jumpcad.design import load_design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.findings import errors
+from jumpcad.robot import Robot
+from jumpcad.search.models import RobotModel
+from jumpcad.strength.bearings import hub_bearings
+from jumpcad.workshop import OWN_PARTS, Workshop, load_workshop
+
+Write = Callable[[str], Path]
+KENAN = load_design("kenan-2.0")
+README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+(EXAMPLE,) = re.findall(r"```toml\n(.*?)```", README, re.S)
+
+SPRING = """
+[springs.stock]
+wire_mm = 1.0
+inside_diameter_mm = 8.0
+turns = 4.25
+arm_angle_deg = 90.0
+arm_length_mm = 25.0
+rate_nmm_per_deg = 4.2
+source = "a shop"
+"""
+
+
+@pytest.fixture
+def written(tmp_path: Path) -> Write:
+    """Return a function that writes `my.toml`."""
+
+    def write(text: str) -> Path:
+        path = tmp_path / "my.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def motor(**figures: float) -> str:
+    """Return a workshop with one allowed motor: the N20 with other figures."""
+    lines = "".join(f"{key} = {value}\n" for key, value in figures.items())
+    return f'[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298"\nsource = "test"\n{lines}'
+
+
+def large(**figures: float) -> str:
+    """Return a workshop with one allowed motor: a gear motor of 25 mm with a D-shaft of 4 mm, with other figures."""
+    large_motor = {
+        "mass_g": 95.0, "width_mm": 25.0, "height_mm": 25.0, "body_length_mm": 50.0, "shaft_mm": 4.0,
+        "shaft_flat_mm": 3.5, "shaft_length_mm": 12.0, "boss_mm": 7.0, "boss_length_mm": 2.5,
+    }  # fmt: skip
+    return motor(**large_motor | figures)
+
+
+def battery(length: float, width: float, height: float) -> str:
+    """Return a workshop with a battery of a size."""
+    size = f"length_mm = {length}\nwidth_mm = {width}\nheight_mm = {height}\n"
+    return f'[bought]\nbattery = "own"\n[batteries.own]\nlike = "lipo-2s-180"\nsource = "test"\n{size}'
+
+
+def boards(length: float, width: float) -> str:
+    """Return a workshop with two boards of a size."""
+    size = f"length_mm = {length}\nwidth_mm = {width}\n"
+    names = 'controller = "own"\ndriver = "own"\n'
+    return f'[bought]\n{names}[boards.own]\nlike = "drv8833"\nsource = "test"\n{size}'
+
+
+def bearing(place: str, bore: float, outer: float, width: float, more: str = "") -> str:
+    """Return a workshop with a bearing of a size in the hub or for the roller."""
+    size = f"bore_mm = {bore}\nouter_mm = {outer}\nwidth_mm = {width}\n"
+    return f'[bought]\n{place} = "own"\n{more}[bearings.own]\nlike = "623"\nsource = "test"\n{size}'
+
+
+FITS = {
+    "gear motor of 25 mm, shaft of 4 mm": large(),
+    "square body of 12 mm": motor(width_mm=12.0),
+    "body wider than high": motor(width_mm=12.0, height_mm=8.0),
+    "body of 5 mm": motor(width_mm=5.0, height_mm=5.0, body_length_mm=10.0),
+    "body of 60 mm": motor(body_length_mm=60.0),
+    "shaft of 6 mm": motor(shaft_mm=6.0, shaft_flat_mm=5.5, boss_mm=9.0),
+    "shaft of 8 mm": large(shaft_mm=8.0, shaft_flat_mm=7.0, boss_mm=10.0, shaft_length_mm=14.0),
+    "shaft of 40 mm": motor(shaft_length_mm=40.0),
+    "boss higher than the cap": motor(boss_length_mm=6.0, shaft_length_mm=14.0),
+    "boss as wide as the body": motor(boss_mm=10.0),
+    "battery of 100 mm": battery(100.0, 40.0, 30.0),
+    "battery as wide as the plates are apart": battery(35.0, 37.0, 8.0),
+    "battery of 1 mm": battery(1.0, 1.0, 1.0),
+    "boards of 5 mm": boards(5.0, 4.0),
+    "bearing 693 in the hub": bearing("leg_bearing", 3.0, 8.0, 4.0),
+    "bearing 693 for the roller": bearing("roller", 3.0, 8.0, 4.0),
+    "bearing 684 on axles of 4 mm": bearing("leg_bearing", 4.0, 9.0, 4.0, "axle_mm = 4.0\n"),
+    "bearing hardly wider than the axle": bearing("leg_bearing", 3.0, 5.0, 2.0),
+}  # fmt: skip
+REFUSED = {
+    "short shaft": (
+        motor(shaft_length_mm=5.0),
+        r"^the shaft of motor own is 5 mm long; 5\.9 mm reach through its cap and 3 mm into its pinion: allow a motor "
+        "with a longer shaft$",
+    ),
+    "gear motor of 60 mm": (
+        large(width_mm=60.0, height_mm=60.0),
+        r"^no room for the [\w ]*motor.* or allow a smaller motor than own \(60 x 60 mm\)$",
+    ),
+    "battery of 300 mm": (
+        battery(300.0, 20.0, 10.0),
+        r"^part electronics_tray of 302\.0×37\.7×1\.6 mm does not fit the bed of 250\.0×210\.0×220\.0 mm at any angle",
+    ),
+    "bearing 625 in the hub": (
+        bearing("leg_bearing", 5.0, 16.0, 5.0),
+        r'^bought\.leg_bearing = "own": no such bearing has the bore of bought\.axle_mm = 3: change one of them',
+    ),
+    "bearing 625 for the roller": (
+        bearing("roller", 5.0, 16.0, 5.0),
+        r'^bought\.roller = "own": its bore of 5 mm does not sit on the M3 screw that holds it: choose a '
+        "bearing with a bore of 3 mm$",
+    ),
+    "large bearing in the hub": (
+        bearing("leg_bearing", 3.0, 30.0, 8.0),
+        r"^the leg's bearing own is 30 mm outside; 1\d\.\d mm fit beside the roller's screw and the cam's axle: "
+        r"choose a smaller bought\.leg_bearing$",
+    ),
+    "wide bearing in the hub": (
+        bearing("leg_bearing", 3.0, 8.0, 15.0),
+        r"^no M3 screw of \d+\.\d mm; the longest kept is 30 mm: choose a narrower bought\.leg_bearing or "
+        r"bought\.roller$",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", FITS)
+def test_what_fits_passes_every_check(case: str, written: Write) -> None:
+    robot = build(KENAN, load_workshop(written(FITS[case])))
+    assert not [f"{finding.name}: {finding.message}" for finding in errors(check(robot))]
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_does_not_fit_is_refused_by_its_name(case: str, written: Write) -> None:
+    text, words = REFUSED[case]
+    with pytest.raises(JumpcadError, match=words) as caught:
+        build(KENAN, load_workshop(written(text)))
+    assert "\n" not in str(caught.value)
+
+
+def test_the_pinion_of_a_thick_shaft_keeps_a_wall_around_it(written: Write) -> None:
+    workshop = load_workshop(written(FITS["shaft of 8 mm"]))
+    pinion = build(KENAN, workshop).layout.drive.train.stages[0].pinion
+    assert pinion.root_radius_mm >= 4.0 + workshop.fits.press_mm + workshop.fits.wall_mm
+
+
+def test_a_wide_socket_stays_clear_of_the_cam(written: Write) -> None:
+    robot = build(KENAN, load_workshop(written(FITS["gear motor of 25 mm, shaft of 4 mm"])))
+    layout = robot.layout
+    apart = float(((layout.motor_mm - layout.cam_axis_mm) ** 2).sum() ** 0.5)
+    assert apart >= layout.drive.cam.outer_radius_mm + 25.0 / 2.0
+
+
+def test_a_heavy_motor_is_not_taken_where_a_light_one_turns_the_cam(written: Write) -> None:
+    heavy = FITS["gear motor of 25 mm, shaft of 4 mm"].replace('motors = ["own"]', "motors = []")
+    assert build(KENAN, load_workshop(written(heavy))).layout.drive.train.motor.name == "n20-298"
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory: pytest.TempPathFactory) -> Robot:
+    """The README's own parts in Kenan 2.0."""
+    path = tmp_path_factory.mktemp("example") / "my.toml"
+    path.write_text(EXAMPLE, encoding="utf-8")
+    return build(KENAN, load_workshop(path))
+
+
+def test_the_example_of_the_readme_passes_every_check_and_its_parts_are_billed(example: Robot) -> None:
+    assert not errors(check(example))
+    lines = {line.name: line for line in bill_of_materials(example).items}
+    assert lines["gear motor square-16"].mass_kg == pytest.approx(0.032)
+    assert lines["ball bearing 693"].quantity == 2
+    assert lines["my LiPo 2S 180 mAh"].mass_kg == pytest.approx(0.0134)
+
+
+def test_own_parts_join_the_shipped_ones_and_no_other_workshop(written: Write) -> None:
+    workshop = load_workshop(written(EXAMPLE + SPRING))
+    shipped = load_catalogue()
+    assert list(workshop.catalogue.motors) == [*shipped.motors, "square-16"]
+    assert workshop.catalogue.batteries["my-pack"].length_mm == shipped.batteries["lipo-2s-180"].length_mm
+    assert workshop.catalogue.batteries["my-pack"].source == "weighed"
+    assert "square-16" not in load_workshop().catalogue.motors
+    other = workshop.model_copy(update={"motors": {}})
+    assert "square-16" not in other.catalogue.motors
+    anyone = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"leg_bearing": "any"})})
+    assert "693" in [found.name for found in hub_bearings(anyone) if found]
+
+
+def test_a_written_workshop_keeps_own_parts_and_writes_no_empty_tables(written: Write) -> None:
+    workshop = load_workshop(written(EXAMPLE + SPRING))
+    again = load_workshop(written(workshop.to_toml()))
+    assert again == workshop == workshop.revalidated()
+    assert again.to_toml() == workshop.to_toml()
+    assert again.springs["stock"].rate_nmm_per_deg == 4.2
+    assert not any(f"[{kind}" in load_workshop().to_toml() for kind in OWN_PARTS)
+
+
+def test_a_base_passes_own_parts_on(written: Write, tmp_path: Path) -> None:
+    (tmp_path / "base.toml").write_text(EXAMPLE)
+    changed = load_workshop(written('base = "base.toml"\n[motors.square-16]\nmass_g = 33.0\n'))
+    assert (changed.motors["square-16"].mass_g, changed.motors["square-16"].width_mm) == (33.0, 16.0)
+    assert set(changed.bearings) == {"693"}
+
+
+def test_a_study_with_other_own_parts_is_another_study(written: Write) -> None:
+    one, other = (load_workshop(written(text)) for text in (EXAMPLE, EXAMPLE.replace("32.0", "33.0")))
+    digests = {RobotModel("printed", workshop).digest for workshop in (one, other, load_workshop())}
+    assert len(digests) == 3
+
+
+def test_a_bundle_with_own_parts_builds_again_from_itself(written: Write, tmp_path: Path) -> None:
+    first, second = tmp_path / "first", tmp_path / "second"
+    quick = ("kenan-2.0", "--no-pictures", "--json")
+    assert exit_code_of("build", *quick, "--workshop", str(written(EXAMPLE + SPRING)), "-o", str(first)) == 0
+    assert exit_code_of("build", *quick, "--workshop", str(first / "workshop.toml"), "-o", str(second)) == 0
+    listed = json.loads((first / "manifest.json").read_text())["files"]
+    assert filecmp.cmpfiles(first, second, [*listed, "manifest.json"], shallow=False)[1:] == ([], [])
+    assert "gear motor square-16" in (first / "bom.csv").read_text()
+
+
+WRONG = {
+    "shipped name": (
+        '[motors.n20-298]\nlike = "n20-298"\nsource = "x"',
+        r"^\S+my.toml:1: motors.n20-298 = 'n20-298': is the name of a shipped part: choose another one, and like = ",
+    ),
+    "no source": ('[motors.a]\nlike = "n20-298"', r"^\S+my.toml:1: motors.a.source: missing$"),
+    "blank source": ('[motors.a]\nlike = "n20-298"\nsource = " "', r"my.toml:3: motors.a.source = ' ': is empty: say"),
+    "missing": ('[motors]\n[bearings.b]\nsource = "x"', r"my.toml:2: bearings.b.bore_mm: missing"),
+    "unknown key": (
+        '[motors.a]\nlike = "n20-298"\nsource = "x"\nshaft = 3.0',
+        r"my.toml:4: motors.a.shaft: unknown key \(did you mean shaft_mm\?\)",
+    ),
+    "a name of its own": ('[motors.a]\nlike = "n20-298"\nsource = "x"\nname = "b"', r"my.toml:4: motors.a.name = 'b'"),
+    "unknown like": (
+        '[motors.a]\nlike = "n20-299"\nsource = "x"',
+        r"my.toml:2: motors.a.like = 'n20-299': is no shipped part of this kind .*did you mean n20-298\?",
+    ),
+    "like of another kind": ('[boards.a]\nlike = "n20-298"', r"my.toml:2: boards.a.like = 'n20-298': is no shipped"),
+    "like of a spring": ('[springs.a]\nlike = "b"', r"springs.a.like = 'b': is no shipped part .*\(there are none\)"),
+    "like of a list": ("[motors.a]\nlike = [1]", r"motors.a.like = \[1\]: is no shipped part"),
+    "negative": (motor(mass_g=-1.0), r"my.toml:6: motors.own.mass_g = -1.0: must be more than 0"),
+    "not a number": (motor(shaft_mm=float("nan")), r"my.toml:6: motors.own.shaft_mm = nan: must be a finite number"),
+    "no table": ("[boards]\na = 3", r"my.toml:2: boards.a = 3: must be a table: \[boards.a\] with source, description"),
+    "flat wider than the shaft": (
+        motor(shaft_flat_mm=3.5),
+        r"my.toml:6: motors.own.shaft_flat_mm = 3.5: must be more than 1.5 and less than shaft_mm = 3",
+    ),
+    "round shaft": (motor(shaft_flat_mm=3.0), r"must be more than 1.5 and less than shaft_mm = 3: a flat turns the"),
+    "boss wider than the body": (motor(boss_mm=11.0), r"boss_mm = 11.0: must be at least shaft_mm = 3 and at most 10"),
+    "boss narrower than the shaft": (motor(boss_mm=2.9), r"boss_mm = 2.9: must be at least shaft_mm = 3"),
+    "boss longer than the shaft": (motor(boss_length_mm=9.0), r"shaft_length_mm = 9.0: must be more than boss_l"),
+    "lighter than its shaft": (motor(mass_g=0.4), r"mass_g = 0.4: must be more than 0.5, what its steel shaft alone"),
+    "torque in N·mm": (motor(stall_torque_nm=196.0), r"at half speed it would give 2.3e\+02 W and draw 1.1 W"),
+    "current": (motor(no_load_current_a=0.4), r"no_load_current_a = 0.4: must be less than stall_current_a = 0.36"),
+    "bore larger than the outside": (
+        bearing("roller", 10.0, 9.0, 4.0),
+        r"my.toml:7: bearings.own.outer_mm = 9.0: must be at least bore_mm \+ 2 = 12: rings and balls between",
+    ),
+    "wire thicker than its coil": (SPRING.replace("wire_mm = 1.0", "wire_mm = 8.0"), r"my.toml:3: springs.stock.wire"),
+    "a path for a name": ('[motors."../x"]\nlike = "n20-298"\nsource = "x"', "a name has 1 to 50 letters, digits"),
+    "an escape in a source": ('[boards.a]\nlike = "drv8833"\nsource = "a\\u001b[31m"', r"holds the control character"),
+    "an escape in a name": ('[boards."\\u001b[31m"]\nlike = "x"', "a name has 1 to 50 letters, digits"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_nonsense_is_one_line_with_its_place(case: str, written: Write) -> None:
+    text, words = WRONG[case]
+    with pytest.raises(JumpcadError, match=words) as caught:
+        load_workshop(written(text))
+    assert "\n" not in str(caught.value)
+    assert caught.value.exit_code == 2
+
+
+def test_own_parts_are_checked_in_python_too() -> None:
+    data = load_workshop().model_dump()
+    n20 = load_catalogue().motors["n20-298"]
+    workshop = Workshop(**data | {"motors": {"mine": n20.model_copy(update={"name": "mine", "mass_g": 9.0})}})
+    assert workshop.catalogue.motors["mine"].mass_g == 9.0
+    with pytest.raises(JumpcadError, match=r"motors\.mine\.name = 'n20-298': a part has its table's name"):
+        Workshop(**data | {"motors": {"mine": n20}})
+
+
+def test_shipped_parts_keep_the_rules_of_own_ones() -> None:
+    shipped = load_catalogue()
+    parts = [
+        *shipped.motors.values(),
+        *shipped.bearings.values(),
+        *shipped.batteries.values(),
+        *shipped.boards.values(),
+    ]
+    assert not [wrong for part in parts for wrong in part.contradictions()]
+    assert all(part.source for part in parts)
+
+
+def test_what_does_not_fit_is_an_answer_and_not_a_wrong_request(written: Write) -> None:
+    with pytest.raises(CannotBuildError):
+        build(KENAN, load_workshop(written(REFUSED["short shaft"][0])))
