@@ -68,7 +68,7 @@ def pose_about_z(angle_rad: float) -> Array:
 
 def chained(T_a_b: Array, T_b_c: Array) -> Array:
     """Return the pose `T_a_c` (4, 4) of two poses, one after the other."""
-    return np.einsum("ij,jk->ik", T_a_b, T_b_c)
+    return np.asarray(np.einsum("ij,jk->ik", T_a_b, T_b_c))
 
 
 def in_metres(pose_mm: Array) -> Array:

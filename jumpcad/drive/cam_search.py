@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from scipy import optimize
 
-from jumpcad.drive.cam import Cam, CamGeometry, CamLaw
+from jumpcad.drive.cam import Cam, CamGeometry
+from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, LIMITS, ROWS, SCALES, CamLimits, axis_range, measure
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding

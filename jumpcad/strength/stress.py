@@ -13,11 +13,11 @@ from jumpcad.transforms import Array
 from jumpcad.workshop import Process
 
 VON_MISES = math.sqrt(3.0)
-"""Tension that is as bad as a shear stress of 1 (distortion energy)."""
+"""Tension that is equivalent to a shear stress of 1 (distortion energy)."""
 INFILL_ALONG = 0.5
-"""Share of an infill's lines that run along a bar (a grid's: half)."""
+"""Share of an infill's lines that run along a bar: half of a grid's."""
 STATIONS = 17
-"""Places along a bar at which it is looked at."""
+"""Sections along a bar at which stress and energy are found; judgement: twice as many change them by less than 1 %."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Shell:
 
     @classmethod
     def of(cls, process: Process) -> "Shell":
-        """Return the skin that a process prints."""
+        """Return the shell that a process prints."""
         return cls(
             process.perimeters * process.line_width_mm,
             0.5 * (process.top_layers + process.bottom_layers) * process.layer_height_mm,
@@ -46,7 +46,7 @@ SOLID = Shell(0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class Beam:
-    """Rectangular sections of a printed bar, solid in its skin and infilled within; scalars or arrays (n,) of mm.
+    """Rectangular sections of a printed bar, solid in its shell and infilled within; scalars or arrays (n,) of mm.
 
     `height_mm` lies in the plane of bending. A bar that prints lying has its walls at the ends of its height, one that
     prints `upright` its layers.
@@ -138,7 +138,8 @@ def tube_shear_mpa(torque_nmm: float, outer_mm: float, bore_mm: float) -> float:
 def bar_shear_mpa(torque_nmm: float | Array, width_mm: float | Array, height_mm: float | Array) -> float | Array:
     """Return the largest shear stress of a rectangular bar under torsion, T/(b·c²)·(3 + 1.8·c/b) with b ≥ c."""
     long, short = np.maximum(width_mm, height_mm), np.minimum(width_mm, height_mm)
-    return torque_nmm / (long * short**2) * (3.0 + 1.8 * short / long)
+    stress: float | Array = torque_nmm / (long * short**2) * (3.0 + 1.8 * short / long)
+    return stress
 
 
 def buckling_load_n(bar: Beam, length_mm: float, modulus_mpa: float) -> float:

@@ -1,0 +1,80 @@
+"""Sections, hub bearing and drive settled together: each follows from the others.
+
+A bearing sets the hub's width and with it the sections; these set the drive's limits; the drive's forces load the
+bearing. The lightest bearing comes first, then the next that bears those forces, until one bears its own.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+from jumpcad.building.limits import drive_limits
+from jumpcad.catalogue import Bearing, load_catalogue
+from jumpcad.design import Design
+from jumpcad.drive import Drive, DriveLimits, synthesise
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.strength.bearings import (
+    allowed_n,
+    bearing_load_n,
+    first_guess,
+    hub_bearings,
+    hub_width_mm,
+    loaded_forces_n,
+)
+from jumpcad.strength.sizing import Growth, Sections, sections
+from jumpcad.workshop import Workshop
+
+
+@dataclass(frozen=True)
+class Settled:
+    """What a robot is made from before anything has its place; `holes` holds the hub's bearing."""
+
+    linkage: Linkage
+    sections: Sections
+    holes: HoleSizes
+    drive: Drive
+    roller: Bearing
+
+
+def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
+    """Return linkage, sections, holes and drive with the lightest hub bearing that bears what they put on it.
+
+    Where none does, it is the strongest one, of which `jumpcad.checks` then warns.
+
+    Raises
+    ------
+    CannotBuildError
+        If no drive meets its limits; the message says which one and what to change.
+    """
+    linkage, roller = Linkage(design), load_catalogue().bearings[workshop.bought.roller]
+    bearings = hub_bearings(workshop)
+
+    @cache
+    def drive_within(limits: DriveLimits) -> Drive:
+        return synthesise(design, limits)
+
+    def with_bearing(bearing: Bearing | None) -> Settled:
+        sizes = sections(linkage, workshop, hub_width_mm(bearing), growth)
+        holes = HoleSizes.of(workshop, bearing)
+        drive = drive_within(drive_limits(workshop, roller, sizes, holes))
+        return Settled(linkage, sizes, holes, drive, roller)
+
+    number = first_guess(bearings, design, workshop)
+    while True:
+        settled = with_bearing(bearings[number])
+        stronger = next(
+            (index for index in range(number, len(bearings)) if _bears(bearings[index], settled, workshop)),
+            len(bearings) - 1,
+        )
+        if stronger == number:
+            return settled
+        number = stronger
+
+
+def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:
+    """Tell whether a hub bearing bears what sections and drive put on it; a plain hub is not judged."""
+    if bearing is None:
+        return True
+    forces = loaded_forces_n(settled.linkage.design, settled.drive)
+    load = bearing_load_n(forces, settled.sections.thickness_mm, settled.roller.width_mm, bearing)
+    return load <= allowed_n(bearing, workshop)
