@@ -47,7 +47,7 @@ WithinOption = Annotated[
 ]
 WorkshopOption = Annotated[str, typer.Option(help="Workshop of the printed robot: a template's name or a file.")]
 SettingsOption = Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")]
-EngineOption = Annotated[str | None, typer.Option(help="pybullet or mujoco; the first that is installed.")]
+EngineOption = Annotated[str | None, typer.Option(help="pybullet, mujoco or planar; the first that is installed.")]
 LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation may take.", metavar="SECONDS")]
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER", file_okay=False)
@@ -132,7 +132,7 @@ def make_model(name: str, workshop: str, settings: str, engine: str | None) -> "
     from jumpcad.workshop import load_workshop
 
     if engine is not None and engine not in ENGINES:
-        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {' and '.join(ENGINES)}")
+        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {', '.join(ENGINES)}")
     if name not in MODELS or name == "published":
         return RobotModel(name)
     return RobotModel(

@@ -7,7 +7,6 @@ from support.hills import SMALL, TOP, Hill
 from jumpcad.search.acquisition import propose
 from jumpcad.search.methods.bayesian import default_initial, incumbent, run_bayesian
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
 from jumpcad.search.surrogate import Posterior, Surrogate
 
 FIXED = [f"{p.name}={p.lower}" for p in SMALL.parameters if not p.free]
@@ -77,8 +76,9 @@ def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
     run_bayesian(whole, 26, 3, initial=6, batch=2)
     for cut in (3, 6, 11, 16, 25):
         path = tmp_path / f"{cut}.db"
-        with StudyStore.write(path, {"hill": 1}) as store:
-            store.append(whole.rows[:cut])
+        begun = evaluator(path)
+        begun.store.append(whole.rows[:cut])
+        begun.store.close()
         log = tmp_path / f"{cut}.log"
         resumed = evaluator(path, Hill(log))
         run_bayesian(resumed, 26, 3, initial=6, batch=2)
