@@ -150,7 +150,7 @@ def _bodies(layout: Layout, parts: tuple[Part, ...], hardware: tuple[BoughtPart,
 
 
 def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
-    """Return what touches the ground: the foot's round nose, both toe tips, the plates' corners under the pivots."""
+    """Return the spheres that may touch the ground: the foot's nose, both toe tips, the plates' corners."""
     sections = layout.sections
     depth, tip_radius = sections.foot_depth_mm, sections.toe_tip_height_mm / 2.0
     tip_x, tip_y = toe_tip_mm(layout.design)

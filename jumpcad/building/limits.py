@@ -1,4 +1,4 @@
-"""What the drive must respect, from a workshop and from the parts around the drive."""
+"""The limits of the drive, from a workshop and from the parts around the drive."""
 
 import math
 
@@ -22,7 +22,7 @@ def drive_limits(workshop: Workshop, roller: Bearing, sections: Sections, holes:
 
 
 def _spring_limits(workshop: Workshop, sections: Sections, holes: HoleSizes) -> SpringLimits:
-    """Springs run on bushings around the leg's axle; the body's pin passes the hub and the leg's root."""
+    """Return the limits of the springs: a bushing around the leg's axle, and a pin that passes hub and leg."""
     fits, safety, axle = workshop.fits, workshop.safety, workshop.bought.axle_mm
     hub_radius = max(holes.hub_radius_mm, sections.leg_root_mm / 2.0)
     return SpringLimits(
@@ -33,7 +33,7 @@ def _spring_limits(workshop: Workshop, sections: Sections, holes: HoleSizes) -> 
 
 
 def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamLimits:
-    """The cam runs on the roller; its axle passes the lever's eye, and its key has a wall around it."""
+    """Return the limits of the cam: its roller, the lever's eye beside its axle, and a wall around its key."""
     lever_eye = max(LEVER_EYE_RADIUS_MM, sections.lever_root_mm / 2.0)
     return CamLimits(
         roller_radius_mm=roller.outer_mm / 2.0,
@@ -46,7 +46,7 @@ def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamL
 
 
 def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
-    """The motor within its maker's limits, the gears within those of what they are printed of."""
+    """Return the limits of motor and gears: the motor maker's, and the strength of the printed material."""
     fits, safety = workshop.fits, workshop.safety
     return TrainLimits(
         stall_share=safety.motor_stall_share,

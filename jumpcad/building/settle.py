@@ -27,7 +27,7 @@ from jumpcad.workshop import Workshop
 
 @dataclass(frozen=True)
 class Settled:
-    """What a robot is made from before anything has its place; `holes` holds the hub's bearing."""
+    """The parts of a robot's machine that depend on each other; `holes` has the hub's bearing."""
 
     linkage: Linkage
     sections: Sections
@@ -37,7 +37,7 @@ class Settled:
 
 
 def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
-    """Return linkage, sections, holes and drive with the lightest hub bearing that bears what they put on it.
+    """Return linkage, sections, holes and drive with the lightest hub bearing that bears its load.
 
     Where none does, it is the strongest one, of which `jumpcad.checks` then warns.
 
@@ -72,7 +72,7 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
 
 
 def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:
-    """Tell whether a hub bearing bears what sections and drive put on it; a plain hub is not judged."""
+    """Tell whether a hub bearing bears the forces of springs and cam; a plain hub is not judged."""
     if bearing is None:
         return True
     forces = loaded_forces_n(settled.linkage.design, settled.drive)

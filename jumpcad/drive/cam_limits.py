@@ -1,4 +1,4 @@
-"""What a cam must respect, and how far a shape is from it, many shapes at once. Notation as in `cam`.
+"""The limits of a cam, and the margins of many shapes at once. Notation as in `cam`.
 
 Turned about the hub, a cam stays the same cam, so its shape has three numbers: the lever, the distance from the circle
 of the lever's end to the cam's axis (the gap), and the lever's lead over the direction of that axis.
@@ -17,7 +17,7 @@ from jumpcad.transforms import Array
 
 @dataclass(frozen=True)
 class CamLimits:
-    """What a cam must respect; lengths in mm, angles in rad. What a workshop says has no default here.
+    """The limits of a cam; lengths in mm, angles in rad. Values that a workshop gives have no default here.
 
     Attributes
     ----------
@@ -46,8 +46,8 @@ class CamLimits:
     reserve_rad
         How far the cam may turn on after the roller's fall while that room stays free; judgement.
     axis_max_rad, axis_min_rad
-        Direction of the cam's axis from the hub, counter-clockwise from forward: as far back as wished, at most;
-        judgement: above the hub, where links sweep least.
+        Direction of the cam's axis from the hub, counter-clockwise from forward: farthest back, and
+        farthest forward; judgement: above the hub, where links sweep least.
     lever_loaded_max_rad
         Direction of the lever with the springs loaded, at most (level with the pivots is pi).
     lowest_mm
@@ -191,7 +191,7 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
 
 @lru_cache(maxsize=8)
 def _sampled(law: CamLaw, samples: int) -> tuple[Array, Array, Array]:
-    """Return a law's winding and its derivatives (samples,) over the lift; a search asks for the same ones often.
+    """Return a law's leg angle and its derivatives (samples,) over the lift; a search needs the same ones often.
 
     The second derivative jumps where the ramp ends: the sharpest curvature is just behind it.
     """

@@ -68,7 +68,7 @@ def by_cost(
 def _candidates(law: CamLaw, limits: TrainLimits, count: int) -> Array:
     """Return rows of ratio, squared pitch diameters and, from the motor on, pinion's and wheel's teeth and module.
 
-    Only what fits and is strong enough is returned.
+    Gears that do not fit or are too weak are left out.
     """
     printable = _printable_pairs(limits)
     smallest = printable[printable["pinion"] == printable["least_teeth"]]

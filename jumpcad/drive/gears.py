@@ -168,6 +168,6 @@ class Gear:
         return float(((2 * half) ** 2 / (6 * height * self.module_mm)).min())
 
     def lewis_stress_mpa(self, torque_nm: float) -> float:
-        """Return the bending stress at the root under a torque, one tooth carrying it at its tip (MPa)."""
+        """Return the bending stress at the root under a torque, loaded at the tip of one tooth (MPa)."""
         force = 1000 * torque_nm / self.pitch_radius_mm
         return force / (self.face_width_mm * self.module_mm * self.lewis_factor)

@@ -34,7 +34,7 @@ def free_speed_rad_s(motor: Motor) -> float:
 
 
 def least_ratio(law: CamLaw, motor: Motor, limits: TrainLimits, pairs: int) -> float:
-    """Return the motor turns a cam turn that torque and speed ask for with a number of gear pairs."""
+    """Return the motor turns a cam turn that torque and speed need with a number of gear pairs."""
     for_torque = law.peak_torque_nm / limits.efficiency(pairs) / allowed_nm(motor, limits)
     return max(for_torque, free_speed_rad_s(motor) / limits.cam_speed_max_rad_s)
 

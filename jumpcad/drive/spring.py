@@ -19,7 +19,7 @@ TURNS_MIN, INDEX_MIN, INDEX_MAX = 2.0, 4.0, 16.0
 
 @dataclass(frozen=True)
 class SpringLimits:
-    """Room and strength of the springs (mm). What a workshop says has no default here.
+    """Room and strength of the springs (mm). Values that a workshop gives have no default here.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class SpringLimits:
         Gap that a loaded coil leaves around its bushing, on the diameter; judgement: it must not bind.
     outer_max_mm, body_lengths_max_mm
         Of the loaded coil. The lengths are tried in this order: a long, thin spring widens the robot, a short one is
-        larger around the leg's axle. Judgement: what finds room beside the cam, and between leg and gears.
+        larger around the leg's axle. Judgement: the room beside the cam, and between leg and gears.
     arm_reach_mm
         From the outside of the coil to the pins; judgement: pin, its eye and a gap.
     """

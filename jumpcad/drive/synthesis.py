@@ -24,7 +24,7 @@ LEAST_COMPRESSION_RAD = math.radians(0.5)
 
 @dataclass(frozen=True)
 class DriveLimits:
-    """What the drive must respect in a workshop, beside parts of some size.
+    """The limits of a drive in a workshop, beside parts of some size.
 
     The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `motor_distance_min_mm`, `idler_distance_min_mm`
     and `cam_speed_max_rad_s` are tightened by the spring and the cam that were found.
@@ -48,8 +48,8 @@ class DriveLimits:
         Of the gears, in the order tried: the next where the teeth are not strong enough, or find no room that are.
     more_gap_mm
         How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther axis makes
-        room for a larger cam gear, and one pair of gears is lighter than two. What is too little for one is left out.
-        Judgement: a body has no room for more.
+        room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one pair are
+        left out. Judgement: a body has no room for more.
     """
 
     spring: SpringLimits
@@ -84,7 +84,7 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     Raises
     ------
     CannotBuildError
-        If one of them cannot be; the message says which limit stands in the way and what to change.
+        If one of them is not possible; the message names the limit and what to change.
     """
     catalogue = catalogue or load_catalogue()
     stiffness, compression = design.stiffness_nm_per_rad, design.compression_rad
@@ -141,7 +141,7 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
 
 
 def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
-    """Return what motor and gears must respect beside a cam."""
+    """Return the limits of motor and gears beside a cam."""
     room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
     motor = cam.outer_radius_mm + limits.motor_half_mm + limits.gap_mm
     idler = cam.outer_radius_mm + limits.axle_radius_mm + limits.gap_mm

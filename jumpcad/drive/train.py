@@ -1,4 +1,4 @@
-"""The drive train: motor and gears that turn the cam, as few printed pairs as fit, small, strong enough, soon wound.
+"""The drive train: motor and gears that turn the cam, as few pairs as fit, light and quick, strong enough.
 
 Torques in N·m, lengths in mm.
 """

@@ -1,4 +1,4 @@
-"""What motor and gears must respect."""
+"""The limits of motor and gears."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ FACE_WIDTHS_MM = (5.0, 6.5, 8.0)
 
 @dataclass(frozen=True)
 class TrainLimits:
-    """What motor and gears must respect. Lengths in mm; what a workshop says has no default here.
+    """The limits of motor and gears. Lengths in mm; values that a workshop gives have no default here.
 
     Attributes
     ----------

@@ -62,7 +62,7 @@ def spring_arm(hub: Array, pin: Array, radius_mm: float, inside: Interval) -> Ob
 
 
 def require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y: Interval) -> None:
-    """Refuse a cam gear that meets what surrounds the leg's pivot."""
+    """Reject a cam gear that meets the springs or an axle."""
     room = clearance(hub_things, axis[None], (0.0, 0.0), 0.0, y)[0] - tip_mm
     if room < 0:
         raise CannotBuildError(

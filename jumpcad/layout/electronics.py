@@ -17,7 +17,7 @@ from jumpcad.transforms import Array
 BOARDS_APART_MM = 1.0
 """Between both boards, and over the battery; judgement: wires and solder joints."""
 TRAY_MORE_MM = 2.0
-"""By how much a tray is longer and wider than what it carries; judgement: an edge of 1 mm all around."""
+"""By how much a tray is longer and wider than its load; judgement: an edge of 1 mm all around."""
 GRID_MM = 2.0
 """Between candidate places; judgement."""
 TRAY_AHEAD_MM, TRAY_HIGHEST_MM = 30.0, 60.0
@@ -33,7 +33,7 @@ STANDOFFS_APART_MM = 8.0
 
 @dataclass(frozen=True)
 class Electronics:
-    """What the trays carry."""
+    """Battery and boards that the trays carry."""
 
     battery: Battery
     controller: Board

@@ -26,16 +26,16 @@ from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array
 
 LEVER_NUT_MM = 2.6
-"""What stands out of the lever on the right: the nut of the roller's screw, 2.4 mm (ISO 4032 M3), and its end."""
+"""Right of the lever: the nut of the roller's screw, 2.4 mm (ISO 4032 M3), and the screw's end."""
 LEVER_HEAD_MM = 1.7
-"""What stands out of the roller on the left: the screw's head, 1.65 mm (ISO 7380-1 M3), rounded up."""
+"""Left of the roller: the screw's head, 1.65 mm (ISO 7380-1 M3), rounded up."""
 
 
 @dataclass(frozen=True)
 class Layout:
     """Where everything is; points (2,) are x-z in the body frame (mm).
 
-    Beside the places stands what they follow from: linkage, sections, hub bearing (None where the hub runs on its axle)
+    The places come with their inputs: linkage, sections, hub bearing (None where the hub runs on its axle)
     and drive. `toes_apart` says whether the foot is too large for the bed with its toes, so that they are parts of
     their own.
     """

@@ -1,4 +1,4 @@
-"""Places in the plane of motion for what the body carries: motor, idler, electronics, standoffs, spring pins (mm).
+"""Places in the plane of motion for motor, idler, electronics, standoffs and spring pins (mm).
 
 Everything bought sits above the line through the two pivots, outside the sweep of leg, lever, cam and foot. Each thing
 takes the free place that keeps the body small and its weight over the feet. Candidates are fixed grids, so that the

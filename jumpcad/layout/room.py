@@ -66,7 +66,7 @@ def clearance(
     Parameters
     ----------
     obstacles
-        What must not be met.
+        Kept clear of.
     centres_mm, angles_rad
         Box centres (k, 2) and their turns in x-z (k,) or one for all.
     half_mm
@@ -95,7 +95,7 @@ class Cloud:
         return cls(np.concatenate([obstacle.points_mm for obstacle in met]), np.concatenate(radii))
 
     def near(self, centres_mm: Array, half_mm: npt.ArrayLike) -> "Cloud":
-        """Return only what can meet boxes of half sizes (2,), however turned, about centres (k, 2)."""
+        """Return only the discs that can meet boxes of half sizes (2,), however turned, about centres (k, 2)."""
         reach = np.hypot(*np.asarray(half_mm, dtype=float)) + self.radii_mm[:, None]
         low, high = centres_mm.min(axis=0), centres_mm.max(axis=0)
         kept = ((self.points_mm > low - reach) & (self.points_mm < high + reach)).all(axis=1)

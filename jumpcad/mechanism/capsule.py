@@ -1,7 +1,7 @@
 """The capsule robot: the published masses as uniform capsules, to check the evaluator apart from printed parts.
 
 Every link is a uniform solid capsule whose *total* mass is that of the published study (1200 kg/m³ times the cylinder
-alone); the foot link and both toes make one body. What touches the ground are spheres of the capsules' radius.
+alone); the foot link and both toes make one body. Spheres of the capsules' radius touch the ground.
 """
 
 import math

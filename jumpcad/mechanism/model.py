@@ -1,4 +1,4 @@
-"""`Mechanism`: what simulation, URDF, MJCF, SDF and feasibility read. Plain data, SI units, engine-free.
+"""`Mechanism`: the input of simulation, URDF, MJCF, SDF and feasibility. Plain data, SI units, engine-free.
 
 Frames follow REP-103: x forward (the jump), y left, z up; all joint axes are +y, so a positive angle turns a link's
 nose downwards. The frame of `body` lies midway between its two pivots with x through both, from the main leg's to the
@@ -55,7 +55,7 @@ class Joint:
     """A hinge about +y: the child frame sits at `origin_m` in the parent frame, turned by `rest_angle_rad` + q.
 
     `lower_rad` and `upper_rad` bound q as far as the mechanism goes (information for exporters, not a stop).
-    `effort_nm` and `velocity_rad_s` are what the joint sees at most, for the URDF's limits.
+    `effort_nm` and `velocity_rad_s` are the joint's largest ones, for the URDF's limits.
     """
 
     name: str

@@ -28,15 +28,15 @@ LOW_WEB_MM = 6.0
 LOW_WEB_MIN_MM = 2.0
 """Least height of the lower web; judgement: ten layers of 0.2 mm, less would not stiffen the foot."""
 LOW_WEB_AT = 0.6
-"""Where the height of the rails is taken beside that web, as a share of their length: a little beyond its middle."""
+"""Where the height of the rails is taken beside that web, as a share of their length; judgement: near its end."""
 WEB_BELOW_RAIL_MM = 0.2
 """By how much that web is lower than the rails beside it: surfaces that only meet in a line leave slivers."""
 LINK_GAP_MM = 1.0
-"""Below the folded front link; judgement: the gap to what does not move, and the flexing of the link."""
+"""Below the folded front link; judgement: the usual gap, and the flexing of the link."""
 SOLE_LENGTH, NOSE_AHEAD = 1.6, 0.42
 """How far a lug's sole reaches behind (and ahead of the ankle) and ahead of the front eye, in depths of the foot.
-Judgement: a lug's flanks overhang by less than 45°; beyond 0.42 depths ahead, a round nose would overhang by more."""
-SOLE_MM = 1.0
+Judgement for the first; a flank of 45° that touches the round nose reaches the sole 0.42 depths ahead."""
+SOLE_HEIGHT_MM = 1.0
 """Height of a lug's straight sole; judgement."""
 
 
@@ -101,8 +101,8 @@ def _webs(layout: Layout, height_mm: float) -> list[tuple[float, float, float]]:
 def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:
     """Return a lug around an eye, round like the contact sphere there, widened at the sole behind and ahead."""
     behind = SOLE_LENGTH * depth_mm
-    middle = (x_mm + (ahead_mm - behind) / 2.0, SOLE_MM / 2.0 - depth_mm)
-    sole = rectangle((behind + ahead_mm, SOLE_MM), middle)
+    middle = (x_mm + (ahead_mm - behind) / 2.0, SOLE_HEIGHT_MM / 2.0 - depth_mm)
+    sole = rectangle((behind + ahead_mm, SOLE_HEIGHT_MM), middle)
     return hull([disc(2.0 * depth_mm, (x_mm, 0.0)), sole])
 
 

@@ -1,4 +1,4 @@
-"""What every printed part is: a shape in printing orientation, and the places where it sits on the robot.
+"""A printed part: a shape in printing orientation, and the places where it sits on the robot.
 
 Parts are drawn where they belong, in the x-z plane of their body's frame and over intervals of y (all mm), and then
 laid on the bed on their left or right face.
@@ -39,7 +39,7 @@ class Placement:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A part before it is printed: its name, what it does, its shape in printing orientation (z up) and its places.
+    """A part before it is printed: its name, its role, its shape in printing orientation (z up) and its places.
 
     `role` chooses the material in the workshop: `links`, `body` or `gears`.
     """

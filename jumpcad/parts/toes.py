@@ -79,7 +79,7 @@ def beside_mm(layout: Layout, holes: HoleSizes) -> float:
 
 
 def on_the_foot(layout: Layout, holes: HoleSizes) -> tuple[list[Block], list[Block]]:
-    """Return the foot's share of its toes, standing on the bed, and what is cut from it."""
+    """Return the foot's share of its toes, standing on the bed, and the cuts in it."""
     added: list[Block] = []
     removed: list[Block] = []
     for toe in toes(layout):

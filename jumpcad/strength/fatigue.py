@@ -7,7 +7,7 @@ import itertools
 import math
 
 LOW_CYCLES, LASTING = 1e3, 1e6
-"""Up to the first, yield is what counts; from the second on, lives are without end (Shigley, 6-8)."""
+"""Cycles: up to the first, yield is the limit; from the second on, lives are infinite (Shigley, 6-8)."""
 YIELD_SHARE = 0.78
 """Yield over tensile strength of cold-drawn spring wire in bending (Shigley, 10-12)."""
 SPRING_SHARES = ((LOW_CYCLES, YIELD_SHARE), (1e5, 0.53), (LASTING, 0.50))

@@ -42,9 +42,9 @@ class PushOff:
     leg_axial_n, front_n
         Compression (n,) of the main leg and of the front link; negative is tension.
     toes_n
-        What both toe tips bear together (n,), with the foot resting on nose and tips alone.
+        Load of both toe tips together (n,), with the foot resting on nose and tips alone.
     residual_n
-        What is missing (n,) to the balance of forces and torques on the body: the error of the finite differences.
+        Imbalance of forces and torques on the body (n,): the error of the finite differences.
     """
 
     leg_rad: Array

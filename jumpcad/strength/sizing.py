@@ -21,16 +21,16 @@ from jumpcad.workshop import Workshop
 TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
 """The body's mass properties before its parts are known; those of the template designs are within 10 %."""
 RESERVE = 1.15
-"""Factor on every load, for what only a built robot tells: masses, axial forces, lever; judgement."""
+"""Factor on every load, since masses, axial forces and lever are not known yet; judgement."""
 THICKNESS_MM, THICK_MM, THICK_FROM_NMM = 6.0, 8.0, 900.0
-"""Thickness of the links, and that from a springs' torque on; judgement: the eyes' axial play must not tilt them."""
+"""Thickness of the links, and of those whose springs have more than a torque; judgement: axial play tilts thin eyes."""
 HEIGHT_MIN_MM = 6.0
 """Of legs; judgement: three perimeters of 0.45 mm on either side leave a core."""
 ROOT_MORE_MM = 2.0
 """By how much the leg's root is higher than `HEIGHT_MIN_MM`, at least; judgement: the pin's hole weakens it there."""
 EYE_PLAY_MM = 0.3
-"""What a running fit adds to an axle's radius, at most, so that an eye keeps two walls; judgement."""
-SOLE_MM = 1.0
+"""Allowance for a running fit on the radius of an axle, so that an eye keeps two walls; judgement."""
+ABOVE_GROUND_MM = 1.0
 """Height of eyes and leg above the ground on a flat foot; judgement: the links flex when the robot lands."""
 LUG_MM, TOE_WIDTH_MM = 4.0, 7.0
 """Thickness of the foot's lugs and rails, width of a toe at its root; judgement: as wide as their heights or wider."""
@@ -39,11 +39,11 @@ RAIL_MIN_MM, TOE_MIN_MM, TOE_TIP_MIN_MM = 3.2, 3.2, 2.4
 LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 """Height at the tip over that at the root. With half or more, moment over section falls from the root on."""
 KEY_MM = 7.0
-"""Across the flats of the cam's key; judgement: two walls of 1.2 mm around the bore of a 3 mm axle, and its corners."""
+"""Across the flats of the cam's key; judgement: a wall of 1.8 mm around the bore of a 3 mm axle."""
 GROWTH_STEP = 1.1
-"""Factor by which a section grows at a time; judgement: half of what a printed strength is uncertain by."""
+"""Factor by which a section grows at a time; judgement: few rounds, little mass more than needed."""
 STIFF_ROUNDS, STIFF_MORE = 12, 1.01
-"""Steps, and the surplus of each, by which a leg's height approaches its share of flexing: two or three are enough."""
+"""Steps, and the surplus of each, by which a leg's height approaches its share of flexing; judgement."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class Sections:
 
 @dataclass(frozen=True)
 class Growth:
-    """Factors on the sizes of `sections` for what fails a strength check in the built robot."""
+    """Factors on the sizes that `sections` gives, for those that fail a strength check of the built robot."""
 
     leg: float = 1.0
     lever: float = 1.0
@@ -123,7 +123,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     stiff = _stiff_mm(design, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
     leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
-    depth = max(eye, leg_tip / 2.0) + SOLE_MM
+    depth = max(eye, leg_tip / 2.0) + ABOVE_GROUND_MM
     toes = RESERVE * float(push_off(linkage, TYPICAL_BODY, depth).toes_n.max())
     toe = height_for_mm(toe_moment_nmm(design, toes), TOE_WIDTH_MM, allowable, shell, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)

@@ -22,9 +22,9 @@ STATIONS = 17
 
 @dataclass(frozen=True)
 class Shell:
-    """What a printed bar is made of besides infill: walls at its sides, layers below and above (mm).
+    """The solid outside of a printed bar: walls at its sides, layers below and above (mm).
 
-    `core_share` is what the infill bears, as a share of solid material.
+    `core_share` is the infill's load-bearing share, relative to solid material.
     """
 
     walls_mm: float
@@ -65,7 +65,7 @@ class Beam:
 
     @property
     def second_moment_mm4(self) -> float | Array:
-        """Second moment of area, b·h³/12 less what the core lacks."""
+        """Second moment of area, b·h³/12 less the missing part of the core."""
         width, height = self._core
         return (self.width_mm * self.height_mm**3 - (1.0 - self.shell.core_share) * width * height**3) / 12.0
 
@@ -84,7 +84,7 @@ class Beam:
 def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, shell: Shell, upright: bool = False) -> float:
     """Return the least height of a bar that bears a bending moment; none at all where there is no moment.
 
-    The solid bar's height, the root of 6·M/(b·stress), is the first guess; what the core lacks is then made up for.
+    The solid bar's height, the root of 6·M/(b·stress), is the first guess; it grows for the missing part of the core.
     """
     if moment_nmm == 0.0:
         return 0.0
