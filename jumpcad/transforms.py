@@ -2,8 +2,8 @@
 
 Frames follow REP-103 (x forward, y left, z up). The mechanism is planar: a positive angle turns about +y, from z
 towards x, so that a vector that points forwards turns downwards. Poses are (4, 4) matrices `T_a_b` that take points of
-frame b to frame a. Products of small matrices are sums (`einsum`) and not calls to BLAS, whose last digits depend on the
-processor: the same robot has the same bytes everywhere.
+frame b to frame a. Products of small matrices are sums (`einsum`) and not calls to BLAS, whose last digits depend on
+the processor: the same robot has the same bytes everywhere.
 """
 
 import math
