@@ -10,8 +10,9 @@ from support.limits import default_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.gear_choice import least_tip_mm
+from jumpcad.drive.gear_choice import by_cost, least_tip_mm
 from jumpcad.drive.gear_pair import gear_pair
+from jumpcad.drive.motor import winding_s
 from jumpcad.drive.train import synthesise_train
 
 MOTORS = list(load_catalogue().motors.values())
@@ -68,3 +69,17 @@ def test_the_least_cam_gear_turns_the_cam_alone_and_none_smaller_does(name):
     assert len(just.stages) == 1
     assert just.stages[-1].wheel.tip_radius_mm <= tip + 1e-6
     assert len(too_small.stages) == 2
+
+
+@pytest.mark.parametrize(("seconds_per_gram", "count"), [(2.0, 1), (0.5, 1), (2.0, 2)])
+def test_gears_come_in_the_order_of_their_mass_and_of_what_time_is_worth(seconds_per_gram, count):
+    """Full discs of PETG, 1.27 g/cm³, as wide as the teeth, over their pitch circles."""
+    law, limits = law_of("best-bo"), dataclasses.replace(LIMITS, seconds_per_gram=seconds_per_gram)
+    costs = []
+    for motor, stages in itertools.islice(by_cost(law, MOTORS, limits, count), 12):
+        radii = [gear.pitch_radius_mm / 10.0 for pair in stages for gear in (pair.pinion, pair.wheel)]
+        grams = 1.27 * math.pi * sum(radius**2 for radius in radii) * limits.face_width_mm / 10.0
+        seconds = winding_s(law, motor, math.prod(pair.ratio for pair in stages), limits.efficiency(count))
+        costs.append(grams + seconds / seconds_per_gram)
+    assert len(costs) == 12
+    assert costs == pytest.approx(sorted(costs))

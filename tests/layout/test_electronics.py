@@ -56,5 +56,5 @@ def test_standoffs_are_above_the_boards_and_apart_from_each_other() -> None:
     assert first[1] >= top or first[0] >= tray[0] + CARRIED.length_mm / 2.0 + 3.0
     assert second[0] < first[0]
     assert second[1] >= top
-    close = standoff_places([boards], np.array([39.0, 25.0]), front, CARRIED, tray, INSIDE)
-    assert math.dist(*close) >= 15.2
+    ahead = np.array([tray[0] + CARRIED.length_mm, 0.0])  # a cam for which both would be at one place
+    assert math.dist(*standoff_places([boards], ahead, front, CARRIED, tray, INSIDE)) >= 15.2

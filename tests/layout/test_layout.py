@@ -17,7 +17,7 @@ from jumpcad.dimensions import CLEAR_MM, TRAY_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout.electronics import Electronics
-from jumpcad.layout.layout import Layout, make_layout
+from jumpcad.layout.layout import LEVER_HEAD_MM, LEVER_NUT_MM, Layout, make_layout
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop
@@ -198,3 +198,9 @@ def test_a_cam_gear_in_the_legs_axle_is_refused() -> None:
     train = replace(layout.drive.train, stages=(*layout.drive.train.stages[:-1], huge))
     with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of \d+\.\d mm is \d+\.\d mm too large beside"):
         plan_again(layout, drive=replace(layout.drive, train=train))
+
+
+def test_the_lever_has_room_for_the_rollers_screw_on_either_side() -> None:
+    """A nut of 2.4 mm (ISO 4032 M3) behind the lever, a head of 1.65 mm (ISO 7380-1 M3) beside the roller."""
+    assert 2.4 <= LEVER_NUT_MM < 3.0
+    assert 1.65 <= LEVER_HEAD_MM < 2.0
