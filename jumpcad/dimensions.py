@@ -1,6 +1,6 @@
 """Clearances, fixed sizes and constants that several rooms share, each with its source (mm unless named otherwise).
 
-What a user may want to change stands in the workshop instead. "Judgement" marks what rests on no source.
+Values that a user may want to change are in the workshop instead. "Judgement" marks a value without a source.
 """
 
 GRAVITY_M_S2 = 9.81

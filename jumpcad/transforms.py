@@ -1,9 +1,9 @@
-"""Arrays, rotations and poses: one sign convention for everything that turns.
+"""Arrays, rotations and poses: one sign convention for all turns.
 
 Frames follow REP-103 (x forward, y left, z up). The mechanism is planar: a positive angle turns about +y, from z
-towards x, so that what points forwards turns downwards. Poses are (4, 4) matrices `T_a_b` that take points of frame b
-to frame a. Products of small matrices are sums (`einsum`) and not calls to BLAS, whose last digits depend on the
-processor: the same robot has the same bytes everywhere.
+towards x, so that a vector that points forwards turns downwards. Poses are (4, 4) matrices `T_a_b` that take points of
+frame b to frame a. Products of small matrices are sums (`einsum`) and not calls to BLAS, whose last digits depend on
+the processor: the same robot has the same bytes everywhere.
 """
 
 import math
@@ -53,14 +53,14 @@ def pose_at(rotation: Array, translation: npt.ArrayLike) -> Array:
 
 
 def pose_about_y(angle_rad: float, place: npt.ArrayLike) -> Array:
-    """Return the pose (4, 4) of what is turned about +y and then moved to a place (2,) in x-z."""
+    """Return the pose (4, 4) of a turn about +y, then a move to a place (2,) in x-z."""
     cos, sin = math.cos(angle_rad), math.sin(angle_rad)
     x, z = np.asarray(place, dtype=float)
     return np.array([[cos, 0.0, sin, x], [0.0, 1.0, 0.0, 0.0], [-sin, 0.0, cos, z], [0.0, 0.0, 0.0, 1.0]])
 
 
 def pose_about_z(angle_rad: float) -> Array:
-    """Return the pose (4, 4) of what is turned about +z, counter-clockwise seen from above."""
+    """Return the pose (4, 4) of a turn about +z, counter-clockwise seen from above."""
     matrix = np.eye(4)
     matrix[:2, :2] = [[np.cos(angle_rad), -np.sin(angle_rad)], [np.sin(angle_rad), np.cos(angle_rad)]]
     return matrix
@@ -68,7 +68,7 @@ def pose_about_z(angle_rad: float) -> Array:
 
 def chained(T_a_b: Array, T_b_c: Array) -> Array:
     """Return the pose `T_a_c` (4, 4) of two poses, one after the other."""
-    return np.einsum("ij,jk->ik", T_a_b, T_b_c)
+    return np.asarray(np.einsum("ij,jk->ik", T_a_b, T_b_c))
 
 
 def in_metres(pose_mm: Array) -> Array:

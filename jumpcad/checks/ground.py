@@ -6,7 +6,6 @@ from manifold3d import Manifold
 from jumpcad.checks.interference import Component, Moment, components, pose_of
 from jumpcad.dimensions import COLLAR_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM
 from jumpcad.findings import Finding, limit
-from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array, direction
@@ -21,7 +20,7 @@ SEARCH_MM = 3.0
 def ground_findings(robot: Robot) -> list[Finding]:
     """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from wound to rest."""
     layout = robot.layout
-    linkage, sections, cam = Linkage(robot.design), layout.sections, layout.drive.cam
+    linkage, sections, cam = robot.linkage, layout.sections, layout.drive.cam
     leg = np.linspace(-robot.design.compression_rad, 0.0, POSITIONS)
     pose = linkage.pose(leg)
     down = np.stack([np.sin(pose.foot_rad), np.cos(pose.foot_rad)], axis=-1)  # up, in the body's frame
@@ -46,7 +45,7 @@ def ground_findings(robot: Robot) -> list[Finding]:
 def foot_findings(robot: Robot) -> list[Finding]:
     """Return `foot_clearance`: the gap between the foot and what the body carries, springs wound (exact)."""
     layout = robot.layout
-    linkage = Linkage(robot.design)
+    linkage = robot.linkage
     wound = Moment("wound", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
 
     def placed(piece: Component) -> Manifold:

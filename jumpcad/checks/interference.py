@@ -93,7 +93,7 @@ def moments(layout: Layout) -> list[Moment]:
 def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
     """Yield pairs of pieces that share more than the tolerance: names, position, volume (mm³); each pair's worst."""
     layout = robot.layout
-    linkage = Linkage(robot.design)
+    linkage = robot.linkage
     pieces = components(robot)
     worst: dict[tuple[int, int], tuple[float, str]] = {}
     settled: set[tuple[int, int]] = set()

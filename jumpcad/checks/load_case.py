@@ -11,7 +11,7 @@ from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
-from jumpcad.strength.bearings import wound_forces_n
+from jumpcad.strength.bearings import loaded_forces_n
 from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_reach_mm
 from jumpcad.strength.stress import Shell, pin_stress_mpa
 from jumpcad.transforms import Array
@@ -59,7 +59,7 @@ class LoadCase:
         body = self.robot.bodies[BODY]
         gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
         mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
-        return push_off(self.robot.design, mass, self.layout.sections.foot_depth_mm)
+        return push_off(self.robot.linkage, mass, self.layout.sections.foot_depth_mm)
 
     @cached_property
     def ankle_n(self) -> float:
@@ -105,7 +105,7 @@ class LoadCase:
         In the body's frame, springs wound, roller at the end of the lift; both springs together.
         """
         layout = self.layout
-        on_leg, on_lever = wound_forces_n(self.robot.design, layout.drive)
+        on_leg, on_lever = loaded_forces_n(self.robot.design, layout.drive)
         pin = (layout.spring_pin_mm - layout.hub_mm) / layout.leg_pin_mm
         on_pin = self.torque_nmm / layout.leg_pin_mm * np.array([-pin[1], pin[0]])
         return (on_leg, on_pin), on_lever

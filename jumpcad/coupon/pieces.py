@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from jumpcad.drive.gears import Gear, GearPair, gear_pair
+from jumpcad.drive.gear_pair import GearPair, gear_pair
+from jumpcad.drive.gears import Gear
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union

@@ -1,11 +1,14 @@
 """From a design to its drive in plain numbers: torsion springs, snail cam, gear train and motor."""
 
-from jumpcad.drive.cam import Cam, CamGeometry, CamLaw
+from jumpcad.drive.cam import Cam, CamGeometry
+from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import CamLimits
-from jumpcad.drive.gears import Gear, GearPair
+from jumpcad.drive.gear_pair import GearPair
+from jumpcad.drive.gears import Gear
 from jumpcad.drive.spring import SpringLimits, TorsionSpring
 from jumpcad.drive.synthesis import Drive, DriveLimits, synthesise
-from jumpcad.drive.train import GearTrain, TrainLimits
+from jumpcad.drive.train import GearTrain
+from jumpcad.drive.train_limits import TrainLimits
 
 __all__ = [
     "Cam",

@@ -1,9 +1,9 @@
-"""The snail cam: its law, its curves in closed form, and the finished cam.
+"""The snail cam: its curves in closed form, and the finished cam.
 
 Frame. Everything lies in the body's x-z plane (x forward, z up), in mm, with the main leg's pivot (the hub) at the
 origin. Angles of the lever are counter-clockwise from x. Winding turns leg and lever counter-clockwise; the cam turns
-clockwise, which is a positive turn about +y. The other sense is impossible: the lobe would leave the roller towards
-the hub, where the lever is.
+clockwise, which is a positive turn about +y. In the other sense the lobe would leave the roller towards the hub, where
+the lever is.
 
 Curves are in the cam's own frame: origin on the cam's axis, directions those of the body at cam angle 0 (leg at
 rest). At cam angle phi the cam is turned clockwise by phi.
@@ -16,62 +16,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from jumpcad.drive.cam_law import CamLaw
 from jumpcad.findings import Finding
 from jumpcad.transforms import Array, turned_about_y
-
-
-@dataclass(frozen=True)
-class CamLaw:
-    """How far the leg is wound at a cam angle: constant torque at the cam, ramped up linearly at first.
-
-    Without the ramp the leg would start at infinite speed per cam angle, and the pressure angle with it.
-
-    Attributes
-    ----------
-    compression_rad
-        Leg angle at the end of the lift.
-    stiffness_nm_per_rad
-        Of both springs together.
-    lift_rad, ramp_rad
-        Cam angle of the whole lift, and of the ramp at its beginning.
-    """
-
-    compression_rad: float
-    stiffness_nm_per_rad: float
-    lift_rad: float
-    ramp_rad: float
-
-    @property
-    def energy_j(self) -> float:
-        """Energy of the wound springs (J)."""
-        return 0.5 * self.stiffness_nm_per_rad * self.compression_rad**2
-
-    @property
-    def peak_torque_nm(self) -> float:
-        """Torque at the cam after the ramp, without friction (N·m)."""
-        return self.energy_j / (self.lift_rad - self.ramp_rad / 2)
-
-    def torque_nm(self, cam_rad: npt.ArrayLike) -> Array:
-        """Return the torque (n,) that the springs ask of the cam at cam angles (n,) of the lift, dE/dphi."""
-        return self.peak_torque_nm * np.clip(np.asarray(cam_rad, dtype=float) / self.ramp_rad, 0.0, 1.0)
-
-    def derivatives(self, cam_rad: npt.ArrayLike) -> tuple[Array, Array, Array]:
-        """Return leg angle (n,) and its first and second derivative by the cam angle, at cam angles (n,) of the lift.
-
-        E(phi) = k·theta²/2 is a parabola in the ramp, so that theta is linear there, and linear after it.
-        """
-        phi = np.asarray(cam_rad, dtype=float)
-        span = self.lift_rad - self.ramp_rad / 2
-        slope = self.compression_rad / math.sqrt(2 * self.ramp_rad * span)
-        beyond = np.maximum(phi - self.ramp_rad / 2, self.ramp_rad / 2)
-        late = self.compression_rad * np.sqrt(beyond / span)
-        in_ramp = phi < self.ramp_rad
-        first = np.where(in_ramp, slope, late / (2 * beyond))
-        return np.where(in_ramp, slope * phi, late), first, np.where(in_ramp, 0.0, -first / (2 * beyond))
-
-    def wind_rad(self, cam_rad: npt.ArrayLike) -> Array:
-        """Return the leg angle (n,) at cam angles (n,) of the lift."""
-        return self.derivatives(cam_rad)[0]
 
 
 @dataclass(frozen=True)
@@ -87,7 +34,7 @@ class CamGeometry:
     lead_rad
         Lever at rest, counter-clockwise from the direction of the cam's axis.
     roller_radius_mm, clearance_mm
-        Roller, and the gap that the drop leaves around it.
+        Roller, and the gap that the drop face leaves around it.
     overshoot_rad
         How far past rest the drop leaves room for the leg.
     """
@@ -136,7 +83,7 @@ class CamGeometry:
         wind, first, _ = self.law.derivatives(cam_rad)
         arm = self.lever_mm * (1 + first)[..., None] * _unit(self.lever_start_rad + wind)
         vector = arm - self.axis_mm
-        return vector / np.linalg.norm(vector, axis=-1, keepdims=True)
+        return np.asarray(vector / np.linalg.norm(vector, axis=-1, keepdims=True))
 
     def contact_mm(self, cam_rad: npt.ArrayLike) -> Array:
         """Return the profile (n, 2) of the lift in the cam's frame: where the roller touches at cam angles (n,)."""
@@ -259,7 +206,7 @@ class Cam:
 
     @property
     def peak_torque_nm(self) -> float:
-        """Largest torque that the springs ask of the cam, without friction (N·m)."""
+        """Largest torque that the springs need at the cam, without friction (N·m)."""
         return self.law.peak_torque_nm
 
     @property

@@ -1,4 +1,4 @@
-"""What a cam must respect, and how far a shape is from it, many shapes at once. Notation as in `cam`.
+"""The limits of a cam, and the margins of many shapes at once. Notation as in `cam`.
 
 Turned about the hub, a cam stays the same cam, so its shape has three numbers: the lever, the distance from the circle
 of the lever's end to the cam's axis (the gap), and the lever's lead over the direction of that axis.
@@ -10,71 +10,76 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.drive.cam import CamLaw
+from jumpcad.dimensions import GAP_MM
+from jumpcad.drive.cam_law import CamLaw
 from jumpcad.transforms import Array
 
 
 @dataclass(frozen=True)
 class CamLimits:
-    """What a cam must respect; lengths in mm, angles in rad.
+    """The limits of a cam; lengths in mm, angles in rad. Values that a workshop gives have no default here.
 
     Attributes
     ----------
-    lift_rad, ramp_rad
-        Cam angle of the lift and of its ramp; what is left of the turn is for release and drop.
     roller_radius_mm, roller_load_n, cam_width_mm
-        Roller and its static load rating (a 623 bearing by default), and the width on which it runs.
-    hub_radius_mm, clearance_mm
-        What lies around the leg's pivot in the cam's plane (hub or spring), and the gap between it and the cam. Leg
-        and lever lie beside that plane.
+        Roller, its static load rating, and the width on which it runs.
     gap_min_mm
         Least distance from the circle of the lever's end to the cam's axis, for the axle that crosses the lever's
         plane.
     core_radius_mm
         Material around the cam's axis that nothing may cut into (bore and key).
-    pressure_angle_rad, undercut_margin_mm
-        Largest pressure angle; least profile radius where the pitch curve is convex.
-    overshoot_rad
-        How far the leg may swing past rest before the roller meets the cam.
-    reserve_rad
-        How far the cam may turn on after the roller's fall while that room stays free.
-    axis_max_rad, axis_min_rad
-        Direction of the cam's axis from the hub, counter-clockwise from forward: as far back as wished, at most.
-    lever_wound_max_rad
-        Direction of the wound lever, at most (level with the pivots is pi).
-    lowest_mm
-        The cam stays above this height over the hub.
-    lever_max_mm, gap_max_mm, lead_max_rad
-        Where the search ends: lever, distance from the lever's circle to the cam's axis, lead of the lever over it.
     modulus_mpa, poisson, pressure_mpa
         Of the cam's material, against a steel roller. Rolling line contact shakes down to an elastic state up to 4k, k
         the yield strength in shear (Johnson, Contact Mechanics, 9.2): 104 MPa for a printed PETG that yields at 45 MPa
         in tension (judgement), less 15 %.
+    lift_rad, ramp_rad
+        Cam angle of the lift and of its ramp; what is left of the turn is for release and drop. Judgement: a longer
+        ramp costs torque, a shorter one a larger cam.
+    hub_radius_mm, clearance_mm
+        What lies around the leg's pivot in the cam's plane, and the gap between it and the cam. Leg and lever lie
+        beside that plane; a spring's coil that is larger replaces the default, a bushing on a 3 mm axle (judgement).
+    pressure_angle_rad, undercut_margin_mm
+        Largest pressure angle (judgement: more than the 35° that handbooks advise for followers that pivot, since this
+        cam turns slowly), and least profile radius where the pitch curve is convex (judgement: a line of a nozzle).
+    overshoot_rad
+        How far the leg may swing past rest before the roller meets the cam; judgement.
+    reserve_rad
+        How far the cam may turn on after the roller's fall while that room stays free; judgement.
+    axis_max_rad, axis_min_rad
+        Direction of the cam's axis from the hub, counter-clockwise from forward: farthest back, and
+        farthest forward; judgement: above the hub, where links sweep least.
+    lever_loaded_max_rad
+        Direction of the lever with the springs loaded, at most (level with the pivots is pi).
+    lowest_mm
+        The cam stays above this height over the hub.
+    lever_max_mm, gap_max_mm, lead_max_rad
+        Where the search ends: lever, distance from the lever's circle to the cam's axis, lead of the lever over it.
+        Judgement: larger ones find no room in a body.
     """
 
+    roller_radius_mm: float
+    roller_load_n: float
+    cam_width_mm: float
+    gap_min_mm: float
+    core_radius_mm: float
+    modulus_mpa: float
+    poisson: float = 0.38
+    pressure_mpa: float = 90.0
     lift_rad: float = math.radians(310)
     ramp_rad: float = math.radians(30)
-    roller_radius_mm: float = 5.0
-    roller_load_n: float = 220.0
-    cam_width_mm: float = 3.4
     hub_radius_mm: float = 4.5
-    clearance_mm: float = 0.5
-    gap_min_mm: float = 8.5
-    core_radius_mm: float = 4.9
+    clearance_mm: float = GAP_MM
     pressure_angle_rad: float = math.radians(45)
     undercut_margin_mm: float = 0.5
     overshoot_rad: float = math.radians(5)
     reserve_rad: float = math.radians(8)
     axis_max_rad: float = math.radians(115)
     axis_min_rad: float = math.radians(60)
-    lever_wound_max_rad: float = math.pi
+    lever_loaded_max_rad: float = math.pi
     lowest_mm: float = 0.0
     lever_max_mm: float = 45.0
     gap_max_mm: float = 50.0
     lead_max_rad: float = math.radians(45)
-    modulus_mpa: float = 2200.0
-    poisson: float = 0.38
-    pressure_mpa: float = 90.0
 
 
 @dataclass(frozen=True)
@@ -186,7 +191,7 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
 
 @lru_cache(maxsize=8)
 def _sampled(law: CamLaw, samples: int) -> tuple[Array, Array, Array]:
-    """Return a law's winding and its derivatives (samples,) over the lift; a search asks for the same ones often.
+    """Return a law's leg angle and its derivatives (samples,) over the lift; a search needs the same ones often.
 
     The second derivative jumps where the ramp ends: the sharpest curvature is just behind it.
     """
@@ -199,7 +204,7 @@ def axis_range(law: CamLaw, limits: CamLimits, axis: Array, lead: Array, outer: 
     """Return the highest and lowest direction (n,) of the cam's axis that its place and the lever allow."""
     above = np.arcsin(np.clip((outer + limits.lowest_mm) / axis, -1.0, 1.0))
     highest = np.minimum(
-        np.minimum(limits.axis_max_rad, limits.lever_wound_max_rad - law.compression_rad - lead), math.pi - above
+        np.minimum(limits.axis_max_rad, limits.lever_loaded_max_rad - law.compression_rad - lead), math.pi - above
     )
     lowest = np.maximum(limits.axis_min_rad, above)
     return highest, lowest

@@ -2,8 +2,8 @@
 
 A coarse grid over the three numbers of a cam's shape gives the start, sequential quadratic programming the optimum,
 always in the same way; the direction of the cam's axis follows from where there is room. The optimum is rounded to
-tenths of a micrometre and ten-thousandths of a degree, so that what the linear algebra underneath leaves open from one
-processor to another, some 1e-10 of it, does not reach the robot.
+tenths of a micrometre and ten-thousandths of a degree, so that differences between processors in
+the linear algebra underneath, some 1e-10 of it, do not reach the robot.
 """
 
 import itertools
@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from scipy import optimize
 
-from jumpcad.drive.cam import Cam, CamGeometry, CamLaw
+from jumpcad.drive.cam import Cam, CamGeometry
+from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, LIMITS, ROWS, SCALES, CamLimits, axis_range, measure
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
@@ -77,7 +78,7 @@ class _Shapes:
     STEP = 1e-6
     STEPS = STEP * np.eye(4, 3, -1)  # none, and one along each axis
     ROUND_TO = np.array([1e-4, 1e-4, math.radians(1e-4)])
-    ROUNDING = 3e-4  # of a margin's scale: more than rounding costs, so that asking for it leads to another shape
+    ROUNDING = 3e-4  # of a margin's scale: more than rounding costs, so that adding it leads to another shape
 
     def __init__(self, law: CamLaw, limits: CamLimits) -> None:
         self.law, self.limits = law, limits
@@ -115,7 +116,7 @@ class _Shapes:
         return np.asarray(np.round(np.exp(logs) / self.ROUND_TO) * self.ROUND_TO)
 
     def allow_for(self, shape: Array, margin: Array) -> None:
-        """Ask for what coarse samples and rounding cost at a shape (3,) whose true margins are known."""
+        """Add the cost of coarse samples and rounding at a shape (3,) of known true margins to the reserve."""
         hidden = self._at(np.log(shape))[2] + self.reserve - margin / SCALES
         missing = -margin / SCALES
         rounded_off = np.where(missing > 0, np.maximum(2.0 * missing, self.ROUNDING), 0.0)

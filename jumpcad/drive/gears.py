@@ -1,12 +1,12 @@
-"""Involute spur gears: profiles as the ISO 53 rack cuts them, pairs, and how strong a tooth is.
+"""Involute spur gears: profiles as the ISO 53 rack cuts them, and how strong a tooth is.
 
 Basic rack A of ISO 53: pressure angle 20°, addendum 1, dedendum 1.25, fillet 0.38 (all in modules). Formulas for
-shifts, centre distance, contact ratio and for measuring over teeth and pins: ISO 21771. Lengths in mm, angles in rad.
+shifts and for measuring over teeth and pins: ISO 21771. Lengths in mm, angles in rad.
 """
 
 import math
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +16,8 @@ from jumpcad.transforms import Array
 
 PRESSURE_ANGLE_RAD = math.radians(20)
 _SIN, _COS, _TAN = math.sin(PRESSURE_ANGLE_RAD), math.cos(PRESSURE_ANGLE_RAD), math.tan(PRESSURE_ANGLE_RAD)
-_DEDENDUM, _FILLET = 1.25, 0.38
+DEDENDUM, _FILLET = 1.25, 0.38
+"""Of the basic rack, in modules."""
 
 
 def involute(angle_rad: float) -> float:
@@ -24,7 +25,7 @@ def involute(angle_rad: float) -> float:
     return math.tan(angle_rad) - angle_rad
 
 
-def _inverse_involute(value: npt.ArrayLike) -> Array:
+def inverse_involute(value: npt.ArrayLike) -> Array:
     """Return the angles (rad) of positive involute values, by Newton's method."""
     value = np.asarray(value, dtype=float)
     angle = np.cbrt(3 * value)
@@ -34,19 +35,9 @@ def _inverse_involute(value: npt.ArrayLike) -> Array:
     return np.asarray(angle)
 
 
-def centre_distance_mm(teeth: npt.ArrayLike, shifts: npt.ArrayLike, module_mm: npt.ArrayLike) -> Array:
-    """Return the centre distances (n,) of pairs without backlash: sums of teeth (n,) and of shifts (n,), modules (n,).
-
-    ISO 21771: inv(working angle) = inv(20°) + 2·tan(20°)·(x1 + x2)/(z1 + z2).
-    """
-    total = np.asarray(teeth, dtype=float)
-    working = _inverse_involute(involute(PRESSURE_ANGLE_RAD) + 2 * _TAN * np.asarray(shifts) / total)
-    return np.asarray(np.asarray(module_mm) * total / 2 * _COS / np.cos(working))
-
-
 def least_shift(teeth: int) -> float:
     """Return the smallest profile shift that is not undercut, in modules; negative where there is room."""
-    depth = _DEDENDUM - _FILLET * (1 - _SIN)
+    depth = DEDENDUM - _FILLET * (1 - _SIN)
     return depth - teeth * _SIN**2 / 2
 
 
@@ -96,7 +87,7 @@ class Gear:
     @property
     def root_radius_mm(self) -> float:
         """Between the teeth (mm)."""
-        return self.pitch_radius_mm - self.module_mm * (_DEDENDUM - self.shift)
+        return self.pitch_radius_mm - self.module_mm * (DEDENDUM - self.shift)
 
     @property
     def pitch_thickness_mm(self) -> float:
@@ -124,7 +115,7 @@ class Gear:
         """Return the size over two pins of a diameter, in opposite gaps (mm)."""
         half_gap = (math.pi * self.module_mm - self.pitch_thickness_mm) / (2 * self.pitch_radius_mm)
         value = involute(PRESSURE_ANGLE_RAD) + pin_mm / (2 * self.base_radius_mm) - half_gap
-        centre = self.base_radius_mm / math.cos(float(_inverse_involute(value)))
+        centre = self.base_radius_mm / math.cos(float(inverse_involute(value)))
         odd = math.cos(math.pi / (2 * self.teeth)) if self.teeth % 2 else 1.0
         return 2 * centre * odd + pin_mm
 
@@ -140,9 +131,9 @@ class Gear:
         """
         m, r = self.module_mm, self.pitch_radius_mm
         rounding = _FILLET * m
-        depth = (_DEDENDUM - _FILLET - self.shift) * m
+        depth = (DEDENDUM - _FILLET - self.shift) * m
         half_tooth = math.pi * m / 4 + self.thinning_mm / 2
-        corner = half_tooth - (_DEDENDUM - _FILLET) * m * _TAN - rounding / _COS
+        corner = half_tooth - (DEDENDUM - _FILLET) * m * _TAN - rounding / _COS
         # The corner's centre moves from below the pitch point to where it touches the straight flank.
         across = np.linspace(0.0, depth / _TAN, self._fillet_points)
         reach = np.hypot(across, depth)
@@ -177,99 +168,6 @@ class Gear:
         return float(((2 * half) ** 2 / (6 * height * self.module_mm)).min())
 
     def lewis_stress_mpa(self, torque_nm: float) -> float:
-        """Return the bending stress at the root under a torque, one tooth carrying it at its tip (MPa)."""
+        """Return the bending stress at the root under a torque, loaded at the tip of one tooth (MPa)."""
         force = 1000 * torque_nm / self.pitch_radius_mm
         return force / (self.face_width_mm * self.module_mm * self.lewis_factor)
-
-
-@dataclass(frozen=True)
-class GearPair:
-    """Two gears in mesh.
-
-    Attributes
-    ----------
-    centre_distance_mm
-        Working distance: that of the shifts without backlash; the backlash is in the thinned teeth.
-    """
-
-    pinion: Gear
-    wheel: Gear
-    centre_distance_mm: float
-
-    @property
-    def ratio(self) -> float:
-        """Wheel's teeth over pinion's."""
-        return self.wheel.teeth / self.pinion.teeth
-
-    @property
-    def module_mm(self) -> float:
-        """Common module (mm)."""
-        return self.pinion.module_mm
-
-    @property
-    def face_width_mm(self) -> float:
-        """Common width (mm)."""
-        return self.pinion.face_width_mm
-
-    @property
-    def working_angle_rad(self) -> float:
-        """Pressure angle at the working centre distance (rad)."""
-        return math.acos((self.pinion.base_radius_mm + self.wheel.base_radius_mm) / self.centre_distance_mm)
-
-    @property
-    def backlash_circumferential_mm(self) -> float:
-        """Play of the pair along the pitch circles (mm)."""
-        return self.pinion.thinning_mm + self.wheel.thinning_mm
-
-    @property
-    def contact_ratio(self) -> float:
-        """Pairs of teeth in contact on average."""
-        path = sum(_tip_roll_mm(gear) for gear in (self.pinion, self.wheel)) - self._line_mm
-        return path / (math.pi * self.module_mm * _COS)
-
-    @property
-    def tip_clearance_mm(self) -> float:
-        """Least gap between a tip and the root it reaches into (mm)."""
-        tips = (self.pinion.tip_radius_mm, self.wheel.tip_radius_mm)
-        roots = (self.wheel.root_radius_mm, self.pinion.root_radius_mm)
-        return self.centre_distance_mm - max(tip + root for tip, root in zip(tips, roots, strict=True))
-
-    @property
-    def involute_margin_mm(self) -> float:
-        """By how much contact ends before either fillet begins, as roll length; negative is interference (mm)."""
-        margins = []
-        for gear, mate in ((self.pinion, self.wheel), (self.wheel, self.pinion)):
-            form = math.sqrt(max(0.0, gear.form_radius_mm**2 - gear.base_radius_mm**2))
-            margins.append(self._line_mm - _tip_roll_mm(mate) - form)
-        return min(margins)
-
-    @property
-    def _line_mm(self) -> float:
-        """Length of the line of action between the base circles (mm)."""
-        return self.centre_distance_mm * math.sin(self.working_angle_rad)
-
-
-def _tip_roll_mm(gear: Gear) -> float:
-    return math.sqrt(gear.tip_radius_mm**2 - gear.base_radius_mm**2)
-
-
-@lru_cache(maxsize=256)
-def gear_pair(
-    pinion_teeth: int, wheel_teeth: int, module_mm: float, face_width_mm: float, backlash_circumferential_mm: float
-) -> GearPair:
-    """Return a pair with the least shifts that avoid undercut, and tips cut to the standard clearance.
-
-    Parameters
-    ----------
-    backlash_circumferential_mm
-        For the pair, at the pitch circle; each gear's teeth are thinned by half of it.
-    """
-    shifts = [max(0.0, least_shift(teeth)) for teeth in (pinion_teeth, wheel_teeth)]
-    total = pinion_teeth + wheel_teeth
-    distance = float(centre_distance_mm(total, sum(shifts), module_mm))
-    tip_cut = max(0.0, module_mm * (total / 2 + sum(shifts)) - distance)
-    pinion, wheel = (
-        Gear(teeth, module_mm, shift, face_width_mm, backlash_circumferential_mm / 2, tip_cut)
-        for teeth, shift in zip((pinion_teeth, wheel_teeth), shifts, strict=True)
-    )
-    return GearPair(pinion, wheel, distance)

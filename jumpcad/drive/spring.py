@@ -2,7 +2,7 @@
 
 Formulas: Shigley, Mechanical Engineering Design, 10-12 (helical torsion springs): stiffness k = E·d⁴/(10.8·D·N) per
 turn with the arms counted as (l1 + l2)/(3·pi·D) turns; bending stress K·32·M/(pi·d³) with K of the inner fibre;
-D·N/(N + turns wound) when wound in the closing direction. Static strength: 0.78 of the tensile strength.
+D·N/(N + turns loaded) when loaded in the closing direction. Static strength: 0.78 of the tensile strength.
 """
 
 import math
@@ -13,35 +13,38 @@ from jumpcad.catalogue import Wire
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 
-_TURNS_MIN, _INDEX_MIN, _INDEX_MAX = 2.0, 4.0, 16.0
-"""What springs are wound as: at least 2 turns, and 4 to 16 for coil over wire diameter."""
+TURNS_MIN, INDEX_MIN, INDEX_MAX = 2.0, 4.0, 16.0
+"""Least turns, and least and largest diameter of coil over wire; judgement: what makers of springs offer."""
 
 
 @dataclass(frozen=True)
 class SpringLimits:
-    """Room and strength of the springs (mm).
+    """Room and strength of the springs (mm). Values that a workshop gives have no default here.
 
     Attributes
     ----------
-    mandrel_min_mm, mandrel_clearance_mm
-        The smallest bushing that can carry a coil, and the gap that a wound coil leaves around it, on the diameter.
-    outer_max_mm, body_lengths_max_mm
-        Of the coil. The lengths are those of the wound body, in the order tried: a long, thin spring widens the robot,
-        a short one is larger around the leg's axle.
-    arm_reach_mm, pin_radius_min_mm
-        From the outside of the coil to the pins that hold its arms, and from the axle to those, at least: the body's
-        pin crosses the plane of the main leg.
+    mandrel_min_mm
+        The smallest bushing that can carry a coil.
+    pin_radius_min_mm
+        From the axle to the pins that hold the arms, at least: the body's pin crosses the plane of the main leg.
     stress_share
-        Allowable bending stress over tensile strength. 0.78 is the yield strength of cold-drawn wire in bending.
+        Allowable bending stress over tensile strength.
+    mandrel_clearance_mm
+        Gap that a loaded coil leaves around its bushing, on the diameter; judgement: it must not bind.
+    outer_max_mm, body_lengths_max_mm
+        Of the loaded coil. The lengths are tried in this order: a long, thin spring widens the robot, a short one is
+        larger around the leg's axle. Judgement: the room beside the cam, and between leg and gears.
+    arm_reach_mm
+        From the outside of the coil to the pins; judgement: pin, its eye and a gap.
     """
 
-    mandrel_min_mm: float = 5.0
+    mandrel_min_mm: float
+    pin_radius_min_mm: float
+    stress_share: float
     mandrel_clearance_mm: float = 0.3
     outer_max_mm: float = 18.0
     body_lengths_max_mm: tuple[float, ...] = (10.0, 13.0)
     arm_reach_mm: float = 5.0
-    pin_radius_min_mm: float = 0.0
-    stress_share: float = 0.78
 
 
 @dataclass(frozen=True)
@@ -53,15 +56,15 @@ class TorsionSpring:
     turns
         Turns of the body at rest, which its maker winds; real-valued, so that the stiffness is the design's exactly.
     body_length_mm
-        Of the wound, close-coiled body.
+        Of the close-coiled body when loaded.
     mandrel_mm
-        Largest bushing that clears the wound coil.
+        Largest bushing that clears the loaded coil.
     arm_length_mm
         Of each arm, from the coil to its pin.
     stiffness_nm_per_rad
         Of this one spring.
     stress_mpa, allowable_mpa
-        Bending stress when wound, at the inner fibre, and its limit.
+        Bending stress when loaded, at the inner fibre, and its limit.
     tensile_mpa
         Tensile strength of the wire, at least.
     """
@@ -100,7 +103,7 @@ def synthesise_spring(
     Parameters
     ----------
     stiffness_nm_per_rad, compression_rad
-        Of both springs together, and how far they are wound from rest without preload.
+        Of both springs together, and how far they are turned from rest without preload.
 
     Raises
     ------
@@ -134,7 +137,7 @@ def _of_wire(
     length_max_mm: float,
 ) -> TorsionSpring | None:
     """Return the smallest spring of one wire, or nothing where none fits."""
-    wound = compression_rad / (2 * math.pi)
+    loaded = compression_rad / (2 * math.pi)
     allowable = limits.stress_share * tensile_mpa
     plain_stress = 32 * 1000 * stiffness * compression_rad / (math.pi * d**3)
     index = _least_index(allowable / plain_stress)
@@ -144,18 +147,18 @@ def _of_wire(
     mean = 0.0
     for _ in range(20):
         body = product - 2 * arm / (3 * math.pi)
-        longest = length_max_mm / d - 1 - wound
-        wound_mean = limits.mandrel_min_mm + limits.mandrel_clearance_mm + d
-        if body <= 0 or longest <= 0 or 1 / wound_mean <= wound / body:
+        longest = length_max_mm / d - 1 - loaded
+        loaded_mean = limits.mandrel_min_mm + limits.mandrel_clearance_mm + d
+        if body <= 0 or longest <= 0 or 1 / loaded_mean <= loaded / body:
             return None
-        mean = max(index * d, body / longest, 1 / (1 / wound_mean - wound / body))
+        mean = max(index * d, body / longest, 1 / (1 / loaded_mean - loaded / body))
         pin = max(mean / 2 + d / 2 + limits.arm_reach_mm, limits.pin_radius_min_mm)
         arm = math.sqrt(pin**2 - (mean / 2) ** 2)
     turns = product / mean - 2 * arm / (3 * math.pi * mean)
-    if turns < _TURNS_MIN or mean > _INDEX_MAX * d or mean + d > limits.outer_max_mm:
+    if turns < TURNS_MIN or mean > INDEX_MAX * d or mean + d > limits.outer_max_mm:
         return None
-    length = d * (turns + 1 + wound)
-    inside_wound = mean * turns / (turns + wound) - d
+    length = d * (turns + 1 + loaded)
+    inside_loaded = mean * turns / (turns + loaded) - d
     stress = plain_stress * _inner_fibre(mean / d)
     volume = math.pi / 4 * d**2 * (math.pi * mean * turns + 2 * arm)
     return TorsionSpring(
@@ -164,7 +167,7 @@ def _of_wire(
         outer_diameter_mm=mean + d,
         turns=turns,
         body_length_mm=length,
-        mandrel_mm=inside_wound - limits.mandrel_clearance_mm,
+        mandrel_mm=inside_loaded - limits.mandrel_clearance_mm,
         arm_length_mm=arm,
         stiffness_nm_per_rad=stiffness,
         stress_mpa=stress,
@@ -192,4 +195,4 @@ def _least_index(correction: float) -> float:
         return math.inf
     b = 4 * correction - 1
     root = (b + math.sqrt(b**2 - 16 * (correction - 1))) / (8 * (correction - 1))
-    return max(_INDEX_MIN, root)
+    return max(INDEX_MIN, root)

@@ -2,25 +2,29 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from jumpcad.catalogue import Catalogue, Motor, load_catalogue
 from jumpcad.design import Design
-from jumpcad.drive.cam import Cam, CamLaw
+from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
+from jumpcad.drive.cam import Cam
+from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
+from jumpcad.drive.gear_choice import least_tip_mm
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
-from jumpcad.drive.train import GearTrain, NoTrainError, TrainLimits, least_tip_mm, synthesise_train
+from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
+from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 
 LEAST_COMPRESSION_RAD = math.radians(0.5)
-"""Below it the cam's lift is lost in what a printer can resolve."""
+"""Below it the cam's lift is less than a printer can resolve; judgement."""
 
 
 @dataclass(frozen=True)
 class DriveLimits:
-    """Everything that the drive needs to know of the workshop and of the parts around it.
+    """The limits of a drive in a workshop, beside parts of some size.
 
     The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `cam_room_mm`, `idler_distance_min_mm`
     and `cam_speed_max_rad_s` are tightened by the spring and the cam that were found.
@@ -41,17 +45,18 @@ class DriveLimits:
         Of the gears, in the order tried: the next where the teeth are not strong enough, or find no room that are.
     more_gap_mm
         How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther axis makes
-        room for a larger cam gear, and one pair of gears is lighter than two. What is too little for one is left out.
+        room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one pair are
+        left out. Judgement: a body has no room for more.
     """
 
-    spring: SpringLimits = field(default_factory=SpringLimits)
-    cam: CamLimits = field(default_factory=CamLimits)
-    train: TrainLimits = field(default_factory=TrainLimits)
-    motors: tuple[str, ...] = ()
-    gap_mm: float = 0.8
-    axle_radius_mm: float = 3.2
+    spring: SpringLimits
+    cam: CamLimits
+    train: TrainLimits
+    motors: tuple[str, ...]
+    gap_mm: float = CLEAR_MM
+    axle_radius_mm: float = SPACER_RADIUS_MM
     fall_s: float = 0.03
-    face_widths_mm: tuple[float, ...] = (5.0, 6.5, 8.0)
+    face_widths_mm: tuple[float, ...] = FACE_WIDTHS_MM
     more_gap_mm: tuple[float, ...] = (0.0, 2.5, 5.0, 7.5, 10.0)
 
 
@@ -75,7 +80,7 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     Raises
     ------
     CannotBuildError
-        If one of them cannot be; the message says which limit stands in the way and what to change.
+        If one of them is not possible; the message names the limit and what to change.
     """
     catalogue = catalogue or load_catalogue()
     stiffness, compression = design.stiffness_nm_per_rad, design.compression_rad
@@ -132,7 +137,7 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
 
 
 def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
-    """Return what motor and gears must respect beside a cam."""
+    """Return the limits of motor and gears beside a cam."""
     room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
     around = cam.outer_radius_mm + limits.gap_mm
     return replace(

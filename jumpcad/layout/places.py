@@ -1,8 +1,8 @@
-"""Places in the plane of motion for what the body carries: motor, idler, electronics, standoffs, spring pins (mm).
+"""Places in the plane of motion for motor, idler, electronics, standoffs and spring pins (mm).
 
-Everything bought sits above the line through the two pivots, out of what leg, lever, cam and foot sweep. Each thing
-takes the free place that keeps the body small and its weight over the feet; candidates are fixed grids, so that the
-same numbers give the same robot.
+Everything bought sits above the line through the two pivots, outside the sweep of leg, lever, cam and foot. Each thing
+takes the free place that keeps the body small and its weight over the feet. Candidates are fixed grids, so that the
+same inputs give the same robot.
 """
 
 import math
@@ -15,10 +15,11 @@ from jumpcad.layout.room import Cloud, Obstacle, clearance
 from jumpcad.transforms import Array
 
 TURN_STEPS = 72
+"""Candidates on a ring, one every 5°; judgement."""
 BATCH = 24
 """Candidates measured at once, the cheapest first."""
 ROUND_OFF_MM = 1e-6
-"""What a drive synthesised to just clear a thing may be short of."""
+"""Accepted shortfall: a drive may be synthesised to clear a thing by exactly nothing."""
 
 
 def ring_candidates(centre_mm: Array, radius_mm: float) -> tuple[Array, Array]:

@@ -13,6 +13,11 @@ import numpy.typing as npt
 from jumpcad.transforms import Array
 
 EVERYWHERE = (-1e3, 1e3)
+"""An interval of y wider than any robot."""
+BAR_SPACING_MM = 4.0
+"""Between the points of a bar; judgement: a notch of 0.4 mm between discs of 5 mm radius."""
+BOX_POINT_MM = 1.0
+"""Radius of the points of a box, which lie twice that apart; judgement."""
 
 
 @dataclass(frozen=True)
@@ -30,22 +35,23 @@ def disc(name: str, centre_mm: npt.ArrayLike, radius_mm: float, y_mm: tuple[floa
     return Obstacle(name, np.atleast_2d(np.asarray(centre_mm, dtype=float)), radius_mm, y_mm)
 
 
-def bar(start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, spacing_mm: float = 4.0) -> Array:
+def bar(start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, spacing_mm: float = BAR_SPACING_MM) -> Array:
     """Return points (n, 2), or (m·n, 2) for ends (m, 2), along straight bars."""
     start, end = np.atleast_2d(np.asarray(start_mm, dtype=float)), np.atleast_2d(np.asarray(end_mm, dtype=float))
     longest = float(np.linalg.norm(end - start, axis=1).max())
     share = np.linspace(0.0, 1.0, max(2, 1 + round(longest / spacing_mm)))
-    return (start[:, None] + share[None, :, None] * (end - start)[:, None]).reshape(-1, 2)
+    points: Array = start[:, None] + share[None, :, None] * (end - start)[:, None]
+    return points.reshape(-1, 2)
 
 
 def box_obstacle(
     name: str, centre_mm: npt.ArrayLike, half_mm: npt.ArrayLike, angle_rad: float, y_mm: tuple[float, float]
 ) -> Obstacle:
-    """Return a box (half sizes (2,), turned by an angle in x-z) as a grid of points 2 mm apart with 1 mm radius."""
+    """Return a box (half sizes (2,), turned by an angle in x-z) as a grid of points with a radius."""
     half = np.asarray(half_mm, dtype=float)
-    ticks = [np.linspace(-h + 1.0, h - 1.0, max(2, 1 + round(h))) for h in half]
+    ticks = [np.linspace(-h + BOX_POINT_MM, h - BOX_POINT_MM, max(2, 1 + round(h / BOX_POINT_MM))) for h in half]
     grid = np.stack(np.meshgrid(*ticks), axis=-1).reshape(-1, 2)
-    return Obstacle(name, np.asarray(centre_mm, dtype=float) + grid @ _frame(angle_rad).T, 1.0, y_mm)
+    return Obstacle(name, np.asarray(centre_mm, dtype=float) + grid @ _frame(angle_rad).T, BOX_POINT_MM, y_mm)
 
 
 def clearance(
@@ -60,7 +66,7 @@ def clearance(
     Parameters
     ----------
     obstacles
-        What must not be met.
+        Kept clear of.
     centres_mm, angles_rad
         Box centres (k, 2) and their turns in x-z (k,) or one for all.
     half_mm
@@ -89,7 +95,7 @@ class Cloud:
         return cls(np.concatenate([obstacle.points_mm for obstacle in met]), np.concatenate(radii))
 
     def near(self, centres_mm: Array, half_mm: npt.ArrayLike) -> "Cloud":
-        """Return only what can meet boxes of half sizes (2,), however turned, about centres (k, 2)."""
+        """Return only the discs that can meet boxes of half sizes (2,), however turned, about centres (k, 2)."""
         reach = np.hypot(*np.asarray(half_mm, dtype=float)) + self.radii_mm[:, None]
         low, high = centres_mm.min(axis=0), centres_mm.max(axis=0)
         kept = ((self.points_mm > low - reach) & (self.points_mm < high + reach)).all(axis=1)

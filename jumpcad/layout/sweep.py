@@ -1,6 +1,6 @@
-"""What the moving links sweep in the body's frame, as obstacles (numpy only, mm).
+"""The room that the moving links sweep in the body's frame, as obstacles (numpy only, mm).
 
-Bodies move through the whole travel from wound to rest; leg and lever swing a little past rest after take-off.
+Bodies move through the whole travel from loaded springs to rest; leg and lever swing a little past rest after take-off.
 """
 
 import math
@@ -8,15 +8,16 @@ import math
 import numpy as np
 
 from jumpcad.layout.room import EVERYWHERE, Obstacle, bar
-from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array, direction
 
 POSITIONS = 13
+"""Leg angles of the travel; judgement: bars drawn at so many leave notches of less than the gaps beside them."""
 ALONG = 41
 """Points along a link when the gap between two is looked for."""
 OVERSHOOT_RAD = math.radians(8.0)
-"""Swing past rest that stays free; the cam leaves its own room for the roller's overshoot."""
+"""Swing past rest that stays free, judgement; the cam leaves its own room for the roller's overshoot."""
 
 
 def link_obstacles(
@@ -27,7 +28,7 @@ def link_obstacles(
     lever_y: tuple[float, float],
     gap_mm: float,
 ) -> list[Obstacle]:
-    """Return what main leg, lever, front link and foot sweep.
+    """Return the room that main leg, lever, front link and foot sweep.
 
     Parameters
     ----------
@@ -40,7 +41,7 @@ def link_obstacles(
     gap_mm
         Added all around.
     """
-    travel = np.linspace(-linkage.design.compression_rad, 0.0, POSITIONS)
+    travel = np.linspace(*linkage.travel_rad, POSITIONS)
     pose = linkage.pose(travel)
     half_y = sections.thickness_mm / 2.0
     leg_y = (-half_y, half_y)
@@ -59,7 +60,7 @@ def link_obstacles(
 
 def legs_apart_mm(linkage: Linkage, sections: Sections) -> float:
     """Return the smallest gap between main leg and front link, which move in one plane, over the travel."""
-    travel = np.linspace(-linkage.design.compression_rad, 0.0, POSITIONS)
+    travel = np.linspace(*linkage.travel_rad, POSITIONS)
     pose = linkage.pose(travel)
     share = np.linspace(0.0, 1.0, ALONG)
     leg = linkage.back_pivot_mm + share[:, None] * (pose.ankle_mm - linkage.back_pivot_mm)[:, None]
@@ -75,7 +76,7 @@ def legs_apart_mm(linkage: Linkage, sections: Sections) -> float:
 def _foot(linkage: Linkage, sections: Sections, ankle_mm: Array, foot_rad: Array, gap_mm: float) -> Obstacle:
     """Return the foot from toe tips to nose, as high as its highest part."""
     along = direction(foot_rad)
-    back = linkage.design.l5_mm * math.cos(math.radians(linkage.design.ground_link_angle_deg))
-    points = bar(ankle_mm - back * along, ankle_mm + linkage.l4 * along)
+    toes = toe_tip_mm(linkage.design)[0]
+    points = bar(ankle_mm + toes * along, ankle_mm + linkage.l4 * along)
     height = max(max(sections.toe_root_mm, sections.rail_root_mm) - sections.foot_depth_mm, sections.eye_radius_mm)
     return Obstacle("foot", points, height + gap_mm, EVERYWHERE)

@@ -1,7 +1,7 @@
 """The capsule robot: the published masses as uniform capsules, to check the evaluator apart from printed parts.
 
 Every link is a uniform solid capsule whose *total* mass is that of the published study (1200 kg/m³ times the cylinder
-alone); the foot link and both toes make one body. What touches the ground are spheres of the capsules' radius.
+alone); the foot link and both toes make one body. Spheres of the capsules' radius touch the ground.
 """
 
 import math
@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from jumpcad.arguments import typed
 from jumpcad.design import Design
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Mechanism, five_bar
 from jumpcad.transforms import Array
@@ -61,7 +62,7 @@ def capsule_robot(design: Design) -> Mechanism:
         _body(FRONT_LINK, link(np.array([l3, 0.0, 0.0]))),
         _body(FOOT, foot, foot_contacts),
     )
-    joints, loop, spring = five_bar(design, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
+    joints, loop, spring = five_bar(Linkage(design), (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
     return Mechanism("capsule", design, {body.name: body for body in bodies}, joints, loop, spring, foot_depth_m=radius)
 
 

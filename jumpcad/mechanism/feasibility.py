@@ -1,7 +1,7 @@
-"""What can be refused before any solid or simulation: named reasons with signed margins.
+"""Feasibility without solids or simulation: findings with signed margins.
 
-A design passes through the gate in two steps: its geometry alone, then the statics of the masses that it got. The
-order of the tests is the order in which their verdicts are given.
+A design is tested in two steps: first its geometry alone, then the statics of the mechanism's masses. The verdict is
+the first test that fails, in this order.
 """
 
 import math
@@ -12,18 +12,18 @@ import numpy.typing as npt
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import Finding
-from jumpcad.mechanism.linkage import Linkage, Pose
+from jumpcad.mechanism.linkage import Linkage, Pose, toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism
 from jumpcad.transforms import Array
 
 TAKEOFF_ENERGY_FACTOR = 1.3
-"""Spring energy over the weight's work in the push-off that a jump needs at least (0 false refusals in 399)."""
+"""Spring energy over the weight's work in the push-off, at least; measured: no wrong rejection among 399 designs."""
 
 
 def geometry_findings(design: Design) -> list[Finding]:
     """Return the findings `loop` and `below_ground` of a design; the second only where the first holds.
 
-    A design whose legs cannot be wound at all has the finding `winding` instead.
+    A design whose springs cannot be loaded at all has the finding `winding` instead.
     """
     assembly = design.assembly_margin_mm
     if assembly <= 0:
@@ -46,7 +46,7 @@ def geometry_findings(design: Design) -> list[Finding]:
 
 def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -> list[Finding]:
     """Return the findings `tips` and `too_weak` of a robot whose geometry passes."""
-    linkage = Linkage(mechanism.design)
+    linkage = mechanism.linkage
     pose = linkage.pose([-mechanism.spring.wind_rad, 0.0])
     com = centre_of_mass_on_foot_mm(mechanism, linkage, pose)
     back, front = support_span_mm(mechanism.design)
@@ -70,8 +70,7 @@ def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -
 
 def support_span_mm(design: Design) -> tuple[float, float]:
     """Return the rearmost and foremost support point on the foot's x axis: ankle, front eye, toe tips (mm)."""
-    toes = -design.l5_mm * math.cos(math.radians(design.ground_link_angle_deg))
-    return min(0.0, toes), max(0.0, design.l4_mm)
+    return min(0.0, float(toe_tip_mm(design)[0])), max(0.0, design.l4_mm)
 
 
 def centre_of_mass_on_foot_mm(mechanism: Mechanism, linkage: Linkage, pose: Pose) -> Array:

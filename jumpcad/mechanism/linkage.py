@@ -1,7 +1,7 @@
 """The planar five-bar, solved exactly at any leg angle.
 
 While the foot is on the ground the mechanism is a four-bar: body l1, main leg l2, foot l4, front link l3. Everything
-here is in the body frame's x-z plane (see `robot`), in mm and rad. Directions are given by their angle *below* the x
+here is in the body frame's x-z plane (see `model`), in mm and rad. Directions are given by their angle *below* the x
 axis: angle a points along (cos a, -sin a), so that a grows with a positive turn about +y.
 """
 
@@ -58,7 +58,7 @@ class Linkage:
 
     @property
     def travel_rad(self) -> tuple[float, float]:
-        """Leg angles from wound to rest (rad)."""
+        """Leg angles with the springs loaded and at rest (rad)."""
         return -self.design.compression_rad, 0.0
 
     def diagonal_mm(self, leg_rad: npt.ArrayLike) -> Array:
@@ -125,15 +125,15 @@ class Linkage:
 
     def _ankle(self, leg_rad: npt.ArrayLike) -> Complex:
         """Return the ankle (n,) as x + iz, seen from the back pivot."""
-        return self.l2 * np.exp(-1j * (self.rest_rad + np.asarray(leg_rad, dtype=float)))
+        return np.asarray(self.l2 * np.exp(-1j * (self.rest_rad + np.asarray(leg_rad, dtype=float))))
 
     def _foot(self, leg_rad: npt.ArrayLike, other_branch: bool = False) -> Complex:
         """Return the vector (n,) from ankle to front eye as x + iz: the triangle of diagonal, foot and front link.
 
         In the assembled pose the front pivot stands above the flat foot, so the eye lies below the diagonal.
         """
-        diagonal = self.l1 - self._ankle(leg_rad)
-        distance = np.abs(diagonal)
+        diagonal: Complex = self.l1 - self._ankle(leg_rad)
+        distance: Array = np.abs(diagonal)
         along = (self.l4**2 - self.l3**2 + distance**2) / (2 * distance)
         square = self.l4**2 - along**2
         if (square < 0).any():
@@ -142,7 +142,13 @@ class Linkage:
                 f"the loop of foot and front link does not close with the leg turned by {where:.1f}° from rest"
             )
         side = 1j if other_branch else -1j
-        return diagonal / distance * (along + side * np.sqrt(square))
+        return np.asarray(diagonal / distance * (along + side * np.sqrt(square)))
+
+
+def toe_tip_mm(design: Design) -> Array:
+    """Return the tip (2,) of the left toe, x and y in the foot's frame, whose origin is the ankle."""
+    angle = math.radians(design.ground_link_angle_deg)
+    return design.l5_mm * np.array([-math.cos(angle), math.sin(angle)])
 
 
 def _points(vector: Complex) -> Array:

@@ -1,15 +1,16 @@
-"""`Mechanism`: what simulation, URDF, MJCF, SDF and feasibility read. Plain data, SI units, engine-free.
+"""`Mechanism`: the input of simulation, URDF, MJCF, SDF and feasibility. Plain data, SI units, engine-free.
 
 Frames follow REP-103: x forward (the jump), y left, z up; all joint axes are +y, so a positive angle turns a link's
 nose downwards. The frame of `body` lies midway between its two pivots with x through both, from the main leg's to the
 front link's. Each leg's frame lies at its pivot with x along the link; the foot's frame lies at the ankle with x
 towards the front eye. All joint angles are zero in the assembled pose (springs at rest), where the foot is flat.
-Winding the springs turns the legs flat: negative angles of the `leg` joint.
+Loading the springs turns the legs flat: negative angles of the `leg` joint.
 """
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -22,6 +23,8 @@ from jumpcad.transforms import Array
 Surface = Literal["foot", "body"]
 
 BODY, MAIN_LEG, FRONT_LINK, FOOT = BODY_NAMES = ("body", "main_leg", "front_link", "foot")
+JOINT_SPEED_RAD_S = 100.0
+"""Measured releases of light designs reach the speed at which PyBullet limits joints."""
 RANGE_POINTS = 33
 """Leg angles at which the ranges of the other joints are looked for."""
 
@@ -52,7 +55,7 @@ class Joint:
     """A hinge about +y: the child frame sits at `origin_m` in the parent frame, turned by `rest_angle_rad` + q.
 
     `lower_rad` and `upper_rad` bound q as far as the mechanism goes (information for exporters, not a stop).
-    `effort_nm` and `velocity_rad_s` are what the joint sees at most, for the URDF's limits.
+    `effort_nm` and `velocity_rad_s` are the joint's largest ones, for the URDF's limits.
     """
 
     name: str
@@ -78,7 +81,7 @@ class Loop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Both torsion springs together on one joint; torque -stiffness·q, wound to q = -wind_rad before release."""
+    """Both torsion springs together on one joint; torque -stiffness·q, loaded by q = -wind_rad before release."""
 
     joint: str
     stiffness_nm_per_rad: float
@@ -86,7 +89,7 @@ class Spring:
 
     @property
     def energy_j(self) -> float:
-        """Energy of the wound springs, ½·k·δ² (J)."""
+        """Energy of the loaded springs, ½·k·δ² (J)."""
         return 0.5 * self.stiffness_nm_per_rad * self.wind_rad**2
 
 
@@ -114,7 +117,7 @@ class Mechanism:
         """Return a joint by its name."""
         return next(joint for joint in self.joints if joint.name == name)
 
-    @property
+    @cached_property
     def linkage(self) -> Linkage:
         """The four-bar that the mechanism is while its foot stands on the ground."""
         return Linkage(self.design)
@@ -127,18 +130,18 @@ class Mechanism:
 
 
 def five_bar(
-    design: Design, leg_range_rad: tuple[float, float], effort_nm: float = 0.0
+    linkage: Linkage, leg_range_rad: tuple[float, float], effort_nm: float = 0.0
 ) -> tuple[tuple[Joint, ...], Loop, Spring]:
-    """Return joints, loop and spring of a design's mechanism; they do not depend on how its bodies are made."""
+    """Return joints, loop and spring of a mechanism; they do not depend on how its bodies are made."""
+    design = linkage.design
     l1, l2, l3, l4 = (length / 1000.0 for length in (design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm))
     rest = math.radians(design.rest_angle_deg)
-    speed = 100.0  # rad/s; measured releases of light designs reach the 100 rad/s at which PyBullet clamps joints
-    leg, front, ankle = _ranges(design, leg_range_rad)
+    leg, front, ankle = _ranges(linkage, leg_range_rad)
 
     def hinge(
         name: str, parent: str, child: str, x: float, angle: float, reach: tuple[float, float], effort: float
     ) -> Joint:
-        return Joint(name, parent, child, np.array([x, 0.0, 0.0]), angle, *reach, effort, speed)
+        return Joint(name, parent, child, np.array([x, 0.0, 0.0]), angle, *reach, effort, JOINT_SPEED_RAD_S)
 
     joints = (
         hinge("leg", BODY, MAIN_LEG, -l1 / 2, rest, leg, effort_nm),
@@ -150,13 +153,13 @@ def five_bar(
     return joints, loop, spring
 
 
-def _ranges(design: Design, leg_range_rad: tuple[float, float]) -> list[tuple[float, float]]:
+def _ranges(linkage: Linkage, leg_range_rad: tuple[float, float]) -> list[tuple[float, float]]:
     """Return how far leg, front and ankle joint turn while the leg goes through its range.
 
-    A mechanism that does not close all the way (the gate refuses it) has no such ranges; its joints get the leg's.
+    A loop that does not close all the way (an infeasible design) has no such ranges; its joints get the leg's.
     """
     try:
-        pose = Linkage(design).pose(np.linspace(*leg_range_rad, RANGE_POINTS))
+        pose = linkage.pose(np.linspace(*leg_range_rad, RANGE_POINTS))
     except CannotBuildError:
         return [leg_range_rad] * 3
     turns = (pose.leg_rad, pose.front_rad, pose.ankle_rad)

@@ -1,11 +1,10 @@
-"""Where the bodies of a standing robot are, at any winding of its springs, and before release."""
+"""Where the bodies of a standing robot are, at any load of its springs, and before release."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
 
@@ -24,14 +23,19 @@ class Release:
 
 
 def release_pose(mechanism: Mechanism) -> Release:
-    """Return the pose of a robot with wound springs.
+    """Return the pose of a robot with loaded springs.
 
     Raises
     ------
     CannotBuildError
         If the loop does not close there.
     """
-    pose = Linkage(mechanism.design).pose([-mechanism.spring.wind_rad])
+    return standing(mechanism, 1.0)
+
+
+def standing(mechanism: Mechanism, loaded: float) -> Release:
+    """Return the pose, foot flat on the ground, with the springs loaded by a share (0 at rest … 1)."""
+    pose = mechanism.linkage.pose([-loaded * mechanism.spring.wind_rad])
     pitch = -float(pose.foot_rad[0])
     cos, sin = math.cos(pitch), math.sin(pitch)
     x, z = pose.ankle_mm[0] / 1000.0
@@ -40,15 +44,9 @@ def release_pose(mechanism: Mechanism) -> Release:
     return Release({name: float(angle[0]) for name, angle in joints.items()}, position, pitch)
 
 
-def standing(mechanism: Mechanism, wound: float) -> Release:
-    """Return the pose, foot flat on the ground, with the springs wound by a share (0 at rest … 1)."""
-    spring = replace(mechanism.spring, wind_rad=wound * mechanism.spring.wind_rad)
-    return release_pose(replace(mechanism, spring=spring))
-
-
-def body_poses(mechanism: Mechanism, wound: float = 0.0) -> dict[str, Array]:
+def body_poses(mechanism: Mechanism, loaded: float = 0.0) -> dict[str, Array]:
     """Return the pose (4, 4) of every body's frame in the world (m) of a standing robot."""
-    stance = standing(mechanism, wound)
+    stance = standing(mechanism, loaded)
     poses = {BODY: pose_at(rotation_about_y(stance.body_pitch_rad), stance.body_position_m)}
     for joint in mechanism.joints:
         turn = rotation_about_y(joint.rest_angle_rad + stance.joint_rad[joint.name])

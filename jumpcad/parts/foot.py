@@ -8,21 +8,36 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
-from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
-from jumpcad.parts.toes import lying_hole, on_the_foot, toe_tip_mm
+from jumpcad.parts.toes import lying_hole, on_the_foot
 from jumpcad.printing.bed import fit_to_bed
 from jumpcad.solids.blocks import Bar, Block, Blocks
 from jumpcad.solids.outline import Region, circle_points, disc, hull, polygon, rectangle, union
+from jumpcad.strength.sizing import Sections
 
 WEB_MM = 10.0
-"""Length along x of the web that joins the rails in front of the ankle."""
-NOSE_AHEAD = 0.42
-"""How far the sole reaches ahead of the front eye, in depths: up to there a round nose would overhang beyond 45°."""
+"""Length along x of the web that joins the rails in front of the ankle; judgement."""
+LOW_WEB_MM = 6.0
+"""Length along x of the lower web in the middle of the foot; judgement."""
+LOW_WEB_MIN_MM = 2.0
+"""Least height of the lower web; judgement: ten layers of 0.2 mm, less would not stiffen the foot."""
+LOW_WEB_AT = 0.6
+"""Where the height of the rails is taken beside that web, as a share of their length; judgement: near its end."""
+WEB_BELOW_RAIL_MM = 0.2
+"""By how much that web is lower than the rails beside it: surfaces that only meet in a line leave slivers."""
+LINK_GAP_MM = 1.0
+"""Below the folded front link; judgement: the usual gap, and the flexing of the link."""
+SOLE_LENGTH, NOSE_AHEAD = 1.6, 0.42
+"""How far a lug's sole reaches behind (and ahead of the ankle) and ahead of the front eye, in depths of the foot.
+Judgement for the first; a flank of 45° that touches the round nose reaches the sole 0.42 depths ahead."""
+SOLE_HEIGHT_MM = 1.0
+"""Height of a lug's straight sole; judgement."""
 
 
 def foot(layout: Layout, holes: HoleSizes) -> Drawing:
@@ -32,7 +47,7 @@ def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     inner = sections.thickness_mm / 2.0 + GAP_MM
     height = sections.rail_root_mm
     rail = polygon([(0.0, -depth), (l4, -depth), (l4, sections.rail_tip_mm - depth), (0.0, height - depth)])
-    lugs = [_lug(depth, 0.0, 1.6 * depth), _lug(depth, l4, NOSE_AHEAD * depth)]
+    lugs = [_lug(depth, 0.0, SOLE_LENGTH * depth), _lug(depth, l4, NOSE_AHEAD * depth)]
     pins = union(lying_hole(holes.press(layout.axle_mm), (x, 0.0)) for x in (0.0, l4))
     side = union([rail, *lugs]) ^ rectangle((4.0 * l4, 4.0 * depth), (0.0, depth))
     webs = [
@@ -50,12 +65,11 @@ def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     return Drawing("foot", "links", shape, (Placement(FOOT, upright(-depth)),))
 
 
-def in_one_piece(layout: Layout, bed_mm: Sequence[float]) -> bool:
+def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float]) -> bool:
     """Tell whether a foot with its toes fits the bed."""
-    sections = layout.sections
     half = sections.thickness_mm / 2.0 + GAP_MM + sections.lug_thickness_mm
-    nose = np.array([layout.design.l4_mm, half - sections.foot_depth_mm])
-    ends = [(toe_tip_mm(layout), TOE_TIP_WIDTH_MM), (nose, 2.0 * sections.foot_depth_mm)]
+    nose = np.array([design.l4_mm, half - sections.foot_depth_mm])
+    ends = [(toe_tip_mm(design), TOE_TIP_WIDTH_MM), (nose, 2.0 * sections.foot_depth_mm)]
     outline = np.concatenate(
         [circle_points(diameter, place * (1.0, sign)) for place, diameter in ends for sign in (-1.0, 1.0)]
     )
@@ -67,28 +81,28 @@ def in_one_piece(layout: Layout, bed_mm: Sequence[float]) -> bool:
 def _webs(layout: Layout, height_mm: float) -> list[tuple[float, float, float]]:
     """Return the webs between the rails (start x, end x, height): in front of the ankle, and further on if free.
 
-    The front link folds down between the rails; a web stays below it by the gap that moving parts keep.
+    The front link folds down between the rails when the springs are loaded; the lower web stays below it.
     """
     sections, l4 = layout.sections, layout.design.l4_mm
     start = sections.foot_depth_mm
     webs = [(start, start + WEB_MM, height_mm)]
-    linkage = Linkage(layout.design)
-    wound = linkage.pose([-layout.design.compression_rad])
-    slope = float(linkage.rest_rad + wound.front_rad[0] - wound.foot_rad[0])
+    linkage = layout.linkage
+    loaded = linkage.pose([-layout.design.compression_rad])
+    slope = float(linkage.rest_rad + loaded.front_rad[0] - loaded.foot_rad[0])
     middle = 0.5 * l4
-    below_link = (l4 - middle - 6.0) * math.tan(slope) - sections.eye_radius_mm / math.cos(slope) - 1.0
-    # lower than the rails over all its length: surfaces that only meet in a line leave slivers
-    rail_there = sections.rail_root_mm + 0.6 * (sections.rail_tip_mm - sections.rail_root_mm)
-    low = min(rail_there - 0.2, sections.foot_depth_mm + below_link)
-    if low >= 2.0:
-        webs.append((middle, middle + 6.0, low))
+    below_link = (l4 - middle - LOW_WEB_MM) * math.tan(slope) - sections.eye_radius_mm / math.cos(slope) - LINK_GAP_MM
+    rail_there = sections.rail_root_mm + LOW_WEB_AT * (sections.rail_tip_mm - sections.rail_root_mm)
+    low = min(rail_there - WEB_BELOW_RAIL_MM, sections.foot_depth_mm + below_link)
+    if low >= LOW_WEB_MIN_MM:
+        webs.append((middle, middle + LOW_WEB_MM, low))
     return webs
 
 
 def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:
     """Return a lug around an eye, round like the contact sphere there, widened at the sole behind and ahead."""
-    behind = 1.6 * depth_mm
-    sole = rectangle((behind + ahead_mm, 1.0), (x_mm + (ahead_mm - behind) / 2.0, 0.5 - depth_mm))
+    behind = SOLE_LENGTH * depth_mm
+    middle = (x_mm + (ahead_mm - behind) / 2.0, SOLE_HEIGHT_MM / 2.0 - depth_mm)
+    sole = rectangle((behind + ahead_mm, SOLE_HEIGHT_MM), middle)
     return hull([disc(2.0 * depth_mm, (x_mm, 0.0)), sole])
 
 

@@ -12,6 +12,7 @@ from jumpcad.parts.part import Drawing, Placement, laid
 from jumpcad.solids.outline import disc, filleted, hole, stadium, tapered_bar, union
 
 FILLET_MM = 3.0
+"""Radius between eyes and beam; judgement: half of the least height."""
 
 
 def main_leg(layout: Layout, holes: HoleSizes) -> Drawing:

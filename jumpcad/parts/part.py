@@ -1,4 +1,4 @@
-"""What every printed part is: a shape in printing orientation, and the places where it sits on the robot.
+"""A printed part: a shape in printing orientation, and the places where it sits on the robot.
 
 Parts are drawn where they belong, in the x-z plane of their body's frame and over intervals of y (all mm), and then
 laid on the bed on their left or right face.
@@ -26,7 +26,7 @@ Shape: TypeAlias = Stack | Blocks
 Face = Literal["left", "right"]
 
 UNSEEN_MM = 0.05
-"""Detail that may be missing from a mesh that is only looked at."""
+"""Detail that is left out of a mesh for pictures; judgement: less than a line of a picture."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Placement:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A part before it is printed: its name, what it does, its shape in printing orientation (z up) and its places.
+    """A part before it is printed: its name, its role, its shape in printing orientation (z up) and its places.
 
     `role` chooses the material in the workshop: `links`, `body` or `gears`.
     """
@@ -59,7 +59,7 @@ class Drawing:
         return fit_to_bed(self.shape.bounds_mm, self._outline_mm, bed_mm)
 
     def require_bed(self, bed_mm: Sequence[float]) -> None:
-        """Refuse a part that fits the bed at no angle."""
+        """Reject a part that fits the bed at no angle."""
         require_bed(self.name, self.shape.bounds_mm, self._outline_mm, bed_mm)
 
     def _outline_mm(self) -> Array:
@@ -74,7 +74,7 @@ class Drawing:
 
     @cached_property
     def look(self) -> "trimesh.Trimesh":
-        """The mesh without detail that eyes miss, for whatever only shows the part (mm)."""
+        """The mesh without fine detail, for pictures of the part (mm)."""
         from jumpcad.solids.finish import to_trimesh
 
         return to_trimesh(self.solid.simplify(UNSEEN_MM))

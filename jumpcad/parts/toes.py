@@ -1,6 +1,6 @@
 """The foot's toes: fingers from the ankle to their tips, one piece with the foot where the bed is large enough.
 
-Where it is not, each toe is a part of its own, screwed to a stub of the foot from outside: stub and toe lie side by
+Where it is not, each toe is a part of its own, screwed to a stub of the foot from outside. Stub and toe lie side by
 side, so that both keep their height where the push-off bends them, and two screws across carry the moment.
 
 A toe's own frame has its origin at the root and x towards the tip; its printing frame is the same, on the ground.
@@ -13,6 +13,7 @@ import numpy as np
 
 from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
+from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, upright
@@ -21,12 +22,16 @@ from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
 from jumpcad.transforms import Array
 
 JOINT_MM = (12.0, 34.0)
-"""Where a toe of its own and its stub overlap, from the root."""
+"""Where a toe of its own and its stub overlap, from the root; judgement."""
 SCREWS_MM = (16.0, 30.0)
-"""Where the screws across are, from the root."""
-GRIP_MM = 0.4
-"""Depth of the grooves in the sole, across the toe."""
-GRIP_PITCH_MM = 2.4
+"""Where the screws across are, from the root; judgement: as far apart as the overlap allows."""
+GRIP_MM, GRIP_WIDTH_MM, GRIP_PITCH_MM = 0.4, 0.8, 2.4
+"""Depth, width and distance of the grooves in the sole, across the toe; judgement: two layers, two lines of a nozzle.
+"""
+GRIP_EDGE_MM = 1.0
+"""Between a groove's end and the edge of the toe's tip; judgement: two lines of a nozzle."""
+ROOF = 1.15
+"""Height of a lying hole's flat roof over its radius: it leaves a flat of a quarter of the width."""
 
 
 @dataclass(frozen=True)
@@ -63,12 +68,6 @@ def toes(layout: Layout) -> tuple[Toe, Toe]:
     return left, right
 
 
-def toe_tip_mm(layout: Layout) -> Array:
-    """Return the tip (2,) of the left toe, x and y in the foot's frame (mm)."""
-    angle = math.radians(layout.design.ground_link_angle_deg)
-    return layout.design.l5_mm * np.array([-math.cos(angle), math.sin(angle)])
-
-
 def joint_height_mm(layout: Layout, holes: HoleSizes) -> float:
     """Return the height of stub and toe where they are screwed: the screw's hole with two walls above and below."""
     return max(layout.sections.toe_root_mm, holes.m3_clearance_mm + 4.0 * holes.fits.wall_mm)
@@ -80,7 +79,7 @@ def beside_mm(layout: Layout, holes: HoleSizes) -> float:
 
 
 def on_the_foot(layout: Layout, holes: HoleSizes) -> tuple[list[Block], list[Block]]:
-    """Return what the foot has of its toes, standing on the bed, and what is cut from it."""
+    """Return the foot's share of its toes, standing on the bed, and the cuts in it."""
     added: list[Block] = []
     removed: list[Block] = []
     for toe in toes(layout):
@@ -101,7 +100,7 @@ def toes_apart(layout: Layout, holes: HoleSizes) -> list[Drawing]:
 def lying_hole(diameter_mm: float, place_mm: tuple[float, float]) -> Region:
     """Return a hole that prints lying: round, with a 45° roof to a flat of a quarter of its width."""
     radius = diameter_mm / 2.0
-    side, top = radius * math.sqrt(0.5), 1.15 * radius
+    side, top = radius * math.sqrt(0.5), ROOF * radius
     flat = radius * math.sqrt(2.0) - top
     roof = polygon([(-side, side), (-flat, top), (flat, top), (side, side)])
     return hole(diameter_mm, place_mm) + roof.translate(place_mm)
@@ -110,7 +109,7 @@ def lying_hole(diameter_mm: float, place_mm: tuple[float, float]) -> Region:
 def _toe(layout: Layout, name: str, sign: float) -> Toe:
     sections = layout.sections
     root = np.array([0.0, sign * (sections.thickness_mm / 2.0 + GAP_MM + sections.toe_width_mm / 2.0)])
-    along = toe_tip_mm(layout) * (1.0, sign) - root
+    along = toe_tip_mm(layout.design) * (1.0, sign) - root
     return Toe(name, sign, root, math.atan2(along[1], along[0]), float(np.hypot(*along)))
 
 
@@ -136,7 +135,7 @@ def _finger(layout: Layout, start_mm: Array, length_mm: float) -> Finger:
 
 
 def _stub(layout: Layout, holes: HoleSizes) -> Finger:
-    """Return what the foot has of a toe that is a part of its own."""
+    """Return the foot's stub of a toe that is a part of its own."""
     width, height = layout.sections.toe_width_mm, joint_height_mm(layout, holes)
     return Finger(np.zeros(2), width, height, np.array([JOINT_MM[1] - width / 2.0, 0.0]), width, height)
 
@@ -151,5 +150,5 @@ def _holes(layout: Layout, holes: HoleSizes, diameter_mm: float, y_mm: float) ->
 def _grip(toe: Toe) -> Bar:
     """Return grooves across the sole under a toe's tip."""
     places = [(toe.length_mm + step * GRIP_PITCH_MM, 0.0) for step in (-0.5, 0.5)]
-    half = TOE_TIP_WIDTH_MM / 2.0 - 1.0
-    return Bar(union(rectangle((0.8, 2.0 * GRIP_MM), place) for place in places), ((-half, half),))
+    half = TOE_TIP_WIDTH_MM / 2.0 - GRIP_EDGE_MM
+    return Bar(union(rectangle((GRIP_WIDTH_MM, 2.0 * GRIP_MM), place) for place in places), ((-half, half),))

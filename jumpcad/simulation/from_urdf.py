@@ -199,7 +199,7 @@ def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> Joint:
 
 def _require_mechanism(mechanism: Mechanism) -> None:
     """Refuse a tree and a loop that are not those of the design, from which the pose at release comes."""
-    joints, loop, _ = five_bar(mechanism.design, (-mechanism.design.compression_rad, 0.0))
+    joints, loop, _ = five_bar(mechanism.linkage, (-mechanism.design.compression_rad, 0.0))
     for joint in joints:
         read = mechanism.joint(joint.name)
         if (read.parent, read.child) != (joint.parent, joint.child):

@@ -1,4 +1,4 @@
-"""The main leg's hub: what its bearings bear with the springs wound, and which of the catalogue bear it (N, mm).
+"""The main leg's hub: its bearings' loads with the springs loaded, and which of the catalogue bear them (N, mm).
 
 Two bearings sit at the hub's faces. The springs' arms press evenly on both; the cam pushes beside the leg, where the
 roller is, so that the leg tilts against them and the nearer one bears more than the cam's whole force.
@@ -19,9 +19,9 @@ from jumpcad.workshop import Workshop
 ANY = "any"
 """In a workshop's place for a bearing: the lightest of the catalogue that bears its load."""
 LONGEST_ARM_MM = 10.0
-"""Springs' torque over a bearing's load: about the most of many designs, so that hardly a hub bears less than this."""
+"""Springs' torque over a bearing's load; judgement: about the longest of many designs, so that few hubs bear less."""
 SHOULDER_MM = 0.8
-"""Between the seats of both bearings, at least."""
+"""Between the seats of both bearings, at least; judgement: four layers of 0.2 mm."""
 
 
 def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
@@ -64,7 +64,7 @@ def roller_bearing(workshop: Workshop) -> Bearing:
 
 
 def first_guess(bearings: list[Bearing | None], design: Design, workshop: Workshop) -> int:
-    """Return the number of the bearing to try first: those before it could hardly do."""
+    """Return the number of the bearing to try first; those before it are hardly ever strong enough."""
     load = 1000.0 * design.peak_spring_torque_nm / LONGEST_ARM_MM
     enough = (bearing is None or load <= allowed_n(bearing, workshop) for bearing in bearings[:-1])
     return next((number for number, good in enumerate(enough) if good), len(bearings) - 1)
@@ -75,8 +75,8 @@ def hub_width_mm(bearing: Bearing | None) -> float:
     return 0.0 if bearing is None else 2.0 * bearing.width_mm + SHOULDER_MM
 
 
-def wound_forces_n(design: Design, drive: Drive) -> tuple[Array, Array]:
-    """Return the forces (2,) of both springs' arms on the leg, and of the cam on the lever, springs wound.
+def loaded_forces_n(design: Design, drive: Drive) -> tuple[Array, Array]:
+    """Return the forces (2,) of both springs' arms on the leg, and of the cam on the lever, springs loaded.
 
     In the body's x-z plane, with the roller at the end of the lift.
     """
@@ -88,12 +88,12 @@ def wound_forces_n(design: Design, drive: Drive) -> tuple[Array, Array]:
 
 
 def bearing_load_n(forces_n: tuple[Array, Array], leg_mm: float, roller_mm: float, bearing: Bearing) -> float:
-    """Return what the worse loaded of two bearings bears.
+    """Return the load of the more heavily loaded of two bearings.
 
     Parameters
     ----------
     forces_n
-        Of the springs' arms, in the middle of the hub, and of the cam, as `wound_forces_n` returns them.
+        Of the springs' arms, in the middle of the hub, and of the cam, as `loaded_forces_n` returns them.
     leg_mm, roller_mm
         Width of the leg, which may have to grow for the bearings, and of the roller beside it.
     """
@@ -104,5 +104,5 @@ def bearing_load_n(forces_n: tuple[Array, Array], leg_mm: float, roller_mm: floa
 
 
 def allowed_n(bearing: Bearing, workshop: Workshop) -> float:
-    """Return what a bearing may bear: its static load rating over the static safety factor."""
+    """Return the largest load of a bearing: its static load rating over the static safety factor."""
     return bearing.static_load_n / workshop.safety.bearing_factor

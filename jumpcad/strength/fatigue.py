@@ -1,13 +1,13 @@
-"""What steel bears that is loaded once a jump, from nothing to its largest stress and back (MPa, jumps).
+"""Fatigue of steel that is loaded once a jump, from nothing to its largest stress and back (MPa, jumps).
 
-Printed parts are not here: the handbooks have no such figures for them, and their strength factor has to do.
+Printed parts are not here: handbooks have no such figures for them, and the strength factor takes their place.
 """
 
 import itertools
 import math
 
 LOW_CYCLES, LASTING = 1e3, 1e6
-"""Up to the first, yield is what counts; from the second on, lives are without end (Shigley, 6-8)."""
+"""Cycles: up to the first, yield is the limit; from the second on, lives are infinite (Shigley, 6-8)."""
 YIELD_SHARE = 0.78
 """Yield over tensile strength of cold-drawn spring wire in bending (Shigley, 10-12)."""
 SPRING_SHARES = ((LOW_CYCLES, YIELD_SHARE), (1e5, 0.53), (LASTING, 0.50))
@@ -21,7 +21,7 @@ def spring_share(jumps: float) -> float:
     """Return the largest bending stress of a torsion spring's wire over its tensile strength, for a number of jumps."""
     at = min(max(jumps, LOW_CYCLES), LASTING)
     (n0, s0), (n1, s1) = next(pair for pair in itertools.pairwise(SPRING_SHARES) if at <= pair[1][0])
-    return s0 * (at / n0) ** (math.log(s1 / s0) / math.log(n1 / n0))
+    return s0 * math.pow(at / n0, math.log(s1 / s0) / math.log(n1 / n0))
 
 
 def spring_jumps(share: float) -> float:
@@ -29,7 +29,7 @@ def spring_jumps(share: float) -> float:
     if share <= SPRING_SHARES[-1][1]:
         return math.inf
     (n0, s0), (n1, s1) = next(pair for pair in itertools.pairwise(SPRING_SHARES) if share >= pair[1][1])
-    return n0 * (share / s0) ** (math.log(n1 / n0) / math.log(s1 / s0))
+    return n0 * math.pow(share / s0, math.log(n1 / n0) / math.log(s1 / s0))
 
 
 def pin_limit_mpa(tensile_mpa: float, jumps: float) -> float:
@@ -39,8 +39,8 @@ def pin_limit_mpa(tensile_mpa: float, jumps: float) -> float:
     endless life (Shigley, 6-7 and 6-9), and S-N lines below (6-8). A pin of 3 mm that does not turn needs no factor for
     its size. Goodman's line for a stress that is half mean and half amplitude (6-12), yield at most.
     """
-    endless = min(0.5 * tensile_mpa, 700.0) * min(1.0, 4.51 * tensile_mpa**-0.265)
+    endless = min(0.5 * tensile_mpa, 700.0) * min(1.0, 4.51 * math.pow(tensile_mpa, -0.265))
     first = LOW_CYCLE_SHARE * tensile_mpa
     at = min(max(jumps, LOW_CYCLES), LASTING)
-    strength = first * (at / LOW_CYCLES) ** (math.log(endless / first) / math.log(LASTING / LOW_CYCLES))
+    strength = first * math.pow(at / LOW_CYCLES, math.log(endless / first) / math.log(LASTING / LOW_CYCLES))
     return min(2.0 / (1.0 / strength + 1.0 / tensile_mpa), YIELD_SHARE * tensile_mpa)

@@ -1,26 +1,26 @@
-"""What the links bear while the springs unwind, and when the robot lands (numpy only; N, N·mm, mm).
+"""Link loads during push-off and landing (numpy only; N, N·mm, mm).
 
 Until take-off the foot stands on the ground and the mechanism has one degree of freedom, the leg's angle. Legs and
 foot are taken as massless beside the body, so that the equation of motion follows from energy alone and every joint
 force from equilibrium (inverse dynamics; e.g. Norton, Design of Machinery, ch. 11).
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
-from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.transforms import Array, turned_about_y
 
 POSITIONS = 17
+"""Leg angles of a push-off; with twice as many, the largest forces of the template designs change by 0.3 % at most."""
 
 
 @dataclass(frozen=True)
 class MovingMass:
-    """What the legs throw: mass, centre of mass (2,) in the body's x-z frame, and radius of gyration about y."""
+    """What the legs accelerate: mass, centre of mass (2,) in the body's x-z frame, radius of gyration about y."""
 
     mass_kg: float
     com_mm: Array
@@ -34,7 +34,7 @@ class PushOff:
     Attributes
     ----------
     leg_rad
-        Leg angles (n,), from wound to 0.
+        Leg angles (n,), from loaded springs to 0.
     ground_n
         Force of the ground on the foot (n, 2).
     ankle_n
@@ -42,9 +42,9 @@ class PushOff:
     leg_axial_n, front_n
         Compression (n,) of the main leg and of the front link; negative is tension.
     toes_n
-        What both toe tips bear together (n,), with the foot resting on nose and tips alone.
+        Load of both toe tips together (n,), with the foot resting on nose and tips alone.
     residual_n
-        By how much forces and torques on the body fail to balance (n,): zero but for the finite differences.
+        Imbalance of forces and torques on the body (n,): the error of the finite differences.
     """
 
     leg_rad: Array
@@ -56,14 +56,14 @@ class PushOff:
     residual_n: Array
 
 
-def push_off(design: Design, mass: MovingMass, foot_depth_mm: float) -> PushOff:
+def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float) -> PushOff:
     """Return the forces of a push-off from a flat foot that does not slip.
 
-    With mass m, centre of mass c(q), turn t(q), radius of gyration k and J = |c'|² + k² t'², energy gives
-    m·J·q̇²/2 = K·(wound² - q²)/2 - m·g·(rise), and its derivative by q gives q̈.
+    With compression δ, mass m, centre of mass c(q), turn t(q), radius of gyration k and J = |c'|² + k² t'², energy
+    gives m·J·q̇²/2 = K·(δ² - q²)/2 - m·g·(rise), and its derivative by q gives q̈.
     """
-    linkage = Linkage(design)
-    leg = np.linspace(-design.compression_rad, 0.0, POSITIONS)
+    design = linkage.design
+    leg = np.linspace(*linkage.travel_rad, POSITIONS)
     pose = linkage.pose(leg)
     stiffness, weight = 1000.0 * design.stiffness_nm_per_rad, mass.mass_kg * GRAVITY_M_S2
 
@@ -160,5 +160,5 @@ def rail_moment_nmm(design: Design, toes_n: float) -> float:
 
 def toe_reach_mm(design: Design) -> tuple[float, float]:
     """Return how far behind the ankle and how far from the middle a toe's tip is."""
-    angle = math.radians(design.ground_link_angle_deg)
-    return design.l5_mm * math.cos(angle), design.l5_mm * math.sin(angle)
+    x, y = toe_tip_mm(design)
+    return -float(x), float(y)

@@ -1,8 +1,8 @@
-"""Sections of the moving links from the loads that they carry (numpy only, mm, N, N·mm).
+"""Sections of the moving links from their loads (numpy only, mm, N, N·mm).
 
 The largest loads act at release: the springs' torque k·δ bends main leg and lever, and the ground pushes on the toe
 tips, which bends toes and rails. Heights follow from the printing material's in-plane strength over the safety factor,
-with the formulas by which `checks.strength` judges the finished robot. What it still finds too weak then grows.
+with the formulas of the strength checks of the finished robot. A section that fails one of them then grows.
 """
 
 import math
@@ -13,20 +13,37 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
 from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm
 from jumpcad.workshop import Workshop
 
 TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
-"""What sizing takes the body to be, whose parts it does not know yet; those of the template designs are within 10 %."""
+"""The body's mass properties before its parts are known; those of the template designs are within 10 %."""
 RESERVE = 1.15
-"""On every load, for what only the built robot tells: masses, axial forces, the lever's length."""
+"""Factor on every load, since masses, axial forces and lever are not known yet; judgement."""
+THICKNESS_MM, THICK_MM, THICK_FROM_NMM = 6.0, 8.0, 900.0
+"""Thickness of the links, and of those whose springs have more than a torque; judgement: axial play tilts thin eyes."""
 HEIGHT_MIN_MM = 6.0
+"""Of legs; judgement: three perimeters of 0.45 mm on either side leave a core."""
+ROOT_MORE_MM = 2.0
+"""By how much the leg's root is higher than `HEIGHT_MIN_MM`, at least; judgement: the pin's hole weakens it there."""
+EYE_PLAY_MM = 0.3
+"""Allowance for a running fit on the radius of an axle, so that an eye keeps two walls; judgement."""
+ABOVE_GROUND_MM = 1.0
+"""Height of eyes and leg above the ground on a flat foot; judgement: the links flex when the robot lands."""
+LUG_MM, TOE_WIDTH_MM = 4.0, 7.0
+"""Thickness of the foot's lugs and rails, width of a toe at its root; judgement: as wide as their heights or wider."""
+RAIL_MIN_MM, TOE_MIN_MM, TOE_TIP_MIN_MM = 3.2, 3.2, 2.4
+"""Least heights; judgement: 16 and 12 layers of 0.2 mm."""
 LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 """Height at the tip over that at the root. With half or more, moment over section falls from the root on."""
 KEY_MM = 7.0
+"""Across the flats of the cam's key; judgement: a wall of 1.8 mm around the bore of a 3 mm axle."""
 GROWTH_STEP = 1.1
-RAIL_MIN_MM, TOE_MIN_MM, TOE_TIP_MIN_MM = 3.2, 3.2, 2.4
+"""Factor by which a section grows at a time; judgement: few rounds, little mass more than needed."""
+STIFF_ROUNDS, STIFF_MORE = 12, 1.01
+"""Steps, and the surplus of each, by which a leg's height approaches its share of flexing; judgement."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +92,7 @@ class Sections:
 
 @dataclass(frozen=True)
 class Growth:
-    """Factors on what sizing alone would choose, for what the built robot's checks found too weak."""
+    """Factors on the sizes that `sections` gives, for those that fail a strength check of the built robot."""
 
     leg: float = 1.0
     lever: float = 1.0
@@ -88,26 +105,27 @@ class Growth:
     key: float = 1.0
 
     def more(self, weak: Iterable[str]) -> "Growth":
-        """Return one step more for what is weak."""
+        """Return the factors with those of weak sections one step larger."""
         return replace(self, **{what: GROWTH_STEP * getattr(self, what) for what in weak})
 
 
-def sections(design: Design, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
-    """Size the links of a design in a workshop, with a hub of at least a width."""
+def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
+    """Size the links of a mechanism in a workshop, with a hub of at least a width."""
+    design = linkage.design
     fits, safety, material = workshop.fits, workshop.safety, workshop.material("links")
     shell = Shell.of(workshop.process)
     allowable = material.strength_in_plane_mpa / safety.strength_factor
-    eye = workshop.bought.axle_mm / 2.0 + 0.3 + 2.0 * fits.wall_mm
-    lug, toe_width = growth.lug * 4.0, 7.0
+    eye = workshop.bought.axle_mm / 2.0 + EYE_PLAY_MM + 2.0 * fits.wall_mm
+    lug = growth.lug * LUG_MM
     torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
-    thickness = growth.thickness * max(6.0 if torque < 900.0 else 8.0, hub_width_mm)
-    root = max(HEIGHT_MIN_MM + 2.0, height_for_mm(torque, thickness, allowable, shell))
+    thickness = growth.thickness * max(THICKNESS_MM if torque < THICK_FROM_NMM else THICK_MM, hub_width_mm)
+    root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, height_for_mm(torque, thickness, allowable, shell))
     stiff = _stiff_mm(design, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
     leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
-    depth = max(eye, leg_tip / 2.0) + 1.0
-    toes = RESERVE * float(push_off(design, TYPICAL_BODY, depth).toes_n.max())
-    toe = height_for_mm(toe_moment_nmm(design, toes), toe_width, allowable, shell, upright=True)
+    depth = max(eye, leg_tip / 2.0) + ABOVE_GROUND_MM
+    toes = RESERVE * float(push_off(linkage, TYPICAL_BODY, depth).toes_n.max())
+    toe = height_for_mm(toe_moment_nmm(design, toes), TOE_WIDTH_MM, allowable, shell, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
     toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
     rail_root = _in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
@@ -122,7 +140,7 @@ def sections(design: Design, workshop: Workshop, hub_width_mm: float = 0.0, grow
         foot_depth_mm=depth,
         rail_root_mm=rail_root,
         rail_tip_mm=max(RAIL_MIN_MM, RAIL_TAPER * rail_root),
-        toe_width_mm=toe_width,
+        toe_width_mm=TOE_WIDTH_MM,
         toe_root_mm=toe_root,
         toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
         key_mm=growth.key * KEY_MM,
@@ -142,13 +160,13 @@ def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float) -> float:
 def _stiff_mm(
     design: Design, root_mm: float, thickness_mm: float, shell: Shell, modulus_mpa: float, share_max: float
 ) -> float:
-    """Return the height of the leg's root, raised until its flexing is within its share: energy goes with 1/h³."""
-    for _ in range(12):
+    """Return the height of the leg's root, raised until its flexing is within its share: the energy falls with 1/h³."""
+    for _ in range(STIFF_ROUNDS):
         heights = np.linspace(root_mm, _leg_tip_mm(root_mm), STATIONS)
         share = leg_flex_share(design, Beam(thickness_mm, heights, shell), modulus_mpa)
         if share <= share_max:
             break
-        root_mm *= 1.01 * (share / share_max) ** (1.0 / 3.0)
+        root_mm *= STIFF_MORE * (share / share_max) ** (1.0 / 3.0)
     return root_mm
 
 

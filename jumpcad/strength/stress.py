@@ -13,18 +13,18 @@ from jumpcad.transforms import Array
 from jumpcad.workshop import Process
 
 VON_MISES = math.sqrt(3.0)
-"""Tension that is as bad as a shear stress of 1 (distortion energy)."""
+"""Tension that is equivalent to a shear stress of 1 (distortion energy)."""
 INFILL_ALONG = 0.5
-"""Share of an infill's lines that run along a bar (a grid's: half)."""
+"""Share of an infill's lines that run along a bar: half of a grid's."""
 STATIONS = 17
-"""Places along a bar at which it is looked at."""
+"""Sections along a bar at which stress and energy are found; with twice as many they change by less than 0.1 %."""
 
 
 @dataclass(frozen=True)
 class Shell:
-    """What a printed bar is made of besides infill: walls at its sides, layers below and above (mm).
+    """The solid outside of a printed bar: walls at its sides, layers below and above (mm).
 
-    `core_share` is what the infill bears, as a share of solid material.
+    `core_share` is the infill's load-bearing share, relative to solid material.
     """
 
     walls_mm: float
@@ -33,7 +33,7 @@ class Shell:
 
     @classmethod
     def of(cls, process: Process) -> "Shell":
-        """Return the skin that a process prints."""
+        """Return the shell that a process prints."""
         return cls(
             process.perimeters * process.line_width_mm,
             0.5 * (process.top_layers + process.bottom_layers) * process.layer_height_mm,
@@ -46,7 +46,7 @@ SOLID = Shell(0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class Beam:
-    """Rectangular sections of a printed bar, solid in its skin and infilled within; scalars or arrays (n,) of mm.
+    """Rectangular sections of a printed bar, solid in its shell and infilled within; scalars or arrays (n,) of mm.
 
     `height_mm` lies in the plane of bending. A bar that prints lying has its walls at the ends of its height, one that
     prints `upright` its layers.
@@ -65,7 +65,7 @@ class Beam:
 
     @property
     def second_moment_mm4(self) -> float | Array:
-        """Second moment of area, b·h³/12 less what the core lacks."""
+        """Second moment of area, b·h³/12 less the missing part of the core."""
         width, height = self._core
         return (self.width_mm * self.height_mm**3 - (1.0 - self.shell.core_share) * width * height**3) / 12.0
 
@@ -84,7 +84,7 @@ class Beam:
 def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, shell: Shell, upright: bool = False) -> float:
     """Return the least height of a bar that bears a bending moment; none at all where there is no moment.
 
-    The solid bar's height, the root of 6·M/(b·stress), is the first guess; what the core lacks is then made up for.
+    The solid bar's height, the root of 6·M/(b·stress), is the first guess; it grows for the missing part of the core.
     """
     if moment_nmm == 0.0:
         return 0.0
@@ -138,7 +138,8 @@ def tube_shear_mpa(torque_nmm: float, outer_mm: float, bore_mm: float) -> float:
 def bar_shear_mpa(torque_nmm: float | Array, width_mm: float | Array, height_mm: float | Array) -> float | Array:
     """Return the largest shear stress of a rectangular bar under torsion, T/(b·c²)·(3 + 1.8·c/b) with b ≥ c."""
     long, short = np.maximum(width_mm, height_mm), np.minimum(width_mm, height_mm)
-    return torque_nmm / (long * short**2) * (3.0 + 1.8 * short / long)
+    stress: float | Array = torque_nmm / (long * short**2) * (3.0 + 1.8 * short / long)
+    return stress
 
 
 def buckling_load_n(bar: Beam, length_mm: float, modulus_mpa: float) -> float:

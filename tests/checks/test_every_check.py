@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support.built import LONG_TOES, built
+from support.limits import default_limits
 from support.places import TESTS
 
 from jumpcad.catalogue import load_catalogue
@@ -17,15 +18,16 @@ from jumpcad.checks import check
 from jumpcad.checks.drive import drive_findings
 from jumpcad.checks.printability import bed_findings
 from jumpcad.checks.strength import strength_findings
-from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits, synthesise
+from jumpcad.drive import CamLimits, synthesise
 from jumpcad.drive.cam_limits import LIMITS, ROWS, measure
-from jumpcad.drive.gears import gear_pair
+from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.spring import synthesise_spring
-from jumpcad.drive.train import _train
+from jumpcad.drive.train import finished_train
 from jumpcad.findings import errors
 from jumpcad.robot import Robot
 
-DRIVE = synthesise(built("kenan-2.0").design, DriveLimits())
+USUAL = default_limits()
+DRIVE = synthesise(built("kenan-2.0").design, USUAL)
 
 
 def test_every_name_stands_in_a_test() -> None:
@@ -61,7 +63,7 @@ def test_cam(name: str, tighter: dict[str, float]) -> None:
         _, rows, _ = measure(cam.law, limits, shape, 400)
         return min(float(row[0]) for row, limit in zip(rows, ROWS, strict=True) if LIMITS[limit].name == name)
 
-    usual = replace(CamLimits(), hub_radius_mm=max(CamLimits().hub_radius_mm, DRIVE.spring.outer_diameter_mm / 2.0))
+    usual = replace(USUAL.cam, hub_radius_mm=max(USUAL.cam.hub_radius_mm, DRIVE.spring.outer_diameter_mm / 2.0))
     assert margin(usual) >= -1e-6
     assert margin(replace(usual, **tighter)) < 0.0
 
@@ -83,20 +85,20 @@ def test_gears_and_motor(name: str, tighter: dict[str, Any]) -> None:
     # pulled apart by two thirds of a tooth's height: the next teeth meet after these part
     poor = replace(good, centre_distance_mm=good.centre_distance_mm + 1.8)
     stages = (poor, poor) if name.startswith("gear_mesh") else (good, good)
-    train = _train(law, DRIVE.train.motor, stages, replace(TrainLimits(), **tighter))
+    train = finished_train(law, DRIVE.train.motor, stages, replace(USUAL.train, **tighter))
     (finding,) = [finding for finding in train.findings if finding.name == name]
     assert finding.margin < 0.0
-    usual = _train(law, DRIVE.train.motor, (good, good), replace(TrainLimits(), cam_speed_max_rad_s=50.0))
+    usual = finished_train(law, DRIVE.train.motor, (good, good), replace(USUAL.train, cam_speed_max_rad_s=50.0))
     assert all(finding.margin > 0.0 for finding in usual.findings if finding.name == name)
 
 
 def test_spring_stress() -> None:
     """The margin is what a tighter limit than the spring's own stress takes away."""
     design, wire = built("kenan-2.0").design, load_catalogue().wire
-    spring = synthesise_spring(design.stiffness_nm_per_rad, design.compression_rad, wire, SpringLimits())
+    spring = synthesise_spring(design.stiffness_nm_per_rad, design.compression_rad, wire, USUAL.spring)
     (finding,) = spring.findings
     assert finding.name == "spring_stress"
-    assert finding.margin == pytest.approx(0.78 * spring.tensile_mpa - spring.stress_mpa)
+    assert finding.margin == pytest.approx(USUAL.spring.stress_share * spring.tensile_mpa - spring.stress_mpa)
 
 
 @pytest.mark.parametrize("name", sorted({finding.name for finding in DRIVE.findings}))

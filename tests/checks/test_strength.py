@@ -12,6 +12,7 @@ from jumpcad.checks.load_case import LoadCase, leg_axle_moment_nmm
 from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import Robot
 from jumpcad.strength.bearings import bearing_load_n
 
@@ -164,7 +165,7 @@ def test_leg_axle_is_a_simple_beam() -> None:
 def test_twice_the_spring_torque_bends_twice_as_much(kenan: Robot) -> None:
     doubled = kenan.design.model_copy(update={"stiffness_nmm_per_deg": 2.0 * kenan.design.stiffness_nmm_per_deg})
     assert kenan.layout is not None
-    robot = replace(kenan, design=doubled, layout=replace(kenan.layout, design=doubled))
+    robot = replace(kenan, design=doubled, layout=replace(kenan.layout, linkage=Linkage(doubled)))
     before, after = 15.0 - margins(kenan)["hub_strength"], 15.0 - margins(robot)["hub_strength"]
     assert after == pytest.approx(2.0 * before)
     assert math.isfinite(after)

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from manifold3d import CrossSection
 
-from jumpcad.drive.gears import Gear, GearPair, gear_pair
+from jumpcad.drive.gear_pair import GearPair, gear_pair
+from jumpcad.drive.gears import Gear
 
 pgw = pytest.importorskip("py_gearworks", reason="py_gearworks is not installed (the extra `clients`)")
 

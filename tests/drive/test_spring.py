@@ -1,18 +1,20 @@
 """Torsion springs against beam theory, Winkler's curved bar, the length of the wire, and a search by force."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
-from jumpcad.drive.spring import SpringLimits, synthesise_spring
+from jumpcad.drive.spring import synthesise_spring
 from jumpcad.errors import CannotBuildError
 
 WIRE = load_catalogue().wire
 LENGTH_MM = 13.0
-LIMITS = SpringLimits(body_lengths_max_mm=(LENGTH_MM,))
+LIMITS = replace(default_limits().spring, body_lengths_max_mm=(LENGTH_MM,), pin_radius_min_mm=0.0)
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
 
 
@@ -88,12 +90,12 @@ def test_no_smaller_spring_does_the_work(name):
 
 
 def test_a_short_body_is_preferred_to_a_thin_one_where_it_fits():
-    _, short = spring_of("best-bo", SpringLimits(body_lengths_max_mm=(10.0, 13.0)))
-    _, thin = spring_of("best-bo", SpringLimits(body_lengths_max_mm=(5.0, 13.0)))
+    _, short = spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(10.0, 13.0)))
+    _, thin = spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(5.0, 13.0)))
     assert short.body_length_mm <= 10.0 + 1e-9 < thin.body_length_mm
     assert short.outer_diameter_mm > thin.outer_diameter_mm
 
 
 def test_no_room_is_refused_with_what_to_change():
     with pytest.raises(CannotBuildError, match=r"no wire of 0\.5 to 2\.5 mm .* 780 N·mm .* stiffness_nmm_per_deg"):
-        spring_of("best-bo", SpringLimits(body_lengths_max_mm=(5.0,)))
+        spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(5.0,)))

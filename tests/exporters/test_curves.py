@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.drive.gears import gear_pair
+from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.exporters.curves import Arc, Circle, Curve, Line, curves_of
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, rounded, stadium
 

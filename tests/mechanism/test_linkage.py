@@ -7,7 +7,7 @@ import pytest
 
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.linkage import Linkage, Pose
+from jumpcad.mechanism.linkage import Linkage, Pose, toe_tip_mm
 from jumpcad.transforms import Array
 
 LOWER, UPPER = np.array([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()]).T
@@ -109,11 +109,11 @@ def test_freudenstein_equation_holds() -> None:
     [("best-bo", 29.5, 95.0), ("kenan-2.0", 73.7, 67.0)],
     ids=["best-bo", "kenan-2.0"],
 )
-def test_wound_pose_of_the_description(name: str, height_mm: float, ahead_mm: float) -> None:
+def test_loaded_pose_of_the_description(name: str, height_mm: float, ahead_mm: float) -> None:
     linkage = Linkage(load_design(name))
-    wound = -linkage.design.compression_rad
-    pose = linkage.pose(wound)
-    assert linkage.height_of_body_mm(wound) == pytest.approx(height_mm, abs=0.06)
+    loaded = -linkage.design.compression_rad
+    pose = linkage.pose(loaded)
+    assert linkage.height_of_body_mm(loaded) == pytest.approx(height_mm, abs=0.06)
     along = np.array([math.cos(pose.foot_rad[0]), -math.sin(pose.foot_rad[0])])
     assert (pose.ankle_mm[0] - linkage.back_pivot_mm) @ along == pytest.approx(ahead_mm, abs=0.8)
 
@@ -153,3 +153,9 @@ def test_open_loop_is_refused_with_the_angle() -> None:
     assert linkage.closing_margin_mm() < 0
     with pytest.raises(CannotBuildError, match=r"does not close with the leg turned by -\d+\.\d° from rest"):
         linkage.pose(travel(linkage))
+
+
+def test_toes_spread_by_twice_their_angle_behind_the_ankle() -> None:
+    """With 60° from the foot's centre line a toe of 93.4 mm reaches 46.7 mm back and 80.9 mm to its side."""
+    design = load_design("kenan-2.0").model_copy(update={"ground_link_angle_deg": 60.0})
+    np.testing.assert_allclose(toe_tip_mm(design), [-46.7, 80.887], atol=1e-3)

@@ -7,6 +7,7 @@ import pytest
 
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.loads import (
     MovingMass,
     landing_force_n,
@@ -24,7 +25,7 @@ TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
 def test_forces_and_torques_on_the_body_balance(c_coef: float) -> None:
     # two forces are solved from three equations of motion; what is left over shows any wrong arm or sign
     design = load_design("best-ga").model_copy(update={"c_coef": c_coef, "compression_ratio": 0.3})
-    forces = push_off(design, BODY, 5.2)
+    forces = push_off(Linkage(design), BODY, 5.2)
     assert forces.residual_n.max() < 0.001 * np.linalg.norm(forces.ground_n, axis=1).max()
 
 
@@ -32,14 +33,14 @@ def test_parallel_legs_swing_the_body_like_a_pendulum() -> None:
     # equal parallel links: the body does not turn, each of its points goes round a circle of radius l2
     design = load_design("kenan-2.0")
     assert design.c_coef == 1.0
-    forces = push_off(design, BODY, 5.2)
-    wound = math.radians(design.rest_angle_deg) - design.compression_rad
-    angle = wound + (forces.leg_rad - forces.leg_rad[0])  # of the legs above the ground
+    forces = push_off(Linkage(design), BODY, 5.2)
+    loaded = math.radians(design.rest_angle_deg) - design.compression_rad
+    angle = loaded + (forces.leg_rad - forces.leg_rad[0])  # of the legs above the ground
     outward = np.stack([-np.cos(angle), np.sin(angle)], axis=-1)
     onward = np.stack([np.sin(angle), np.cos(angle)], axis=-1)
     weight = BODY.mass_kg * GRAVITY_M_S2
     torque = -1000.0 * design.stiffness_nm_per_rad * forces.leg_rad
-    rise_mm = design.l2_mm * (np.sin(angle) - math.sin(wound))
+    rise_mm = design.l2_mm * (np.sin(angle) - math.sin(loaded))
     spring_nmm = 500.0 * design.stiffness_nm_per_rad * (design.compression_rad**2 - forces.leg_rad**2)
     centripetal = 2.0 * (spring_nmm - weight * rise_mm) / design.l2_mm
     stands = np.linalg.norm(forces.ground_n, axis=1) > 0
@@ -52,7 +53,7 @@ def test_parallel_legs_swing_the_body_like_a_pendulum() -> None:
 
 def test_leg_carries_the_springs_torque_to_the_ankle() -> None:
     design = load_design("best-bo")
-    forces = push_off(design, BODY, 5.2)
+    forces = push_off(Linkage(design), BODY, 5.2)
     shear = 1000.0 * design.peak_spring_torque_nm / design.l2_mm
     squared = np.sum(forces.ankle_n[0] ** 2) - forces.leg_axial_n[0] ** 2
     assert math.sqrt(squared) == pytest.approx(shear)
@@ -60,13 +61,13 @@ def test_leg_carries_the_springs_torque_to_the_ankle() -> None:
 
 def test_heavier_robots_leave_the_ground_later() -> None:
     design = load_design("kenan-2.0")
-    light, heavy = (push_off(design, MovingMass(mass, BODY.com_mm, 42.0), 5.2) for mass in (0.05, 0.2))
+    light, heavy = (push_off(Linkage(design), MovingMass(mass, BODY.com_mm, 42.0), 5.2) for mass in (0.05, 0.2))
     assert np.count_nonzero(light.ground_n[:, 1]) < np.count_nonzero(heavy.ground_n[:, 1])
 
 
 def test_feet_never_bear_more_than_the_ground_gives() -> None:
     for name in TEMPLATES:
-        forces = push_off(load_design(name), BODY, 5.2)
+        forces = push_off(Linkage(load_design(name)), BODY, 5.2)
         assert np.all(forces.toes_n <= forces.ground_n[:, 1] + 1e-9)
         assert np.all(forces.toes_n >= 0)
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from jumpcad.design import load_design
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import leg_flex_share, sections
 from jumpcad.strength.stress import Beam
 from jumpcad.workshop import Workshop, load_workshop
@@ -31,7 +32,7 @@ def test_ten_by_six_millimetres_of_petg_flex_as_the_hand_calculation_says() -> N
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_no_section_exceeds_the_design_stress_even_as_a_solid_bar(name: str) -> None:
     design, workshop = load_design(name), load_workshop()
-    sizes = sections(design, workshop)
+    sizes = sections(Linkage(design), workshop)
     torque = 1000.0 * design.peak_spring_torque_nm
     for along in np.linspace(0.0, 1.0, 50):
         height = sizes.leg_root_mm + along * (sizes.leg_tip_mm - sizes.leg_root_mm)
@@ -41,9 +42,9 @@ def test_no_section_exceeds_the_design_stress_even_as_a_solid_bar(name: str) -> 
 
 def test_weaker_or_softer_links_grow() -> None:
     design, workshop = load_design("best-bo"), load_workshop()
-    usual = sections(design, workshop)
-    weak = sections(design, with_links(workshop, strength_in_plane_mpa=30.0))
-    soft = sections(design, with_links(workshop, modulus_mpa=1000.0))
+    usual = sections(Linkage(design), workshop)
+    weak = sections(Linkage(design), with_links(workshop, strength_in_plane_mpa=30.0))
+    soft = sections(Linkage(design), with_links(workshop, modulus_mpa=1000.0))
     for name in ("lever_root_mm", "toe_root_mm", "rail_root_mm"):
         assert getattr(weak, name) > 1.1 * getattr(usual, name)
         # a thicker leg changes the foot's depth a little, and with it the toes' loads
@@ -55,5 +56,5 @@ def test_hollow_links_are_higher_than_solid_ones() -> None:
     design, workshop = load_design("best-bo"), load_workshop()
     solid = workshop.model_copy(update={"process": workshop.process.model_copy(update={"infill": 1.0})})
     by_hand = math.sqrt(6.0 * 1.15 * 1000.0 * design.peak_spring_torque_nm / (8.0 * 15.0))
-    assert sections(design, solid).lever_root_mm == pytest.approx(math.ceil(100.0 * by_hand) / 100.0)
-    assert sections(design, workshop).lever_root_mm > 1.05 * by_hand
+    assert sections(Linkage(design), solid).lever_root_mm == pytest.approx(math.ceil(100.0 * by_hand) / 100.0)
+    assert sections(Linkage(design), workshop).lever_root_mm > 1.05 * by_hand

@@ -1,0 +1,61 @@
+"""The limits of the drive, from a workshop and from the parts around the drive."""
+
+import math
+
+from jumpcad.catalogue import Bearing
+from jumpcad.dimensions import CLEAR_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
+from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.strength.fatigue import spring_share
+from jumpcad.strength.sizing import Sections
+from jumpcad.workshop import Workshop
+
+
+def drive_limits(workshop: Workshop, roller: Bearing, sections: Sections, holes: HoleSizes) -> DriveLimits:
+    """Return the limits of the drive in a workshop, with a roller of the catalogue, beside a main leg of some size."""
+    return DriveLimits(
+        spring=_spring_limits(workshop, sections, holes),
+        cam=_cam_limits(workshop, roller, sections),
+        train=_train_limits(workshop, sections),
+        motors=workshop.bought.motors,
+    )
+
+
+def _spring_limits(workshop: Workshop, sections: Sections, holes: HoleSizes) -> SpringLimits:
+    """Return the limits of the springs: a bushing around the leg's axle, and a pin that passes hub and leg."""
+    fits, safety, axle = workshop.fits, workshop.safety, workshop.bought.axle_mm
+    hub_radius = max(holes.hub_radius_mm, sections.leg_root_mm / 2.0)
+    return SpringLimits(
+        mandrel_min_mm=2.0 * (axle / 2.0 + fits.sliding_mm + fits.wall_min_mm),
+        pin_radius_min_mm=hub_radius + CLEAR_MM + axle / math.sqrt(2.0),
+        stress_share=min(safety.spring_stress_share, spring_share(safety.jumps)),
+    )
+
+
+def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamLimits:
+    """Return the limits of the cam: its roller, the lever's eye beside its axle, and a wall around its key."""
+    lever_eye = max(LEVER_EYE_RADIUS_MM, sections.lever_root_mm / 2.0)
+    return CamLimits(
+        roller_radius_mm=roller.outer_mm / 2.0,
+        roller_load_n=roller.static_load_n,
+        cam_width_mm=roller.width_mm,
+        gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
+        core_radius_mm=sections.key_mm / math.sqrt(3.0) + workshop.fits.wall_min_mm,
+        modulus_mpa=workshop.material("gears").modulus_mpa,
+    )
+
+
+def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
+    """Return the limits of motor and gears: the motor maker's, and the strength of the printed material."""
+    fits, safety = workshop.fits, workshop.safety
+    return TrainLimits(
+        stall_share=safety.motor_stall_share,
+        torque_max_nm=safety.motor_torque_max_nm,
+        pair_efficiency=safety.gear_efficiency,
+        backlash_circumferential_mm=fits.backlash_circumferential_mm,
+        stress_mpa=workshop.material("gears").strength_in_plane_mpa / safety.strength_factor,
+        tip_min_mm=workshop.process.line_width_mm,
+        pinion_root_min_mm=workshop.bought.axle_mm / 2.0 + fits.sliding_mm + fits.wall_mm,
+        shaft_wall_mm=fits.press_mm + fits.wall_mm,
+        cam_gear_root_min_mm=(sections.key_mm + 2.0 * fits.press_mm) / math.sqrt(3.0) + fits.wall_mm,
+    )

@@ -1,0 +1,101 @@
+"""Sections, hub bearing and drive settled together: each follows from the others.
+
+A bearing sets the hub's width and with it the sections; these set the drive's limits; the drive's forces load the
+bearing. The lightest bearing comes first, then the next that bears those forces, until one bears its own.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cache
+
+from jumpcad.building.limits import drive_limits
+from jumpcad.catalogue import Bearing
+from jumpcad.design import Design
+from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
+from jumpcad.drive import Drive, DriveLimits, synthesise
+from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.strength.bearings import (
+    allowed_n,
+    bearing_load_n,
+    first_guess,
+    hub_bearings,
+    hub_width_mm,
+    loaded_forces_n,
+    roller_bearing,
+)
+from jumpcad.strength.sizing import Growth, Sections, sections
+from jumpcad.workshop import Workshop
+
+
+@dataclass(frozen=True)
+class Settled:
+    """The parts of a robot's machine that depend on each other; `holes` has the hub's bearing."""
+
+    linkage: Linkage
+    sections: Sections
+    holes: HoleSizes
+    drive: Drive
+    roller: Bearing
+
+
+def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
+    """Return linkage, sections, holes and drive with the lightest hub bearing that bears its load.
+
+    Where none does, it is the strongest one, of which `jumpcad.checks` then warns.
+
+    Raises
+    ------
+    CannotBuildError
+        If no drive meets its limits, or the hub bearing finds no room; the message says which and what to change.
+    """
+    linkage, roller = Linkage(design), roller_bearing(workshop)
+    bearings = hub_bearings(workshop)
+
+    @cache
+    def drive_within(limits: DriveLimits) -> Drive:
+        return synthesise(design, limits, workshop.catalogue)
+
+    def with_bearing(bearing: Bearing | None) -> Settled:
+        sizes = sections(linkage, workshop, hub_width_mm(bearing), growth)
+        holes = HoleSizes.of(workshop, bearing)
+        drive = drive_within(drive_limits(workshop, roller, sizes, holes))
+        return Settled(linkage, sizes, holes, drive, roller)
+
+    number = first_guess(bearings, design, workshop)
+    while True:
+        settled = with_bearing(bearings[number])
+        stronger = next(
+            (index for index in range(number, len(bearings)) if _bears(bearings[index], settled, workshop)),
+            len(bearings) - 1,
+        )
+        if stronger == number:
+            _require_hub_room(settled)
+            return settled
+        number = stronger
+
+
+def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:
+    """Tell whether a hub bearing bears the forces of springs and cam; a plain hub is not judged."""
+    if bearing is None:
+        return True
+    forces = loaded_forces_n(settled.linkage.design, settled.drive)
+    load = bearing_load_n(forces, settled.sections.thickness_mm, settled.roller.width_mm, bearing)
+    return load <= allowed_n(bearing, workshop)
+
+
+def _require_hub_room(settled: Settled) -> None:
+    """Refuse bearings whose seat meets the roller's screw in the lever, or whose hub meets the cam axle's spacer."""
+    holes, cam = settled.holes, settled.drive.cam
+    if holes.bearing is None:
+        return
+    wall = holes.hub_radius_mm - holes.hub_bore_mm / 2.0
+    to_screw = cam.lever_length_mm - holes.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
+    to_spacer = math.hypot(*cam.cam_axis_mm) - SPACER_RADIUS_MM - GAP_MM - wall
+    largest = 2.0 * (min(to_screw, to_spacer) - holes.fits.press_mm)
+    if holes.bearing.outer_mm > largest:
+        raise CannotBuildError(
+            f"the leg's bearing {holes.bearing.name} is {holes.bearing.outer_mm:g} mm outside; {largest:.1f} mm fit "
+            "beside the roller's screw and the cam's axle: choose a smaller bought.leg_bearing"
+        )

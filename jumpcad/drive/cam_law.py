@@ -1,0 +1,63 @@
+"""The law of the cam's lift: leg angle over cam angle, such that the motor's torque is constant."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from jumpcad.transforms import Array
+
+
+@dataclass(frozen=True)
+class CamLaw:
+    """Leg angle over cam angle: constant torque at the cam, ramped up linearly at first.
+
+    Without the ramp the leg would start at infinite speed per cam angle, and the pressure angle with it.
+
+    Attributes
+    ----------
+    compression_rad
+        Leg angle at the end of the lift.
+    stiffness_nm_per_rad
+        Of both springs together.
+    lift_rad, ramp_rad
+        Cam angle of the whole lift, and of the ramp at its beginning.
+    """
+
+    compression_rad: float
+    stiffness_nm_per_rad: float
+    lift_rad: float
+    ramp_rad: float
+
+    @property
+    def energy_j(self) -> float:
+        """Energy of the loaded springs (J)."""
+        return 0.5 * self.stiffness_nm_per_rad * self.compression_rad**2
+
+    @property
+    def peak_torque_nm(self) -> float:
+        """Torque at the cam after the ramp, without friction (N·m)."""
+        return self.energy_j / (self.lift_rad - self.ramp_rad / 2)
+
+    def torque_nm(self, cam_rad: npt.ArrayLike) -> Array:
+        """Return the torque (n,) that the springs need at the cam at cam angles (n,) of the lift, dE/dphi."""
+        return self.peak_torque_nm * np.clip(np.asarray(cam_rad, dtype=float) / self.ramp_rad, 0.0, 1.0)
+
+    def derivatives(self, cam_rad: npt.ArrayLike) -> tuple[Array, Array, Array]:
+        """Return leg angle (n,) and its first and second derivative by the cam angle, at cam angles (n,) of the lift.
+
+        E(phi) = k·theta²/2 is a parabola in the ramp, so that theta is linear there, and linear after it.
+        """
+        phi = np.asarray(cam_rad, dtype=float)
+        span = self.lift_rad - self.ramp_rad / 2
+        slope = self.compression_rad / math.sqrt(2 * self.ramp_rad * span)
+        beyond = np.maximum(phi - self.ramp_rad / 2, self.ramp_rad / 2)
+        late = self.compression_rad * np.sqrt(beyond / span)
+        in_ramp = phi < self.ramp_rad
+        first = np.where(in_ramp, slope, late / (2 * beyond))
+        return np.where(in_ramp, slope * phi, late), first, np.where(in_ramp, 0.0, -first / (2 * beyond))
+
+    def wind_rad(self, cam_rad: npt.ArrayLike) -> Array:
+        """Return the leg angle (n,) at cam angles (n,) of the lift."""
+        return self.derivatives(cam_rad)[0]

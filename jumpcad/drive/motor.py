@@ -1,0 +1,59 @@
+"""The gear motor as a DC machine: speed falls and current rises in proportion to its torque (N·m, rad/s, A, V)."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.catalogue import Motor
+from jumpcad.drive.cam_law import CamLaw
+from jumpcad.drive.train_limits import TrainLimits
+
+POSITIONS = 201
+"""Cam angles of the lift at which the current is looked at."""
+
+
+@dataclass(frozen=True)
+class Winding:
+    """One turn of the cam at the motor's rated voltage: its time (s), and the current's mean, peak and work."""
+
+    seconds: float
+    mean_current_a: float
+    peak_current_a: float
+    electrical_j: float
+
+
+def allowed_nm(motor: Motor, limits: TrainLimits) -> float:
+    """Return the largest torque that a motor may give on its output."""
+    return min(limits.stall_share * motor.stall_torque_nm, limits.torque_max_nm)
+
+
+def free_speed_rad_s(motor: Motor) -> float:
+    """Return the speed of the unloaded output."""
+    return motor.no_load_rpm * 2 * math.pi / 60
+
+
+def least_ratio(law: CamLaw, motor: Motor, limits: TrainLimits, pairs: int) -> float:
+    """Return the motor turns a cam turn that torque and speed need with a number of gear pairs."""
+    for_torque = law.peak_torque_nm / limits.efficiency(pairs) / allowed_nm(motor, limits)
+    return max(for_torque, free_speed_rad_s(motor) / limits.cam_speed_max_rad_s)
+
+
+def winding_s(law: CamLaw, motor: Motor, ratio: float, efficiency: float) -> float:
+    """Return the time of one turn of the cam (s): ramp, constant torque, and unloaded from release on."""
+    share = law.peak_torque_nm / (ratio * efficiency * motor.stall_torque_nm)
+    ramp = -math.log1p(-share) / share * law.ramp_rad
+    constant = (law.lift_rad - law.ramp_rad) / (1 - share)
+    return ratio / free_speed_rad_s(motor) * (ramp + constant + 2 * math.pi - law.lift_rad)
+
+
+def winding(law: CamLaw, motor: Motor, ratio: float, efficiency: float) -> Winding:
+    """Return time, currents and electrical work of one turn of the cam."""
+    cam = np.linspace(0.0, law.lift_rad, POSITIONS)
+    share = law.torque_nm(cam) / (ratio * efficiency * motor.stall_torque_nm)
+    current = motor.no_load_current_a + (motor.stall_current_a - motor.no_load_current_a) * share
+    seconds_per_rad = ratio / free_speed_rad_s(motor)
+    unloaded = (2 * math.pi - law.lift_rad) * motor.no_load_current_a
+    charge = seconds_per_rad * (float(np.trapezoid(current / (1 - share), cam)) + unloaded)
+    seconds = winding_s(law, motor, ratio, efficiency)
+    return Winding(seconds, charge / seconds, float(current.max()), motor.voltage_v * charge)

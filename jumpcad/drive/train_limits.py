@@ -1,0 +1,92 @@
+"""The limits of motor and gears."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Self
+
+from jumpcad.catalogue import Motor
+from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
+from jumpcad.drive.socket import socket_half_mm
+
+FACE_WIDTHS_MM = (5.0, 6.5, 8.0)
+"""Widths of gears, the least first; judgement: 25 layers of 0.2 mm, and up to 1.6 times that."""
+
+
+@dataclass(frozen=True)
+class TrainLimits:
+    """The limits of motor and gears. Lengths in mm; values that a workshop gives have no default here.
+
+    Attributes
+    ----------
+    stall_share, torque_max_nm
+        Largest share of a motor's stall torque, and largest torque on its gearbox.
+    pair_efficiency
+        Of each printed gear pair.
+    backlash_circumferential_mm
+        For a pair, at the pitch circle.
+    stress_mpa
+        Allowable bending stress of the teeth: that of the printed material over its safety factor.
+    tip_min_mm
+        Least width of a tooth's tip: one line of the nozzle.
+    cam_gear_root_min_mm
+        Least root radius of the cam gear: its key and a wall.
+    pinion_root_min_mm
+        Least root radius of every other gear: an idler's axle, its fit and a wall.
+    shaft_wall_mm
+        Fit and wall around the motor's shaft in its pinion.
+    cam_efficiency
+        Of cam, roller and their axles together; judgement.
+    modules_mm
+        Judgement: the smallest whose teeth a nozzle of 0.4 mm prints, and the next of ISO 54.
+    face_width_mm
+        Of all gears.
+    cam_gear_tip_max_mm
+        Room for the cam gear beside what surrounds the leg's pivot; without limit unless given.
+    motor_distance_min_mm
+        Least distance of the motor's axis from the cam's, whatever the motor; judgement: the height of an N20.
+    cam_room_mm
+        Radius around the cam's axis that the motor's socket must leave free.
+    idler_distance_min_mm
+        Least distance of an idler's axle from the cam's: it crosses the plane in which the cam turns.
+    axle_mm
+        Radius around the cam's axle that an idler's large gear must leave free: that of its spacer, and the gap.
+    cam_speed_max_rad_s
+        Of the unloaded cam: while the leg falls, it must not bring the next lift under the roller. By default the 8°
+        of the cam's reserve in 30 ms, as in `synthesis`.
+    seconds_per_gram
+        Seconds of winding accepted per gram saved; judgement.
+    """
+
+    stall_share: float
+    torque_max_nm: float
+    pair_efficiency: float
+    backlash_circumferential_mm: float
+    stress_mpa: float
+    tip_min_mm: float
+    cam_gear_root_min_mm: float
+    pinion_root_min_mm: float
+    shaft_wall_mm: float
+    cam_efficiency: float = 0.85
+    modules_mm: tuple[float, ...] = (1.0, 1.25, 1.5)
+    face_width_mm: float = FACE_WIDTHS_MM[0]
+    cam_gear_tip_max_mm: float = math.inf
+    motor_distance_min_mm: float = 12.0
+    cam_room_mm: float = 0.0
+    idler_distance_min_mm: float = 0.0
+    axle_mm: float = SPACER_RADIUS_MM + CLEAR_MM
+    cam_speed_max_rad_s: float = 4.6
+    seconds_per_gram: float = 2.0
+
+    def efficiency(self, pairs: int) -> float:
+        """Return the share of the motor's work that reaches the springs through a number of gear pairs."""
+        return self.cam_efficiency * self.pair_efficiency**pairs
+
+    def beside(self, motor: Motor) -> Self:
+        """Return the limits with those that a motor's shaft and socket set."""
+        root = motor.shaft_mm / 2.0 + self.shaft_wall_mm
+        distance = self.cam_room_mm + min(socket_half_mm(motor))
+        return replace(
+            self,
+            pinion_root_min_mm=max(self.pinion_root_min_mm, root),
+            motor_distance_min_mm=max(self.motor_distance_min_mm, distance),
+        )

@@ -1,0 +1,75 @@
+"""What a workshop says reaches the limits of the drive, each figure its own."""
+
+import math
+from dataclasses import fields, replace
+from typing import Any
+
+import pytest
+from support.limits import default_limits
+
+from jumpcad.building.limits import drive_limits
+from jumpcad.catalogue import load_catalogue
+from jumpcad.design import load_design
+from jumpcad.drive import DriveLimits
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.strength.sizing import sections
+from jumpcad.workshop import Workshop, load_workshop
+
+SECTIONS = sections(Linkage(load_design("kenan-2.0")), load_workshop())
+ROLLER = load_catalogue().bearings["623"]
+
+
+def limits(workshop: Workshop) -> DriveLimits:
+    return drive_limits(workshop, ROLLER, SECTIONS, HoleSizes.of(workshop, None))
+
+
+def changed(table: str, **values: Any) -> Workshop:
+    workshop = load_workshop()
+    return workshop.model_copy(update={table: getattr(workshop, table).model_copy(update=values)})
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "value", "of", "names"),
+    [
+        ("safety", "spring_stress_share", 0.3, "spring", {"stress_share"}),
+        ("safety", "motor_stall_share", 0.2, "train", {"stall_share"}),
+        ("safety", "motor_torque_max_nm", 0.1, "train", {"torque_max_nm"}),
+        ("safety", "gear_efficiency", 0.8, "train", {"pair_efficiency"}),
+        ("safety", "strength_factor", 5.0, "train", {"stress_mpa"}),
+        ("fits", "backlash_circumferential_mm", 0.3, "train", {"backlash_circumferential_mm"}),
+        ("fits", "press_mm", 0.15, "train", {"cam_gear_root_min_mm"}),
+        ("fits", "wall_min_mm", 0.9, "cam", {"core_radius_mm"}),
+        ("fits", "sliding_mm", 0.4, "spring", {"mandrel_min_mm", "pin_radius_min_mm"}),
+        ("process", "line_width_mm", 0.6, "train", {"tip_min_mm"}),
+    ],
+)
+def test_a_figure_of_the_workshop_is_a_limit(table: str, key: str, value: float, of: str, names: set[str]) -> None:
+    before, after = limits(load_workshop()), limits(changed(table, **{key: value}))
+    one, other = getattr(before, of), getattr(after, of)
+    assert {field.name for field in fields(one) if getattr(one, field.name) != getattr(other, field.name)} == names
+
+
+def test_the_default_workshop_has_the_limits_of_its_comments() -> None:
+    """70 % of the wire's strength, PETG's 45 MPa over 3, a 623 roller, a spring's bushing of 5 mm on a 3 mm axle."""
+    found = default_limits()
+    assert found.spring.stress_share == 0.7
+    assert found.spring.mandrel_min_mm == pytest.approx(3.0 + 2 * 0.2 + 2 * 0.8)
+    assert found.train.stress_mpa == pytest.approx(15.0)
+    assert (found.cam.roller_radius_mm, found.cam.cam_width_mm) == (5.0, 4.0)
+    assert found.motors == ()
+
+
+def test_springs_that_last_longer_are_stressed_less() -> None:
+    """Shigley, table 10-10: 50 % of the tensile strength for a million jumps."""
+    assert limits(changed("safety", jumps=1e6)).spring.stress_share == pytest.approx(0.5)
+
+
+def test_a_thick_lever_or_key_pushes_the_cam_away() -> None:
+    workshop, holes = load_workshop(), HoleSizes.of(load_workshop(), None)
+    thick = drive_limits(workshop, ROLLER, replace(SECTIONS, lever_root_mm=20.0, key_mm=10.0), holes)
+    usual = limits(workshop)
+    assert thick.cam.gap_min_mm == pytest.approx(usual.cam.gap_min_mm + 10.0 - 4.5)
+    corner = (10.0 - SECTIONS.key_mm) / math.sqrt(3.0)
+    assert thick.cam.core_radius_mm == pytest.approx(usual.cam.core_radius_mm + corner)
+    assert thick.train.cam_gear_root_min_mm == pytest.approx(usual.train.cam_gear_root_min_mm + corner)

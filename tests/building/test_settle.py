@@ -1,0 +1,68 @@
+"""What is settled agrees with itself: the drive fits its sections, the bearing bears its drive."""
+
+import pytest
+
+from jumpcad.building.limits import drive_limits
+from jumpcad.building.settle import Settled, settle
+from jumpcad.design import load_design
+from jumpcad.drive import synthesise
+from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
+from jumpcad.strength.sizing import Growth, sections
+from jumpcad.workshop import Workshop, load_workshop
+
+
+def careful(factor: float) -> Workshop:
+    workshop = load_workshop()
+    return workshop.model_copy(update={"safety": workshop.safety.model_copy(update={"bearing_factor": factor})})
+
+
+def load_n(settled: Settled) -> float:
+    assert settled.holes.bearing is not None
+    forces = loaded_forces_n(settled.linkage.design, settled.drive)
+    return bearing_load_n(forces, settled.sections.thickness_mm, settled.roller.width_mm, settled.holes.bearing)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_settling_again_changes_nothing(name: str, factor: float) -> None:
+    """Sections, limits and drive that follow from what was settled are those that were settled."""
+    workshop, design = careful(factor), load_design(name)
+    settled = settle(design, workshop, Growth())
+    sizes = sections(settled.linkage, workshop, hub_width_mm(settled.holes.bearing), Growth())
+    assert sizes == settled.sections
+    drive = synthesise(design, drive_limits(workshop, settled.roller, sizes, settled.holes))
+    assert drive.spring == settled.drive.spring
+    assert drive.train == settled.drive.train
+    assert drive.cam.profile_mm.tobytes() == settled.drive.cam.profile_mm.tobytes()
+
+
+def test_the_hub_has_the_lightest_bearing_that_bears_it() -> None:
+    design, masses = load_design("best-bo"), []
+    for factor in (0.5, 0.7, 1.0):
+        workshop = careful(factor)
+        settled = settle(design, workshop, Growth())
+        assert settled.holes.bearing is not None
+        assert load_n(settled) <= allowed_n(settled.holes.bearing, workshop)
+        masses.append(settled.holes.bearing.mass_g)
+        for lighter in hub_bearings(workshop):
+            if lighter is not None and lighter.mass_g < settled.holes.bearing.mass_g:
+                forces = loaded_forces_n(design, settled.drive)
+                width = settled.sections.thickness_mm
+                assert bearing_load_n(forces, width, 4.0, lighter) > allowed_n(lighter, workshop)
+    assert masses == sorted(masses)
+    assert masses[0] < masses[-1]
+
+
+def test_where_none_bears_it_the_strongest_stays() -> None:
+    workshop = careful(20.0)
+    settled = settle(load_design("best-bo"), workshop, Growth())
+    assert settled.holes.bearing == hub_bearings(workshop)[-1]
+    assert load_n(settled) > allowed_n(settled.holes.bearing, workshop)
+
+
+def test_a_plain_hub_is_as_thin_as_the_leg() -> None:
+    workshop = load_workshop()
+    plain = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"leg_bearing": ""})})
+    settled = settle(load_design("kenan-2.0"), plain, Growth(thickness=1.1))
+    assert settled.holes.bearing is None
+    assert settled.sections.thickness_mm == pytest.approx(1.1 * 6.0)

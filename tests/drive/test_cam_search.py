@@ -1,0 +1,43 @@
+"""The search for the smallest cam: monotone in its limits, repeatable, and with a reason where there is none."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.limits import default_limits
+
+from jumpcad.drive.cam_law import CamLaw
+from jumpcad.drive.cam_search import synthesise_cam
+from jumpcad.errors import CannotBuildError
+
+LIMITS = default_limits().cam
+
+
+def synthesised(compression_deg, stiffness, limits=LIMITS):
+    law = CamLaw(math.radians(compression_deg), stiffness, limits.lift_rad, limits.ramp_rad)
+    return synthesise_cam(law, limits)
+
+
+def test_a_wider_clearance_never_makes_a_smaller_cam():
+    sizes = [synthesised(50, 0.6, replace(LIMITS, clearance_mm=gap)).outer_radius_mm for gap in (0.2, 0.5, 0.8)]
+    assert sizes == sorted(sizes)
+    assert sizes[0] < sizes[-1]
+
+
+def test_what_no_cam_can_do_is_refused_with_what_to_change():
+    with pytest.raises(CannotBuildError, match=r"no cam winds the leg by 75\.0° .*short.*compression_ratio"):
+        synthesised(75, 1.7)
+
+
+def test_the_same_inputs_give_the_same_cam():
+    first, second = synthesised(45, 1.0), synthesised(45, 1.0)
+    assert first.profile_mm.tobytes() == second.profile_mm.tobytes()
+
+
+def test_rounding_the_smallest_cam_refuses_none():
+    """Springs between two strengths that both have a cam, each cam as small as its contact pressure allows."""
+    limits = replace(LIMITS, hub_radius_mm=8.4, gap_min_mm=11.0, cam_width_mm=3.4)
+    for torque in np.linspace(1.45, 1.75, 160):
+        cam = synthesised(52.0, torque / math.radians(52.0), limits)
+        assert cam.contact_pressure_mpa <= limits.pressure_mpa + 1e-6

@@ -1,0 +1,85 @@
+"""Choosing gears against a search by force, and against what time is worth."""
+
+import dataclasses
+import itertools
+import math
+
+import pytest
+from support.limits import default_limits
+
+from jumpcad.catalogue import load_catalogue
+from jumpcad.design import load_design
+from jumpcad.drive.cam_law import CamLaw
+from jumpcad.drive.gear_choice import by_cost, least_tip_mm
+from jumpcad.drive.gear_pair import gear_pair
+from jumpcad.drive.motor import winding_s
+from jumpcad.drive.train import synthesise_train
+
+MOTORS = list(load_catalogue().motors.values())
+LIMITS = default_limits().train
+
+
+def law_of(name):
+    design = load_design(name)
+    return CamLaw(design.compression_rad, design.stiffness_nm_per_rad, math.radians(310), math.radians(30))
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_no_lighter_single_pair_would_do(name):
+    law = law_of(name)
+    motor = load_catalogue().motors["n20-298"]
+    limits = dataclasses.replace(LIMITS, modules_mm=(1.25,), seconds_per_gram=1e9)
+    train = synthesise_train(law, [motor], limits)
+    (chosen,) = train.stages
+    needed = law.peak_torque_nm / (0.85 * 0.9) / (0.25 * motor.stall_torque_nm)
+    size = chosen.pinion.teeth**2 + chosen.wheel.teeth**2
+    for pinion, wheel in itertools.product(range(12, 40), range(13, 60)):
+        if wheel < pinion or pinion**2 + wheel**2 >= size or wheel / pinion < needed:
+            continue
+        pair = gear_pair(pinion, wheel, 1.25, 5.0, 0.15)
+        stress = pair.pinion.lewis_stress_mpa(law.peak_torque_nm / 0.85 / pair.ratio)
+        assert (
+            pair.centre_distance_mm < limits.motor_distance_min_mm
+            or stress > limits.stress_mpa
+            or pair.pinion.tip_thickness_mm < limits.tip_min_mm
+            or pair.wheel.root_radius_mm < limits.cam_gear_root_min_mm
+            or motor.no_load_rpm * math.pi / 30 / pair.ratio > limits.cam_speed_max_rad_s
+        ), f"{pinion}:{wheel} is smaller"
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga", "best-bo"])
+def test_who_is_in_a_hurry_gets_heavier_gears(name):
+    """What a gram of gears may save of winding time decides between motors and ratios."""
+    hurry, patience = (
+        synthesise_train(law_of(name), MOTORS, dataclasses.replace(LIMITS, seconds_per_gram=seconds))
+        for seconds in (0.01, 1e6)
+    )
+    gears = [sum(p.module_mm**2 * (p.pinion.teeth**2 + p.wheel.teeth**2) for p in t.stages) for t in (hurry, patience)]
+    assert hurry.winding_s < patience.winding_s
+    assert gears[0] > gears[1]
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga", "best-bo"])
+def test_the_least_cam_gear_turns_the_cam_alone_and_none_smaller_does(name):
+    tip = least_tip_mm(law_of(name), MOTORS, LIMITS)
+    just, too_small = (
+        synthesise_train(law_of(name), MOTORS, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=tip + more))
+        for more in (1e-6, -1e-6)
+    )
+    assert len(just.stages) == 1
+    assert just.stages[-1].wheel.tip_radius_mm <= tip + 1e-6
+    assert len(too_small.stages) == 2
+
+
+@pytest.mark.parametrize(("seconds_per_gram", "count"), [(2.0, 1), (0.5, 1), (2.0, 2)])
+def test_gears_come_in_the_order_of_their_mass_and_of_what_time_is_worth(seconds_per_gram, count):
+    """Full discs of PETG, 1.27 g/cm³, as wide as the teeth, over their pitch circles."""
+    law, limits = law_of("best-bo"), dataclasses.replace(LIMITS, seconds_per_gram=seconds_per_gram)
+    costs = []
+    for motor, stages in itertools.islice(by_cost(law, MOTORS, limits, count), 12):
+        radii = [gear.pitch_radius_mm / 10.0 for pair in stages for gear in (pair.pinion, pair.wheel)]
+        grams = 1.27 * math.pi * sum(radius**2 for radius in radii) * limits.face_width_mm / 10.0
+        seconds = winding_s(law, motor, math.prod(pair.ratio for pair in stages), limits.efficiency(count))
+        costs.append(grams + seconds / seconds_per_gram)
+    assert len(costs) == 12
+    assert costs == pytest.approx(sorted(costs))

@@ -1,0 +1,50 @@
+"""The gear motor as a DC machine, at its two ends: unloaded, and at the torque that it may give."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from support.limits import default_limits
+
+from jumpcad.catalogue import load_catalogue
+from jumpcad.drive.cam_law import CamLaw
+from jumpcad.drive.motor import allowed_nm, free_speed_rad_s, least_ratio, winding
+
+MOTOR = load_catalogue().motors["n20-298"]
+LIMITS = default_limits().train
+
+
+def law(stiffness_nm_per_rad: float) -> CamLaw:
+    return CamLaw(math.radians(50), stiffness_nm_per_rad, math.radians(310), math.radians(30))
+
+
+def test_without_a_spring_the_cam_turns_at_the_motors_free_speed() -> None:
+    turn = winding(law(1e-9), MOTOR, 3.0, 0.8)
+    assert turn.seconds == pytest.approx(3.0 * 60.0 / MOTOR.no_load_rpm, rel=1e-6)
+    assert turn.mean_current_a == pytest.approx(MOTOR.no_load_current_a, rel=1e-6)
+    assert turn.electrical_j == pytest.approx(MOTOR.voltage_v * MOTOR.no_load_current_a * turn.seconds, rel=1e-6)
+
+
+def test_at_half_of_its_stall_torque_a_motor_turns_half_as_fast_and_draws_half_of_the_way_to_stall() -> None:
+    spring = law(1.0)
+    ratio = spring.peak_torque_nm / (0.5 * MOTOR.stall_torque_nm)
+    turn = winding(spring, MOTOR, ratio, 1.0)
+    assert turn.peak_current_a == pytest.approx((MOTOR.no_load_current_a + MOTOR.stall_current_a) / 2.0)
+    free, shorter = ratio / free_speed_rad_s(MOTOR), winding(replace(spring, lift_rad=math.radians(300)), MOTOR, 1e9, 1)
+    assert shorter.peak_current_a == pytest.approx(MOTOR.no_load_current_a, rel=1e-6)
+    # unloaded for 50° of the turn, at half of the free speed for 280°, in between on the ramp of 30°
+    assert free * math.radians(50 + 2 * 280 + 30) < turn.seconds < free * math.radians(50 + 2 * 310)
+
+
+def test_the_weaker_of_stall_share_and_gearbox_limits_the_torque() -> None:
+    assert allowed_nm(MOTOR, replace(LIMITS, stall_share=0.2, torque_max_nm=9.0)) == 0.2 * MOTOR.stall_torque_nm
+    assert allowed_nm(MOTOR, replace(LIMITS, stall_share=0.2, torque_max_nm=0.01)) == 0.01
+
+
+def test_the_least_ratio_is_that_of_torque_or_of_speed() -> None:
+    """A strong spring asks for torque, through the losses of cam and pairs; a weak one only for a slow cam."""
+    strong, weak = law(10.0), law(1e-6)
+    losses = LIMITS.cam_efficiency * LIMITS.pair_efficiency**2
+    torque = strong.peak_torque_nm / losses / allowed_nm(MOTOR, LIMITS)
+    assert least_ratio(strong, MOTOR, LIMITS, 2) == pytest.approx(torque)
+    assert least_ratio(weak, MOTOR, LIMITS, 1) == free_speed_rad_s(MOTOR) / LIMITS.cam_speed_max_rad_s

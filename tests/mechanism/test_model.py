@@ -1,0 +1,54 @@
+"""The mechanism's joints, loop and spring against the design's own numbers."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.design import load_design
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism, five_bar
+
+NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"]
+
+
+@pytest.fixture(params=NAMES)
+def mechanism(request: pytest.FixtureRequest) -> Mechanism:
+    return capsule_robot(load_design(request.param))
+
+
+def test_joints_are_a_tree_from_the_body_to_the_foot(mechanism: Mechanism) -> None:
+    assert [(joint.parent, joint.child) for joint in mechanism.joints] == [
+        (BODY, MAIN_LEG), (BODY, FRONT_LINK), (MAIN_LEG, FOOT),
+    ]  # fmt: skip
+    assert [mechanism.joint(name).name for name in ("leg", "front", "ankle")] == ["leg", "front", "ankle"]
+
+
+def test_pivots_are_as_far_apart_as_the_links_are_long(mechanism: Mechanism) -> None:
+    design = mechanism.design
+    leg, front, ankle = (1000.0 * joint.origin_m for joint in mechanism.joints)
+    assert np.linalg.norm(front - leg) == pytest.approx(design.l1_mm)
+    assert np.linalg.norm(ankle) == pytest.approx(design.l2_mm)
+    assert 1000.0 * np.linalg.norm(mechanism.loop.point_a_m) == pytest.approx(design.l3_mm)
+    assert 1000.0 * np.linalg.norm(mechanism.loop.point_b_m) == pytest.approx(design.l4_mm)
+
+
+def test_the_springs_hold_the_designs_energy(mechanism: Mechanism) -> None:
+    turn, per_degree = math.degrees(mechanism.design.compression_rad), mechanism.design.stiffness_nmm_per_deg
+    assert mechanism.spring.energy_j == pytest.approx(0.5 * per_degree * turn * math.radians(turn) / 1000.0)
+    leg = mechanism.joint("leg")
+    assert leg.effort_nm == pytest.approx(per_degree * turn / 1000.0)
+    assert (leg.lower_rad, leg.upper_rad) == (-mechanism.spring.wind_rad, 0.0)
+
+
+def test_an_open_loop_gives_its_joints_the_legs_range() -> None:
+    design = load_design("kenan-2.0").model_copy(update={"c_coef": 1.2, "d_coef": 0.5, "compression_ratio": 0.9})
+    joints, _, _ = five_bar(Linkage(design), (-1.0, 0.0))
+    assert {(joint.lower_rad, joint.upper_rad) for joint in joints} == {(-1.0, 0.0)}
+
+
+def test_the_linkage_is_made_once(mechanism: Mechanism) -> None:
+    assert mechanism.linkage is mechanism.linkage
+    assert mechanism.linkage.design is mechanism.design
+    assert f"{1000.0 * mechanism.mass_kg:.1f} g" in repr(mechanism)

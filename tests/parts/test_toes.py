@@ -1,0 +1,64 @@
+"""Toes that are parts of their own, and holes that print lying."""
+
+import math
+
+import numpy as np
+import pytest
+from support.built import LONG_TOES, built, part, placed
+
+from jumpcad.parts.toes import lying_hole, toes
+
+
+def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
+    layout = built("kenan-2.0").layout
+    for toe, sign in zip(toes(layout), (1.0, -1.0), strict=True):
+        tip = toe.pose_mm @ [toe.length_mm, 0.0, 0.0, 1.0]
+        angle = math.radians(layout.design.ground_link_angle_deg)
+        reach = layout.design.l5_mm * np.array([-math.cos(angle), sign * math.sin(angle)])
+        np.testing.assert_allclose(tip[:2], reach, atol=1e-9)
+        assert toe.root_mm[1] * sign > layout.sections.thickness_mm / 2.0
+
+
+@pytest.mark.parametrize("diameter", [2.9, 3.4])
+def test_a_lying_hole_holds_its_shaft_under_a_roof_of_45_degrees(diameter: float) -> None:
+    """Above the round no wall overhangs by more than 45°, up to a flat bridge of a quarter of the width."""
+    region = lying_hole(diameter, (5.0, 7.0))
+    points = np.concatenate(region.to_polygons()) - [5.0, 7.0]
+    radius = diameter / 2.0
+    assert np.hypot(*points.T).min() > 0.99 * radius
+    above = points[points[:, 1] > 0.75 * radius]
+    flat = above[above[:, 1] > above[:, 1].max() - 1e-6]
+    assert np.ptp(flat[:, 0]) == pytest.approx(0.264 * diameter, rel=0.01)
+    assert above[:, 1].max() == pytest.approx(1.15 * radius)
+    np.testing.assert_allclose(np.abs(above[:, 0]) + above[:, 1], math.sqrt(2.0) * radius, atol=0.02 * radius)
+
+
+def test_toes_are_apart_only_where_the_bed_asks_for_it() -> None:
+    assert [part.name for part in built("kenan-2.0").parts if "toe" in part.name] == []
+    assert [part.name for part in built(LONG_TOES).parts if "toe" in part.name] == ["toe_left", "toe_right"]
+    # 163 x 125 mm fits a bed of 180 mm
+    assert not built("kenan-2.0", "fine").layout.toes_apart
+
+
+def test_toes_apart_are_mirror_images() -> None:
+    robot = built(LONG_TOES)
+    left, right = (placed(robot, name) for name in ("toe_left", "toe_right"))
+    assert left.volume == pytest.approx(right.volume, rel=1e-5)
+    np.testing.assert_allclose(left.center_mass * [1, -1, 1], right.center_mass, atol=2e-3)
+    signs = np.array([[1, -1, 1], [-1, 1, -1], [1, -1, 1]])
+    np.testing.assert_allclose(left.moment_inertia * signs, right.moment_inertia, rtol=1e-3, atol=100.0)
+
+
+def test_toe_and_stub_lie_face_to_face_along_the_joint() -> None:
+    """Between 16 and 30 mm from the root they overlap at full height, a sliding fit apart."""
+    robot = built(LONG_TOES)
+    toe = part(robot, "toe_left")
+    whole = placed(robot, "foot").apply_transform(np.linalg.inv(toe.placements[0].T_body_part))
+    stub = whole.slice_plane([0, -30, 0], [0, 1, 0])
+    for x in (16.0, 23.0, 30.0):
+        of_toe, of_stub = (
+            mesh.slice_plane([x - 0.1, 0, 0], [1, 0, 0]).slice_plane([x + 0.1, 0, 0], [-1, 0, 0]).bounds
+            for mesh in (toe.mesh, stub)
+        )
+        assert of_toe[1, 2] == pytest.approx(of_stub[1, 2], abs=1e-3)
+        assert of_stub[0, 1] - of_toe[1, 1] == pytest.approx(0.2, abs=5e-3)

@@ -1,0 +1,81 @@
+"""Hub bearings against the equilibrium of the leg on two supports."""
+
+import math
+
+import numpy as np
+import pytest
+from support.built import built
+
+from jumpcad.catalogue import load_catalogue
+from jumpcad.design import load_design
+from jumpcad.strength.bearings import (
+    allowed_n,
+    bearing_load_n,
+    first_guess,
+    hub_bearings,
+    hub_width_mm,
+    loaded_forces_n,
+)
+from jumpcad.workshop import load_workshop
+
+BEARING = load_catalogue().bearings["MR63"]
+NONE = np.zeros(2)
+
+
+def test_both_bearings_share_a_force_in_their_middle() -> None:
+    assert bearing_load_n((np.array([0.0, 30.0]), NONE), 8.0, 4.0, BEARING) == pytest.approx(15.0)
+
+
+@pytest.mark.parametrize("leg_mm", [8.0, 12.0])
+def test_a_force_beside_the_leg_presses_the_nearer_bearing_by_more_than_itself(leg_mm: float) -> None:
+    """Moments about the farther bearing: load times the bearings' distance is the force times its own."""
+    apart = leg_mm - BEARING.width_mm
+    beside = leg_mm / 2.0 + 0.5 + 4.0 / 2.0  # a washer of 0.5 mm, half of the roller
+    load = bearing_load_n((NONE, np.array([20.0, 0.0])), leg_mm, 4.0, BEARING)
+    assert load * apart == pytest.approx(20.0 * (beside + apart / 2.0))
+    assert load > 20.0
+
+
+def test_a_narrow_leg_grows_to_the_width_that_two_bearings_need() -> None:
+    forces = (np.array([3.0, 4.0]), np.array([20.0, 0.0]))
+    assert hub_width_mm(BEARING) == pytest.approx(2.0 * BEARING.width_mm + 0.8)
+    narrow, wide = (bearing_load_n(forces, width, 4.0, BEARING) for width in (1.0, hub_width_mm(BEARING)))
+    assert narrow == wide
+    assert hub_width_mm(None) == 0.0
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_arms_and_cam_turn_the_leg_by_the_same_torque(name: str) -> None:
+    """Moments about the hub: the arms' force at the pin is the springs' torque; the cam's holds it, with its angle."""
+    robot = built(name)
+    design, drive = robot.design, robot.layout.drive
+    arms, cam = loaded_forces_n(design, drive)
+    leg = math.radians(design.rest_angle_deg) - design.compression_rad  # below the x axis
+    pin = drive.spring.pin_radius_mm * np.array([math.cos(leg), -math.sin(leg)])
+    torque = 1000.0 * design.peak_spring_torque_nm
+    assert pin[0] * arms[1] - pin[1] * arms[0] == pytest.approx(-torque)  # clockwise, towards rest
+    lever = drive.cam.lever_start_rad + design.compression_rad
+    roller = drive.cam.lever_length_mm * np.array([math.cos(lever), math.sin(lever)])
+    assert roller[0] * cam[1] - roller[1] * cam[0] >= torque - 1e-9  # the contact is not square to the lever
+
+
+def test_a_workshop_offers_the_bearings_of_its_axle_the_lightest_first() -> None:
+    workshop = load_workshop()
+    found = [bearing for bearing in hub_bearings(workshop) if bearing]
+    assert {bearing.bore_mm for bearing in found} == {3.0}
+    assert [bearing.mass_g for bearing in found] == sorted(bearing.mass_g for bearing in found)
+    plain = workshop.model_copy(update={"bought": workshop.bought.model_copy(update={"leg_bearing": ""})})
+    assert hub_bearings(plain) == [None]
+
+
+def test_the_first_guess_passes_over_bearings_of_too_small_a_rating_only() -> None:
+    workshop, design = load_workshop(), load_design("best-bo")
+    bearings = hub_bearings(workshop)
+    number = first_guess(bearings, design, workshop)
+    assert all(
+        bearing is None or allowed_n(bearing, workshop) < 100.0 * design.peak_spring_torque_nm
+        for bearing in bearings[:number]
+    )
+    safer = workshop.model_copy(update={"safety": workshop.safety.model_copy(update={"bearing_factor": 20.0})})
+    assert first_guess(bearings, design, safer) == len(bearings) - 1
+    assert allowed_n(BEARING, safer) == pytest.approx(BEARING.static_load_n / 20.0)

@@ -1,0 +1,20 @@
+"""Limits of the drive as the default workshop gives them."""
+
+from jumpcad.building.limits import drive_limits
+from jumpcad.catalogue import load_catalogue
+from jumpcad.design import load_design
+from jumpcad.drive import DriveLimits
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.strength.bearings import hub_bearings, hub_width_mm
+from jumpcad.strength.sizing import sections
+from jumpcad.workshop import load_workshop
+
+
+def default_limits(name: str = "kenan-2.0") -> DriveLimits:
+    """Return the limits of a drive in the default workshop, beside a template's links with the lightest hub bearing."""
+    workshop = load_workshop()
+    bearing, *_ = hub_bearings(workshop)
+    sizes = sections(Linkage(load_design(name)), workshop, hub_width_mm(bearing))
+    roller = load_catalogue().bearings[workshop.bought.roller]
+    return drive_limits(workshop, roller, sizes, HoleSizes.of(workshop, bearing))
