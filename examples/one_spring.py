@@ -9,8 +9,9 @@ import argparse
 from jumpcad import load_design, load_workshop
 from jumpcad.search.models import RobotModel
 from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.study import Request, run_study
+from jumpcad.search.study import run_study
 
 
 def main() -> None:

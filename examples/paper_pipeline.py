@@ -15,10 +15,11 @@ from jumpcad.search.figures import save
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.studies import plot_study
-from jumpcad.search.study import Request, run_study
+from jumpcad.search.study import run_study
+from jumpcad.search.study_plots import plot_study
 
 
 def main() -> None:

@@ -13,8 +13,9 @@ from jumpcad.search.methods.pareto import energy_j, front, hypervolume
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
 from jumpcad.search.space import Space
-from jumpcad.search.study import Request, run_study
+from jumpcad.search.study import run_study
 
 
 def main() -> None:
@@ -30,10 +31,10 @@ def main() -> None:
     with local_pool() as pool:
         result = run_study(request, arguments.folder / "study.db", pool)
     print("energy (J)   range (m)")
-    for row in front(result.rows):
-        print(f"{energy_j(row.design):10.4f}  {row.score:10.4f}")
-    print(f"hypervolume {hypervolume(result.rows):.4f}")
-    save(plots.pareto(result.rows, find_objective("range")), arguments.folder, "front")
+    for trial in front(result.trials):
+        print(f"{energy_j(trial.design):10.4f}  {trial.score:10.4f}")
+    print(f"hypervolume {hypervolume(result.trials):.4f}")
+    save(plots.pareto(result.trials, find_objective("range")), arguments.folder, "front")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 """Evaluations on many processes or machines, under supervision.
 
-Whatever is a `concurrent.futures.Executor` can do the work: local processes (loky), a Dask cluster, or the calling
-process itself. A lost worker costs time, never a design and never the run: what was under way is repeated one design
-at a time, and a design that fails again is quarantined, with the reason.
+Any `concurrent.futures.Executor` can do the work: local processes (loky), a Dask cluster, or the calling process
+itself. When a worker is lost, the designs that it was given are repeated one at a time; a design that fails again is
+quarantined, with the reason. Neither ends the run.
 """
 
 import contextlib
@@ -27,10 +27,10 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model
 
 TASK_S = 0.1
-"""Evaluations are sent in tasks of up to this length: long against the 0.3 ms that sending one takes."""
+"""Evaluations are sent in tasks of up to this length (s); sending one takes 0.3 ms."""
 
 ANSWER_S = 10.0
-"""How long a Dask scheduler may take to answer."""
+"""Timeout for a Dask scheduler's answer (s)."""
 
 MOST_WORKERS = 256
 LONGEST_S = 86400.0
@@ -60,13 +60,13 @@ class Pool:
     Parameters
     ----------
     open_executor
-        Makes the executor, now and again after its processes were lost.
+        Makes the executor; called again when its processes were lost.
     end_executor
-        Ends it, without waiting for what is still running.
+        Ends it without waiting for running evaluations.
     workers
         How many evaluations it runs at a time.
     limit_s
-        Time that one evaluation may take; a worker past it is ended. 0 for no limit.
+        Timeout per evaluation (s), after which its worker is ended; 0 for none.
     notice
         Is told of every failure in one line.
     """
@@ -195,6 +195,13 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     return Pool(open_executor, lambda executor: executor.shutdown(kill_workers=True), workers, limit_s)
 
 
+def open_pool(workers: int | None = None, dask: str | None = None, limit_s: float = 60.0) -> Pool:
+    """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`."""
+    if dask is not None and workers is not None:
+        raise JumpcadError("--workers and --dask exclude each other: Dask has its own workers")
+    return local_pool(workers, limit_s) if dask is None else dask_pool(dask, limit_s)
+
+
 def _require_limit(limit_s: float) -> None:
     if not 0 < limit_s <= LONGEST_S:  # false for what is no number, too
         raise JumpcadError(
@@ -241,15 +248,15 @@ class InProcess(Executor):
 
 
 def _start_worker() -> None:
-    # Ctrl-C reaches the whole process group; only the parent may answer it.
+    # Ctrl-C is sent to the whole process group; only the parent answers it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Engines greet on standard output, where the parent may be printing one JSON document.
+    # Engines print a greeting; the parent may be printing one JSON document.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
 
 
 def _end_with_parent(parent: int) -> None:
-    """End this process when its parent was killed: the queue to it would wait for ever."""
+    """End this process when its parent was killed; else it would wait for ever."""
     while os.getppid() == parent:
         time.sleep(1.0)
     os._exit(1)
@@ -257,12 +264,12 @@ def _end_with_parent(parent: int) -> None:
 
 @lru_cache(maxsize=1)
 def _unpacked(sent: bytes) -> Model:
-    """Return a model that arrived pickled; the same one for all tasks of a search.
+    """Return a pickled model; the same object for all tasks of a search.
 
     Raises
     ------
     JumpcadError
-        If this machine would compute something else than the one that asks.
+        If this machine has other versions than the one that asks.
     """
     model, asked = cloudpickle.loads(sent)
     for name, version in model.versions().items():
@@ -277,7 +284,7 @@ def _unpacked(sent: bytes) -> Model:
 def _evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> bytes:
     """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
 
-    Left to an executor, which must be ready for functions and classes, pickling takes four times as long.
+    Pickled by the executor, which is prepared for functions and classes, it takes four times as long.
     """
     model = _unpacked(sent)
     results: list[tuple[Any, float]] = []
@@ -288,7 +295,7 @@ def _evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> by
                 result: Evaluation | _Failure = model(design)
             except JumpcadError:
                 raise
-            except Exception as error:  # the run must outlive a bug that one design in a thousand meets
+            except Exception as error:  # a bug that one design in a thousand meets must not end the run
                 result = _Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
         results.append((result, time.perf_counter() - start))
     return pickle.dumps(results)
@@ -296,7 +303,7 @@ def _evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> by
 
 @contextlib.contextmanager
 def _alarm(limit_s: float) -> Iterator[None]:
-    """Have the system end this process when the block takes longer; that works even where Python cannot interrupt."""
+    """Have the system end this process if the block takes longer, also where Python cannot interrupt."""
     if limit_s <= 0 or not hasattr(signal, "setitimer"):
         yield
         return

@@ -5,10 +5,12 @@ greatest one, so that nearness keeps its meaning.
 """
 
 import math
+import numbers
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Self
+from types import MappingProxyType
+from typing import Any, Literal, Self
 
 import numpy as np
 from scipy.stats import qmc
@@ -16,7 +18,13 @@ from scipy.stats import qmc
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
+from jumpcad.files.complaints import described, shown
 from jumpcad.transforms import Array
+
+Kind = Literal["fix", "bound", "choose"]
+FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
+"""Of a change on the command line: what follows `NAME=`, and what separates its numbers."""
+NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -59,10 +67,22 @@ class Parameter:
 
 
 @dataclass(frozen=True)
+class Change:
+    """What a user asks for one parameter: its value, its two bounds, or its choices."""
+
+    kind: Kind
+    name: str
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True, repr=False)
 class Space:
     """The part of the design space that a search looks at: one `Parameter` each, in the order of `PARAMETERS`."""
 
     parameters: tuple[Parameter, ...]
+
+    def __repr__(self) -> str:
+        return f"<Space: {', '.join(p.name for p in self.free)} free>"
 
     def __post_init__(self) -> None:
         if not any(parameter.free for parameter in self.parameters):
@@ -74,21 +94,22 @@ class Space:
         return cls(tuple(Parameter(name, limits.lower, limits.upper) for name, limits in SEARCH_BOUNDS.items()))
 
     @classmethod
-    def parse(
+    def make(
         cls,
-        fix: Iterable[str] = (),
-        bound: Iterable[str] = (),
-        choose: Iterable[str] = (),
+        fixed: Mapping[str, float] = NOTHING,
+        bounds: Mapping[str, tuple[float, float]] = NOTHING,
+        choices: Mapping[str, Sequence[float]] = NOTHING,
         around: Design | None = None,
         only: Iterable[str] = (),
         within_percent: float | None = None,
     ) -> Self:
-        """Return the default space changed by texts from a command line.
+        """Return the default space with changes.
 
         Parameters
         ----------
-        fix, bound, choose
-            ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``, each parameter in at most one of them.
+        fixed, bounds, choices
+            By name of a parameter: its value, its lower and upper limit, its allowed values. Each parameter is in at
+            most one of them.
         around
             A design that gives the values of what is not free and the middle of `within_percent`.
         only
@@ -101,10 +122,47 @@ class Space:
         JumpcadError
             For an unknown name, a value outside of what a design can be, an empty range or nothing left free.
         """
+        changes = [Change("fix", name, (value,)) for name, value in fixed.items()]
+        changes += [Change("bound", name, _several(name, limits)) for name, limits in bounds.items()]
+        changes += [Change("choose", name, _several(name, values)) for name, values in choices.items()]
+        return cls._changed(changes, around, only, within_percent)
+
+    @classmethod
+    def parse(
+        cls,
+        fix: Iterable[str] = (),
+        bound: Iterable[str] = (),
+        choose: Iterable[str] = (),
+        around: Design | None = None,
+        only: Iterable[str] = (),
+        within_percent: float | None = None,
+    ) -> Self:
+        """Return the default space with changes from a command line; see `make`.
+
+        Parameters
+        ----------
+        fix, bound, choose
+            ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``, each parameter in at most one of them.
+        around, only, within_percent
+            As for `make`.
+
+        Raises
+        ------
+        JumpcadError
+            As `make`, and for a text of another form.
+        """
+        texts: tuple[tuple[Kind, Iterable[str]], ...] = (("fix", fix), ("bound", bound), ("choose", choose))
+        changes = [_read(kind, text) for kind, some in texts for text in some]
+        return cls._changed(changes, around, only, within_percent)
+
+    @classmethod
+    def _changed(
+        cls, changes: Iterable[Change], around: Design | None, only: Iterable[str], within_percent: float | None
+    ) -> Self:
         only = [_known(name) for name in only]
         if around is None and (only or within_percent is not None):
             raise JumpcadError("to free only some parameters, or to search near a design, say around which design")
-        changes = _parse_changes(fix, bound, choose)
+        changed = _parameters(changes)
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
         for name, limits in SEARCH_BOUNDS.items():
@@ -113,7 +171,7 @@ class Space:
                 parameter = Parameter(name, centre[name], centre[name])
             elif within_percent is not None:
                 parameter = _narrowed(parameter, centre[name], within_percent)
-            parameters.append(changes.get(name, parameter))
+            parameters.append(changed.get(name, parameter))
         return cls(tuple(parameters))
 
     @cached_property
@@ -192,45 +250,77 @@ def physical_limits(name: str) -> tuple[float, float]:
     return float(lower), float(upper)
 
 
-def _parse_changes(fix: Iterable[str], bound: Iterable[str], choose: Iterable[str]) -> dict[str, Parameter]:
-    changes: dict[str, Parameter] = {}
-    for kind, texts, form in (("fix", fix, "VALUE"), ("bound", bound, "LO:HI"), ("choose", choose, "a,b,c")):
-        for text in texts:
-            name, equals, value = text.partition("=")
-            if not equals:
-                raise JumpcadError(f"{text!r} is not of the form NAME={form}")
-            name = _known(name.strip())
-            if name in changes:
-                raise JumpcadError(f"{name} is given twice: fix it, bound it or choose its values, once")
-            changes[name] = _changed(kind, name, value, text)
-    return changes
+def _read(kind: Kind, text: str) -> Change:
+    """Return the change that a text of the command line stands for."""
+    form, separator = FORMS[kind]
+    name, equals, value = text.partition("=")
+    if not equals:
+        raise JumpcadError(f"{text!r} is not of the form NAME={form}")
+    name = _known(name.strip())
+    values = [_number(item, text) for item in (value.split(separator) if separator else [value])]
+    if kind == "bound" and len(values) != 2:
+        raise JumpcadError(f"{text!r} is not of the form NAME=LO:HI")
+    return Change(kind, name, tuple(values))
 
 
-def _changed(kind: str, name: str, value: str, text: str) -> Parameter:
-    separator = {"fix": None, "bound": ":", "choose": ","}[kind]
-    numbers = [_number(item, name, text) for item in (value.split(separator) if separator else [value])]
-    if kind == "bound":
-        if len(numbers) != 2:
-            raise JumpcadError(f"{text!r} is not of the form NAME=LO:HI")
-        lower, upper = numbers
+def _number(text: str, whole: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
+
+
+def _parameters(changes: Iterable[Change]) -> dict[str, Parameter]:
+    """Return the changed parameters by name."""
+    changed: dict[str, Parameter] = {}
+    for change in changes:
+        name = _known(change.name)
+        if name in changed:
+            raise JumpcadError(f"{name} is given twice: fix it, bound it or choose its values, once")
+        changed[name] = _parameter(change)
+    return changed
+
+
+def _parameter(change: Change) -> Parameter:
+    name, values = change.name, [_possible(change.name, value) for value in change.values]
+    if change.kind == "bound":
+        if len(values) != 2:
+            raise JumpcadError(f"{name} has {len(values)} bounds; give the lower and the upper one")
+        lower, upper = values
         if lower >= upper:
             raise JumpcadError(
                 f"{name} = {lower:g}:{upper:g} is an empty range: the first must be less than the second"
             )
         return Parameter(name, lower, upper)
-    choices = tuple(sorted(set(numbers)))
+    choices = tuple(sorted(set(values)))
+    if not choices:
+        raise JumpcadError(f"{name} has no values to choose from; give at least one")
     return Parameter(name, choices[0], choices[-1], choices if len(choices) > 1 else ())
 
 
-def _number(text: str, name: str, whole: str) -> float:
+def _several(name: str, values: Any) -> tuple[Any, ...]:
+    """Return the numbers that a caller gives for one parameter."""
     try:
-        value = float(text)
-    except ValueError:
-        raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
+        return tuple(values)
+    except TypeError:
+        raise JumpcadError(f"{name} = {described(values)}: give several numbers, or fix the parameter") from None
+
+
+def _possible(name: str, value: Any) -> float:
+    """Return a value that a design can have.
+
+    Raises
+    ------
+    JumpcadError
+        If it is no number, or no design can have it.
+    """
+    if not isinstance(value, numbers.Real):
+        raise JumpcadError(f"{name} = {described(value)} is not a number")
     lower, upper = physical_limits(name)
     if not lower <= value <= upper:
-        raise JumpcadError(f"{name} = {value:g} is outside {lower:g}…{upper:g}: no design can have it")
-    return value
+        number = f"{value:g}" if isinstance(value, float) else shown(value)
+        raise JumpcadError(f"{name} = {number} is outside {lower:g}…{upper:g}: no design can have it")
+    return float(value)
 
 
 def _known(name: str) -> str:

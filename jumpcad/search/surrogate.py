@@ -1,7 +1,7 @@
 """Gaussian processes that stand in for the evaluator between evaluations.
 
-One process for the score, trained on feasible designs only (a refused design has no score, and a zero in its place
-would be a cliff in a smooth hill), and one for the margin of each constraint, trained wherever it is known.
+One process for the score, fitted to feasible designs only (a rejected design has no score, and a zero in its place
+would put a cliff into a smooth function), and one for the margin of each constraint, fitted wherever it is known.
 """
 
 import warnings
@@ -17,7 +17,7 @@ from scipy.optimize import minimize
 from scipy.special import erfcx, log_ndtr
 
 from jumpcad.search.space import Space
-from jumpcad.search.store import Trial
+from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 VERDICT = "verdict"
@@ -71,7 +71,7 @@ class Surrogate:
         return self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
 
     def condition_on(self, point: Array) -> Self:
-        """Return the process that took its own mean at a point (d,) for a measurement (kriging believer)."""
+        """Return the process with its own mean at a point (d,) added as a measurement (kriging believer)."""
         mean, _ = self.predict(point[None])
         return type(self)(np.vstack([self.x, point]), np.append(self.y, mean), self.theta, fit=False)
 
@@ -88,39 +88,39 @@ class Surrogate:
 
 @dataclass(frozen=True)
 class Posterior:
-    """What is believed of a space: the score, if any design is feasible yet, and each constraint's scaled margin."""
+    """Processes fitted to trials: of the score, once two designs are feasible, and of each constraint's margin."""
 
     score: Surrogate | None
     constraints: Mapping[str, Surrogate]
 
     @classmethod
-    def from_rows(
-        cls, space: Space, rows: Sequence[Trial], thetas: Mapping[str, Any], fit: Sequence[str] | None
+    def from_trials(
+        cls, space: Space, trials: Sequence[Trial], thetas: Mapping[str, Any], fit: Sequence[str] | None
     ) -> Self:
-        """Learn from rows, starting from the hyperparameters `thetas` of an earlier belief.
+        """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
 
         Parameters
         ----------
-        space, rows
+        space, trials
             The space, and evaluated designs in it.
         thetas
             Hyperparameters by name, as `thetas` gives them.
         fit
             Names of the processes to fit; None for all. What has no hyperparameters yet is always fitted.
         """
-        x = np.array([space.to_unit(row.design) for row in rows]).reshape(-1, space.dimension)
+        x = np.array([space.to_unit(trial.design) for trial in trials]).reshape(-1, space.dimension)
 
         def learn(name: str, chosen: Array, values: Array) -> Surrogate:
             known = thetas.get(name)
             return Surrogate(x[chosen], values, known, fit=known is None or fit is None or name in fit)
 
-        feasible = np.array([row.score is not None for row in rows], dtype=bool)
+        feasible = np.array([trial.score is not None for trial in trials], dtype=bool)
         score = None
         if feasible.sum() >= 2:
-            scores = np.array([row.score for row in rows if row.score is not None])
+            scores = np.array([trial.score for trial in trials if trial.score is not None])
             score = learn("score", feasible, warped(forwards(scores)))
         constraints = {}
-        for name, margins in constraint_margins(rows).items():
+        for name, margins in constraint_margins(trials).items():
             known = np.isfinite(margins)
             constraints[name] = learn(name, known, _scaled(margins[known]))
         return cls(score, constraints)
@@ -153,7 +153,7 @@ class Posterior:
         return np.log(deviation) + _log_h((mean - warped(best)) / deviation)
 
     def condition_on(self, point: Array) -> "Posterior":
-        """Return the belief after its own means at a point (d,) were taken for measurements."""
+        """Return the posterior with its own means at a point (d,) added as measurements (kriging believer)."""
         constraints = {name: surrogate.condition_on(point) for name, surrogate in self.constraints.items()}
         return Posterior(None if self.score is None else self.score.condition_on(point), constraints)
 
@@ -181,22 +181,22 @@ def unwarped(values: Array) -> Array:
     return np.sign(values) * values**2
 
 
-def constraint_margins(rows: Sequence[Trial]) -> dict[str, Array]:
-    """Return the margins (n,) of each constraint that refused a design; NaN where a row does not know it.
+def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
+    """Return the margins (n,) of each constraint that refused a design; NaN where a trial does not know it.
 
     At most `MAX_CONSTRAINTS`: `VERDICT`, and those that refuse most often.
     """
-    refusals = Counter(reason for row in rows for reason in row.evaluation.reasons)
-    errors = {f.name for row in rows for f in row.evaluation.findings if f.severity == "error"}
+    refusals = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
+    errors = {f.name for trial in trials for f in trial.evaluation.findings if f.severity == "error"}
     ranked = sorted(errors & set(refusals), key=lambda name: (-refusals[name], name))[: MAX_CONSTRAINTS - 1]
-    margins = {name: np.array([_margin(row, name) for row in rows]) for name in ranked}
+    margins = {name: np.array([_margin(trial, name) for trial in trials]) for name in ranked}
     if refusals:
-        margins[VERDICT] = np.array([1.0 if row.evaluation.feasible else -1.0 for row in rows])
+        margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
     return margins
 
 
-def _margin(row: Trial, name: str) -> float:
-    return min((f.margin for f in row.evaluation.findings if f.name == name), default=np.nan)
+def _margin(trial: Trial, name: str) -> float:
+    return min((f.margin for f in trial.evaluation.findings if f.name == name), default=np.nan)
 
 
 def _scaled(margins: Array) -> Array:

@@ -92,8 +92,8 @@ def test_options_of_the_space_arrive(folder):
 
 def test_pareto_reports_its_front(folder):
     found = data("optimize", "pareto", *QUICK, "--evaluations", 40, "--study", "p.db", "--plots", "pics")
-    energies = [row["metrics"]["spring_energy_j"] for row in found["front"]]
-    ranges = [row["metrics"]["ballistic_range_m"] for row in found["front"]]
+    energies = [trial["metrics"]["spring_energy_j"] for trial in found["front"]]
+    ranges = [trial["metrics"]["ballistic_range_m"] for trial in found["front"]]
     assert energies == sorted(energies)
     assert ranges == sorted(ranges)
     assert found["hypervolume"] > 0.0
@@ -217,6 +217,6 @@ def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):
 
 
 def data_or_none(path):
-    """Return how many rows a study has, 0 while it has none."""
+    """Return how many trials a study has, 0 while it has none."""
     result = CliRunner().invoke(app, ["study", path, "--json"])
     return json.loads(result.stdout)["evaluations"] if result.exit_code == 0 and not result.exception else 0
