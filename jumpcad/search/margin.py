@@ -67,7 +67,8 @@ def _missed(space: Space, posterior: Posterior, confidence: float, scatter: floa
 
     def penalty(points: Array) -> Array:
         values = points + offset  # of the parameters, in widths of their ranges
-        return STEEPNESS * np.maximum(np.log(confidence) - posterior.log_feasible(points, scatter * values), 0.0)
+        missed: Array = np.maximum(np.log(confidence) - posterior.log_feasible(points, scatter * values), 0.0)
+        return STEEPNESS * missed
 
     return penalty
 

@@ -181,7 +181,8 @@ def _two(space: Space, trials: Sequence[Trial], posterior: Posterior, objective:
 def _log_acquisition(posterior: Posterior, points: Array, best: float) -> Array:
     """Return the decimal logarithm of the acquisition (m,): a search that has converged leaves it a needle."""
     value = (posterior.log_improvement(points, best) + posterior.log_feasible(points)) / np.log(10.0)
-    return np.maximum(value, value.max() - DECADES)
+    shown: Array = np.maximum(value, value.max() - DECADES)
+    return shown
 
 
 def _scores(trials: Sequence[Trial]) -> Array:

@@ -5,19 +5,15 @@ itself. When a worker is lost, the designs that it was given are repeated one at
 quarantined, with the reason. Neither ends the run.
 """
 
-import contextlib
+import importlib
 import math
 import os
 import pickle
 import re
-import signal
-import threading
-import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import cloudpickle
@@ -25,6 +21,7 @@ import cloudpickle
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model
+from jumpcad.search.worker import Failure, evaluate_task, start_worker
 
 TASK_S = 0.1
 """Evaluations are sent in tasks of up to this length (s); sending one takes 0.3 ms."""
@@ -34,8 +31,10 @@ ANSWER_S = 10.0
 
 MOST_WORKERS = 256
 LONGEST_S = 86400.0
+"""The longest timeout per evaluation (s)."""
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+"""Environment of a local worker: as many workers as cores, one thread each."""
 
 
 @dataclass(frozen=True)
@@ -45,13 +44,6 @@ class Outcome:
     index: int
     evaluation: Evaluation
     duration_s: float
-
-
-@dataclass(frozen=True)
-class _Failure:
-    """An evaluation that ended in an unforeseen exception."""
-
-    text: str
 
 
 class Pool:
@@ -140,11 +132,11 @@ class Pool:
         if self._executor is None:
             self._executor = self._open()
         try:
-            return self._executor.submit(_evaluate_task, sent, designs, self._limit_s)
+            return self._executor.submit(evaluate_task, sent, designs, self._limit_s)
         except BrokenExecutor:
             self.close()
             self._executor = self._open()
-            return self._executor.submit(_evaluate_task, sent, designs, self._limit_s)
+            return self._executor.submit(evaluate_task, sent, designs, self._limit_s)
 
     def _collect(self, future: Future[Any], task: list[int], suspects: dict[int, str]) -> Iterator[Outcome]:
         try:
@@ -156,7 +148,7 @@ class Pool:
             return
         for index, (result, duration_s) in zip(task, results, strict=True):
             self._mean_s += 0.1 * (duration_s - self._mean_s)
-            if isinstance(result, _Failure):
+            if isinstance(result, Failure):
                 suspects[index] = result.text
             else:
                 yield Outcome(index, result, duration_s)
@@ -190,7 +182,8 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     def open_executor() -> Executor:
         import loky
 
-        return loky.ProcessPoolExecutor(workers, initializer=_start_worker, env=ONE_THREAD)
+        executor: Executor = loky.ProcessPoolExecutor(workers, initializer=start_worker, env=ONE_THREAD)
+        return executor
 
     return Pool(open_executor, lambda executor: executor.shutdown(kill_workers=True), workers, limit_s)
 
@@ -198,14 +191,14 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
 def open_pool(workers: int | None = None, dask: str | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`."""
     if dask is not None and workers is not None:
-        raise JumpcadError("--workers and --dask exclude each other: Dask has its own workers")
+        raise JumpcadError("workers and dask exclude each other: a Dask cluster has its own workers")
     return local_pool(workers, limit_s) if dask is None else dask_pool(dask, limit_s)
 
 
 def _require_limit(limit_s: float) -> None:
     if not 0 < limit_s <= LONGEST_S:  # false for what is no number, too
         raise JumpcadError(
-            f"limit = {limit_s:g} s must be more than 0 and at most {LONGEST_S:g}: the time of one evaluation"
+            f"limit = {limit_s:g} s must be more than 0 and at most {LONGEST_S:g}: the timeout per evaluation"
         )
 
 
@@ -213,13 +206,14 @@ def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
     """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad)."""
     _require_limit(limit_s)
     try:
-        from distributed import Client
-        from distributed.comm import resolve_address
+        distributed: Any = importlib.import_module("distributed")  # its annotations are incomplete
     except ImportError:
         raise JumpcadError("Dask is not installed: pip install 'jumpcad[dask]', or use --workers") from None
     try:
-        resolve_address(address)  # first: a client that was refused its address complains when it is collected, too
-        client = Client(address, timeout=ANSWER_S, set_as_default=False)
+        distributed.comm.resolve_address(
+            address
+        )  # first: a client that was refused its address complains when it is collected, too
+        client = distributed.Client(address, timeout=ANSWER_S, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         raise JumpcadError(f"no Dask scheduler answers at {address}: {error}") from None
     workers = sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
@@ -245,70 +239,3 @@ class InProcess(Executor):
         except Exception as error:
             future.set_exception(error)
         return future
-
-
-def _start_worker() -> None:
-    # Ctrl-C is sent to the whole process group; only the parent answers it.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Engines print a greeting; the parent may be printing one JSON document.
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
-
-
-def _end_with_parent(parent: int) -> None:
-    """End this process when its parent was killed; else it would wait for ever."""
-    while os.getppid() == parent:
-        time.sleep(1.0)
-    os._exit(1)
-
-
-@lru_cache(maxsize=1)
-def _unpacked(sent: bytes) -> Model:
-    """Return a pickled model; the same object for all tasks of a search.
-
-    Raises
-    ------
-    JumpcadError
-        If this machine has other versions than the one that asks.
-    """
-    model, asked = cloudpickle.loads(sent)
-    for name, version in model.versions().items():
-        if version != asked[name]:
-            raise JumpcadError(
-                f"a worker has {name} {version}, not {asked[name]}: install there what is installed here, "
-                f"or repeat the command if it changed meanwhile"
-            )
-    return model
-
-
-def _evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> bytes:
-    """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
-
-    Pickled by the executor, which is prepared for functions and classes, it takes four times as long.
-    """
-    model = _unpacked(sent)
-    results: list[tuple[Any, float]] = []
-    for design in designs:
-        start = time.perf_counter()
-        with _alarm(limit_s):
-            try:
-                result: Evaluation | _Failure = model(design)
-            except JumpcadError:
-                raise
-            except Exception as error:  # a bug that one design in a thousand meets must not end the run
-                result = _Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
-        results.append((result, time.perf_counter() - start))
-    return pickle.dumps(results)
-
-
-@contextlib.contextmanager
-def _alarm(limit_s: float) -> Iterator[None]:
-    """Have the system end this process if the block takes longer, also where Python cannot interrupt."""
-    if limit_s <= 0 or not hasattr(signal, "setitimer"):
-        yield
-        return
-    signal.setitimer(signal.ITIMER_REAL, limit_s)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)

@@ -188,7 +188,8 @@ def _worth(bound: ActiveBound, trial: Trial, beyond: Trial) -> ActiveBound:
 
 def _even(dimension: int, generator: np.random.Generator) -> Array:
     """Return evenly spread points (SAMPLES, dimension) of the cube from -1 to 1."""
-    return 2.0 * qmc.Sobol(dimension, seed=generator).random(SAMPLES) - 1.0
+    points: Array = qmc.Sobol(dimension, seed=generator).random(SAMPLES)
+    return 2.0 * points - 1.0
 
 
 def _clipped(vector: Array) -> Design:

@@ -5,7 +5,6 @@ greatest one, so that nearness keeps its meaning.
 """
 
 import math
-import numbers
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -314,7 +313,7 @@ def _possible(name: str, value: Any) -> float:
     JumpcadError
         If it is no number, or no design can have it.
     """
-    if not isinstance(value, numbers.Real):
+    if not isinstance(value, int | float | np.integer | np.floating):
         raise JumpcadError(f"{name} = {described(value)} is not a number")
     lower, upper = physical_limits(name)
     if not lower <= value <= upper:

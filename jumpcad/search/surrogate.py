@@ -68,7 +68,8 @@ class Surrogate:
         distance = self._distance(points)
         weights = (1.0 + distance) * np.exp(-distance) * self._alpha
         pull = weights @ self.x - weights.sum(axis=1, keepdims=True) * points
-        return self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
+        slope: Array = self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
+        return slope
 
     def condition_on(self, point: Array) -> Self:
         """Return the process with its own mean at a point (d,) added as a measurement (kriging believer)."""
@@ -83,7 +84,8 @@ class Surrogate:
     def _distance(self, points: Array) -> Array:
         """Return the distances (m, n) of points from the data, √5·r in lengths of the kernel."""
         difference = points[:, None, :] / self._lengths - self.x[None] / self._lengths
-        return np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        distance: Array = np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        return distance
 
 
 @dataclass(frozen=True)
@@ -173,7 +175,8 @@ def warped(score: npt.ArrayLike) -> Array:
     A jump's range grows with the square of the take-off speed, which is what grows evenly with the parameters.
     """
     score = np.asarray(score, dtype=float)
-    return np.sign(score) * np.sqrt(np.abs(score))
+    root: Array = np.sign(score) * np.sqrt(np.abs(score))
+    return root
 
 
 def unwarped(values: Array) -> Array:
@@ -232,4 +235,5 @@ def _log_h(z: Array) -> Array:
     tail = np.log(ratio) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi)
     # 1 + z·Φ/φ loses its digits below -1e3; there it is 1/z² to first order.
     tail = np.where(far < -1e3, -2.0 * np.log(-far) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi), tail)
-    return np.where(z > -1.0, np.log(plain), tail)
+    value: Array = np.where(z > -1.0, np.log(plain), tail)
+    return value
