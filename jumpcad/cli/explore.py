@@ -85,9 +85,9 @@ def explore(
     ):
         data, lines, figures = run(Evaluator(space, objective, robot, store, pool, watch=watch))
     if plots is not None:
-        from jumpcad.search.figures import save
+        from jumpcad.search.figures import save_figure
 
-        data["pictures"] = [str(save(draw(), plots, name)) for name, draw in figures.items()]
+        data["pictures"] = [str(save_figure(draw(), plots, name)) for name, draw in figures.items()]
     if as_json:
         print_json({"view": view, "model": options.model, "objective": objective.name} | data)
     else:

@@ -39,7 +39,7 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
     return figure, axes
 
 
-def save(figure: Figure, folder: Path, name: str) -> Path:
+def save_figure(figure: Figure, folder: Path, name: str) -> Path:
     """Write a figure as `folder/name.svg`, with a seal, and return the path."""
     stream = io.StringIO()
     with matplotlib.rc_context(STYLE):

@@ -7,7 +7,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from jumpcad.search import plots
-from jumpcad.search.figures import save
+from jumpcad.search.figures import save_figure
 from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import find_objective
 from jumpcad.search.space import Space
@@ -32,7 +32,7 @@ def plot_study(store: StudyStore, folder: Path) -> list[Path]:
         for name, number, count in _moments(trials):
             posterior = Posterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=())
             figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective)
-    return [save(draw(), folder, name) for name, draw in figures.items()]
+    return [save_figure(draw(), folder, name) for name, draw in figures.items()]
 
 
 def _moments(trials: Sequence[Trial]) -> list[tuple[str, int, int]]:

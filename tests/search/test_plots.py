@@ -7,7 +7,7 @@ import pytest
 
 from jumpcad.design import Design
 from jumpcad.search import plots
-from jumpcad.search.figures import PICTURES, save
+from jumpcad.search.figures import PICTURES, save_figure
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
@@ -106,4 +106,4 @@ def test_an_unwritable_folder_is_one_line(tmp_path):
 
     (tmp_path / "file").write_text("")
     with pytest.raises(JumpcadError, match="cannot be written"):
-        save(panels(1)[0], tmp_path / "file", "x")
+        save_figure(panels(1)[0], tmp_path / "file", "x")
