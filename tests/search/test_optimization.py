@@ -9,6 +9,7 @@ import jumpcad
 from jumpcad.cli.commands import app
 from jumpcad.errors import CannotBuildError, JumpcadError
 
+WEAK = {"stiffness_nmm_per_deg": 5, "compression_ratio": 0.1}
 QUICK = {"model": "capsule", "settings": "screening", "workers": 0}
 OPTIONS = ["--model", "capsule", "--settings", "screening", "--workers", "0", "--json"]
 

@@ -213,11 +213,11 @@ def read_all(path):
 @pytest.mark.parametrize(
     ("column", "value", "reason"),
     [
-        ("phase", "'x'", r"trial 'x' 0 2: phase = 'x' is none of ga, bo"),
-        ("phase", "x'ff'", r"trial '\\xff' 0 2: phase = b'\\xff' is no text"),
+        ("phase", "'x'", r"row 'x' 0 2: phase = 'x' is none of ga, bo"),
+        ("phase", "x'ff'", r"row '\\xff' 0 2: phase = b'\\xff' is no text"),
         ("step", "'one'", r"step = 'one' is no whole number"),
         ("place", "-1", r"place = -1 is no whole number of at least 0"),
-        ("c_coef", "'x'", r"trial 'ga' 0 2: c_coef = 'x': must be a valid number"),
+        ("c_coef", "'x'", r"row 'ga' 0 2: c_coef = 'x': must be a valid number"),
         ("c_coef", "9e9", r"c_coef = 9000000000.0: must be at most 3"),
         ("verdict", "char(27) || '[31m'", r"'\\x1b\[31m' is no name of a verdict"),
         ("score", "'x'", r"score = 'x' is no plausible number"),
@@ -226,7 +226,7 @@ def read_all(path):
         ("metrics", '\'{"fitness": "x"}\'', r"metrics.fitness: Input should be a valid number"),
         ("metrics", "'{'", r"metrics: Invalid JSON"),
         ("metrics", "'[]'", r"metrics: Input should be an object"),
-        ("metrics", "x'7b22ff223a317d'", r"trial 'ga' 0 2: metrics: Invalid JSON"),
+        ("metrics", "x'7b22ff223a317d'", r"row 'ga' 0 2: metrics: Invalid JSON"),
         ("findings", "'[{\"name\": 1}]'", r"findings.0.name: Input should be a valid string"),
         ("findings", "replace(findings, 'unit', 'init')", r"findings.0.(unit|init): "),
         ("findings", "replace(findings, 'info', 'fine')", r"findings.0.severity: Input should be 'info'"),

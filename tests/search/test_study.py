@@ -180,7 +180,7 @@ def test_split_of_the_budget(method, evaluations, split):
         ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
         ({"batch": 0}, "batch = 0"),
         ({"seed": -1}, "seed = -1"),
-        ({"seed": 2**32}, "less than 2"),
+        ({"seed": 2**32}, "must be at most 4294967295"),
         ({"method": "gaa"}, "did you mean ga"),
         ({"objective": "height"}, "not one of the objectives"),
         ({"preset": "fast"}, "not one of the presets"),
