@@ -19,7 +19,7 @@ import figures
 
 from jumpcad.bundle.renders import renders
 from jumpcad.design import Design
-from jumpcad.files import write_text_atomically
+from jumpcad.files.outputs import write_atomically
 
 ROOT = Path(__file__).parents[1]
 README = ROOT / "README.md"
@@ -99,7 +99,7 @@ def main(arguments: list[str] | None = None) -> int:
         winner = figures.outcome("printed").winner
         design = Design(**winner["design"])
         if options.write:
-            write_text_atomically(TEMPLATE, HEADING + design.to_toml())
+            write_atomically(TEMPLATE, HEADING + design.to_toml())
         wrong += template_differences(design, winner["score"])
     wrong += picture_differences(options.write)
     readme = README.read_text(encoding="utf-8")
@@ -116,7 +116,7 @@ def main(arguments: list[str] | None = None) -> int:
     if not options.cheap:
         wrong += [f"README.md, {name}: nothing computes it" for name in sorted(written.keys() - names)]
     if options.write:
-        write_text_atomically(README, readme)
+        write_atomically(README, readme)
     print("\n".join(wrong) or "every figure is what the program gives")
     return int(bool(wrong))
 

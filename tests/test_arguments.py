@@ -106,5 +106,5 @@ def test_a_vector_may_be_of_any_numbers() -> None:
 
 
 def test_a_robot_of_which_nothing_is_seen_is_not_exported(tmp_path: Path) -> None:
-    with pytest.raises(JumpcadError, match=r"takes one from jumpcad.build\(\)"):
+    with pytest.raises(JumpcadError, match=r"takes a Robot or a Design, not <Mechanism"):
         jumpcad.export(CAPSULE, tmp_path / "out")

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -38,6 +39,7 @@ def test_the_jump_is_that_of_the_robot_that_is_written(name: str, tmp_path: Path
     """Gate, build and simulation in one; and the URDF on disk, read back and simulated."""
     found, robot = evaluate(load_design(name)), build(load_design(name), name="")
     assert found.jump == simulate(robot)
+    robot = replace(robot, name="robot")
     urdf = tmp_path / "robot.urdf"
     urdf.write_text(write_urdf(robot), encoding="utf-8")
     urdf.with_suffix(".loop.json").write_text(write_loop(robot), encoding="utf-8")

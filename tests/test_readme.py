@@ -9,7 +9,7 @@ from types import ModuleType
 import pytest
 import typer
 
-from jumpcad.cli import app
+from jumpcad.cli.commands import app
 from jumpcad.files import template_names
 
 ROOT = Path(__file__).parents[1]

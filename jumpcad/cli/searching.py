@@ -50,7 +50,7 @@ class SearchOptions:
         "default"
     )
     settings: Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")] = "default"
-    engine: Annotated[str | None, typer.Option(help="pybullet or mujoco; the first that is installed.")] = None
+    engine: Annotated[str | None, typer.Option(help="pybullet, mujoco or planar; else the first installed.")] = None
     workers: Annotated[int | None, typer.Option(help="Processes, one for each core unless given; 0 for none.")] = None
     dask: Annotated[
         str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")

@@ -47,7 +47,9 @@ def simulate(
     capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
     workshop: WorkshopOption = None,
-    engine: Annotated[str | None, typer.Option(help="pybullet, mujoco or both; the first that is installed.")] = None,
+    engine: Annotated[
+        str | None, typer.Option(help="pybullet, mujoco, both, or planar (fast); else the first installed.")
+    ] = None,
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
     flight: Annotated[bool, typer.Option("--flight", help="Go on to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
@@ -78,7 +80,7 @@ def simulate(
         return
     engines = _engines(engine)
     if trajectory and len(engines) > 1:
-        raise JumpcadError("--trajectory records one engine: choose --engine pybullet or mujoco")
+        raise JumpcadError("--trajectory records one engine: choose --engine pybullet, mujoco or planar")
     asked = _settings(settings, flight, trajectory is not None)
     robot = capsule_robot(subject) if capsule else written or designed(design, workshop)
     model = "capsule" if capsule else "URDF" if written else "printed"
@@ -108,15 +110,15 @@ def _published(design: "Design", engine: str | None, as_json: bool) -> None:
 
 def _engines(asked: str | None) -> list[str]:
     """Return the engines to use; without a wish the first that is installed, said where it is not the usual one."""
-    from jumpcad.simulation.engines import ENGINES, default_engine
+    from jumpcad.simulation.engines import GENERAL, default_engine
 
     if asked == "both":
-        return list(ENGINES)
+        return list(GENERAL)
     if asked is not None:
         return [asked]
     engine = default_engine()
-    if engine != ENGINES[0]:
-        print(f"jumpcad: {ENGINES[0]} is not installed; simulated with {engine}", file=sys.stderr)
+    if engine != GENERAL[0]:
+        print(f"jumpcad: {GENERAL[0]} is not installed; simulated with {engine}", file=sys.stderr)
     return [engine]
 
 

@@ -139,7 +139,7 @@ def robot_model(
     workshop, settings
         Where `printed` is built; how `printed` and `capsule` are simulated.
     engine
-        The first that is installed, if None.
+        PyBullet or MuJoCo, the first that is installed, if None.
 
     Raises
     ------
@@ -147,7 +147,7 @@ def robot_model(
         If there is no such model, engine, workshop or settings.
     """
     if engine is not None and engine not in ENGINES:
-        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {' and '.join(ENGINES)}")
+        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {', '.join(ENGINES)}")
     if name not in MODELS or name == "published":
         return RobotModel(name)
     built_in = None if name != "printed" else workshop if isinstance(workshop, Workshop) else load_workshop(workshop)

@@ -3,9 +3,10 @@
 The engines load when they are first used.
 """
 
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import cache
-from typing import Protocol
+from typing import Any, Protocol
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
@@ -37,7 +38,8 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
     settings
         Time step, friction and so on; the default settings if None.
     engine
-        `pybullet`, or `mujoco` as an independent second opinion.
+        `pybullet`, `mujoco` as an independent second opinion, or `planar`, the push-off in the plane in a fraction of
+        their time.
 
     Returns
     -------
@@ -59,7 +61,7 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
     if refused:
         return Jump(refused[0].name, engine, mechanism.mass_kg, mechanism.spring.energy_j, findings=tuple(findings))
     with maker.world(mechanism, settings) as world:
-        run = Run(world, mechanism, settings)
+        run = _runner(engine)(world, mechanism, settings)
         run.go()
         return _jump(run, engine, tuple(findings))
 
@@ -75,7 +77,20 @@ def _engine(name: str) -> Engine:
         from jumpcad.simulation.mujoco import MujocoEngine
 
         return MujocoEngine()
-    raise JumpcadError(f"{name!r} is not an engine; there are {' and '.join(ENGINES)}{did_you_mean(name, ENGINES)}")
+    if name == "planar":
+        from jumpcad.simulation.planar import PlanarEngine
+
+        return PlanarEngine()
+    raise JumpcadError(f"{name!r} is not an engine; there are {', '.join(ENGINES)}{did_you_mean(name, ENGINES)}")
+
+
+def _runner(engine: str) -> Callable[[Any, Mechanism, Settings], Run]:
+    """Return what carries out an engine's runs."""
+    if engine == "planar":
+        from jumpcad.simulation.planar import PlanarRun
+
+        return PlanarRun
+    return Run
 
 
 def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:

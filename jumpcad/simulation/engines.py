@@ -9,7 +9,9 @@ from types import ModuleType
 
 from jumpcad.errors import JumpcadError
 
-ENGINES = ("pybullet", "mujoco")
+GENERAL = ("pybullet", "mujoco")
+"""General rigid-body engines, independent of each other and of this package."""
+ENGINES = (*GENERAL, "planar")
 
 
 def import_pybullet(without_it: str = "--engine mujoco works without it") -> ModuleType:
@@ -35,14 +37,14 @@ def import_mujoco() -> ModuleType:
 
 
 def default_engine() -> str:
-    """Return the first engine that is installed.
+    """Return the first general engine that is installed.
 
     Raises
     ------
     JumpcadError
         If there is none.
     """
-    for engine in ENGINES:
+    for engine in GENERAL:
         if importlib.util.find_spec(engine) is not None:
             return engine
     raise JumpcadError(

@@ -95,7 +95,7 @@ class Run:
         """Say whether the run has passed its audit so far."""
         return self.worst_energy_ratio <= ENERGY_RATIO_LIMIT and self.worst_gap_m <= LOOP_GAP_LIMIT_M
 
-    def findings(self) -> tuple[Finding, Finding]:
+    def findings(self) -> tuple[Finding, ...]:
         """Return the audit's findings `audit_energy` and `audit_loop`."""
         energy, gap = ENERGY_RATIO_LIMIT - self.worst_energy_ratio, 1000.0 * (LOOP_GAP_LIMIT_M - self.worst_gap_m)
         remedy = "use a smaller dt_s or more solver_iterations; if that does not help, the design is at a dead point"

@@ -8,17 +8,17 @@ from pathlib import Path
 
 import pytest
 
+from jumpcad.bundle import place
 from jumpcad.bundle.folder import change_files, require_unedited, write_folder
 from jumpcad.bundle.manifest import open_bundle, unlisted, verify
 from jumpcad.bundle.swap import exchanged
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters import place
 
 DIES = """
 import os, signal, sys
 from pathlib import Path
 from jumpcad.bundle import folder
-from jumpcad.exporters import place
+from jumpcad.bundle import place
 holder, step, turn = {"write": (Path, "write_bytes", 2), "link": (os, "link", 1), "exchange": (place, "exchanged", 1),
                       "rename": (os, "rename", 1), "clean": (os, "unlink", 2)}[sys.argv[2]]
 whole, calls = getattr(holder, step), 0
