@@ -1,6 +1,6 @@
 """How fast each method climbs on the capsule robot: best fitness after so many evaluations, over several seeds.
 
-Default bounds; a refused design scores 0; the best known is 11.87. Random search and the published settings of the
+Default bounds; a rejected design scores 0; the best known is 11.87. Random search and the published settings of the
 genetic algorithm stand beside ours, and CMA-ES (pycma) and TPE (Optuna) as references from elsewhere.
 Run `python benchmarks/search.py [--seeds N] [--methods a,b] [--json]`; all of it takes about a quarter of an hour.
 """

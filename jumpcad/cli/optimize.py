@@ -141,7 +141,7 @@ def _print_result(result: "Result", design_file: Path) -> None:
         print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  rejected of 32")
     for one in result.candidates[:SHOWN]:
         scores = (one.trial.score or 0.0, one.parameters_score, one.print_score)
-        print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {_counted(one.refusals)}")
+        print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {_counted(one.rejections)}")
     print(f"\n{design_file}: {request.objective} {result.score:.4f}")
     for name, value in result.design.model_dump().items():
         print(f"  {name:24s}{value:12.5g}")

@@ -60,7 +60,7 @@ def study(
 
 
 def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
-    from jumpcad.search.trial import count_refusals, feasible_trials, searched
+    from jumpcad.search.trial import count_rejections, feasible_trials, searched
 
     trials, identity = store.trials(), store.identity
     proposed = searched(trials)
@@ -71,7 +71,7 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
         "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])),
         "evaluations": len(proposed),
         "other_evaluations": len(trials) - len(proposed),
-        "refused": count_refusals(proposed),
+        "refused": count_rejections(proposed),
         "evaluation_time_s": sum(trial.duration_s for trial in trials),
         "best": top[0].to_dict() if top else None,
         "top": [trial.to_dict() for trial in top[:best]],

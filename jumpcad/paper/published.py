@@ -57,7 +57,7 @@ def simulate(design: Design) -> PublishedJump:
     JumpcadError
         If PyBullet is not installed.
     """
-    energy = design.spring_energy_j  # refuses a design without an assembled pose
+    energy = design.spring_energy_j  # raises for a design without an assembled pose
     bullet = import_pybullet("the published model has no other engine")
     client = bullet.connect(bullet.DIRECT)
     try:

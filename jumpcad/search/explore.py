@@ -49,7 +49,7 @@ class Components:
 
 @dataclass(frozen=True)
 class Importance:
-    """By how much a prediction's R² on designs it has not seen falls when a parameter is shuffled: mean and deviation.
+    """Fall of the R² on held-out designs when a parameter is shuffled: mean and standard deviation.
 
     ``r_squared`` is the R² before; ``designs`` the number of designs that jump.
     """
@@ -63,7 +63,7 @@ class Importance:
 
 @dataclass(frozen=True)
 class FeasibilityMap:
-    """Verdicts over a grid of two parameters, the others as in a design: trials[j][i] at ``y[j]``, ``x[i]``."""
+    """Trials over a grid of two parameters, the others as in a design: trials[j][i] is at ``y[j]``, ``x[i]``."""
 
     x_name: str
     y_name: str
@@ -73,7 +73,7 @@ class FeasibilityMap:
 
 
 def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
-    """Vary each free parameter alone over its range, `points` values each (or its choices)."""
+    """Vary each free parameter alone, over `points` values of its range (or over its choices)."""
     if points < 2:
         raise JumpcadError(f"points = {points} must be at least 2")
     sweeps = []

@@ -56,9 +56,9 @@ class RobotModel:
     def __call__(self, design: Design) -> Evaluation:
         """Evaluate a design; one that cannot be built is a verdict, not an error."""
         findings = tuple(geometry_findings(design))
-        refused = errors(findings)
-        if refused:
-            return Evaluation(refused[0].name, findings=findings)
+        rejecting = errors(findings)
+        if rejecting:
+            return Evaluation(rejecting[0].name, findings=findings)
         try:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:

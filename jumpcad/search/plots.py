@@ -19,7 +19,7 @@ from jumpcad.transforms import Array
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
 ACQUISITION = "log10 of EI × P(feasible)"
 DECADES = 6.0
-"""How far below its maximum the acquisition is drawn."""
+"""Decades below its maximum that the acquisition is drawn over."""
 
 
 def history(trials: Sequence[Trial], objective: Objective) -> Figure:
@@ -31,7 +31,7 @@ def history(trials: Sequence[Trial], objective: Objective) -> Figure:
         of_phase = np.array([trial.phase == phase for trial in trials])
         axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase)
     axes.plot(number, np.fmax.accumulate(scores), "-", lw=1.2, color="black", label="best so far")
-    axes.plot(number[np.isnan(scores)], np.zeros(int(np.isnan(scores).sum())), "|", color=GREY, label="refused")
+    axes.plot(number[np.isnan(scores)], np.zeros(int(np.isnan(scores).sum())), "|", color=GREY, label="rejected")
     labels(axes, "evaluation", f"{objective.meaning} ({objective.unit})")
     axes.legend()
     return figure
@@ -77,7 +77,7 @@ def pareto(trials: Sequence[Trial], objective: Objective) -> Figure:
 
 
 def importance(found: Importance) -> Figure:
-    """Draw permutation importances, greatest on top."""
+    """Draw permutation importances, largest at the top."""
     figure, (axes,) = panels(1, 6.4, 3.2)
     order = np.argsort(found.mean)
     axes.barh([found.names[i] for i in order], found.mean[order], xerr=found.deviation[order], color=BLUE)
@@ -86,13 +86,13 @@ def importance(found: Importance) -> Figure:
 
 
 def sweeps(found: Sequence[Sweep], objective: Objective) -> Figure:
-    """Draw the score over each parameter varied alone; crosses where the design is refused."""
+    """Draw the score over each parameter varied alone; crosses where the design is rejected."""
     figure, all_axes = panels(len(found))
     for axes, one in zip(all_axes, found, strict=True):
         scores = _scores(one.trials)
         axes.plot(one.values, scores, ".-", color=BLUE)
-        refused = np.isnan(scores)
-        axes.plot(one.values[refused], np.zeros(int(refused.sum())), "x", color=RED, ms=4)
+        rejected = np.isnan(scores)
+        axes.plot(one.values[rejected], np.zeros(int(rejected.sum())), "x", color=RED, ms=4)
         labels(axes, one.parameter, objective.unit)
     return figure
 
@@ -108,7 +108,7 @@ def components(views: Mapping[str, Components]) -> Figure:
 
 
 def feasibility(found: FeasibilityMap) -> Figure:
-    """Draw why designs are refused, over a grid of two parameters."""
+    """Draw why designs are rejected, over a grid of two parameters."""
     figure, (axes,) = panels(1, 6.4, 4.2)
     reasons = [[" ".join(trial.evaluation.reasons[:1]) or "jump" for trial in line] for line in found.trials]
     names = sorted({reason for line in reasons for reason in line}, key=lambda name: (name != "jump", name))
@@ -174,17 +174,17 @@ def _two(space: Space, trials: Sequence[Trial], posterior: Posterior, objective:
                 [getattr(d, first.name) for d in shown], [getattr(d, second.name) for d in shown],
                 ".", ms=7, mec="black", mew=0.4, color=colour,
             )  # fmt: skip
-        labels(axes, first.name, second.name, f"{title}; refused designs in red")
+        labels(axes, first.name, second.name, f"{title}; rejected designs in red")
     return figure
 
 
 def _log_acquisition(posterior: Posterior, points: Array, best: float) -> Array:
-    """Return the decimal logarithm of the acquisition (m,): a search that has converged leaves it a needle."""
+    """Return the decimal logarithm of the acquisition (m,), no lower than `DECADES` below its maximum."""
     value = (posterior.log_improvement(points, best) + posterior.log_feasible(points)) / np.log(10.0)
     shown: Array = np.maximum(value, value.max() - DECADES)
     return shown
 
 
 def _scores(trials: Sequence[Trial]) -> Array:
-    """Return the scores (n,); NaN where a design is refused."""
+    """Return the scores (n,); NaN where a design is rejected."""
     return np.array([np.nan if trial.score is None else trial.score for trial in trials])

@@ -39,7 +39,7 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THRE
 
 @dataclass(frozen=True)
 class Outcome:
-    """One finished evaluation of a batch: the design's place in it, the result, and how long it took."""
+    """One finished evaluation: index of the design in its batch, result, duration."""
 
     index: int
     evaluation: Evaluation
@@ -47,7 +47,7 @@ class Outcome:
 
 
 class Pool:
-    """Supervisor of an executor.
+    """Runs evaluations on an executor, and repeats what it loses.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ class Pool:
                 yield Outcome(index, Evaluation(QUARANTINED, detail=again[index]), 0.0)
 
     def _tasks(self, count: int) -> list[list[int]]:
-        """Split a batch into tasks of `TASK_S` at most that grow smaller, so that all workers finish together."""
+        """Split a batch into tasks of at most `TASK_S`, the last ones smaller, so that all workers finish together."""
         most = max(1, int(TASK_S / self._mean_s))
         tasks, start = [], 0
         while start < count:
@@ -154,7 +154,7 @@ class Pool:
                 yield Outcome(index, result, duration_s)
 
     def _loss(self, error: Exception) -> str:
-        """Say in one line how a worker was lost."""
+        """Return in one line how a worker was lost."""
         ended_by = re.search(r"SIG[A-Z]+", str(error))
         if ended_by and ended_by[0] == "SIGALRM":
             return f"it ran past its limit of {self._limit_s:g} s"
@@ -167,7 +167,7 @@ class Pool:
 def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of processes on this machine, by default one for each core that this process may use.
 
-    0 workers evaluate in the calling process: no start-up, and no supervision.
+    With 0 workers, designs are evaluated in the calling process, without a timeout.
     """
     if workers is None:
         workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -210,9 +210,8 @@ def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
     except ImportError:
         raise JumpcadError("Dask is not installed: pip install 'jumpcad[dask]', or use --workers") from None
     try:
-        distributed.comm.resolve_address(
-            address
-        )  # first: a client that was refused its address complains when it is collected, too
+        # First, since a client with a wrong address complains again when it is collected.
+        distributed.comm.resolve_address(address)
         client = distributed.Client(address, timeout=ANSWER_S, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         raise JumpcadError(f"no Dask scheduler answers at {address}: {error}") from None

@@ -10,7 +10,7 @@ from jumpcad.files.outputs import require_target, sealed, write_atomically
 from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
-from jumpcad.search.trial import Trial, count_refusals
+from jumpcad.search.trial import Trial, count_rejections
 
 HEADING = "# Found by jumpcad optimize"
 
@@ -81,7 +81,7 @@ class Result:
     @property
     def rejected(self) -> dict[str, int]:
         """How many designs each reason rejected, most frequent first."""
-        return count_refusals(self.trials)
+        return count_rejections(self.trials)
 
     def to_toml(self) -> str:
         """Return the winner's design file. Raises as `design`."""

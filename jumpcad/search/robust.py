@@ -20,9 +20,9 @@ from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array
 
 TENS = 3
-"""How many times ten of the best trials are tried at most."""
+"""At most so many tens of the best trials are examined."""
 KEPT = 0.9
-"""Share of the best score at which a robust score is good enough to look no further."""
+"""A robust score of this share of the best score ends the examination."""
 SAMPLES = 16
 PERCENT = 1.0
 PERCENTILE = 10
@@ -36,17 +36,17 @@ class Candidate:
 
     ``parameters_score`` and ``print_score`` are the 10th percentiles of the score when every parameter varies by ±1 %,
     and when every length varies by the tolerance of print and assembly; a rejected neighbour counts 0.
-    ``refusals`` counts why neighbours were rejected.
+    ``rejections`` counts why neighbours were rejected.
     """
 
     trial: Trial
     parameters_score: float
     print_score: float
-    refusals: dict[str, int]
+    rejections: dict[str, int]
 
     @property
     def robust_score(self) -> float:
-        """The lesser of both percentiles, by which candidates are ranked."""
+        """The lower of both percentiles; candidates are ranked by it."""
         return min(self.parameters_score, self.print_score)
 
     def to_dict(self) -> dict[str, Any]:
@@ -56,15 +56,15 @@ class Candidate:
             "robust_score": self.robust_score,
             "parameters_score": self.parameters_score,
             "print_score": self.print_score,
-            "refusals": self.refusals,
+            "refusals": self.rejections,
             "design": self.trial.design.model_dump(),
         }
 
     def __repr__(self) -> str:
-        refused = sum(self.refusals.values())
+        rejected = sum(self.rejections.values())
         return (
             f"<Candidate: score {self.trial.score:.4g}, neighbours {self.robust_score:.4g}, "
-            f"{refused} of {2 * SAMPLES} rejected>"
+            f"{rejected} of {2 * SAMPLES} rejected>"
         )
 
 
@@ -96,7 +96,7 @@ def rank_candidates(evaluator: Evaluator, trials: Sequence[Trial], seed: int, to
     candidates: list[Candidate] = []
     for turn, ten in enumerate(tens):
         candidates += _examined(evaluator, ten, first + turn, seed, tolerance_mm)
-        if turn == 0 and candidates[0].refusals:
+        if turn == 0 and candidates[0].rejections:
             off_edge = propose_robust(evaluator, trials, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
             feasible = [trial for trial in off_edge if trial.score is not None]
             candidates += _examined(evaluator, feasible, first + TENS, seed, tolerance_mm)
@@ -121,13 +121,13 @@ def _examined(
     candidates = []
     for index, trial in enumerate(chosen):
         scores: dict[str, list[float]] = {"parameters": [], "print": []}
-        refusals: Counter[str] = Counter()
+        rejections: Counter[str] = Counter()
         for (owner, kind, _), neighbour in zip(neighbours, found, strict=True):
             if owner == index and neighbour is not None:
                 scores[kind].append(neighbour.score or 0.0)
-                refusals.update(neighbour.evaluation.reasons)
+                rejections.update(neighbour.evaluation.reasons)
         tenth = {kind: float(np.percentile(values, PERCENTILE)) for kind, values in scores.items()}
-        candidates.append(Candidate(trial, tenth["parameters"], tenth["print"], dict(sorted(refusals.items()))))
+        candidates.append(Candidate(trial, tenth["parameters"], tenth["print"], dict(sorted(rejections.items()))))
     return candidates
 
 
@@ -144,7 +144,7 @@ def best_apart(space: Space, trials: Sequence[Trial], count: int) -> list[Trial]
 
 
 def varied_parameters(design: Design, generator: np.random.Generator) -> list[Design]:
-    """Return designs with every parameter varied evenly within ±1 %, as far as a design can be."""
+    """Return designs with every parameter varied evenly within ±1 %, and within a design's limits."""
     factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)
     return [_clipped(np.array(design.to_vector()) * factor) for factor in factors]
 
@@ -160,9 +160,9 @@ def varied_lengths(design: Design, tolerance_mm: float, generator: np.random.Gen
 
 
 def active_bounds(evaluator: Evaluator, trial: Trial, step: int) -> list[ActiveBound]:
-    """Return the bounds on which a design lies, each with what going beyond it by a twentieth of the range is worth.
+    """Return the bounds on which a design lies, each with the change of the score a twentieth of the range beyond it.
 
-    A bound beyond which no design can be is not among them.
+    Bounds that are also limits of a design are left out.
     """
     found = []
     for parameter in evaluator.space.free:

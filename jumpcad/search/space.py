@@ -1,7 +1,6 @@
-"""Where a search looks: each of the eight parameters free in a range, free among choices, or fixed.
+"""The search space: each of the eight parameters free in a range, free among choices, or fixed.
 
-Optimisers see the unit cube of the free parameters only; a choice sits at its place between the least and the
-greatest one, so that nearness keeps its meaning.
+Methods work in the unit cube of the free parameters. Choices are placed in it in proportion to their values.
 """
 
 import math
@@ -76,7 +75,7 @@ class Change:
 
 @dataclass(frozen=True, repr=False)
 class Space:
-    """The part of the design space that a search looks at: one `Parameter` each, in the order of `PARAMETERS`."""
+    """The part of the design space that is searched: one `Parameter` each, in the order of `PARAMETERS`."""
 
     parameters: tuple[Parameter, ...]
 
@@ -89,7 +88,7 @@ class Space:
 
     @classmethod
     def default(cls) -> Self:
-        """Return the box that the published study searched."""
+        """Return the bounds that the published study searched."""
         return cls(tuple(Parameter(name, limits.lower, limits.upper) for name, limits in SEARCH_BOUNDS.items()))
 
     @classmethod
@@ -185,7 +184,7 @@ class Space:
 
     @property
     def size(self) -> float:
-        """Number of different designs; infinite as soon as one free parameter is continuous."""
+        """Number of different designs; infinite if a free parameter is continuous."""
         return math.prod(len(parameter.choices) or math.inf for parameter in self.free)
 
     def to_design(self, unit: Sequence[float] | Array) -> Design:
@@ -237,7 +236,7 @@ class Space:
         return cls(tuple(parameters))
 
     def describe(self) -> dict[str, Any]:
-        """Return the space as plain data: what a study remembers of it."""
+        """Return the space as plain data, as the study file keeps it."""
         return {parameter.name: parameter.describe() for parameter in self.parameters}
 
 

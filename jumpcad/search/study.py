@@ -19,13 +19,8 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial, best_trial
 
 
-def run_study(
-    request: Request,
-    path: Path | None,
-    pool: Pool,
-    watch: Watch = ignore,
-) -> Result:
-    """Run a study, or go on with it where its file ends; None keeps it in memory.
+def run_study(request: Request, path: Path | None, pool: Pool, watch: Watch = ignore) -> Result:
+    """Run a study, or go on with the one in a file; None keeps it in memory.
 
     Raises
     ------
@@ -86,4 +81,9 @@ def _read_prior(request: Request) -> tuple[list[Trial], str]:
             if request.space.contains(trial.design)
         ]
         same = all(trial.model == request.model.digest for trial in trials)
-        return trials, "" if same else f"{request.prior} was made by another program; it is learned from all the same"
+        return (
+            trials,
+            ""
+            if same
+            else f"{request.prior} was made by another version of the program; the search learns from it nevertheless",
+        )

@@ -1,4 +1,4 @@
-"""All pictures of a study."""
+"""The pictures of a study."""
 
 from collections.abc import Callable, Sequence
 from functools import partial

@@ -1,4 +1,4 @@
-"""Gaussian processes that stand in for the evaluator between evaluations.
+"""Gaussian processes that predict score and constraints of designs not yet evaluated.
 
 One process for the score, fitted to feasible designs only (a rejected design has no score, and a zero in its place
 would put a cliff into a smooth function), and one for the margin of each constraint, fitted wherever it is known.
@@ -21,7 +21,7 @@ from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 VERDICT = "verdict"
-"""Stands among the constraints for all refusals together, also those that leave no margin: +1 for a jump, else -1."""
+"""A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
 MAX_CONSTRAINTS = 8
 _FIT_STEPS = 30
 
@@ -47,7 +47,7 @@ class Surrogate:
             _kernel(x.shape[1], theta), alpha=1e-8, normalize_y=True, optimizer=_improve if fit else None
         )
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its bound only says: this axis is flat
+            warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its upper bound: the axis has no effect
             regressor.fit(x, y)
         self.x, self.y = x, y
         self.theta: list[float] = regressor.kernel_.theta.tolist()
@@ -163,8 +163,8 @@ class Posterior:
 def forwards(scores: Array) -> Array:
     """Return scores (n,) in which a jump backwards counts as no jump, if any goes forwards.
 
-    How far a design jumps the wrong way tells nothing of the best ones, but cliffs on the way to them shorten the
-    lengths of the process: without this, one seed in eight was still lost at 100 evaluations.
+    Large negative scores would shorten the lengths of the process and say nothing of the best designs: with them, one
+    seed in eight had not converged at 100 evaluations.
     """
     return np.maximum(scores, 0.0) if scores.max() > 0.0 else scores
 
@@ -172,7 +172,7 @@ def forwards(scores: Array) -> Array:
 def warped(score: npt.ArrayLike) -> Array:
     """Return the square root of scores, with their sign.
 
-    A jump's range grows with the square of the take-off speed, which is what grows evenly with the parameters.
+    The range grows with the square of the take-off speed, and the speed about linearly with the parameters.
     """
     score = np.asarray(score, dtype=float)
     root: Array = np.sign(score) * np.sqrt(np.abs(score))
@@ -180,20 +180,20 @@ def warped(score: npt.ArrayLike) -> Array:
 
 
 def unwarped(values: Array) -> Array:
-    """Return the scores whose square roots these are."""
+    """Return the scores of warped values; the inverse of `warped`."""
     return np.sign(values) * values**2
 
 
 def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
-    """Return the margins (n,) of each constraint that refused a design; NaN where a trial does not know it.
+    """Return the margins (n,) of each constraint that rejected a design; NaN where a trial lacks it.
 
-    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that refuse most often.
+    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most often.
     """
-    refusals = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
+    rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
     errors = {f.name for trial in trials for f in trial.evaluation.findings if f.severity == "error"}
-    ranked = sorted(errors & set(refusals), key=lambda name: (-refusals[name], name))[: MAX_CONSTRAINTS - 1]
+    ranked = sorted(errors & set(rejections), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
     margins = {name: np.array([_margin(trial, name) for trial in trials]) for name in ranked}
-    if refusals:
+    if rejections:
         margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
     return margins
 
@@ -203,7 +203,7 @@ def _margin(trial: Trial, name: str) -> float:
 
 
 def _scaled(margins: Array) -> Array:
-    """Return margins in units of their typical size, far ones compressed; the sign, which decides, is kept."""
+    """Return margins in units of their typical size, large ones compressed; the sign is kept."""
     size = float(np.median(np.abs(margins)))
     return np.arcsinh(margins / (size if size > 0 else 1.0))
 
@@ -218,7 +218,7 @@ def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:
 
 
 def _improve(objective: Callable[..., Any], start: Array, bounds: Array) -> tuple[Array, float]:
-    """Maximise the likelihood a little: the next fit starts where this one ends."""
+    """Maximise the likelihood with few steps; the next fit starts where this one ends."""
     found = minimize(
         objective, start, method="L-BFGS-B", jac=True, bounds=list(map(tuple, bounds)), options={"maxiter": _FIT_STEPS}
     )

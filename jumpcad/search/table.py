@@ -19,7 +19,7 @@ def _table(trials: Sequence[Trial]) -> list[dict[str, Any]]:
 
 
 def write_table(trials: Sequence[Trial], path: Path, force: bool = False) -> None:
-    """Write trials to a `.csv` or `.parquet` file, over one that is there only if forced.
+    """Write trials to a `.csv` or `.parquet` file, over an existing one only if forced.
 
     Raises
     ------

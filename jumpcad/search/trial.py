@@ -94,6 +94,6 @@ def searched(trials: Sequence[Trial]) -> list[Trial]:
     return [trial for trial in trials if trial.phase in SEARCH_PHASES]
 
 
-def count_refusals(trials: Sequence[Trial]) -> dict[str, int]:
+def count_rejections(trials: Sequence[Trial]) -> dict[str, int]:
     """Return how many trials each reason rejected, most frequent first."""
     return dict(Counter(reason for trial in trials for reason in trial.evaluation.reasons).most_common())

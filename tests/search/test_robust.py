@@ -64,7 +64,7 @@ def test_refused_neighbours_count_nothing_and_are_named(evaluator):
     assert candidate.trial.design == edge
     assert candidate.parameters_score == 0.0
     assert candidate.print_score > 0.0
-    assert candidate.refusals["loop"] == pytest.approx(8, abs=1)  # half of the 16 parameters go up
+    assert candidate.rejections["loop"] == pytest.approx(8, abs=1)  # half of the 16 parameters go up
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
     assert best.trial.phase == "margin"
     # 1 % above it is still feasible, and it gives away no more than twice what that costs.
     assert 0.98 * 0.7 < best.trial.design.compression_ratio < 0.7 / 1.008
-    assert best.refusals.get("loop", 0) <= 1
+    assert best.rejections.get("loop", 0) <= 1
     assert all(other.robust_score < 5.0 for other in ranked if other.trial.design.compression_ratio > 0.699)
 
 
