@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from jumpcad.search.objective import Objective as Objective
     from jumpcad.search.objective import find_objective as find_objective
     from jumpcad.search.optimization import optimize as optimize
+    from jumpcad.search.parameter import Parameter as Parameter
     from jumpcad.search.pool import Pool as Pool
     from jumpcad.search.pool import dask_pool as dask_pool
     from jumpcad.search.pool import local_pool as local_pool
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
     from jumpcad.search.result import Result as Result
     from jumpcad.search.robust import ActiveBound as ActiveBound
     from jumpcad.search.robust import Candidate as Candidate
-    from jumpcad.search.space import Parameter as Parameter
     from jumpcad.search.space import Space as Space
     from jumpcad.search.store import StudyStore as StudyStore
     from jumpcad.search.study import run_study as run_study
@@ -53,7 +53,7 @@ _HOMES = {
     "MODELS": "models",
     "OBJECTIVES": "objective",
     "Objective": "objective",
-    "Parameter": "space",
+    "Parameter": "parameter",
     "Pool": "pool",
     "Request": "request",
     "Result": "result",

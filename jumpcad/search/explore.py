@@ -9,7 +9,7 @@ from threadpoolctl import threadpool_limits
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.space import Parameter
+from jumpcad.search.parameter import Parameter
 from jumpcad.search.surrogate import Surrogate, warped
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array

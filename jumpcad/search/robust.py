@@ -15,7 +15,8 @@ from scipy.stats import qmc
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.margin import propose_robust
-from jumpcad.search.space import Space, physical_limits
+from jumpcad.search.parameter import physical_limits
+from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array
 
