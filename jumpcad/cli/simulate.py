@@ -158,7 +158,7 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None
             if value is not None:
                 print(f"  {label:<36}{form.format(value)}")
         if jump.energy:
-            print("  spring energy at take-off goes into, J:")
+            print("  where the spring energy is at take-off (J):")
             for name, value in asdict(jump.energy).items():
                 print(f"    {name.removesuffix('_j').replace('_', ' '):<34}{value:.4f}")
         if jump.published:
