@@ -1,6 +1,6 @@
 """How fast each method climbs on the capsule robot: best fitness after so many evaluations, over several seeds.
 
-Default bounds; a refused design scores 0; the best known is 11.87. Random search and the published settings of the
+Default bounds; a rejected design scores 0; the best known is 11.87. Random search and the published settings of the
 genetic algorithm stand beside ours, and CMA-ES (pycma) and TPE (Optuna) as references from elsewhere.
 Run `python benchmarks/search.py [--seeds N] [--methods a,b] [--json]`; all of it takes about a quarter of an hour.
 """
@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import default_initial, run_bayesian
 from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.models import RobotModel
@@ -37,24 +38,24 @@ def random_search(evaluator: Evaluator, seed: int, evaluations: int) -> None:
 
 def genetic(evaluator: Evaluator, seed: int, evaluations: int, preset: str = "recommended") -> None:
     """Run PyGAD."""
-    run_genetic(evaluator, evaluations, seed, preset)
+    run_genetic(evaluator, Task(evaluations, seed, preset=preset))
 
 
 def bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run GP-EI."""
-    run_bayesian(evaluator, evaluations, seed, default_initial(SPACE, evaluations))
+    run_bayesian(evaluator, Task(evaluations, seed, default_initial(SPACE, evaluations)))
 
 
 def genetic_then_bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run PyGAD, then 50 evaluations of GP-EI on all that it saw."""
-    run_genetic(evaluator, evaluations - 50, seed)
-    run_bayesian(evaluator, 50, seed, initial=0)
+    run_genetic(evaluator, Task(evaluations - 50, seed))
+    run_bayesian(evaluator, Task(50, seed, initial=0))
 
 
 def score_of(evaluator: Evaluator, step: int, point: npt.ArrayLike) -> float:
     """Evaluate one point of the unit cube for an outside optimiser."""
-    (row,) = evaluator.evaluate([SPACE.to_design(np.asarray(point, dtype=float))], "sample", step)
-    return row.score or 0.0 if row is not None else 0.0
+    (trial,) = evaluator.evaluate([SPACE.to_design(np.asarray(point, dtype=float))], "sample", step)
+    return trial.score or 0.0 if trial is not None else 0.0
 
 
 def cma_es(evaluator: Evaluator, seed: int, evaluations: int) -> None:
@@ -64,7 +65,7 @@ def cma_es(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     options = {"bounds": [0, 1], "seed": seed + 1, "maxfevals": evaluations, "verbose": -9}
     search = cma.CMAEvolutionStrategy([0.5] * SPACE.dimension, 0.3, options)
     step = 0
-    while len(evaluator.rows) < evaluations and step < 2 * evaluations:
+    while len(evaluator.trials) < evaluations and step < 2 * evaluations:
         points = search.ask()
         search.tell(points, [-score_of(evaluator, step + index, point) for index, point in enumerate(points)])
         step += len(points)
@@ -100,7 +101,7 @@ def climb(method: Callable[..., None], seed: int, evaluations: int) -> Scores:
     with StudyStore.write(None, {}) as store, local_pool(0) as pool:
         evaluator = Evaluator(SPACE, find_objective("fitness"), RobotModel("capsule"), store, pool)
         method(evaluator, seed, evaluations)
-        return np.maximum.accumulate([row.score or 0.0 for row in evaluator.rows][:evaluations]).tolist()
+        return np.maximum.accumulate([trial.score or 0.0 for trial in evaluator.trials][:evaluations]).tolist()
 
 
 def main() -> None:

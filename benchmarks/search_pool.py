@@ -1,4 +1,4 @@
-"""What pool and ledger cost, what a second worker brings, and that killing loses nothing.
+"""Cost of pool and study file, gain of a second worker, and that a killed study loses nothing.
 
 Batches of 20 robots, as the genetic algorithm sends them. Wall times mean nothing on a busy machine, so the second
 worker is also tried on evaluations that take their time without using the processor.
@@ -23,7 +23,8 @@ from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore, Trial
+from jumpcad.search.store import StudyStore
+from jumpcad.search.trial import Trial
 from jumpcad.workshop import load_workshop
 
 BATCH, BATCHES = 20, 15
@@ -65,17 +66,17 @@ def batches_cost(model: RobotModel, workers: int, path: Path | None, repeat: int
         for step in range(1, BATCHES + 1):
             evaluator.evaluate(designs[step * BATCH : (step + 1) * BATCH], "sample", step)
         wall, caller = time.perf_counter() - wall, time.process_time() - caller
-        return Cost(wall, sum(row.duration_s for row in evaluator.rows[BATCH:]), caller)
+        return Cost(wall, sum(trial.duration_s for trial in evaluator.trials[BATCH:]), caller)
 
 
 def contents(path: Path) -> list[Trial]:
-    """Return the rows of a study but for how long they took."""
+    """Return the trials of a study but for how long they took."""
     with StudyStore.read(path) as store:
-        return [replace(row, duration_s=0.0) for row in store.rows()]
+        return [replace(trial, duration_s=0.0) for trial in store.trials()]
 
 
-def killed_rows(kills: int, folder: Path) -> tuple[int, int]:
-    """Kill one study again and again; return how many rows differ from an uninterrupted one, and how many there are."""
+def killed_trials(kills: int, folder: Path) -> tuple[int, int]:
+    """Kill one study repeatedly; return how many trials differ from an uninterrupted one, and how many there are."""
 
     def command(name: str) -> list[str]:
         options = ["--model", "capsule", "--evaluations", "400", "--workers", "2", "--settings", "fine"]
@@ -119,9 +120,9 @@ def main() -> None:
             )
             for what, value in (
                 ("evaluation, CPU (ms)", 1000 * alone.caller_s / (BATCH * BATCHES)),
-                ("pool and ledger, CPU of the caller (ms)", 1000 * waited_two.caller_s / (BATCH * BATCHES)),
-                ("pool and ledger / evaluations, CPU (%)", 100 * waited_two.caller_s / alone.caller_s),
-                ("pool and ledger, share of one worker's wall time (%)", 100 * (1 - one.own_s / one.wall_s)),
+                ("pool and study file, CPU of the caller (ms)", 1000 * waited_two.caller_s / (BATCH * BATCHES)),
+                ("pool and study file / evaluations, CPU (%)", 100 * waited_two.caller_s / alone.caller_s),
+                ("pool and study file, share of one worker's wall time (%)", 100 * (1 - one.own_s / one.wall_s)),
                 ("two workers, times as fast as one", one.wall_s / two.wall_s),
                 (f"the same, waiting {1000 * PAUSE_S:.0f} ms a design", waited.wall_s / waited_two.wall_s),
             ):
@@ -130,8 +131,8 @@ def main() -> None:
         for what, values in figures.items():
             print(f"{what:54s}{_shown(values)}", flush=True)
         if arguments.kills:
-            different, total = killed_rows(arguments.kills, folder)
-            print(f"{arguments.kills} times killed (SIGKILL): {different} of {total} rows differ")
+            different, total = killed_trials(arguments.kills, folder)
+            print(f"{arguments.kills} times killed (SIGKILL): {different} of {total} trials differ")
 
 
 if __name__ == "__main__":

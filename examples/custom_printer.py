@@ -6,9 +6,7 @@ Run `python examples/custom_printer.py [--folder out]`.
 import argparse
 from pathlib import Path
 
-from jumpcad import load_design, load_workshop
-from jumpcad.building import build
-from jumpcad.checks import constraint_findings
+import jumpcad
 
 MY_WORKSHOP = """\
 base = "default"
@@ -33,10 +31,10 @@ def main() -> None:
     mine = arguments.folder / "my-workshop.toml"
     mine.write_text(MY_WORKSHOP, encoding="utf-8")
     for name in ("default", mine):
-        workshop = load_workshop(name)
-        robot = build(load_design("kenan-2.0"), workshop)
+        workshop = jumpcad.load_workshop(name)
+        robot = jumpcad.build(jumpcad.load_design("kenan-2.0"), workshop)
         print(f"{workshop.printer.name}: {len(robot.parts)} printed parts, robot of {1000 * robot.mass_kg:.1f} g")
-        for finding in constraint_findings(robot):
+        for finding in jumpcad.check(robot):
             if finding.severity != "info":
                 print(f"  {finding.severity}: {finding.name}: {finding.message}")
 

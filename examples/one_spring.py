@@ -1,4 +1,4 @@
-"""Kenan 2.0's story: the lab has one spring. Which links make the most of it?
+"""One spring in stock: which links make the most of it?
 
 Spring, winding and rest angle stay those of the prototypes; only the links are searched.
 Run `python examples/one_spring.py [--model capsule] [--evaluations 100]`.
@@ -6,11 +6,8 @@ Run `python examples/one_spring.py [--model capsule] [--evaluations 100]`.
 
 import argparse
 
-from jumpcad import load_design, load_workshop
-from jumpcad.search.models import RobotModel
-from jumpcad.search.pool import local_pool
-from jumpcad.search.space import Space
-from jumpcad.search.study import Request, run_study
+import jumpcad
+from jumpcad.search import robot_model
 
 
 def main() -> None:
@@ -19,20 +16,21 @@ def main() -> None:
     parser.add_argument("--model", default="printed")
     parser.add_argument("--evaluations", type=int, default=100)
     arguments = parser.parse_args()
-    model = RobotModel(arguments.model, load_workshop("default") if arguments.model == "printed" else None)
-    prototype = load_design("kenan-2.0")
-    kept = ("stiffness_nmm_per_deg", "compression_ratio", "rest_angle_deg")
-    space = Space.parse(fix=[f"{name}={getattr(prototype, name)}" for name in kept])
-
+    model = robot_model(arguments.model)
     for name in ("kenan-1.0", "kenan-2.0"):
-        evaluation = model(load_design(name))
+        evaluation = model(jumpcad.load_design(name))
         print(f"{name:10s} {evaluation.verdict}: {evaluation.metrics.get('fitness', 0.0):.3f} body lengths")
-    with local_pool() as pool:
-        result = run_study(Request(space, model, method="bo", evaluations=arguments.evaluations), None, pool)
-    if result.winner is None:
-        raise SystemExit("no design jumps: allow more evaluations")
-    print(f"best links jump: {result.winner.score:.3f} body lengths")
-    print(result.winner.design.to_toml())
+
+    prototype = jumpcad.load_design("kenan-2.0")
+    kept = ("stiffness_nmm_per_deg", "compression_ratio", "rest_angle_deg")
+    best = jumpcad.optimize(
+        "bo",
+        evaluations=arguments.evaluations,
+        model=arguments.model,
+        fixed={name: getattr(prototype, name) for name in kept},
+    )
+    print(f"best links jump: {best.score:.3f} body lengths")
+    print(best.design.to_toml())
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The study's second half, end to end: sweeps and importance, then GA, then BO, then the robust pick.
+"""The study's second half, end to end: sweeps, then GA, then BO, then the robust pick.
 
 Run `python examples/paper_pipeline.py [--model capsule] [--evaluations 250] [--folder out]`.
 """
@@ -6,19 +6,19 @@ Run `python examples/paper_pipeline.py [--model capsule] [--evaluations 250] [--
 import argparse
 from pathlib import Path
 
-from jumpcad import load_design, load_workshop
-from jumpcad.files.outputs import write_atomically
-from jumpcad.search import plots
-from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.explore import sweep
-from jumpcad.search.figures import save
-from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import find_objective
-from jumpcad.search.pool import local_pool
-from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore
-from jumpcad.search.studies import plot_study
-from jumpcad.search.study import Request, run_study
+import jumpcad
+from jumpcad.search import (
+    Evaluator,
+    Space,
+    StudyStore,
+    find_objective,
+    local_pool,
+    plot_study,
+    plots,
+    robot_model,
+    save_figure,
+    sweep,
+)
 
 
 def main() -> None:
@@ -30,29 +30,27 @@ def main() -> None:
     parser.add_argument("--folder", type=Path, default=Path("paper-pipeline"))
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    space, objective = Space.default(), find_objective("fitness")
-    model = RobotModel(arguments.model, load_workshop("default") if arguments.model == "printed" else None)
 
-    with local_pool() as pool:
-        # One parameter at a time, about the design that the study ended with.
-        with StudyStore.write(None, {}) as store:
-            swept = sweep(Evaluator(space, objective, model, store, pool), load_design("best-bo"), arguments.points)
-        save(plots.sweeps(swept, objective), arguments.folder, "sweeps")
+    # One parameter at a time, about the design that the study ended with.
+    objective = find_objective("fitness")
+    with local_pool() as pool, StudyStore.write(None, {}) as store:
+        evaluator = Evaluator(Space.default(), objective, robot_model(arguments.model), store, pool)
+        swept = sweep(evaluator, jumpcad.load_design("best-bo"), arguments.points)
+    save_figure(plots.sweeps(swept, objective), arguments.folder, "sweeps")
 
-        # GA, then BO on everything that the GA saw. Run it again after an interruption: it goes on.
-        path = arguments.folder / "study.db"
-        result = run_study(Request(space, model, evaluations=arguments.evaluations), path, pool)
-    with StudyStore.read(path) as store:
+    # GA, then BO on all that the GA saw. After an interruption, run it again: it goes on.
+    study = arguments.folder / "study.db"
+    result = jumpcad.optimize(evaluations=arguments.evaluations, model=arguments.model, study=study)
+    with StudyStore.read(study) as store:
         plot_study(store, arguments.folder)
 
-    if result.winner is None:
-        raise SystemExit("no design jumps: allow more evaluations")
-    assert result.best is not None
-    print(f"best {result.best.score:.3f}, robust pick {result.winner.score:.3f} body lengths")
+    if result.best is None:
+        raise SystemExit("no design jumps: evaluate more designs")
+    print(f"best {result.best.score:.3f}, robust pick {result.score:.3f} body lengths")
     for bound in result.bounds:
-        worth = f"refused ({bound.reason})" if bound.worth is None else f"worth {bound.worth:+.3f}"
-        print(f"{bound.name} is on its {bound.side} bound; going to {bound.beyond:g} is {worth}")
-    write_atomically(arguments.folder / "winner.toml", result.winner.design.to_toml())
+        worth = f"rejected ({bound.reason})" if bound.worth is None else f"worth {bound.worth:+.3f}"
+        print(f"{bound.name} is at its {bound.side} bound; {bound.beyond:g} is {worth}")
+    result.save(arguments.folder / "winner.toml", force=True)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""How far for how many joules: the front of range against spring energy.
+"""Range against spring energy: the front of designs that no other one beats in both.
 
 Run `python examples/pareto_front.py [--model capsule] [--evaluations 200] [--folder out]`.
 """
@@ -6,15 +6,8 @@ Run `python examples/pareto_front.py [--model capsule] [--evaluations 200] [--fo
 import argparse
 from pathlib import Path
 
-from jumpcad import load_workshop
-from jumpcad.search import plots
-from jumpcad.search.figures import save
-from jumpcad.search.methods.pareto import energy_j, front, hypervolume
-from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import find_objective
-from jumpcad.search.pool import local_pool
-from jumpcad.search.space import Space
-from jumpcad.search.study import Request, run_study
+import jumpcad
+from jumpcad.search import energy_j, find_objective, plots, save_figure
 
 
 def main() -> None:
@@ -24,16 +17,18 @@ def main() -> None:
     parser.add_argument("--evaluations", type=int, default=200)
     parser.add_argument("--folder", type=Path, default=Path("pareto-front"))
     arguments = parser.parse_args()
-    model = RobotModel(arguments.model, load_workshop("default") if arguments.model == "printed" else None)
-    request = Request(Space.default(), model, "range", "pareto", arguments.evaluations)
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    with local_pool() as pool:
-        result = run_study(request, arguments.folder / "study.db", pool)
+    result = jumpcad.optimize(
+        "pareto",
+        evaluations=arguments.evaluations,
+        model=arguments.model,
+        study=arguments.folder / "study.db",
+    )
     print("energy (J)   range (m)")
-    for row in front(result.rows):
-        print(f"{energy_j(row.design):10.4f}  {row.score:10.4f}")
-    print(f"hypervolume {hypervolume(result.rows):.4f}")
-    save(plots.pareto(result.rows, find_objective("range")), arguments.folder, "front")
+    for trial in result.front:
+        print(f"{energy_j(trial.design):10.4f}  {trial.score:10.4f}")
+    print(f"hypervolume {result.hypervolume:.4f}")
+    save_figure(plots.pareto(result.trials, find_objective("range")), arguments.folder, "front")
 
 
 if __name__ == "__main__":

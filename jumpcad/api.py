@@ -1,24 +1,38 @@
-"""The public functions that take a robot or a design: a design is built first, in the default workshop."""
+"""The public functions on robots. Where they take a robot, they take a design too, which is then built first."""
 
 from pathlib import Path
 
+from jumpcad import notebook
 from jumpcad.arguments import typed
 from jumpcad.building import build
 from jumpcad.bundle.export import export as export_robot
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.checks import check as check_robot
 from jumpcad.design import Design
+from jumpcad.evaluation import evaluate
 from jumpcad.findings import Finding
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump
 from jumpcad.simulation import simulate as simulate_mechanism
 
+__all__ = ["build", "capsule_robot", "check", "evaluate", "export", "simulate"]
+
+notebook.attach()
+
 
 @typed
 def simulate(robot: Mechanism | Design, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
-    """Let a robot jump; see `jumpcad.simulation.simulate`.
+    """Simulate the jump of a robot; see `jumpcad.simulation.simulate`.
+
+    Parameters
+    ----------
+    robot
+        A printed or a capsule robot; a design is built in the default workshop.
+    settings, engine
+        As for `jumpcad.simulation.simulate`.
 
     Raises
     ------
@@ -32,7 +46,7 @@ def simulate(robot: Mechanism | Design, settings: Settings | None = None, engine
 
 @typed
 def check(robot: Mechanism | Design) -> list[Finding]:
-    """Return the findings of every check on a robot, kept limits included; see `jumpcad.checks.check`.
+    """Return the findings of every check on a robot, also of limits that are kept; see `jumpcad.checks.check`.
 
     Raises
     ------
@@ -53,7 +67,7 @@ def export(
     Raises
     ------
     JumpcadError
-        If an argument is of another type, or the bundle cannot be written without losing something of a user's.
+        If an argument is of another type, or the bundle would replace a user's own files.
     CannotBuildError
         If a design cannot be built.
     """

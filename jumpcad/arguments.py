@@ -59,12 +59,12 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def _classes(hint: Any) -> tuple[type, ...]:
-    """Return the classes that an annotation allows."""
+    """Return the classes that an annotation allows; of what is inside a container it says nothing."""
     if hint is Any:
         return (object,)
     if isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union:
         return tuple(kind for one in typing.get_args(hint) for kind in _classes(one))
-    return (hint,)
+    return (typing.get_origin(hint) or hint,)
 
 
 def _refusal(name: str, kinds: tuple[type, ...], value: Any) -> str:

@@ -35,6 +35,9 @@ class Design(Record):
     stiffness_nmm_per_deg: Annotated[float, Field(ge=0.1, le=200, description="of both springs together")]
     ground_link_angle_deg: Annotated[float, Field(ge=1, le=89, description="each toe from the foot's centre line")]
 
+    def __repr__(self) -> str:
+        return f"<Design {', '.join(f'{name}={value:.5g}' for name, value in self.model_dump().items())}>"
+
     @classmethod
     def from_vector(cls, vector: Sequence[float]) -> Self:
         """Make a design from 8 floats in the order of `PARAMETERS`.

@@ -1,4 +1,4 @@
-"""The closed loop: from eight numbers to how far the robot that can be printed from them jumps."""
+"""`evaluate`: build, simulate and check a design."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -7,17 +7,18 @@ from jumpcad.arguments import typed
 from jumpcad.building import build
 from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.workshop import Workshop
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class EvaluationResult:
-    """A built, simulated and checked design.
+    """A design built, simulated and checked.
 
-    `findings` are those of gate, audit and checks; `metrics` are figures beside the jump's own, by name with unit.
+    `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg) and
+    what winding takes, by name with unit.
     """
 
     robot: Robot
@@ -35,6 +36,10 @@ class EvaluationResult:
         """Ballistic range over the longest link; 0 for everything but a jump."""
         return self.jump.fitness
 
+    def __repr__(self) -> str:
+        rejected = ", ".join(finding.name for finding in errors(self.findings))[:80]
+        return f"<EvaluationResult: {self.jump!r}, {f'rejected by {rejected}' if rejected else 'no errors'}>"
+
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
         return {
@@ -49,14 +54,14 @@ class EvaluationResult:
 def evaluate(
     design: Design, workshop: Workshop | None = None, settings: Settings | None = None, engine: str = "pybullet"
 ) -> EvaluationResult:
-    """Build a design in a workshop, let it jump with the mass and inertia of its own parts, and check it.
+    """Build a design in a workshop, simulate its jump with the mass and inertia of its parts, and check its limits.
 
-    A candidate has no name yet, so none is engraved on its plates.
+    The robot has no name, so none is engraved.
 
     Raises
     ------
     CannotBuildError
-        If the mechanism cannot work or cannot be laid out.
+        If the mechanism cannot work, or its parts have no room.
     """
     robot = build(design, workshop, name="")
     jump = simulate(robot, settings, engine)
@@ -65,7 +70,7 @@ def evaluate(
 
 
 def _metrics(robot: Robot) -> dict[str, float]:
-    """Return what winding takes, and the masses."""
+    """Return energy and time of winding, and the masses."""
     train = robot.layout.drive.train
     masses = {f"{name}_mass_kg": body.mass_kg for name, body in robot.bodies.items()}
     return {

@@ -45,6 +45,13 @@ class Settings(Record):
         bool, Field(description="go on to the first contact later than 0.5 s, as the published study did")
     ] = False
 
+    def __repr__(self) -> str:
+        changed = ", ".join(
+            f"{name}={value:.5g}" if isinstance(value, float) else f"{name}={value}"
+            for name, value in self.model_dump(exclude_defaults=True).items()
+        )
+        return f"<Settings: {(changed or 'all default')[:180]}>"
+
 
 def surface_friction(body: Body, settings: Settings) -> float:
     """Return the friction of a body's contacts, without the ground's factor."""

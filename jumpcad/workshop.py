@@ -194,6 +194,10 @@ class Workshop(Record):
         """The shipped catalogue with the user's own parts."""
         return load_catalogue().with_own(self.motors, self.bearings, self.batteries, self.boards)
 
+    def __repr__(self) -> str:
+        materials = ", ".join(f"{role} {name[:20]}" for role, name in self.roles.model_dump().items())
+        return f"<Workshop: {self.printer.name[:60]}, layers of {self.process.layer_height_mm:g} mm, {materials}>"
+
     def material_name(self, role: Role) -> str:
         """Return the name of the material that a kind of part is printed in."""
         return str(getattr(self.roles, role))

@@ -64,12 +64,15 @@ class _Manifest(BaseModel):
     files: Annotated[dict[Annotated[str, AfterValidator(_safe)], Sha256], AfterValidator(_apart)]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Bundle:
     """A folder that holds a robot or the coupon; `manifest` is what its manifest.json says."""
 
     folder: Path
     manifest: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        return f"<Bundle {self.name[:40]!r}: {len(self.files)} files in {shown(str(self.folder))[-100:]}>"
 
     @property
     def name(self) -> str:

@@ -46,6 +46,13 @@ def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> dict[str, byte
     return _renders(_renderer(things), robot, things, size)
 
 
+def rest_picture(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> bytes:
+    """Return the PNG file of a robot at rest. Raises as `renders`."""
+    things = visuals(robot)
+    poses = _poses(things, body_poses(robot))
+    return _png(_renderer(things).picture(poses, size, View(), _corners(things, poses)))
+
+
 def all_pictures(robot: Robot) -> dict[str, bytes]:
     """Return the PNG files of a robot and of every step of its assembly, by name.
 

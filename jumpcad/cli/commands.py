@@ -1,4 +1,4 @@
-"""All commands, and what becomes of their errors. Each command imports what it needs when it runs."""
+"""All commands, and how their errors are reported. Each command imports what it needs when it runs."""
 
 import os
 import sys
@@ -15,7 +15,7 @@ from jumpcad.errors import JumpcadError
 
 WRONG_REQUEST, BUG = 2, 3
 OUTPUT_CLOSED = 141
-"""As a shell says it of a program that SIGPIPE ended."""
+"""Exit code that a shell gives a program ended by SIGPIPE (128 + 13)."""
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 for module in (designs, bundle, check, slicing, coupon, simulate, reproduce, explore, optimize, study):
@@ -30,8 +30,8 @@ def jumpcad() -> None:
 def run(arguments: Sequence[str]) -> int:
     """Carry out a command; return its exit code.
 
-    0 is done. Errors of the user end in one line on standard error: 2 for a wrong request, 1 where the answer is no.
-    Anything unforeseen is a bug, 3 with its traceback. Where the reader of the output has gone (`| head`) it is 141.
+    0: done. A user's error is one line on standard error: 2 for a wrong request, 1 where the answer is no. Any other
+    exception is a bug: 3, with its traceback. If the reader of the output has closed it (`| head`): 141.
     """
     try:
         with standard_output():
@@ -49,7 +49,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _usage(error: TyperException) -> str:
-    """Return what is wrong with the arguments, with the wrong value; nothing where none were given (and help was)."""
+    """Return what is wrong with the arguments, with the wrong value; empty if none were given and help was printed."""
     usage = error.format_message().rstrip(".")
     if isinstance(error.__cause__, ValidationError):
         return f"{usage}, not {error.__cause__.errors()[0]['input']!r}"
@@ -57,7 +57,7 @@ def _usage(error: TyperException) -> str:
 
 
 def _carry_out(arguments: list[str]) -> int:
-    """Parse and call. Not by way of `app()`, which gives interrupts and lost readers exit codes of its own."""
+    """Parse and call; not by `app()`, which has its own exit codes for interrupts and closed outputs."""
     try:
         os.getcwd()
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""`jumpcad explore`: look around in the design space before, or instead of, optimising."""
+"""`jumpcad explore`: views of the design space, before or instead of a search."""
 
 from collections import Counter
 from collections.abc import Callable
@@ -7,27 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
-from jumpcad.cli.searching import (  # fmt: skip
-    BoundOption,
-    ChooseOption,
-    DaskOption,
-    EngineOption,
-    FixOption,
-    LimitOption,
-    ModelOption,
-    ObjectiveOption,
+from jumpcad.cli.searching import (
     PlotsOption,
-    SeedOption,
-    SettingsOption,
-    StudyOption,
-    WorkersOption,
-    WorkshopOption,
-    make_model,
-    make_pool,
-    make_space,
+    SearchOptions,
     require_plots,
     require_study,
     watching,
+    with_search_options,
 )
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
@@ -38,14 +24,14 @@ if TYPE_CHECKING:
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
 LEAST_R_SQUARED = 0.5
-"""Below it, an importance says more of the surrogate's luck than of the robot."""
+"""Below it, an importance says little."""
 
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
 SamplesOption = Annotated[int, typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000)]
 PointsOption = Annotated[
-    int, typer.Option(help="Values of each parameter in a sweep or on a map's side.", min=2, max=1000)
+    int, typer.Option(help="Values of each parameter in a sweep or along an axis of the map.", min=2, max=1000)
 ]
-AroundOption = Annotated[str, typer.Option(help="The design about which sweep and feasibility look.", metavar="DESIGN")]
+AroundOption = Annotated[str, typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN")]
 OverOption = Annotated[str, typer.Option(help="The two parameters of the feasibility map.", metavar="NAME,NAME")]
 
 
@@ -54,71 +40,62 @@ def register(app: typer.Typer) -> None:
     app.command()(explore)
 
 
+@with_search_options
 def explore(
+    *,
     view: ViewArgument,
-    model: ModelOption = "printed",
     samples: SamplesOption = 1000,
     points: PointsOption = 21,
     around: AroundOption = "best-bo",
     over: OverOption = "rest_angle_deg,compression_ratio",
-    study: StudyOption = None,
-    seed: SeedOption = 0,
-    workers: WorkersOption = None,
-    dask: DaskOption = None,
-    objective: ObjectiveOption = None,
-    fix: FixOption = None,
-    bound: BoundOption = None,
-    choose: ChooseOption = None,
-    workshop: WorkshopOption = "default",
-    settings: SettingsOption = "default",
-    engine: EngineOption = None,
-    limit: LimitOption = 60.0,
+    options: SearchOptions,
     plots: PlotsOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Sweep parameters one at a time, find principal components and importance, or map what is refused.
+    """Sweep parameters one at a time, find principal components and importance, or map what is rejected.
 
     With --study, evaluations are kept and not repeated.
     """
     from jumpcad.design import load_design
     from jumpcad.search.evaluator import Evaluator
     from jumpcad.search.objective import find_objective
+    from jumpcad.search.space import Space
     from jumpcad.search.store import StudyStore
 
     if view not in VIEWS:
         raise JumpcadError(f"{view!r} is not one of the views {', '.join(VIEWS)}{did_you_mean(view, VIEWS)}")
-    require_study(study)
+    require_study(options.study)
     require_plots(plots, force)
-    space, robot = make_space(fix, bound, choose, None, None, None), make_model(model, workshop, settings, engine)
-    aim, centre = find_objective(objective or "fitness"), load_design(around)
+    space, robot = Space.parse(options.fix or (), options.bound or (), options.choose or ()), options.robot_model()
+    objective, centre = find_objective(options.objective or "fitness"), load_design(around)
     identity = {
-        "model": robot.describe(), "objective": aim.name, "method": f"explore {view}", "space": space.describe(),
-        "around": centre.model_dump(), "seed": seed, "versions": robot.versions(),
+        "model": robot.describe(), "objective": objective.name, "method": f"explore {view}", "space": space.describe(),
+        "around": centre.model_dump(), "seed": options.seed, "versions": robot.versions(),
     }  # fmt: skip
     if view in ("pca", "importance"):
-        total, run = samples, _looker(view, samples, seed)
+        total, run = samples, _sampled(view, samples, options.seed)
     else:
         total = points * (space.dimension if view == "sweep" else points)
         run = _swept(centre, points) if view == "sweep" else _mapped(centre, over, points)
     with (
-        make_pool(workers, dask, limit) as pool,
-        StudyStore.write(study, identity) as store,
+        options.pool() as pool,
+        StudyStore.write(options.study, identity) as store,
         watching(total, as_json) as watch,
     ):
-        data, lines, figures = run(Evaluator(space, aim, robot, store, pool, watch=watch))
+        data, lines, figures = run(Evaluator(space, objective, robot, store, pool, watch=watch))
     if plots is not None:
-        from jumpcad.search.figures import save
+        from jumpcad.search.figures import save_figure
 
-        data["pictures"] = [str(save(draw(), plots, name)) for name, draw in figures.items()]
+        data["pictures"] = [str(save_figure(draw(), plots, name)) for name, draw in figures.items()]
     if as_json:
-        print_json({"view": view, "model": model, "objective": aim.name} | data)
+        print_json({"view": view, "model": options.model, "objective": objective.name} | data)
     else:
         print("\n".join(lines))
 
 
 View = Callable[["Evaluator"], tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]]
-"""Runs on a campaign; returns data, lines of text, and how to draw the pictures, by name."""
+"""Evaluates a view; returns data, lines of text, and by name functions that draw the pictures."""
 
 
 def _swept(centre: "Design", points: int) -> View:
@@ -129,29 +106,29 @@ def _swept(centre: "Design", points: int) -> View:
         sweeps = sweep(evaluator, centre, points)
         data = {
             one.parameter: [
-                {"value": value, "score": row.score, "verdict": row.evaluation.verdict}
-                for value, row in zip(one.values, one.rows, strict=True)
+                {"value": value, "score": trial.score, "verdict": trial.evaluation.verdict}
+                for value, trial in zip(one.values, one.trials, strict=True)
             ]
             for one in sweeps
         }
         lines = []
         for one in sweeps:
-            scores = [row.score for row in one.rows if row.score is not None]
+            scores = [trial.score for trial in one.trials if trial.score is not None]
             reach = f"{min(scores):9.4f} … {max(scores):9.4f}" if scores else "never feasible       "
-            lines.append(f"{one.parameter:24s}{reach}  feasible at {len(scores)} of {len(one.rows)} values")
+            lines.append(f"{one.parameter:24s}{reach}  feasible at {len(scores)} of {len(one.trials)} values")
         return {"sweeps": data}, lines, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective)}
 
     return run
 
 
-def _looker(view: str, samples: int, seed: int) -> View:
+def _sampled(view: str, samples: int, seed: int) -> View:
     def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
         from jumpcad.search import plots
         from jumpcad.search.explore import UNIFORM_NOTE, components, elite, importance, sample
 
-        rows = sample(evaluator, samples, seed)
+        trials = sample(evaluator, samples, seed)
         if view == "importance":
-            found = importance(evaluator, rows, seed)
+            found = importance(evaluator, trials, seed)
             order = found.mean.argsort()[::-1]
             data = {
                 "importance": {found.names[i]: found.mean[i] for i in order},
@@ -159,12 +136,14 @@ def _looker(view: str, samples: int, seed: int) -> View:
                 "designs": found.designs,
             }
             lines = [f"{found.names[i]:24s}{found.mean[i]:8.3f} ± {found.deviation[i]:.3f}" for i in order]
-            lines.append(f"R² on designs held out: {found.r_squared:.3f} ({found.designs} of {len(rows)} designs jump)")
+            lines.append(
+                f"R² on designs held out: {found.r_squared:.3f} ({found.designs} of {len(trials)} designs jump)"
+            )
             if found.r_squared < LEAST_R_SQUARED:
-                lines.append("that is too little to tell what is important: raise --samples, or narrow the bounds")
+                lines.append("R² is too low to say what is important: raise --samples, or narrow the bounds")
             return data, lines, {"importance": lambda: plots.importance(found)}
-        best = elite(rows)
-        views = {"sampled": components(evaluator, rows), "elite": components(evaluator, best)}
+        best = elite(trials)
+        views = {"sampled": components(evaluator, trials), "elite": components(evaluator, best)}
         data, lines = {"note": UNIFORM_NOTE}, []
         for name, view_of in views.items():
             data[name] = {"designs": view_of.designs, "shares": view_of.shares, "directions": view_of.directions}
@@ -184,7 +163,7 @@ def _mapped(centre: "Design", over: str, points: int) -> View:
         from jumpcad.search.explore import feasibility_map
 
         found = feasibility_map(evaluator, centre, names[0], names[1], points)
-        reasons = [[" ".join(row.evaluation.reasons) or "jump" for row in line] for line in found.rows]
+        reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]
         counts = Counter(reason for line in reasons for reason in line).most_common()
         data = {
             "x": {"name": found.x_name, "values": found.x},

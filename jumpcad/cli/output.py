@@ -1,7 +1,7 @@
-"""How commands speak: one JSON document for programs, text for people, one line for errors.
+"""Output of commands: one JSON document for programs, text for people, one line for errors.
 
-Names of files and what stands in them may hold anything. Control characters are shown escaped, so that nothing but
-what jumpcad says itself moves a terminal's cursor, and nothing is read as markup.
+Names and contents of files may hold any character. Control characters are printed escaped, so that they cannot control
+the terminal, and no text is read as markup.
 """
 
 import contextlib
@@ -24,12 +24,12 @@ JsonFlag = Annotated[bool, typer.Option("--json", help="Print one JSON document 
 ForceFlag = Annotated[bool, typer.Option("--force", help="Replace files that are there and not as jumpcad wrote them.")]
 
 CONTROL = "[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]"
-"""What moves the cursor, hides or turns around text, and halves of characters (bytes of a path that are no UTF-8)."""
+"""Characters that move the cursor, hide or reverse text, and lone surrogates (bytes of a path that are not UTF-8)."""
 COLOUR = "\x1b\\[[0-9;]*m"
 
 
 class OutputClosed(Exception):
-    """Nobody reads standard output any more."""
+    """The reader of standard output has closed it."""
 
 
 def escaped(text: str) -> str:
@@ -42,7 +42,7 @@ def complain(message: str, exit_code: int) -> int:
     if sys.stderr is not None:
         try:
             print(f"jumpcad: {escaped(message)}", file=sys.stderr, flush=True)
-        except OSError:  # there is nobody left to tell
+        except OSError:  # standard error is closed too
             _discard(sys.stderr)
     return exit_code
 
@@ -53,9 +53,9 @@ class Output:
     Raises
     ------
     OutputClosed
-        When written to, if the reader has gone.
+        When written to, if the reader has closed it.
     JumpcadError
-        If it cannot be written, to a full disk, say.
+        If it cannot be written, for example to a full disk.
     """
 
     def __init__(self, stream: TextIO) -> None:
@@ -72,7 +72,7 @@ class Output:
         return len(text)
 
     def flush(self) -> None:
-        """Write what waits."""
+        """Write what is buffered."""
         with self._written():
             self._stream.flush()
 
@@ -89,12 +89,12 @@ class Output:
 
 @contextlib.contextmanager
 def standard_output() -> Iterator[None]:
-    """Let a command print whatever its terminal's encoding lacks, and tell at the end if all was written."""
+    """Print characters that the terminal's encoding lacks escaped, and raise at the end if not all was written."""
     _open_streams()
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
-    if sys.stdout is None:  # closed by who called
+    if sys.stdout is None:  # closed by the caller
         yield
         return
     output = Output(sys.stdout)
@@ -106,7 +106,7 @@ def standard_output() -> Iterator[None]:
 
 
 def console(**options: Any) -> "Console":
-    """Return a console for tables that takes text as it is."""
+    """Return a console for tables, without markup."""
     from rich.console import Console
 
     return Console(markup=False, emoji=False, **options)
@@ -114,7 +114,7 @@ def console(**options: Any) -> "Console":
 
 @contextlib.contextmanager
 def status(doing: str) -> Iterator[Callable[[str], None]]:
-    """Show on standard error what is being done, where a person watches; yields what changes the words."""
+    """Show on standard error what is being done, if that is a terminal; yields a function that changes the text."""
     from rich.text import Text
 
     with console(stderr=True).status(Text(escaped(doing))) as shown:
@@ -122,7 +122,7 @@ def status(doing: str) -> Iterator[Callable[[str], None]]:
 
 
 def print_json(data: Any) -> None:
-    """Print one JSON document; what is not a number becomes null."""
+    """Print one JSON document; NaN and infinities become null."""
     print(json.dumps(_plain(data), indent=2, allow_nan=False))
 
 
@@ -144,7 +144,7 @@ def _escape(found: re.Match[str]) -> str:
 
 
 def _open_streams() -> None:
-    """Open what the caller closed of 0, 1 and 2: a file would get the number, and what libraries print, its bytes."""
+    """Open descriptors 0, 1 and 2 if the caller closed them; else a file would get one, and what libraries print."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -153,7 +153,7 @@ def _open_streams() -> None:
 
 
 def _discard(stream: TextIO) -> None:
-    """Send what still waits in a stream nowhere: Python would try once more at the end, and say so."""
+    """Drop what a stream has buffered; Python would try to write it again at exit, and print an error."""
     with contextlib.suppress(OSError, ValueError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())

@@ -1,4 +1,4 @@
-"""`jumpcad reproduce`: the published study's table of results, and how to read it."""
+"""`jumpcad reproduce`: the published study's table of results, simulated again, with explanations."""
 
 from dataclasses import asdict
 from typing import TYPE_CHECKING
@@ -19,7 +19,7 @@ def register(app: typer.Typer) -> None:
 
 
 def reproduce(as_json: JsonFlag = False) -> None:
-    """Print the published table of results, simulated again, beside what the evaluator says."""
+    """Print the published table of results, the same simulated again, and jumpcad's own results."""
     from jumpcad.paper import reproduction
 
     rows = reproduction.reproduce()
@@ -68,7 +68,7 @@ def _hyperparameters(items: "tuple[Hyperparameter, ...]") -> "Table":
 
 
 def _table(title: str, *headings: str) -> "Table":
-    """Return an empty table; a heading that starts with > is of a column of numbers."""
+    """Return an empty table; a heading that starts with > is right-aligned."""
     from rich.box import SIMPLE
     from rich.table import Table
 

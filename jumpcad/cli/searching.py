@@ -1,11 +1,14 @@
-"""What the commands of the search share: options, the objects made from them, progress, and how rows are shown."""
+"""What `explore` and `optimize` share: their common options, checks of their files, progress."""
 
+import functools
+import inspect
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
@@ -16,46 +19,84 @@ if TYPE_CHECKING:
     from jumpcad.search.evaluator import Watch
     from jumpcad.search.models import RobotModel
     from jumpcad.search.pool import Pool
-    from jumpcad.search.space import Space
-    from jumpcad.search.store import Trial
+    from jumpcad.search.trial import Trial
 
-ModelOption = Annotated[str, typer.Option(help="The robot behind the objective: printed, capsule or published.")]
-StudyOption = Annotated[
-    Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db", dir_okay=False)
-]
-SeedOption = Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)]
-WorkersOption = Annotated[int | None, typer.Option(help="Processes, one for each core unless given; 0 for none.")]
-DaskOption = Annotated[
-    str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")
-]
-ObjectiveOption = Annotated[
-    str | None, typer.Option(help="fitness, range, rise, range-per-joule or jumps-per-joule.", show_default="fitness")
-]
-FixOption = Annotated[list[str] | None, typer.Option(help="Fix a parameter.", metavar="NAME=VALUE")]
-BoundOption = Annotated[
-    list[str] | None, typer.Option(help="Search a parameter in another range.", metavar="NAME=LO:HI")
-]
-ChooseOption = Annotated[list[str] | None, typer.Option(help="Allow some values only.", metavar="NAME=a,b,c")]
-AroundOption = Annotated[
-    str | None, typer.Option(help="The design from which --only and --within start.", metavar="DESIGN")
-]
-OnlyOption = Annotated[
-    str | None, typer.Option(help="Free these parameters alone; the rest as in --around.", metavar="NAME,…")
-]
-WithinOption = Annotated[
-    float | None, typer.Option(help="Search each range within ± this share of it.", metavar="PERCENT")
-]
-WorkshopOption = Annotated[str, typer.Option(help="Workshop of the printed robot: a template's name or a file.")]
-SettingsOption = Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")]
-EngineOption = Annotated[str | None, typer.Option(help="pybullet, mujoco or planar; the first that is installed.")]
-LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation may take.", metavar="SECONDS")]
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER", file_okay=False)
 ]
 
+KEYWORD = inspect.Parameter.KEYWORD_ONLY
+
+
+@dataclass(frozen=True)
+class SearchOptions:
+    """The options that `explore` and `optimize` have in common."""
+
+    model: Annotated[str, typer.Option(help="The robot that is evaluated: printed, capsule or published.")] = "printed"
+    objective: Annotated[
+        str | None,
+        typer.Option(help="fitness, range, rise, range-per-joule or jumps-per-joule.", show_default="fitness"),
+    ] = None
+    study: Annotated[
+        Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db", dir_okay=False)
+    ] = None
+    seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0
+    fix: Annotated[list[str] | None, typer.Option(help="Fix a parameter.", metavar="NAME=VALUE")] = None
+    bound: Annotated[
+        list[str] | None, typer.Option(help="Search a parameter in another range.", metavar="NAME=LO:HI")
+    ] = None
+    choose: Annotated[list[str] | None, typer.Option(help="Allow some values only.", metavar="NAME=a,b,c")] = None
+    workshop: Annotated[str, typer.Option(help="Workshop of the printed robot: a template's name or a file.")] = (
+        "default"
+    )
+    settings: Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")] = "default"
+    engine: Annotated[str | None, typer.Option(help="pybullet, mujoco or planar; else the first installed.")] = None
+    workers: Annotated[int | None, typer.Option(help="Processes, one for each core unless given; 0 for none.")] = None
+    dask: Annotated[
+        str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")
+    ] = None
+    limit: Annotated[float, typer.Option(help="Timeout per evaluation (s).", metavar="SECONDS")] = 60.0
+
+    def robot_model(self) -> "RobotModel":
+        """Return the model that the options describe."""
+        from jumpcad.search.models import robot_model
+
+        return robot_model(self.model, self.workshop, self.settings, self.engine)
+
+    def pool(self) -> "Pool":
+        """Return the pool that the options describe."""
+        from jumpcad.search.pool import open_pool
+
+        return open_pool(self.workers, self.dask, self.limit)
+
+
+def with_search_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command that takes `options: SearchOptions` an option for each field, in place of that parameter."""
+    hints = get_type_hints(SearchOptions, include_extras=True)
+    names = {field.name for field in fields(SearchOptions)}
+    parameters: list[inspect.Parameter] = []
+    for parameter in inspect.signature(command).parameters.values():
+        if parameter.annotation is SearchOptions:
+            parameters += [
+                inspect.Parameter(field.name, KEYWORD, annotation=hints[field.name], default=field.default)
+                for field in fields(SearchOptions)
+            ]
+        else:
+            parameters.append(parameter.replace(kind=KEYWORD))
+
+    @functools.wraps(command)
+    def unfolded(**values: Any) -> None:
+        common = {name: values.pop(name) for name in names}
+        command(**values, options=SearchOptions(**common))
+
+    del unfolded.__wrapped__  # Typer reads the signature and the annotations of what it finds there
+    unfolded.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    unfolded.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    return unfolded
+
 
 def require_study(study: Path | None) -> None:
-    """Refuse, before a search, a file that cannot be its study.
+    """Reject, before a search, a file that cannot be its study.
 
     Raises
     ------
@@ -74,7 +115,7 @@ def require_study(study: Path | None) -> None:
 
 
 def require_other_files(study: Path, **others: Path | None) -> None:
-    """Refuse, before a search, files that are its study file; `others` are by their options: `output` of `--output`.
+    """Reject, before a search, files that are its study file; `others` are by their options: `output` of `--output`.
 
     Raises
     ------
@@ -89,7 +130,7 @@ def require_other_files(study: Path, **others: Path | None) -> None:
 
 
 def require_plots(folder: Path | None, force: bool) -> None:
-    """Refuse, before the work, a folder in which pictures cannot be written or would replace a user's own.
+    """Reject, before the work, a folder in which pictures cannot be written or would replace a user's own.
 
     Raises
     ------
@@ -107,57 +148,12 @@ def require_plots(folder: Path | None, force: bool) -> None:
         require_free(folder / f"{name}.svg", force)
 
 
-def make_space(
-    fix: Sequence[str] | None,
-    bound: Sequence[str] | None,
-    choose: Sequence[str] | None,
-    around: str | None,
-    only: str | None,
-    within: float | None,
-) -> "Space":
-    """Return the space that the options describe."""
-    from jumpcad.design import load_design
-    from jumpcad.search.space import Space
-
-    centre = load_design(around) if around else None
-    names = [name.strip() for name in only.split(",")] if only else []
-    return Space.parse(fix or (), bound or (), choose or (), centre, names, within)
-
-
-def make_model(name: str, workshop: str, settings: str, engine: str | None) -> "RobotModel":
-    """Return the model that the options describe."""
-    from jumpcad.search.models import MODELS, RobotModel
-    from jumpcad.settings import load_settings
-    from jumpcad.simulation.engines import ENGINES, default_engine
-    from jumpcad.workshop import load_workshop
-
-    if engine is not None and engine not in ENGINES:
-        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {', '.join(ENGINES)}")
-    if name not in MODELS or name == "published":
-        return RobotModel(name)
-    return RobotModel(
-        name,
-        load_workshop(workshop) if name == "printed" else None,
-        load_settings(settings),
-        engine or default_engine(),
-    )
-
-
-def make_pool(workers: int | None, dask: str | None, limit_s: float) -> "Pool":
-    """Return the pool that the options describe."""
-    from jumpcad.search.pool import dask_pool, local_pool
-
-    if dask is not None and workers is not None:
-        raise JumpcadError("--workers and --dask exclude each other: Dask has its own workers")
-    return local_pool(workers, limit_s) if dask is None else dask_pool(dask, limit_s)
-
-
 @contextmanager
 def watching(total: int, quiet: bool) -> Iterator["Watch"]:
-    """Show rate, best and time left on standard error while a search runs, if a terminal is there to see it."""
+    """Show rate, best score and time left on standard error while a search runs, if that is a terminal."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    from jumpcad.search.store import SEARCH_PHASES
+    from jumpcad.search.trial import SEARCH_PHASES
 
     columns = (
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
@@ -167,36 +163,16 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
         task = progress.add_task("search", total=total, rate="", best="–")
         best: list[float] = []
 
-        def watch(row: "Trial", computed: bool) -> None:
-            if row.phase not in SEARCH_PHASES:
+        def watch(trial: "Trial", computed: bool) -> None:
+            if trial.phase not in SEARCH_PHASES:
                 progress.update(task, description="robust pick")
                 return
-            if row.score is not None and (not best or row.score > best[0]):
-                best[:] = [row.score]
+            if trial.score is not None and (not best or trial.score > best[0]):
+                best[:] = [trial.score]
             speed = progress.tasks[0].speed
             progress.update(
-                task, advance=1, description=row.phase,
+                task, advance=1, description=trial.phase,
                 rate=f"{speed:.1f}/s" if speed else "", best=f"{best[0]:.4g}" if best else "–",
             )  # fmt: skip
 
         yield watch
-
-
-def row_data(row: "Trial") -> dict[str, Any]:
-    """Return a row as plain data for JSON."""
-    evaluation = row.evaluation
-    return {
-        "phase": row.phase,
-        "score": row.score,
-        "fitness": evaluation.metrics.get("fitness") if evaluation.feasible else 0.0,
-        "verdict": evaluation.verdict,
-        "detail": evaluation.detail,
-        "design": row.design.model_dump(),
-        "metrics": dict(evaluation.metrics),
-        "margins": {finding.name: {"margin": finding.margin, "unit": finding.unit} for finding in evaluation.findings},
-    }
-
-
-def design_lines(row: "Trial") -> list[str]:
-    """Return the parameters of a row's design, one a line."""
-    return [f"  {name:24s}{value:12.5g}" for name, value in row.design.model_dump().items()]

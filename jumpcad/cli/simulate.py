@@ -1,4 +1,4 @@
-"""`jumpcad simulate`: let a design jump."""
+"""`jumpcad simulate`: simulate one jump."""
 
 import csv
 import io
@@ -27,8 +27,8 @@ LINES = (
     ("take-off speed", "takeoff_speed_m_s", "{:.3f} m/s"),
     ("take-off angle", "takeoff_angle_deg", "{:.1f}°"),
     ("take-off after", "takeoff_time_s", "{:.4f} s"),
-    ("energy at take-off / of the springs", "takeoff_energy_ratio", "{:.4f}"),
-    ("energy of the springs", "spring_energy_j", "{:.4f} J"),
+    ("energy at take-off / spring energy", "takeoff_energy_ratio", "{:.4f}"),
+    ("spring energy", "spring_energy_j", "{:.4f} J"),
     ("mass", "mass_kg", "{:.4f} kg"),
     ("fitness (range / longest link)", "fitness", "{:.3f}"),
 )
@@ -51,14 +51,14 @@ def simulate(
         str | None, typer.Option(help="pybullet, mujoco, both, or planar (fast); else the first installed.")
     ] = None,
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
-    flight: Annotated[bool, typer.Option("--flight", help="Go on to the first touchdown.")] = False,
+    flight: Annotated[bool, typer.Option("--flight", help="Simulate the flight up to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Simulate one jump: gate, release, take-off, flight.
 
-    The exit code is 0 for a jump and 1 if the design is refused or does not jump.
+    The exit code is 0 for a jump and 1 if the design is rejected or does not jump.
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_target
@@ -94,7 +94,7 @@ def simulate(
 
 
 def _published(design: "Design", engine: str | None, as_json: bool) -> None:
-    """Print the published study's quantities, which are not those of the jump."""
+    """Print the quantities of the published study, which are not those of a `Jump`."""
     if engine not in (None, "pybullet"):
         raise JumpcadError(f"--engine {engine}: the published simulation exists in pybullet alone")
     from jumpcad.paper import published
@@ -109,7 +109,7 @@ def _published(design: "Design", engine: str | None, as_json: bool) -> None:
 
 
 def _engines(asked: str | None) -> list[str]:
-    """Return the engines to use; without a wish the first that is installed, said where it is not the usual one."""
+    """Return the engines to use: by default the first installed, with a message if it is not PyBullet."""
     from jumpcad.simulation.engines import GENERAL, default_engine
 
     if asked == "both":
@@ -158,7 +158,7 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None
             if value is not None:
                 print(f"  {label:<36}{form.format(value)}")
         if jump.energy:
-            print("  where the springs' energy is at take-off, J:")
+            print("  where the spring energy is at take-off (J):")
             for name, value in asdict(jump.energy).items():
                 print(f"    {name.removesuffix('_j').replace('_', ' '):<34}{value:.4f}")
         if jump.published:
@@ -171,7 +171,7 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None
 
 
 def _difference_percent(jumps: "list[Jump]") -> float | None:
-    """Return by how much the second engine's range differs from the first's, if both jump."""
+    """Return the difference of the second engine's range from the first's (%), if both jump."""
     ranges = [jump.ballistic_range_m for jump in jumps]
     if len(ranges) != 2 or ranges[0] is None or ranges[1] is None:
         return None
@@ -179,7 +179,7 @@ def _difference_percent(jumps: "list[Jump]") -> float | None:
 
 
 def _write_trajectory(path: Path, jump: "Jump") -> None:
-    """Write the trajectory, one row or object a moment; a refused design has none."""
+    """Write the trajectory, one row per moment; a rejected design has none."""
     from jumpcad.files.outputs import write_atomically
 
     if jump.trajectory is None:

@@ -1,4 +1,4 @@
-"""`jumpcad study`: what a study holds, in figures, tables and pictures."""
+"""`jumpcad study`: what is in a study file, as figures, tables and pictures."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -6,17 +6,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
-from jumpcad.cli.searching import PlotsOption, require_plots, row_data
+from jumpcad.cli.searching import PlotsOption, require_plots
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.search.store import StudyStore
 
 StudiesArgument = Annotated[
-    list[Path], typer.Argument(help="One study to look at, or several to compare.", metavar="F.db…")
+    list[Path], typer.Argument(help="One study to show, or several to compare.", metavar="F.db…")
 ]
-ExportOption = Annotated[Path | None, typer.Option(help="Write all rows to FILE.csv or FILE.parquet.", metavar="FILE")]
-ListOption = Annotated[int, typer.Option("--list", help="Show the best rows.", metavar="COUNT", min=0)]
+ExportOption = Annotated[
+    Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
+]
+ListOption = Annotated[int, typer.Option("--list", help="Show so many of the best trials.", metavar="COUNT", min=0)]
 
 
 def register(app: typer.Typer) -> None:
@@ -32,7 +34,7 @@ def study(
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Show a study, also while it runs; compare several; export the rows."""
+    """Show a study, also while it runs; compare several; export the trials."""
     from jumpcad.search.store import StudyStore
     from jumpcad.search.table import write_table
 
@@ -44,9 +46,9 @@ def study(
         with StudyStore.read(file) as store:
             summaries.append(_summary(file, store, best))
             if export is not None:
-                write_table(store.rows(), export, force)
+                write_table(store.trials(), export, force)
             if plots is not None:
-                from jumpcad.search.studies import plot_study
+                from jumpcad.search.study_plots import plot_study
 
                 summaries[-1]["pictures"] = [str(picture) for picture in plot_study(store, plots)]
     if as_json:
@@ -58,23 +60,22 @@ def study(
 
 
 def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
-    from jumpcad.search.study import best_row, count_refusals, search_rows
+    from jumpcad.search.trial import count_rejections, feasible_trials, searched
 
-    rows, identity = store.rows(), store.identity
-    searched = search_rows(rows)
-    top = sorted((row for row in searched if row.score is not None), key=lambda row: -(row.score or 0.0))[:best]
-    winner = best_row(searched)
+    trials, identity = store.trials(), store.identity
+    proposed = searched(trials)
+    top = feasible_trials(proposed)
     return {
         "study": str(file),
         "identity": identity,
         "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])),
-        "evaluations": len(searched),
-        "other_evaluations": len(rows) - len(searched),
-        "refused": count_refusals(searched),
-        "evaluation_time_s": sum(row.duration_s for row in rows),
-        "best": None if winner is None else row_data(winner),
-        "top": [row_data(row) for row in top],
-        "quarantined": [row_data(row) for row in rows if row.evaluation.verdict == "quarantined"],
+        "evaluations": len(proposed),
+        "other_evaluations": len(trials) - len(proposed),
+        "refused": count_rejections(proposed),
+        "evaluation_time_s": sum(trial.duration_s for trial in trials),
+        "best": top[0].to_dict() if top else None,
+        "top": [trial.to_dict() for trial in top[:best]],
+        "quarantined": [trial.to_dict() for trial in trials if trial.evaluation.verdict == "quarantined"],
         "notes": store.notes(),
     }
 
@@ -86,12 +87,12 @@ def _print_one(summary: dict[str, Any]) -> None:
         f"{summary['evaluations']} of {summary['planned']} designs, and {summary['other_evaluations']} around the best"
     )
     for name, count in summary["refused"].items():
-        print(f"  refused {count:6d}  {name}")
+        print(f"  rejected {count:6d}  {name}")
     for note in summary["notes"]:
         print(f"  note: {note}")
-    for number, row in enumerate(summary["top"], start=1):
-        values = "  ".join(f"{value:.5g}" for value in row["design"].values())
-        print(f"{number:3d}. {row['score']:10.4f}  {row['phase']:6s}  {values}")
+    for number, trial in enumerate(summary["top"], start=1):
+        values = "  ".join(f"{value:.5g}" for value in trial["design"].values())
+        print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}")
 
 
 def _print_comparison(summaries: list[dict[str, Any]]) -> None:

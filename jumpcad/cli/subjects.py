@@ -1,4 +1,4 @@
-"""What commands are given: a template, a design file, a bundle, or a URDF file."""
+"""Arguments of commands: a template, a design file, a bundle, or a URDF file."""
 
 import os
 import sys
@@ -20,7 +20,7 @@ WorkshopOption = Annotated[
 
 
 def tell_template(subject: str) -> None:
-    """Say on standard error that a bare name is the template's, where a bundle of that name lies in this folder."""
+    """Print that a bare name means the template, if a bundle of that name is in this folder."""
     from jumpcad.bundle.manifest import MANIFEST
 
     folder = os.path.join(os.curdir, subject)
@@ -29,7 +29,7 @@ def tell_template(subject: str) -> None:
 
 
 def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
-    """Return the bundle that a subject stands for, if it stands for one: a folder, unless it is a template's bare name.
+    """Return the bundle that a subject names: a folder, unless it is a template's bare name; else None.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
 
 
 def designed(subject: str, workshop: str | None) -> "Robot":
-    """Return the printed robot of a bundle (from the inputs that it keeps), of a template, or of a design file."""
+    """Return the printed robot of a bundle (from the inputs in it), of a template, or of a design file."""
     from jumpcad.building import build as build_robot
     from jumpcad.bundle.inputs import kept_design, kept_workshop
     from jumpcad.design import load_design
@@ -63,7 +63,7 @@ def designed(subject: str, workshop: str | None) -> "Robot":
 
 
 def design_file(subject: str) -> Path:
-    """Return the file in which the design of a bundle, a template or a design file stands."""
+    """Return the design file of a bundle, a template or a path."""
     from jumpcad.files import find_template
 
     bundle = bundle_of(subject)

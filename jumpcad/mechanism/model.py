@@ -124,8 +124,8 @@ class Mechanism:
 
     def __repr__(self) -> str:
         return (
-            f"<{type(self).__name__} {self.name!r}: {1000.0 * self.mass_kg:.1f} g, springs of "
-            f"{self.spring.energy_j:.3f} J>"
+            f"<{type(self).__name__} {self.name[:40]!r}: {1000.0 * self.mass_kg:.1f} g, "
+            f"spring energy {self.spring.energy_j:.3f} J>"
         )
 
 

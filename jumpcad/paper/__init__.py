@@ -1,1 +1,1 @@
-"""The published study: its simulation, bit for bit, and its table of results beside the evaluator's."""
+"""The published study: its simulation, bit for bit, and its table of results compared with jumpcad's."""

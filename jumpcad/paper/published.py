@@ -57,7 +57,7 @@ def simulate(design: Design) -> PublishedJump:
     JumpcadError
         If PyBullet is not installed.
     """
-    energy = design.spring_energy_j  # refuses a design without an assembled pose
+    energy = design.spring_energy_j  # raises for a design without an assembled pose
     bullet = import_pybullet("the published model has no other engine")
     client = bullet.connect(bullet.DIRECT)
     try:
@@ -150,7 +150,7 @@ def _jump(bullet: ModuleType, client: int, design: Design, geometry: _Geometry) 
 
 
 def _robot(bullet: ModuleType, client: int, geometry: _Geometry) -> int:
-    """Put the wound robot into the world and return its number."""
+    """Put the loaded robot into the world and return its number."""
     here = {"physicsClientId": client}
     g = geometry
     # In the order of creation, which is not the order of Bullet's numbers: leg, front link, foot, two toes.

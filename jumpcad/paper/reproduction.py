@@ -73,7 +73,7 @@ WHY_THEY_DIFFER = (
     "gains.",
     "The published simulation does not converge: its pose does not close the loop, near-rigid joint motors fight the "
     "loop's constraint, and with smaller time steps it blows up. The evaluator starts from the exactly closed pose.",
-    "Designs whose loop cannot close over their travel score best in it; the evaluator's gate refuses them, and every "
+    "Designs whose loop cannot close over their travel score best in it; the evaluator's gate rejects them, and every "
     "run has to pass an audit of its energy and its loop.",
 )
 

@@ -1,1 +1,85 @@
-"""Search for designs: a study file of trials, the methods that propose them, the robust pick, what was learnt."""
+"""Search for designs: a study file of trials, the methods that propose designs, the robust pick, views of the space.
+
+`optimize` does all of it in one call. The other names are its parts: `run_study` runs a `Request` on a `Pool` into a
+`StudyStore`; an `Evaluator` evaluates designs for a method, or for a view like `sweep`. They load when first used.
+"""
+
+from typing import TYPE_CHECKING
+
+from jumpcad.faces import face
+
+if TYPE_CHECKING:
+    from jumpcad.search import plots as plots
+    from jumpcad.search.evaluator import Evaluator as Evaluator
+    from jumpcad.search.explore import components as components
+    from jumpcad.search.explore import feasibility_map as feasibility_map
+    from jumpcad.search.explore import importance as importance
+    from jumpcad.search.explore import sample as sample
+    from jumpcad.search.explore import sweep as sweep
+    from jumpcad.search.figures import save_figure as save_figure
+    from jumpcad.search.fronts import energy_j as energy_j
+    from jumpcad.search.fronts import front as front
+    from jumpcad.search.fronts import hypervolume as hypervolume
+    from jumpcad.search.methods import METHODS as METHODS
+    from jumpcad.search.models import MODELS as MODELS
+    from jumpcad.search.models import RobotModel as RobotModel
+    from jumpcad.search.models import robot_model as robot_model
+    from jumpcad.search.objective import OBJECTIVES as OBJECTIVES
+    from jumpcad.search.objective import Evaluation as Evaluation
+    from jumpcad.search.objective import Objective as Objective
+    from jumpcad.search.objective import find_objective as find_objective
+    from jumpcad.search.optimization import optimize as optimize
+    from jumpcad.search.parameter import Parameter as Parameter
+    from jumpcad.search.pool import Pool as Pool
+    from jumpcad.search.pool import dask_pool as dask_pool
+    from jumpcad.search.pool import local_pool as local_pool
+    from jumpcad.search.request import Request as Request
+    from jumpcad.search.result import Result as Result
+    from jumpcad.search.robust import ActiveBound as ActiveBound
+    from jumpcad.search.robust import Candidate as Candidate
+    from jumpcad.search.space import Space as Space
+    from jumpcad.search.store import StudyStore as StudyStore
+    from jumpcad.search.study import run_study as run_study
+    from jumpcad.search.study_plots import plot_study as plot_study
+    from jumpcad.search.table import write_table as write_table
+    from jumpcad.search.trial import Trial as Trial
+
+_HOMES = {
+    "ActiveBound": "robust",
+    "Candidate": "robust",
+    "Evaluation": "objective",
+    "Evaluator": "evaluator",
+    "METHODS": "methods",
+    "MODELS": "models",
+    "OBJECTIVES": "objective",
+    "Objective": "objective",
+    "Parameter": "parameter",
+    "Pool": "pool",
+    "Request": "request",
+    "Result": "result",
+    "RobotModel": "models",
+    "Space": "space",
+    "StudyStore": "store",
+    "Trial": "trial",
+    "components": "explore",
+    "dask_pool": "pool",
+    "energy_j": "fronts",
+    "feasibility_map": "explore",
+    "find_objective": "objective",
+    "front": "fronts",
+    "hypervolume": "fronts",
+    "importance": "explore",
+    "local_pool": "pool",
+    "optimize": "optimization",
+    "plot_study": "study_plots",
+    "plots": "plots",
+    "robot_model": "models",
+    "run_study": "study",
+    "sample": "explore",
+    "save_figure": "figures",
+    "sweep": "explore",
+    "write_table": "table",
+}
+
+__all__ = list(_HOMES)
+__getattr__, __dir__ = face(__name__, _HOMES)

@@ -1,4 +1,4 @@
-"""Where to evaluate next: expected improvement times the probability of being feasible, maximised over a space."""
+"""Where to evaluate next: the maximum of expected improvement times probability of feasibility over a space."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ _STEPS = 40
 
 @dataclass(frozen=True)
 class Proposal:
-    """A design to evaluate, its point (d,), and what is believed of it (logarithms of EI and of P(feasible))."""
+    """A design to evaluate, its point (d,), and the logarithms of its EI and its probability of feasibility."""
 
     design: Design
     unit: Array
@@ -29,7 +29,7 @@ class Proposal:
     log_feasible: float
 
     def note(self) -> dict[str, float]:
-        """Return what the ledger keeps of the belief."""
+        """Return what the study file keeps of it."""
         return {"log_improvement": self.log_improvement, "log_feasible": self.log_feasible}
 
 
@@ -42,18 +42,18 @@ def propose(
     generator: np.random.Generator,
     penalty: Callable[[Array], Array] | None = None,
 ) -> Proposal | None:
-    """Return the design with the largest acquisition that is found, or None where no candidate is admitted.
+    """Return the design with the largest acquisition found, or None if no candidate is admitted.
 
     Parameters
     ----------
-    space, belief
-        Where to look, and what is believed of it.
+    space, posterior
+        Where to look, and the surrogates that were fitted there.
     best
         The score to improve upon.
     elite
         Points (k, d) near which to look more closely: the best designs so far.
     admits
-        Whether a design may be proposed: it was not yet, and no free test refuses it.
+        Whether a design may be proposed: it is new, and the model admits it.
     generator
         Draws the candidates.
     penalty

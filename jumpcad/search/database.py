@@ -1,4 +1,4 @@
-"""The SQLite file under a study: how it is opened and claimed, and what its errors mean."""
+"""The SQLite file of a study: opening it, locking it, and its errors in words."""
 
 import os
 import sqlite3
@@ -11,11 +11,11 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files.names import without_controls
 
 PATIENCE_S = 5.0
-"""How long a reader or writer waits for another one to finish."""
+"""How long a reader or writer waits for another one (s)."""
 
 
 def connect(target: str) -> sqlite3.Connection:
-    """Return a connection to a path, or to a `file:` address, that runs nothing which the file itself defines."""
+    """Return a connection to a path, or to a `file:` address, that runs no code that the file defines."""
     connection = sqlite3.connect(target, uri=target.startswith("file:"), isolation_level=None, timeout=PATIENCE_S)
     connection.execute("PRAGMA trusted_schema = OFF")
     return connection
@@ -44,9 +44,9 @@ def open_to_read(path: Path) -> sqlite3.Connection:
 
 
 def lock(path: Path) -> int:
-    """Claim a study file for this process until the returned descriptor is closed, or the process ends.
+    """Lock a study file for this process until the returned descriptor is closed, or the process ends.
 
-    This kind of lock is apart from those by which SQLite lets readers and a writer take turns.
+    SQLite's own locks, for readers and a writer, are independent of this one.
     """
     import fcntl
 
@@ -67,7 +67,7 @@ def lock(path: Path) -> int:
 
 @contextmanager
 def plain_errors(path: Path | None) -> Iterator[None]:
-    """Turn what SQLite says into one line about the file."""
+    """Raise errors of SQLite as one line about the file."""
     try:
         yield
     except sqlite3.IntegrityError:
@@ -79,7 +79,7 @@ def plain_errors(path: Path | None) -> Iterator[None]:
         if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
             reason = "is locked by another program; close it there and repeat the command"
         elif name.startswith(("SQLITE_FULL", "SQLITE_IOERR")):
-            reason = f"cannot be written ({text}); free some space and repeat the command: it goes on where it was"
+            reason = f"cannot be written ({text}); free some space and repeat the command: it goes on from there"
         elif name.startswith(("SQLITE_READONLY", "SQLITE_CANTOPEN")):
             reason = f"cannot be opened ({text})"
         else:
@@ -88,5 +88,5 @@ def plain_errors(path: Path | None) -> Iterator[None]:
 
 
 def _name(error: sqlite3.Error) -> str:
-    """Return SQLite's name of an error, where it is SQLite's."""
+    """Return SQLite's name of an error; empty for other errors."""
     return str(getattr(error, "sqlite_errorname", ""))

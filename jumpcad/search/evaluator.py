@@ -1,4 +1,4 @@
-"""A campaign: one search's evaluations, each taken from the ledger where it is finished, computed where it is not."""
+"""`Evaluator`: the evaluations of one search, each read from the study file if it is there, computed if not."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -8,17 +8,22 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Model, Objective
 from jumpcad.search.pool import Pool
 from jumpcad.search.space import Space
-from jumpcad.search.store import Key, StudyStore, Trial
+from jumpcad.search.store import StudyStore
+from jumpcad.search.trial import Key, Trial
 
 Watch = Callable[[Trial, bool], None]
-"""Is told of every row, and whether it was computed now (or found in the ledger)."""
+"""Is told of every trial, and whether it was computed now (or read from the study file)."""
+
+
+def ignore(_trial: Trial, _computed: bool) -> None:
+    """Watch nothing."""
 
 
 class Evaluator:
-    """What optimisers work with.
+    """What methods work with.
 
-    A search is a deterministic function of its seed and of the rows it has seen. It therefore resumes by being run
-    again: proposals that are finished come out of the ledger, and the first that is not is where computing goes on.
+    A search is a deterministic function of its seed and of the trials it has seen. It therefore resumes by being run
+    again: proposals that are in the study file are read, and from the first one that is not, they are computed.
 
     Parameters
     ----------
@@ -26,12 +31,12 @@ class Evaluator:
         Where is searched, and for what.
     model
         Evaluates a design; sent to the workers.
-    ledger, pool
-        Where rows are kept, and who computes them.
+    store, pool
+        Where trials are kept, and what computes them.
     prior
-        Rows of an earlier study that the search may learn from.
+        Trials of an earlier study that the search may learn from.
     watch
-        Is told of every row.
+        Is told of every trial.
     """
 
     def __init__(
@@ -42,7 +47,7 @@ class Evaluator:
         store: StudyStore,
         pool: Pool,
         prior: Sequence[Trial] = (),
-        watch: Watch = lambda row, computed: None,
+        watch: Watch = ignore,
     ) -> None:
         self.space = space
         self.objective = objective
@@ -50,33 +55,33 @@ class Evaluator:
         self.model = model
         self._pool = pool
         self._watch = watch
-        held = store.rows()
-        self._finished = {row.key: row for row in held}
-        self._taken = {(row.phase, row.step, row.place): row.key for row in held}
+        held = store.trials()
+        self._finished = {trial.key: trial for trial in held}
+        self._taken = {(trial.phase, trial.step, trial.place): trial.key for trial in held}
         self._seen: dict[Key, Trial] = {}
         self.prior = list(prior)
         pool.notice = store.note
 
     @property
-    def rows(self) -> list[Trial]:
-        """All rows that this campaign has come by, in order."""
+    def trials(self) -> list[Trial]:
+        """All trials of this search so far, in order."""
         return list(self._seen.values())
 
     def admits(self, design: Design) -> bool:
-        """Whether a design is new, and the model's free test does not refuse it."""
+        """Whether a design is new, and the model admits it without an evaluation."""
         return tuple(design.to_vector()) not in self._seen and self.model.admits(design)
 
     def finished(self, phase: str, step: int, count: int) -> list[Trial] | None:
-        """Take a whole step of `count` rows out of the ledger, or nothing if one of them is missing."""
-        rows = sorted(
-            (row for row in self._finished.values() if (row.phase, row.step) == (phase, step)),
-            key=lambda row: row.place,
+        """Read a whole step of `count` trials from the study file; None if one of them is missing."""
+        trials = sorted(
+            (trial for trial in self._finished.values() if (trial.phase, trial.step) == (phase, step)),
+            key=lambda trial: trial.place,
         )
-        if len(rows) != count:
+        if len(trials) != count:
             return None
-        for row in rows:
-            self._come_by(row, computed=False)
-        return rows
+        for trial in trials:
+            self._add(trial, computed=False)
+        return trials
 
     def evaluate(
         self,
@@ -86,14 +91,14 @@ class Evaluator:
         limit: int | None = None,
         proposals: Sequence[Mapping[str, Any]] | None = None,
     ) -> list[Trial | None]:
-        """Return the rows of designs, computing those that are not finished; at most `limit` new ones.
+        """Return the trials of designs, computing those that are not finished; at most `limit` new ones.
 
-        Rows are kept in one transaction; if the run is interrupted meanwhile, those that are finished are kept.
+        Trials are kept in one transaction; if the run is interrupted meanwhile, those that are finished are kept.
 
         Raises
         ------
         JumpcadError
-            If the model cannot work at all, or the ledger holds other designs at these places.
+            If the model cannot work at all, or the study file holds other designs at these places.
         """
         fresh: dict[Key, int] = {}
         for index, design in enumerate(designs):
@@ -116,7 +121,7 @@ class Evaluator:
                     Trial(*places[key], designs[fresh[key]], outcome.evaluation, score, self.model.digest,
                         outcome.duration_s, proposal)
                 )  # fmt: skip
-            self._refuse_a_dead_model(computed)
+            self._require_a_working_model(computed)
         except JumpcadError:
             raise
         except BaseException:
@@ -124,21 +129,21 @@ class Evaluator:
             raise
         self._commit(computed)
         for key in fresh:
-            self._come_by(self._finished[key], computed=key in missing)
+            self._add(self._finished[key], computed=key in missing)
         return [self._seen.get(tuple(design.to_vector())) for design in designs]
 
-    def _commit(self, rows: list[Trial]) -> None:
-        if rows:
-            self.store.append(sorted(rows, key=lambda row: row.position))
-        for row in rows:
-            self._finished[row.key] = row
-            self._taken[row.phase, row.step, row.place] = row.key
+    def _commit(self, trials: list[Trial]) -> None:
+        if trials:
+            self.store.append(sorted(trials, key=lambda trial: trial.position))
+        for trial in trials:
+            self._finished[trial.key] = trial
+            self._taken[trial.phase, trial.step, trial.place] = trial.key
 
-    def _come_by(self, row: Trial, computed: bool) -> None:
-        self._seen[row.key] = row
-        self._watch(row, computed)
+    def _add(self, trial: Trial, computed: bool) -> None:
+        self._seen[trial.key] = trial
+        self._watch(trial, computed)
 
-    def _refuse_a_dead_model(self, rows: list[Trial]) -> None:
-        """If the very first batch is lost as a whole, then not the designs are to blame."""
-        if len(rows) > 1 and not self._finished and all(row.evaluation.verdict == QUARANTINED for row in rows):
-            raise JumpcadError(f"every evaluation failed, so the model cannot work here: {rows[0].evaluation.detail}")
+    def _require_a_working_model(self, trials: list[Trial]) -> None:
+        """Raise if every evaluation of the first batch failed: then the cause is the model, not a design."""
+        if len(trials) > 1 and not self._finished and all(trial.evaluation.verdict == QUARANTINED for trial in trials):
+            raise JumpcadError(f"every evaluation failed, so the model cannot work here: {trials[0].evaluation.detail}")

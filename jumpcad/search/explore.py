@@ -1,4 +1,4 @@
-"""Looking around instead of optimising: sweeps, principal components, importance, and where designs are refused."""
+"""Views of the design space: sweeps, principal components, importance, and where designs are rejected."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,9 +9,9 @@ from threadpoolctl import threadpool_limits
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.space import Parameter
-from jumpcad.search.store import Trial
+from jumpcad.search.parameter import Parameter
 from jumpcad.search.surrogate import Surrogate, warped
+from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array
 
 ELITE_SHARE = 0.1
@@ -21,17 +21,17 @@ REPEATS = 10
 
 UNIFORM_NOTE = (
     "Components of evenly sampled parameters are equal by construction, up to chance: they say nothing of the robot. "
-    "What matters shows in the components of the best tenth, and in the importance."
+    "Look at the components of the best tenth, and at the importance."
 )
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """One parameter varied alone: the rows, in the order of its values."""
+    """One parameter varied alone, with one trial for each of its values."""
 
     parameter: str
     values: Array
-    rows: list[Trial]
+    trials: list[Trial]
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Components:
 
 @dataclass(frozen=True)
 class Importance:
-    """By how much a prediction's R² on designs it has not seen falls when a parameter is shuffled: mean and deviation.
+    """Fall of the R² on held-out designs when a parameter is shuffled: mean and standard deviation.
 
     ``r_squared`` is the R² before; ``designs`` the number of designs that jump.
     """
@@ -63,24 +63,24 @@ class Importance:
 
 @dataclass(frozen=True)
 class FeasibilityMap:
-    """Verdicts over a grid of two parameters, the others as in a design: rows[j][i] at ``y[j]``, ``x[i]``."""
+    """Trials over a grid of two parameters, the others as in a design: trials[j][i] is at ``y[j]``, ``x[i]``."""
 
     x_name: str
     y_name: str
     x: Array
     y: Array
-    rows: list[list[Trial]]
+    trials: list[list[Trial]]
 
 
 def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
-    """Vary each free parameter alone over its range, `points` values each (or its choices)."""
+    """Vary each free parameter alone, over `points` values of its range (or over its choices)."""
     if points < 2:
         raise JumpcadError(f"points = {points} must be at least 2")
     sweeps = []
     for step, parameter in enumerate(evaluator.space.free):
         values = _grid(parameter, points)
-        rows = _all(evaluator, [_with(around, {parameter.name: value}) for value in values], "sweep", step)
-        sweeps.append(Sweep(parameter.name, values, rows))
+        trials = _all(evaluator, [_with(around, {parameter.name: value}) for value in values], "sweep", step)
+        sweeps.append(Sweep(parameter.name, values, trials))
     return sweeps
 
 
@@ -92,37 +92,37 @@ def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
     return _all(evaluator, [evaluator.space.to_design(point) for point in points], "sample", 0)
 
 
-def components(evaluator: Evaluator, rows: Sequence[Trial]) -> Components:
-    """Return the principal components of the free parameters of some rows."""
+def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
+    """Return the principal components of the free parameters of some trials."""
     from sklearn.decomposition import PCA
 
-    if len(rows) < 3:
-        raise JumpcadError(f"{len(rows)} designs are too few for principal components; raise --samples")
-    units = np.array([evaluator.space.to_unit(row.design) for row in rows])
+    if len(trials) < 3:
+        raise JumpcadError(f"{len(trials)} designs are too few for principal components; raise --samples")
+    units = np.array([evaluator.space.to_unit(trial.design) for trial in trials])
     deviation = units.std(axis=0)
     found = PCA(svd_solver="full").fit((units - units.mean(axis=0)) / np.where(deviation > 0, deviation, 1.0))
     names = tuple(parameter.name for parameter in evaluator.space.free)
-    return Components(names, found.explained_variance_ratio_, found.components_, len(rows))
+    return Components(names, found.explained_variance_ratio_, found.components_, len(trials))
 
 
-def elite(rows: Sequence[Trial]) -> list[Trial]:
-    """Return the best tenth of the feasible rows, at least `ELITE_LEAST` if there are so many, best first."""
-    feasible = sorted((row for row in rows if row.score is not None), key=lambda row: -(row.score or 0.0))
+def elite(trials: Sequence[Trial]) -> list[Trial]:
+    """Return the best tenth of the feasible trials, at least `ELITE_LEAST` if there are so many, best first."""
+    feasible = feasible_trials(trials)
     return feasible[: max(ELITE_LEAST, round(ELITE_SHARE * len(feasible)))]
 
 
-def importance(evaluator: Evaluator, rows: Sequence[Trial], seed: int) -> Importance:
+def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Importance:
     """Return the permutation importance of the free parameters for the score of designs that jump.
 
     A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is shuffled there.
     """
-    feasible = [row for row in rows if row.score is not None]
+    feasible = [trial for trial in trials if trial.score is not None]
     if len(feasible) < 2 * FOLDS:
         raise JumpcadError(
-            f"{len(feasible)} of {len(rows)} designs jump, which is too few to say what is important; raise --samples"
+            f"{len(feasible)} of {len(trials)} designs jump, which is too few to say what is important; raise --samples"
         )
-    x = np.array([evaluator.space.to_unit(row.design) for row in feasible])
-    y = warped(np.array([row.score for row in feasible]))
+    x = np.array([evaluator.space.to_unit(trial.design) for trial in feasible])
+    y = warped(np.array([trial.score for trial in feasible]))
     generator = np.random.default_rng([seed, 6])
     fold = generator.permutation(len(y)) % FOLDS
     theta, scores, falls = None, [], []
@@ -150,8 +150,8 @@ def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: s
         raise JumpcadError(f"a map needs two different parameters, not {x_name} twice")
     x, y = _grid(parameters[x_name], points), _grid(parameters[y_name], points)
     designs = [_with(around, {x_name: u, y_name: v}) for v in y for u in x]
-    rows = _all(evaluator, designs, "sweep", evaluator.space.dimension)
-    return FeasibilityMap(x_name, y_name, x, y, [rows[j * len(x) : (j + 1) * len(x)] for j in range(len(y))])
+    trials = _all(evaluator, designs, "sweep", evaluator.space.dimension)
+    return FeasibilityMap(x_name, y_name, x, y, [trials[j * len(x) : (j + 1) * len(x)] for j in range(len(y))])
 
 
 def _grid(parameter: Parameter, points: int) -> Array:
@@ -163,7 +163,7 @@ def _with(design: Design, values: dict[str, float]) -> Design:
 
 
 def _all(evaluator: Evaluator, designs: Sequence[Design], phase: str, step: int) -> list[Trial]:
-    return [row for row in evaluator.evaluate(designs, phase, step) if row is not None]
+    return [trial for trial in evaluator.evaluate(designs, phase, step) if trial is not None]
 
 
 def _r_squared(surrogate: Surrogate, x: Array, y: Array) -> float:

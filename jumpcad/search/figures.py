@@ -1,4 +1,4 @@
-"""Figures as files: no display, one style, the same bytes for the same data."""
+"""Figures as SVG files: one style, and the same bytes for the same data."""
 
 import io
 from pathlib import Path
@@ -14,7 +14,7 @@ PICTURES = (
     "history", "slices", "parallel", "pareto", "acquisition-first", "acquisition",
     "sweeps", "pca", "importance", "feasibility",
 )  # fmt: skip
-"""The names of all pictures of a study, then of those of the design space."""
+"""Names of the pictures of a study, then of those of the design space."""
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#d9822b", "#8a8f98", "#b3322b"
 STYLE: dict[Any, Any] = {
@@ -39,8 +39,8 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
     return figure, axes
 
 
-def save(figure: Figure, folder: Path, name: str) -> Path:
-    """Write a figure as `folder/name.svg`, with a seal, and return the path."""
+def save_figure(figure: Figure, folder: Path, name: str) -> Path:
+    """Write a figure as `folder/name.svg`, sealed as ours, and return the path."""
     stream = io.StringIO()
     with matplotlib.rc_context(STYLE):
         figure.savefig(stream, format="svg", metadata={"Date": None})
@@ -49,7 +49,7 @@ def save(figure: Figure, folder: Path, name: str) -> Path:
 
 
 def heat(figure: Figure, axes: Axes, x: Any, y: Any, values: Any, label: str) -> None:
-    """Draw values (len(y), len(x)) as a map with its scale."""
+    """Draw values (len(y), len(x)) as a colour map with its scale."""
     image = axes.pcolormesh(x, y, values, shading="nearest", cmap="viridis", rasterized=True)
     axes.grid(False)
     figure.colorbar(image, ax=axes, label=label)

@@ -1,7 +1,7 @@
-"""Designs that keep off the edge: proposed where not they alone but their neighbours too should be feasible.
+"""Proposals whose neighbours are probably feasible too.
 
-The best designs of a search lie on a constraint, where every second neighbour is refused. What the search and the
-robust pick saw there says where the constraint runs; this goes as near to it as a chosen confidence allows.
+The best designs of a search lie on a constraint, where every second neighbour is rejected. From the trials of the
+search and of the robust pick the constraint is known; the proposals go as near to it as a chosen confidence allows.
 """
 
 from collections.abc import Callable, Sequence
@@ -14,27 +14,27 @@ from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods.bayesian import incumbent, unproposed
 from jumpcad.search.space import Space
-from jumpcad.search.store import Trial
 from jumpcad.search.surrogate import Posterior
+from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 CONFIDENCES = (0.95, 0.99, 0.999)
 """Probabilities that a neighbour is feasible: one proposal for each."""
 LEARNED = 400
-"""How many rows are learned from: the nearest to the best ones."""
+"""Number of trials that the processes are fitted to: the nearest to the best one."""
 STEEPNESS = 100.0
-"""How fast the acquisition falls where a confidence is missed: far faster than any gain in score can make good."""
+"""Fall of the acquisition where the confidence is missed: far more than any gain in score."""
 
 
-def propose_robust(evaluator: Evaluator, rows: Sequence[Trial], step: int, seed: int, scatter: float) -> list[Trial]:
-    """Evaluate designs that should score highest while their neighbours stay feasible; return their rows.
+def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, seed: int, scatter: float) -> list[Trial]:
+    """Evaluate designs that should score highest while their neighbours stay feasible; return their trials.
 
     Parameters
     ----------
-    campaign, rows
-        All that the campaign has seen is learned from; the best of these rows is where is looked most closely.
+    evaluator, trials
+        All trials of the evaluator are learned from; near the best of `trials` it looks most closely.
     step, seed
-        Where the proposals stand in the ledger, and what chance draws from.
+        The step of the proposals in the study file; the random seed.
     scatter
         Standard deviation of a neighbour's parameters, relative to their value.
     """
@@ -42,13 +42,15 @@ def propose_robust(evaluator: Evaluator, rows: Sequence[Trial], step: int, seed:
     if finished is not None:
         return finished
     space = evaluator.space
-    _, elite = incumbent(space, rows)
-    known = _nearest(space, evaluator.rows, elite[0])
-    thetas: dict[str, Any] = next((row.proposal["theta"] for row in reversed(rows) if "theta" in row.proposal), {})
+    _, elite = incumbent(space, trials)
+    known = _nearest(space, evaluator.trials, elite[0])
+    thetas: dict[str, Any] = next(
+        (trial.proposal["theta"] for trial in reversed(trials) if "theta" in trial.proposal), {}
+    )
     generator = np.random.default_rng([seed, 7, step])
     proposals: list[Proposal] = []
     with threadpool_limits(1):
-        posterior = Posterior.from_rows(space, known, thetas, fit=())
+        posterior = Posterior.from_trials(space, known, thetas, fit=())
         for confidence in CONFIDENCES:
             admits, penalty = unproposed(evaluator, proposals), _missed(space, posterior, confidence, scatter)
             proposal = propose(space, posterior, 0.0, elite, admits, generator, penalty)
@@ -56,23 +58,24 @@ def propose_robust(evaluator: Evaluator, rows: Sequence[Trial], step: int, seed:
                 proposals.append(proposal)
     notes = [proposal.note() | {"theta": posterior.thetas} for proposal in proposals]
     found = evaluator.evaluate([proposal.design for proposal in proposals], "margin", step, proposals=notes)
-    return [row for row in found if row is not None]
+    return [trial for trial in found if trial is not None]
 
 
 def _missed(space: Space, posterior: Posterior, confidence: float, scatter: float) -> Callable[[Array], Array]:
-    """Return a penalty that is 0 where a neighbour is feasible with enough confidence, and grows fast where not."""
+    """Return a penalty: 0 where a neighbour is feasible with enough confidence, and growing fast elsewhere."""
     offset = np.array([parameter.lower / parameter.width for parameter in space.free])
 
     def penalty(points: Array) -> Array:
         values = points + offset  # of the parameters, in widths of their ranges
-        return STEEPNESS * np.maximum(np.log(confidence) - posterior.log_feasible(points, scatter * values), 0.0)
+        missed: Array = np.maximum(np.log(confidence) - posterior.log_feasible(points, scatter * values), 0.0)
+        return STEEPNESS * missed
 
     return penalty
 
 
-def _nearest(space: Space, rows: Sequence[Trial], centre: Array) -> list[Trial]:
-    """Return the `LEARNED` rows nearest to a point (d,), of those that have the space's fixed values."""
+def _nearest(space: Space, trials: Sequence[Trial], centre: Array) -> list[Trial]:
+    """Return the `LEARNED` trials nearest to a point (d,), of those that have the space's fixed values."""
     fixed = [parameter for parameter in space.parameters if not parameter.free]
-    known = [row for row in rows if all(getattr(row.design, one.name) == one.lower for one in fixed)]
-    far = [float(np.abs(space.to_unit(row.design) - centre).max()) for row in known]
+    known = [trial for trial in trials if all(getattr(trial.design, one.name) == one.lower for one in fixed)]
+    far = [float(np.abs(space.to_unit(trial.design) - centre).max()) for trial in known]
     return [known[index] for index in sorted(np.argsort(far, kind="stable")[:LEARNED])]

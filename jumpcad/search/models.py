@@ -1,4 +1,4 @@
-"""The robot behind an objective: printed, capsule or published, chosen by name."""
+"""What evaluates a design in a search: the printed, the capsule or the published robot, chosen by name."""
 
 import hashlib
 import importlib.metadata
@@ -14,32 +14,38 @@ from jumpcad.files import did_you_mean, templates_folder
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import Evaluation
+from jumpcad.settings import Settings, load_settings
+from jumpcad.simulation.engines import ENGINES, default_engine
 from jumpcad.version import __version__
+from jumpcad.workshop import DEFAULT, Workshop, load_workshop
 
 MODELS = ("printed", "capsule", "published")
-PRESENTATION = ("cli", "pictures", "report")
-"""The packages of jumpcad that decide no row of a study."""
+PRESENTATION = ("bundle", "cli", "coupon")
+"""The packages of jumpcad that decide no trial of a study."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RobotModel:
     """A picklable function from design to evaluation.
 
     Parameters
     ----------
     name
-        `printed`: built, simulated and checked in a workshop. `capsule`: the published masses as capsules, simulated
-        right. `published`: the published simulation behind the geometric gate, which its study lacked.
+        `printed`: built, simulated and checked in a workshop. `capsule`: the published masses as uniform capsules.
+        `published`: the published simulation, after the geometric gate, which its study did not have.
     workshop
-        What `printed` is built in.
+        Where `printed` is built; the default if None.
     settings, engine
-        How `printed` and `capsule` are simulated; the defaults if None.
+        How `printed` and `capsule` are simulated; the default settings if None.
     """
 
     name: str
-    workshop: Any = None
-    settings: Any = None
+    workshop: Workshop | None = None
+    settings: Settings | None = None
     engine: str = "pybullet"
+
+    def __repr__(self) -> str:
+        return f"<RobotModel {self.name}, {self.describe()['engine']}>"
 
     def __post_init__(self) -> None:
         if self.name not in MODELS:
@@ -50,16 +56,21 @@ class RobotModel:
     def __call__(self, design: Design) -> Evaluation:
         """Evaluate a design; one that cannot be built is a verdict, not an error."""
         findings = tuple(geometry_findings(design))
-        refused = errors(findings)
-        if refused:
-            return Evaluation(refused[0].name, findings=findings)
+        rejecting = errors(findings)
+        if rejecting:
+            return Evaluation(rejecting[0].name, findings=findings)
         try:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:
             return Evaluation("cannot_build", detail=str(error))
 
+    @property
+    def tolerance_mm(self) -> float:
+        """By how much a printed link may come out wrong (mm): both its ends have the play of a sliding fit."""
+        return 0.2 if self.workshop is None else 2.0 * self.workshop.fits.sliding_mm
+
     def admits(self, design: Design) -> bool:
-        """Whether the gate lets a design pass as far as that is known in microseconds: without solids or simulation."""
+        """Whether the gate admits a design, as far as that is known without solids and simulation (microseconds)."""
         if errors(geometry_findings(design)):
             return False
         if self.name != "capsule":
@@ -113,11 +124,42 @@ class RobotModel:
         return Evaluation("jump" if jump.distance_m > 0 else "no_takeoff", metrics, tuple(geometry_findings(design)))
 
 
+def robot_model(
+    name: str = "printed",
+    workshop: Workshop | str | Path = DEFAULT,
+    settings: Settings | str | Path = "default",
+    engine: str | None = None,
+) -> RobotModel:
+    """Return the model of a name; workshop and settings by name, as files, or loaded.
+
+    Parameters
+    ----------
+    name
+        One of `MODELS`; each takes of the others what it needs.
+    workshop, settings
+        Where `printed` is built; how `printed` and `capsule` are simulated.
+    engine
+        PyBullet or MuJoCo, the first that is installed, if None.
+
+    Raises
+    ------
+    JumpcadError
+        If there is no such model, engine, workshop or settings.
+    """
+    if engine is not None and engine not in ENGINES:
+        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {', '.join(ENGINES)}")
+    if name not in MODELS or name == "published":
+        return RobotModel(name)
+    built_in = None if name != "printed" else workshop if isinstance(workshop, Workshop) else load_workshop(workshop)
+    how = settings if isinstance(settings, Settings) else load_settings(settings)
+    return RobotModel(name, built_in, how, engine or default_engine())
+
+
 @cache
 def code_digest() -> str:
-    """Return a hash (hexadecimal) of the code and the catalogue that decide the rows of a study.
+    """Return a hash (hexadecimal) of the code and the catalogue that decide the trials of a study.
 
-    A version number is raised at a release; between two of them, only the code itself says that it has changed.
+    Between two releases the version number stays, but the code changes.
     """
     package = Path(__file__).parents[1]
     files = {path.relative_to(package).as_posix(): path for path in package.rglob("*.py")}

@@ -1,4 +1,4 @@
-"""What is searched for: the outcome of one evaluation, and the score that an objective gives it."""
+"""The outcome of one evaluation, and the score that an objective gives it."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -10,12 +10,12 @@ from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, errors
 
 QUARANTINED = "quarantined"
-"""Verdict of a design whose evaluation ended two workers, or ran past its limit twice."""
+"""Verdict of a design whose evaluation failed twice: ended its worker, or ran past its limit."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Evaluation:
-    """What a model says of one design.
+    """The outcome of evaluating one design.
 
     ``metrics`` are named figures with the unit in the name; ``findings`` hold the margins of every limit that was
     reached before the verdict; ``detail`` says more where verdict and findings do not.
@@ -28,24 +28,28 @@ class Evaluation:
 
     @property
     def feasible(self) -> bool:
-        """Whether the design jumps and no finding forbids it."""
+        """Whether the design jumps and no finding is an error."""
         return self.verdict == "jump" and not errors(self.findings)
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Names of what forbids the design; the verdict where no finding does."""
+        """Names of the findings that reject the design; the verdict if there is none."""
         names = tuple(dict.fromkeys(finding.name for finding in errors(self.findings)))
         return names or (() if self.feasible else (self.verdict,))
 
+    def __repr__(self) -> str:
+        outcome = "feasible" if self.feasible else f"rejected by {' '.join(self.reasons)[:80]}"
+        return f"<Evaluation {self.verdict}: {outcome}, fitness {self.metrics.get('fitness', 0.0):.4g}>"
+
 
 class Model(Protocol):
-    """What stands behind an objective: a picklable, pure function of the design."""
+    """What evaluates designs: a picklable, pure function of the design."""
 
     def __call__(self, design: Design, /) -> Evaluation:
         """Evaluate a design. Raises `JumpcadError` only where no design would do."""
 
     def admits(self, design: Design, /) -> bool:
-        """Whether a design is worth an evaluation, as far as that is known in microseconds."""
+        """Whether a design is worth an evaluation, as far as that is known within microseconds."""
 
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""
@@ -60,7 +64,7 @@ class Model(Protocol):
 
 @dataclass(frozen=True)
 class Objective:
-    """A score to be maximised; a refused design has none."""
+    """A score to be maximised; a rejected design has none."""
 
     name: str
     meaning: str
@@ -68,7 +72,7 @@ class Objective:
     figure: Callable[[Mapping[str, float]], float]
 
     def score(self, evaluation: Evaluation) -> float | None:
-        """Return the score of a feasible evaluation, None of a refused one.
+        """Return the score of a feasible evaluation, None of a rejected one.
 
         Raises
         ------

@@ -9,67 +9,67 @@ from matplotlib.patches import Patch
 
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
-from jumpcad.search.methods.pareto import energy_j, front
+from jumpcad.search.fronts import energy_j, front
 from jumpcad.search.objective import Objective
 from jumpcad.search.space import Space
-from jumpcad.search.store import Trial
 from jumpcad.search.surrogate import Posterior, unwarped, warped
+from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
 ACQUISITION = "log10 of EI × P(feasible)"
 DECADES = 6.0
-"""How far below its maximum the acquisition is drawn."""
+"""Decades below its maximum that the acquisition is drawn over."""
 
 
-def history(rows: Sequence[Trial], objective: Objective) -> Figure:
+def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score of every evaluation, and the best so far."""
     figure, (axes,) = panels(1, 6.4, 3.6)
-    scores = _scores(rows)
-    number = np.arange(1, len(rows) + 1)
-    for colour, phase in zip(COLOURS, dict.fromkeys(row.phase for row in rows), strict=False):
-        of_phase = np.array([row.phase == phase for row in rows])
+    scores = _scores(trials)
+    number = np.arange(1, len(trials) + 1)
+    for colour, phase in zip(COLOURS, dict.fromkeys(trial.phase for trial in trials), strict=False):
+        of_phase = np.array([trial.phase == phase for trial in trials])
         axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase)
     axes.plot(number, np.fmax.accumulate(scores), "-", lw=1.2, color="black", label="best so far")
-    axes.plot(number[np.isnan(scores)], np.zeros(int(np.isnan(scores).sum())), "|", color=GREY, label="refused")
+    axes.plot(number[np.isnan(scores)], np.zeros(int(np.isnan(scores).sum())), "|", color=GREY, label="rejected")
     labels(axes, "evaluation", f"{objective.meaning} ({objective.unit})")
     axes.legend()
     return figure
 
 
-def slices(space: Space, rows: Sequence[Trial], objective: Objective) -> Figure:
+def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score over each free parameter."""
     figure, all_axes = panels(space.dimension)
-    feasible = [row for row in rows if row.score is not None]
+    feasible = [trial for trial in trials if trial.score is not None]
     order = np.arange(len(feasible))
     for axes, parameter in zip(all_axes, space.free, strict=True):
-        values = [getattr(row.design, parameter.name) for row in feasible]
+        values = [getattr(trial.design, parameter.name) for trial in feasible]
         axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8)
         labels(axes, parameter.name, objective.unit)
     return figure
 
 
-def parallel(space: Space, rows: Sequence[Trial]) -> Figure:
+def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     """Draw every feasible design as a line over the free parameters, the better the darker."""
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
-    feasible = sorted((row for row in rows if row.score is not None), key=lambda row: row.score or 0.0)
+    feasible = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: trial.score or 0.0)
     ranks = np.linspace(0.0, 1.0, len(feasible))
-    for rank, row in zip(ranks, feasible, strict=True):
+    for rank, trial in zip(ranks, feasible, strict=True):
         colour = (BLUE if rank < 0.95 else RED, 0.05 + 0.9 * rank**4)
-        axes.plot(range(space.dimension), space.to_unit(row.design), "-", lw=0.8, color=colour)
+        axes.plot(range(space.dimension), space.to_unit(trial.design), "-", lw=0.8, color=colour)
     ticks = [f"{p.name}\n{p.lower:g} … {p.upper:g}" for p in space.free]
     axes.set_xticks(range(space.dimension), ticks, rotation=30, ha="right", fontsize=7)
     labels(axes, "", "place in its range", "the best twentieth in red")
     return figure
 
 
-def pareto(rows: Sequence[Trial], objective: Objective) -> Figure:
+def pareto(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score against the energy of the springs, and the front."""
     figure, (axes,) = panels(1, 6.4, 3.6)
-    feasible = [row for row in rows if row.score is not None]
-    axes.plot([energy_j(row.design) for row in feasible], _scores(feasible), ".", ms=4, color=GREY)
-    best = front(rows)
-    energies, scores = [energy_j(row.design) for row in best], _scores(best)
+    feasible = [trial for trial in trials if trial.score is not None]
+    axes.plot([energy_j(trial.design) for trial in feasible], _scores(feasible), ".", ms=4, color=GREY)
+    best = front(trials)
+    energies, scores = [energy_j(trial.design) for trial in best], _scores(best)
     axes.plot(energies, scores, ".-", color=BLUE, drawstyle="steps-post", label="front")
     labels(axes, "energy of the springs (J)", f"{objective.meaning} ({objective.unit})")
     axes.legend()
@@ -77,7 +77,7 @@ def pareto(rows: Sequence[Trial], objective: Objective) -> Figure:
 
 
 def importance(found: Importance) -> Figure:
-    """Draw permutation importances, greatest on top."""
+    """Draw permutation importances, largest at the top."""
     figure, (axes,) = panels(1, 6.4, 3.2)
     order = np.argsort(found.mean)
     axes.barh([found.names[i] for i in order], found.mean[order], xerr=found.deviation[order], color=BLUE)
@@ -86,13 +86,13 @@ def importance(found: Importance) -> Figure:
 
 
 def sweeps(found: Sequence[Sweep], objective: Objective) -> Figure:
-    """Draw the score over each parameter varied alone; crosses where the design is refused."""
+    """Draw the score over each parameter varied alone; crosses where the design is rejected."""
     figure, all_axes = panels(len(found))
     for axes, one in zip(all_axes, found, strict=True):
-        scores = _scores(one.rows)
+        scores = _scores(one.trials)
         axes.plot(one.values, scores, ".-", color=BLUE)
-        refused = np.isnan(scores)
-        axes.plot(one.values[refused], np.zeros(int(refused.sum())), "x", color=RED, ms=4)
+        rejected = np.isnan(scores)
+        axes.plot(one.values[rejected], np.zeros(int(rejected.sum())), "x", color=RED, ms=4)
         labels(axes, one.parameter, objective.unit)
     return figure
 
@@ -108,9 +108,9 @@ def components(views: Mapping[str, Components]) -> Figure:
 
 
 def feasibility(found: FeasibilityMap) -> Figure:
-    """Draw why designs are refused, over a grid of two parameters."""
+    """Draw why designs are rejected, over a grid of two parameters."""
     figure, (axes,) = panels(1, 6.4, 4.2)
-    reasons = [[" ".join(row.evaluation.reasons[:1]) or "jump" for row in line] for line in found.rows]
+    reasons = [[" ".join(trial.evaluation.reasons[:1]) or "jump" for trial in line] for line in found.trials]
     names = sorted({reason for line in reasons for reason in line}, key=lambda name: (name != "jump", name))
     codes = np.array([[names.index(reason) for reason in line] for line in reasons])
     colours = ["#dfe9f5", *COLOURS[1:]] if names[0] == "jump" else list(COLOURS[1:])
@@ -126,18 +126,18 @@ def feasibility(found: FeasibilityMap) -> Figure:
     return figure
 
 
-def acquisition(space: Space, rows: Sequence[Trial], posterior: Posterior, objective: Objective) -> Figure:
+def acquisition(space: Space, trials: Sequence[Trial], posterior: Posterior, objective: Objective) -> Figure:
     """Draw surrogate and expected improvement over the one or two free parameters of a Bayesian search."""
-    best = max((row.score for row in rows if row.score is not None), default=0.0)
+    best = max((trial.score for trial in trials if trial.score is not None), default=0.0)
     return (
-        _one_parameter(space, rows, posterior, objective, best)
+        _one_parameter(space, trials, posterior, objective, best)
         if space.dimension == 1
-        else _two(space, rows, posterior, objective, best)
+        else _two(space, trials, posterior, objective, best)
     )
 
 
 def _one_parameter(
-    space: Space, rows: Sequence[Trial], posterior: Posterior, objective: Objective, best: float
+    space: Space, trials: Sequence[Trial], posterior: Posterior, objective: Objective, best: float
 ) -> Figure:
     figure, (above, below) = panels(2, 6.4, 2.6, columns=1)
     unit = np.linspace(0.0, 1.0, 401)
@@ -148,8 +148,8 @@ def _one_parameter(
         low, high = unwarped(mean - 2 * deviation), unwarped(mean + 2 * deviation)
         above.fill_between(x, low, high, color=BLUE, alpha=0.2, lw=0, label="± 2 σ")
         above.plot(x, unwarped(mean), color=BLUE, label="surrogate")
-    feasible = [row for row in rows if row.score is not None]
-    values = [getattr(row.design, parameter.name) for row in feasible]
+    feasible = [trial for trial in trials if trial.score is not None]
+    values = [getattr(trial.design, parameter.name) for trial in feasible]
     above.plot(values, _scores(feasible), "o", ms=4, color="black", label="evaluated")
     above.legend()
     labels(above, "", objective.unit)
@@ -158,7 +158,7 @@ def _one_parameter(
     return figure
 
 
-def _two(space: Space, rows: Sequence[Trial], posterior: Posterior, objective: Objective, best: float) -> Figure:
+def _two(space: Space, trials: Sequence[Trial], posterior: Posterior, objective: Objective, best: float) -> Figure:
     figure, (left, right) = panels(2, 4.6, 3.8)
     unit = np.linspace(0.0, 1.0, 61)
     points = np.stack(np.meshgrid(unit, unit), axis=-1).reshape(-1, 2)
@@ -169,21 +169,22 @@ def _two(space: Space, rows: Sequence[Trial], posterior: Posterior, objective: O
     heat(figure, right, x, y, _log_acquisition(posterior, points, best).reshape(61, 61), ACQUISITION)
     for axes, title in ((left, "surrogate"), (right, "acquisition")):
         for colour, chosen in (("white", True), (RED, False)):
-            shown = [row.design for row in rows if (row.score is not None) == chosen]
+            shown = [trial.design for trial in trials if (trial.score is not None) == chosen]
             axes.plot(
                 [getattr(d, first.name) for d in shown], [getattr(d, second.name) for d in shown],
                 ".", ms=7, mec="black", mew=0.4, color=colour,
             )  # fmt: skip
-        labels(axes, first.name, second.name, f"{title}; refused designs in red")
+        labels(axes, first.name, second.name, f"{title}; rejected designs in red")
     return figure
 
 
 def _log_acquisition(posterior: Posterior, points: Array, best: float) -> Array:
-    """Return the decimal logarithm of the acquisition (m,): a search that has converged leaves it a needle."""
+    """Return the decimal logarithm of the acquisition (m,), no lower than `DECADES` below its maximum."""
     value = (posterior.log_improvement(points, best) + posterior.log_feasible(points)) / np.log(10.0)
-    return np.maximum(value, value.max() - DECADES)
+    shown: Array = np.maximum(value, value.max() - DECADES)
+    return shown
 
 
-def _scores(rows: Sequence[Trial]) -> Array:
-    """Return the scores (n,); NaN where a design is refused."""
-    return np.array([np.nan if row.score is None else row.score for row in rows])
+def _scores(trials: Sequence[Trial]) -> Array:
+    """Return the scores (n,); NaN where a design is rejected."""
+    return np.array([np.nan if trial.score is None else trial.score for trial in trials])

@@ -1,23 +1,19 @@
 """Evaluations on many processes or machines, under supervision.
 
-Whatever is a `concurrent.futures.Executor` can do the work: local processes (loky), a Dask cluster, or the calling
-process itself. A lost worker costs time, never a design and never the run: what was under way is repeated one design
-at a time, and a design that fails again is quarantined, with the reason.
+Any `concurrent.futures.Executor` can do the work: local processes (loky), a Dask cluster, or the calling process
+itself. When a worker is lost, the designs that it was given are repeated one at a time; a design that fails again is
+quarantined, with the reason. Neither ends the run.
 """
 
-import contextlib
+import importlib
 import math
 import os
 import pickle
 import re
-import signal
-import threading
-import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import cloudpickle
@@ -25,48 +21,44 @@ import cloudpickle
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model
+from jumpcad.search.worker import Failure, evaluate_task, start_worker
 
 TASK_S = 0.1
-"""Evaluations are sent in tasks of up to this length: long against the 0.3 ms that sending one takes."""
+"""Evaluations are sent in tasks of up to this length (s); sending one takes 0.3 ms."""
 
 ANSWER_S = 10.0
-"""How long a Dask scheduler may take to answer."""
+"""Timeout for a Dask scheduler's answer (s)."""
 
 MOST_WORKERS = 256
 LONGEST_S = 86400.0
+"""The longest timeout per evaluation (s)."""
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+"""Environment of a local worker: as many workers as cores, one thread each."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """One finished evaluation of a batch: the design's place in it, the result, and how long it took."""
+    """One finished evaluation: index of the design in its batch, result, duration."""
 
     index: int
     evaluation: Evaluation
     duration_s: float
 
 
-@dataclass(frozen=True)
-class _Failure:
-    """An evaluation that ended in an unforeseen exception."""
-
-    text: str
-
-
 class Pool:
-    """Supervisor of an executor.
+    """Runs evaluations on an executor, and repeats what it loses.
 
     Parameters
     ----------
     open_executor
-        Makes the executor, now and again after its processes were lost.
+        Makes the executor; called again when its processes were lost.
     end_executor
-        Ends it, without waiting for what is still running.
+        Ends it without waiting for running evaluations.
     workers
         How many evaluations it runs at a time.
     limit_s
-        Time that one evaluation may take; a worker past it is ended. 0 for no limit.
+        Timeout per evaluation (s), after which its worker is ended; 0 for none.
     notice
         Is told of every failure in one line.
     """
@@ -127,7 +119,7 @@ class Pool:
                 yield Outcome(index, Evaluation(QUARANTINED, detail=again[index]), 0.0)
 
     def _tasks(self, count: int) -> list[list[int]]:
-        """Split a batch into tasks of `TASK_S` at most that grow smaller, so that all workers finish together."""
+        """Split a batch into tasks of at most `TASK_S`, the last ones smaller, so that all workers finish together."""
         most = max(1, int(TASK_S / self._mean_s))
         tasks, start = [], 0
         while start < count:
@@ -140,11 +132,11 @@ class Pool:
         if self._executor is None:
             self._executor = self._open()
         try:
-            return self._executor.submit(_evaluate_task, sent, designs, self._limit_s)
+            return self._executor.submit(evaluate_task, sent, designs, self._limit_s)
         except BrokenExecutor:
             self.close()
             self._executor = self._open()
-            return self._executor.submit(_evaluate_task, sent, designs, self._limit_s)
+            return self._executor.submit(evaluate_task, sent, designs, self._limit_s)
 
     def _collect(self, future: Future[Any], task: list[int], suspects: dict[int, str]) -> Iterator[Outcome]:
         try:
@@ -156,13 +148,13 @@ class Pool:
             return
         for index, (result, duration_s) in zip(task, results, strict=True):
             self._mean_s += 0.1 * (duration_s - self._mean_s)
-            if isinstance(result, _Failure):
+            if isinstance(result, Failure):
                 suspects[index] = result.text
             else:
                 yield Outcome(index, result, duration_s)
 
     def _loss(self, error: Exception) -> str:
-        """Say in one line how a worker was lost."""
+        """Return in one line how a worker was lost."""
         ended_by = re.search(r"SIG[A-Z]+", str(error))
         if ended_by and ended_by[0] == "SIGALRM":
             return f"it ran past its limit of {self._limit_s:g} s"
@@ -175,7 +167,7 @@ class Pool:
 def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of processes on this machine, by default one for each core that this process may use.
 
-    0 workers evaluate in the calling process: no start-up, and no supervision.
+    With 0 workers, designs are evaluated in the calling process, without a timeout.
     """
     if workers is None:
         workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -190,15 +182,23 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     def open_executor() -> Executor:
         import loky
 
-        return loky.ProcessPoolExecutor(workers, initializer=_start_worker, env=ONE_THREAD)
+        executor: Executor = loky.ProcessPoolExecutor(workers, initializer=start_worker, env=ONE_THREAD)
+        return executor
 
     return Pool(open_executor, lambda executor: executor.shutdown(kill_workers=True), workers, limit_s)
+
+
+def open_pool(workers: int | None = None, dask: str | None = None, limit_s: float = 60.0) -> Pool:
+    """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`."""
+    if dask is not None and workers is not None:
+        raise JumpcadError("workers and dask exclude each other: a Dask cluster has its own workers")
+    return local_pool(workers, limit_s) if dask is None else dask_pool(dask, limit_s)
 
 
 def _require_limit(limit_s: float) -> None:
     if not 0 < limit_s <= LONGEST_S:  # false for what is no number, too
         raise JumpcadError(
-            f"limit = {limit_s:g} s must be more than 0 and at most {LONGEST_S:g}: the time of one evaluation"
+            f"limit = {limit_s:g} s must be more than 0 and at most {LONGEST_S:g}: the timeout per evaluation"
         )
 
 
@@ -206,13 +206,13 @@ def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
     """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad)."""
     _require_limit(limit_s)
     try:
-        from distributed import Client
-        from distributed.comm import resolve_address
+        distributed: Any = importlib.import_module("distributed")  # its annotations are incomplete
     except ImportError:
         raise JumpcadError("Dask is not installed: pip install 'jumpcad[dask]', or use --workers") from None
     try:
-        resolve_address(address)  # first: a client that was refused its address complains when it is collected, too
-        client = Client(address, timeout=ANSWER_S, set_as_default=False)
+        # First, since a client with a wrong address complains again when it is collected.
+        distributed.comm.resolve_address(address)
+        client = distributed.Client(address, timeout=ANSWER_S, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         raise JumpcadError(f"no Dask scheduler answers at {address}: {error}") from None
     workers = sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
@@ -238,70 +238,3 @@ class InProcess(Executor):
         except Exception as error:
             future.set_exception(error)
         return future
-
-
-def _start_worker() -> None:
-    # Ctrl-C reaches the whole process group; only the parent may answer it.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Engines greet on standard output, where the parent may be printing one JSON document.
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
-
-
-def _end_with_parent(parent: int) -> None:
-    """End this process when its parent was killed: the queue to it would wait for ever."""
-    while os.getppid() == parent:
-        time.sleep(1.0)
-    os._exit(1)
-
-
-@lru_cache(maxsize=1)
-def _unpacked(sent: bytes) -> Model:
-    """Return a model that arrived pickled; the same one for all tasks of a search.
-
-    Raises
-    ------
-    JumpcadError
-        If this machine would compute something else than the one that asks.
-    """
-    model, asked = cloudpickle.loads(sent)
-    for name, version in model.versions().items():
-        if version != asked[name]:
-            raise JumpcadError(
-                f"a worker has {name} {version}, not {asked[name]}: install there what is installed here, "
-                f"or repeat the command if it changed meanwhile"
-            )
-    return model
-
-
-def _evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> bytes:
-    """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
-
-    Left to an executor, which must be ready for functions and classes, pickling takes four times as long.
-    """
-    model = _unpacked(sent)
-    results: list[tuple[Any, float]] = []
-    for design in designs:
-        start = time.perf_counter()
-        with _alarm(limit_s):
-            try:
-                result: Evaluation | _Failure = model(design)
-            except JumpcadError:
-                raise
-            except Exception as error:  # the run must outlive a bug that one design in a thousand meets
-                result = _Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
-        results.append((result, time.perf_counter() - start))
-    return pickle.dumps(results)
-
-
-@contextlib.contextmanager
-def _alarm(limit_s: float) -> Iterator[None]:
-    """Have the system end this process when the block takes longer; that works even where Python cannot interrupt."""
-    if limit_s <= 0 or not hasattr(signal, "setitimer"):
-        yield
-        return
-    signal.setitimer(signal.ITIMER_REAL, limit_s)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)

@@ -1,13 +1,13 @@
-"""Where a search looks: each of the eight parameters free in a range, free among choices, or fixed.
+"""The search space: each of the eight parameters free in a range, free among choices, or fixed.
 
-Optimisers see the unit cube of the free parameters only; a choice sits at its place between the least and the
-greatest one, so that nearness keeps its meaning.
+Methods work in the unit cube of the free parameters. Choices are placed in it in proportion to their values.
 """
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, Self
 
 import numpy as np
@@ -15,54 +15,29 @@ from scipy.stats import qmc
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
 from jumpcad.errors import JumpcadError
-from jumpcad.files import did_you_mean
+from jumpcad.search.parameter import (
+    Change,
+    Kind,
+    Parameter,
+    changed_parameters,
+    known_name,
+    narrowed,
+    read_change,
+    several,
+)
 from jumpcad.transforms import Array
 
-
-@dataclass(frozen=True)
-class Parameter:
-    """What a search may do with one parameter, in the parameter's own unit.
-
-    ``lower == upper`` means fixed; ``choices``, sorted, lists the only values allowed.
-    """
-
-    name: str
-    lower: float
-    upper: float
-    choices: tuple[float, ...] = ()
-
-    @property
-    def free(self) -> bool:
-        """Whether the search may move it."""
-        return self.lower < self.upper
-
-    @property
-    def width(self) -> float:
-        """Width of its range."""
-        return self.upper - self.lower
-
-    @property
-    def levels(self) -> tuple[float, ...]:
-        """Places of the choices in the unit interval."""
-        return tuple((choice - self.lower) / self.width for choice in self.choices)
-
-    def at(self, unit: float) -> float:
-        """Return the value at a place in the unit interval; for choices the nearest one."""
-        value = min(max(self.lower + unit * self.width, self.lower), self.upper)
-        return min(self.choices, key=lambda choice: abs(choice - value)) if self.choices else value
-
-    def describe(self) -> dict[str, Any]:
-        """Return the range, the choices or the fixed value as plain data."""
-        if not self.free:
-            return {"fixed": self.lower}
-        return {"choices": list(self.choices)} if self.choices else {"lower": self.lower, "upper": self.upper}
+NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Space:
-    """The part of the design space that a search looks at: one `Parameter` each, in the order of `PARAMETERS`."""
+    """The part of the design space that is searched: one `Parameter` each, in the order of `PARAMETERS`."""
 
     parameters: tuple[Parameter, ...]
+
+    def __repr__(self) -> str:
+        return f"<Space: {', '.join(p.name for p in self.free)} free>"
 
     def __post_init__(self) -> None:
         if not any(parameter.free for parameter in self.parameters):
@@ -70,25 +45,26 @@ class Space:
 
     @classmethod
     def default(cls) -> Self:
-        """Return the box that the published study searched."""
+        """Return the bounds that the published study searched."""
         return cls(tuple(Parameter(name, limits.lower, limits.upper) for name, limits in SEARCH_BOUNDS.items()))
 
     @classmethod
-    def parse(
+    def make(
         cls,
-        fix: Iterable[str] = (),
-        bound: Iterable[str] = (),
-        choose: Iterable[str] = (),
+        fixed: Mapping[str, float] = NOTHING,
+        bounds: Mapping[str, tuple[float, float]] = NOTHING,
+        choices: Mapping[str, Sequence[float]] = NOTHING,
         around: Design | None = None,
         only: Iterable[str] = (),
         within_percent: float | None = None,
     ) -> Self:
-        """Return the default space changed by texts from a command line.
+        """Return the default space with changes.
 
         Parameters
         ----------
-        fix, bound, choose
-            ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``, each parameter in at most one of them.
+        fixed, bounds, choices
+            By name of a parameter: its value, its lower and upper limit, its allowed values. Each parameter is in at
+            most one of them.
         around
             A design that gives the values of what is not free and the middle of `within_percent`.
         only
@@ -101,10 +77,47 @@ class Space:
         JumpcadError
             For an unknown name, a value outside of what a design can be, an empty range or nothing left free.
         """
-        only = [_known(name) for name in only]
+        changes = [Change("fix", name, (value,)) for name, value in fixed.items()]
+        changes += [Change("bound", name, several(name, limits)) for name, limits in bounds.items()]
+        changes += [Change("choose", name, several(name, values)) for name, values in choices.items()]
+        return cls._changed(changes, around, only, within_percent)
+
+    @classmethod
+    def parse(
+        cls,
+        fix: Iterable[str] = (),
+        bound: Iterable[str] = (),
+        choose: Iterable[str] = (),
+        around: Design | None = None,
+        only: Iterable[str] = (),
+        within_percent: float | None = None,
+    ) -> Self:
+        """Return the default space with changes from a command line; see `make`.
+
+        Parameters
+        ----------
+        fix, bound, choose
+            ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``, each parameter in at most one of them.
+        around, only, within_percent
+            As for `make`.
+
+        Raises
+        ------
+        JumpcadError
+            As `make`, and for a text of another form.
+        """
+        texts: tuple[tuple[Kind, Iterable[str]], ...] = (("fix", fix), ("bound", bound), ("choose", choose))
+        changes = [read_change(kind, text) for kind, some in texts for text in some]
+        return cls._changed(changes, around, only, within_percent)
+
+    @classmethod
+    def _changed(
+        cls, changes: Iterable[Change], around: Design | None, only: Iterable[str], within_percent: float | None
+    ) -> Self:
+        only = [known_name(name) for name in only]
         if around is None and (only or within_percent is not None):
             raise JumpcadError("to free only some parameters, or to search near a design, say around which design")
-        changes = _parse_changes(fix, bound, choose)
+        changed = changed_parameters(changes)
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
         for name, limits in SEARCH_BOUNDS.items():
@@ -112,8 +125,8 @@ class Space:
             if only and name not in only:
                 parameter = Parameter(name, centre[name], centre[name])
             elif within_percent is not None:
-                parameter = _narrowed(parameter, centre[name], within_percent)
-            parameters.append(changes.get(name, parameter))
+                parameter = narrowed(parameter, centre[name], within_percent)
+            parameters.append(changed.get(name, parameter))
         return cls(tuple(parameters))
 
     @cached_property
@@ -128,7 +141,7 @@ class Space:
 
     @property
     def size(self) -> float:
-        """Number of different designs; infinite as soon as one free parameter is continuous."""
+        """Number of different designs; infinite if a free parameter is continuous."""
         return math.prod(len(parameter.choices) or math.inf for parameter in self.free)
 
     def to_design(self, unit: Sequence[float] | Array) -> Design:
@@ -180,69 +193,5 @@ class Space:
         return cls(tuple(parameters))
 
     def describe(self) -> dict[str, Any]:
-        """Return the space as plain data: what a study remembers of it."""
+        """Return the space as plain data, as the study file keeps it."""
         return {parameter.name: parameter.describe() for parameter in self.parameters}
-
-
-def physical_limits(name: str) -> tuple[float, float]:
-    """Return the least and the greatest value that a design can have in a parameter."""
-    limits = Design.model_fields[name].metadata
-    lower = next(limit.ge for limit in limits if hasattr(limit, "ge"))
-    upper = next(limit.le for limit in limits if hasattr(limit, "le"))
-    return float(lower), float(upper)
-
-
-def _parse_changes(fix: Iterable[str], bound: Iterable[str], choose: Iterable[str]) -> dict[str, Parameter]:
-    changes: dict[str, Parameter] = {}
-    for kind, texts, form in (("fix", fix, "VALUE"), ("bound", bound, "LO:HI"), ("choose", choose, "a,b,c")):
-        for text in texts:
-            name, equals, value = text.partition("=")
-            if not equals:
-                raise JumpcadError(f"{text!r} is not of the form NAME={form}")
-            name = _known(name.strip())
-            if name in changes:
-                raise JumpcadError(f"{name} is given twice: fix it, bound it or choose its values, once")
-            changes[name] = _changed(kind, name, value, text)
-    return changes
-
-
-def _changed(kind: str, name: str, value: str, text: str) -> Parameter:
-    separator = {"fix": None, "bound": ":", "choose": ","}[kind]
-    numbers = [_number(item, name, text) for item in (value.split(separator) if separator else [value])]
-    if kind == "bound":
-        if len(numbers) != 2:
-            raise JumpcadError(f"{text!r} is not of the form NAME=LO:HI")
-        lower, upper = numbers
-        if lower >= upper:
-            raise JumpcadError(
-                f"{name} = {lower:g}:{upper:g} is an empty range: the first must be less than the second"
-            )
-        return Parameter(name, lower, upper)
-    choices = tuple(sorted(set(numbers)))
-    return Parameter(name, choices[0], choices[-1], choices if len(choices) > 1 else ())
-
-
-def _number(text: str, name: str, whole: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
-    lower, upper = physical_limits(name)
-    if not lower <= value <= upper:
-        raise JumpcadError(f"{name} = {value:g} is outside {lower:g}…{upper:g}: no design can have it")
-    return value
-
-
-def _known(name: str) -> str:
-    if name not in PARAMETERS:
-        hint = did_you_mean(name, PARAMETERS) or f"; the parameters are {', '.join(PARAMETERS)}"
-        raise JumpcadError(f"{name!r} is not a parameter of a design{hint}")
-    return name
-
-
-def _narrowed(parameter: Parameter, centre: float, percent: float) -> Parameter:
-    if not 0 < percent <= 100:
-        raise JumpcadError(f"within {percent:g} % is outside 0…100 %: a share of each parameter's range")
-    reach = parameter.width * percent / 100.0
-    lower, upper = physical_limits(parameter.name)
-    return replace(parameter, lower=max(lower, centre - reach), upper=min(upper, centre + reach))

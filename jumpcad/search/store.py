@@ -1,8 +1,8 @@
-"""The study ledger: one SQLite file in which every evaluation is a row.
+"""The study file: one SQLite file in which every trial is a row.
 
-A batch of rows is one transaction in write-ahead mode, so the file is whole whenever the writer is killed, and others
-may read it meanwhile. A row's place is where the search proposed it (phase, step, place in the step), so the same
-search fills the same places, whoever computes them and however often it is interrupted.
+A batch of trials is one transaction in write-ahead mode: the file stays valid if the writer is killed, and others may
+read it meanwhile. Rows are identified by where the search proposed them (phase, step, place in the step), so the same
+search fills the same rows, whatever computes them and however often it is interrupted.
 """
 
 import itertools
@@ -11,17 +11,15 @@ import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jumpcad.design import PARAMETERS, Design
+from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.files.names import without_controls
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
-from jumpcad.search.objective import Evaluation
 from jumpcad.search.stored import (
     require_remembered,
     stored_count,
@@ -31,14 +29,10 @@ from jumpcad.search.stored import (
     stored_proposal,
     stored_text,
 )
+from jumpcad.search.trial import LEARNING_PHASES, PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50
 FORMAT = 1
-PHASES = ("ga", "bo", "pareto", "nsga2", "sample", "sweep", "margin", "bounds", "robust")
-"""All phases, in the order in which a study goes through them; the last three look around the best."""
-SEARCH_PHASES = PHASES[:-3]
-LEARNING_PHASES = ("bo", "pareto")
-"""Phases that, after a first step, go on from the hyperparameters of the step before."""
 
 _SCHEMA = f"""
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -58,46 +52,19 @@ _COLUMNS = (
     "model", "verdict", "score", "metrics", "findings", "detail", "proposal", "duration_s",
 )  # fmt: skip
 _TEXTS = ("phase", "model", "verdict", "metrics", "findings", "detail", "proposal")
-"""Columns that are read as bytes: damaged text is then found in the row that holds it."""
-
-Key = tuple[float, ...]
-
-
-@dataclass(frozen=True)
-class Trial:
-    """One finished evaluation: where the search proposed it and why, the design, the outcome, and its score.
-
-    ``score`` is None where the design is refused; ``proposal`` is what the optimiser thought of it beforehand.
-    """
-
-    phase: str
-    step: int
-    place: int
-    design: Design
-    evaluation: Evaluation
-    score: float | None
-    model: str
-    duration_s: float
-    proposal: Mapping[str, Any] = field(default_factory=dict)
-
-    @cached_property
-    def key(self) -> Key:
-        """What identifies the design: its vector."""
-        return tuple(self.design.to_vector())
-
-    @property
-    def position(self) -> tuple[int, int, int]:
-        """Where the row stands in its study."""
-        return PHASES.index(self.phase), self.step, self.place
+"""Columns that are read as bytes: the row that holds damaged text can then be named."""
 
 
 class StudyStore:
-    """An open study file; made by `StudyStore.write` or `StudyStore.read`."""
+    """An open study file; `StudyStore.write` and `StudyStore.read` open one."""
 
     def __init__(self, path: Path | None, connection: sqlite3.Connection, claim: int | None = None) -> None:
         self.path = path
         self._connection = connection
         self._claim = claim
+
+    def __repr__(self) -> str:
+        return f"<StudyStore {str(self.path)[-120:] if self.path else 'in memory'}>"
 
     @classmethod
     def write(cls, path: Path | None, identity: Mapping[str, Any]) -> "StudyStore":
@@ -158,7 +125,8 @@ class StudyStore:
     @property
     def identity(self) -> dict[str, Any]:
         """What the study is about: space, model, objective, method, seed, versions."""
-        return self.recall("identity")
+        identity: dict[str, Any] = self.recall("identity")
+        return identity
 
     def recall(self, key: str, default: Any = None) -> Any:
         """Return what was remembered under a key."""
@@ -179,33 +147,35 @@ class StudyStore:
         with self._transaction():
             self._connection.execute("INSERT OR REPLACE INTO study VALUES (?, ?)", (key, json.dumps(value)))
 
-    def rows(self) -> list[Trial]:
-        """Return all rows in the order of their study."""
+    def trials(self) -> list[Trial]:
+        """Return all trials in the order of their study."""
         columns = (f"CAST({name} AS BLOB)" if name in _TEXTS else name for name in _COLUMNS)
         with plain_errors(self.path):
             records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations").fetchall()
         space = self.identity.get("space", {})
         free = sum("fixed" not in part for part in space.values())
-        rows = [self._row(dict(zip(_COLUMNS, record, strict=True)), free) for record in records]
-        rows.sort(key=lambda row: row.position)
-        for one, other in itertools.pairwise(rows):
+        trials = [self._trial(dict(zip(_COLUMNS, record, strict=True)), free) for record in records]
+        trials.sort(key=lambda trial: trial.position)
+        for one, other in itertools.pairwise(trials):
             if one.position == other.position:
                 raise JumpcadError(f"{self.path}: is damaged: two rows {one.phase} {one.step} {one.place}")
-        return rows
+        return trials
 
-    def append(self, rows: Iterable[Trial]) -> None:
-        """Add rows, all or none."""
+    def append(self, trials: Iterable[Trial]) -> None:
+        """Add trials, all or none."""
         marks = ", ".join("?" * len(_COLUMNS))
         with self._transaction():
-            self._connection.executemany(f"INSERT INTO evaluations VALUES ({marks})", [_record(row) for row in rows])
+            self._connection.executemany(
+                f"INSERT INTO evaluations VALUES ({marks})", [_record(trial) for trial in trials]
+            )
 
     def note(self, text: str) -> None:
-        """Keep a line about what happened to the run: lost workers, quarantined designs."""
+        """Keep a line about the run: a lost worker, a quarantined design."""
         with self._transaction():
             self._connection.execute("INSERT INTO notes VALUES (?)", (text,))
 
     def notes(self) -> list[str]:
-        """Return the lines about what happened to the run."""
+        """Return the lines about the run."""
         with plain_errors(self.path):
             notes = self._connection.execute("SELECT text FROM notes ORDER BY rowid").fetchall()
         return [without_controls(str(text)) for (text,) in notes]
@@ -230,13 +200,13 @@ class StudyStore:
                 f"BEGIN IMMEDIATE; {_SCHEMA} INSERT INTO study VALUES ('identity', '{value}'); COMMIT;"
             )
         self._check_format()
-        # A commit need not wait for the disk: the file stays whole, and only a power cut can take the last batches.
+        # A commit does not wait for the disk: the file stays valid, and only a power cut can lose the last batches.
         self._connection.execute("PRAGMA synchronous = NORMAL")
         difference = _difference(self.identity, json.loads(json.dumps(identity)))
         if difference.startswith("versions."):
             raise JumpcadError(
-                f"{self.path}: was made by another program ({difference}), whose rows do not mix with this one's; "
-                f"go on with that program, or name another file (`optimize --from {self.path}` learns from this one)"
+                f"{self.path}: was made by another program ({difference}), whose trials do not mix with this one's; "
+                f"go on with that program, or name another file (`--from-study {self.path}` learns from this one)"
             )
         if difference:
             raise JumpcadError(
@@ -244,14 +214,14 @@ class StudyStore:
             )
 
     def _require(self, key: str, value: Any) -> None:
-        """Refuse what no study remembers under a key."""
+        """Reject what no study remembers under a key."""
         try:
             require_remembered(key, value)
         except JumpcadError as error:
             raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
-    def _row(self, record: dict[str, Any], free: int) -> Trial:
-        """Return a row as it was written in a search of `free` parameters."""
+    def _trial(self, record: dict[str, Any], free: int) -> Trial:
+        """Return a trial as it was written in a search of `free` parameters."""
         try:
             phase = stored_text(record, "phase")
             if phase not in PHASES:
@@ -307,12 +277,12 @@ def _difference(there: Any, here: Any, name: str = "") -> str:
     return f"{without_controls(name)}: {json.dumps(there)[:200]} there, {json.dumps(here)[:200]} here"
 
 
-def _record(row: Trial) -> tuple[Any, ...]:
-    evaluation = row.evaluation
+def _record(trial: Trial) -> tuple[Any, ...]:
+    evaluation = trial.evaluation
     return (
-        row.phase, row.step, row.place, *row.key, row.model, evaluation.verdict, row.score,
+        trial.phase, trial.step, trial.place, *trial.key, trial.model, evaluation.verdict, trial.score,
         _text(dict(evaluation.metrics)), _text([finding.to_dict() for finding in evaluation.findings]),
-        evaluation.detail, _text(dict(row.proposal)), row.duration_s,
+        evaluation.detail, _text(dict(trial.proposal)), trial.duration_s,
     )  # fmt: skip
 
 

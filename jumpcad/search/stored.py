@@ -1,9 +1,9 @@
-"""What a study file holds, made sure of: such files come from strangers, and disks make mistakes."""
+"""Validation of what is read from a study file: it may come from elsewhere, or be damaged."""
 
 import math
 import re
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
@@ -14,13 +14,14 @@ from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
 from jumpcad.files.names import Name
 from jumpcad.findings import Finding
+from jumpcad.search.methods import METHODS
 from jumpcad.search.objective import Evaluation
 
 STRICT = ConfigDict(strict=True, extra="forbid")
 WORD = re.compile(r"[A-Za-z]\w{0,79}", re.ASCII)
-"""What names of verdicts, findings, figures and parameters look like."""
+"""Names of verdicts, findings, figures and parameters."""
 LARGEST = 1e12
-"""No figure of a jumping robot comes near."""
+"""Above any figure of a jumping robot."""
 
 Count = Annotated[int, Field(ge=0)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -50,7 +51,7 @@ def _whole(space: dict[str, _Range]) -> dict[str, _Range]:
 
 
 class _Identity(TomlTable):
-    """What readers of a study rely on; whether the rest is the same is for the writer to compare."""
+    """What readers of a study need; the writer compares the rest."""
 
     model_config = ConfigDict(extra="allow")
 
@@ -61,8 +62,14 @@ class _Identity(TomlTable):
     space: Annotated[dict[str, _Range], AfterValidator(_whole)]
 
 
+def _is_method(name: str) -> str:
+    if name not in METHODS:
+        raise PydanticCustomError("value_error", "is none of {methods}", {"methods": ", ".join(METHODS)})
+    return name
+
+
 class _Stage(TomlTable):
-    method: Literal["ga", "bo", "pareto", "nsga2"]
+    method: Annotated[str, AfterValidator(_is_method)]
     evaluations: Count
     initial: Count = 0
 
@@ -77,7 +84,7 @@ _PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]]], config=S
 
 
 def require_remembered(key: str, value: Any) -> None:
-    """Refuse what a study cannot have remembered as its `identity` or its `stages`.
+    """Reject what a study cannot have remembered as its `identity` or its `stages`.
 
     Raises
     ------
@@ -122,7 +129,7 @@ def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
 
 
 def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
-    """Return what the optimiser thought of a row's design; hyperparameters fit a space of `free` parameters.
+    """Return what the method predicted of a row's design; hyperparameters fit a space of `free` parameters.
 
     Raises
     ------

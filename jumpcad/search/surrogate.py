@@ -1,7 +1,7 @@
-"""Gaussian processes that stand in for the evaluator between evaluations.
+"""Gaussian processes that predict score and constraints of designs not yet evaluated.
 
-One process for the score, trained on feasible designs only (a refused design has no score, and a zero in its place
-would be a cliff in a smooth hill), and one for the margin of each constraint, trained wherever it is known.
+One process for the score, fitted to feasible designs only (a rejected design has no score, and a zero in its place
+would put a cliff into a smooth function), and one for the margin of each constraint, fitted wherever it is known.
 """
 
 import warnings
@@ -17,11 +17,11 @@ from scipy.optimize import minimize
 from scipy.special import erfcx, log_ndtr
 
 from jumpcad.search.space import Space
-from jumpcad.search.store import Trial
+from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 VERDICT = "verdict"
-"""Stands among the constraints for all refusals together, also those that leave no margin: +1 for a jump, else -1."""
+"""A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
 MAX_CONSTRAINTS = 8
 _FIT_STEPS = 30
 
@@ -47,7 +47,7 @@ class Surrogate:
             _kernel(x.shape[1], theta), alpha=1e-8, normalize_y=True, optimizer=_improve if fit else None
         )
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its bound only says: this axis is flat
+            warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its upper bound: the axis has no effect
             regressor.fit(x, y)
         self.x, self.y = x, y
         self.theta: list[float] = regressor.kernel_.theta.tolist()
@@ -68,10 +68,11 @@ class Surrogate:
         distance = self._distance(points)
         weights = (1.0 + distance) * np.exp(-distance) * self._alpha
         pull = weights @ self.x - weights.sum(axis=1, keepdims=True) * points
-        return self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
+        slope: Array = self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
+        return slope
 
     def condition_on(self, point: Array) -> Self:
-        """Return the process that took its own mean at a point (d,) for a measurement (kriging believer)."""
+        """Return the process with its own mean at a point (d,) added as a measurement (kriging believer)."""
         mean, _ = self.predict(point[None])
         return type(self)(np.vstack([self.x, point]), np.append(self.y, mean), self.theta, fit=False)
 
@@ -83,44 +84,45 @@ class Surrogate:
     def _distance(self, points: Array) -> Array:
         """Return the distances (m, n) of points from the data, √5·r in lengths of the kernel."""
         difference = points[:, None, :] / self._lengths - self.x[None] / self._lengths
-        return np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        distance: Array = np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        return distance
 
 
 @dataclass(frozen=True)
 class Posterior:
-    """What is believed of a space: the score, if any design is feasible yet, and each constraint's scaled margin."""
+    """Processes fitted to trials: of the score, once two designs are feasible, and of each constraint's margin."""
 
     score: Surrogate | None
     constraints: Mapping[str, Surrogate]
 
     @classmethod
-    def from_rows(
-        cls, space: Space, rows: Sequence[Trial], thetas: Mapping[str, Any], fit: Sequence[str] | None
+    def from_trials(
+        cls, space: Space, trials: Sequence[Trial], thetas: Mapping[str, Any], fit: Sequence[str] | None
     ) -> Self:
-        """Learn from rows, starting from the hyperparameters `thetas` of an earlier belief.
+        """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
 
         Parameters
         ----------
-        space, rows
+        space, trials
             The space, and evaluated designs in it.
         thetas
             Hyperparameters by name, as `thetas` gives them.
         fit
             Names of the processes to fit; None for all. What has no hyperparameters yet is always fitted.
         """
-        x = np.array([space.to_unit(row.design) for row in rows]).reshape(-1, space.dimension)
+        x = np.array([space.to_unit(trial.design) for trial in trials]).reshape(-1, space.dimension)
 
         def learn(name: str, chosen: Array, values: Array) -> Surrogate:
             known = thetas.get(name)
             return Surrogate(x[chosen], values, known, fit=known is None or fit is None or name in fit)
 
-        feasible = np.array([row.score is not None for row in rows], dtype=bool)
+        feasible = np.array([trial.score is not None for trial in trials], dtype=bool)
         score = None
         if feasible.sum() >= 2:
-            scores = np.array([row.score for row in rows if row.score is not None])
+            scores = np.array([trial.score for trial in trials if trial.score is not None])
             score = learn("score", feasible, warped(forwards(scores)))
         constraints = {}
-        for name, margins in constraint_margins(rows).items():
+        for name, margins in constraint_margins(trials).items():
             known = np.isfinite(margins)
             constraints[name] = learn(name, known, _scaled(margins[known]))
         return cls(score, constraints)
@@ -153,7 +155,7 @@ class Posterior:
         return np.log(deviation) + _log_h((mean - warped(best)) / deviation)
 
     def condition_on(self, point: Array) -> "Posterior":
-        """Return the belief after its own means at a point (d,) were taken for measurements."""
+        """Return the posterior with its own means at a point (d,) added as measurements (kriging believer)."""
         constraints = {name: surrogate.condition_on(point) for name, surrogate in self.constraints.items()}
         return Posterior(None if self.score is None else self.score.condition_on(point), constraints)
 
@@ -161,8 +163,8 @@ class Posterior:
 def forwards(scores: Array) -> Array:
     """Return scores (n,) in which a jump backwards counts as no jump, if any goes forwards.
 
-    How far a design jumps the wrong way tells nothing of the best ones, but cliffs on the way to them shorten the
-    lengths of the process: without this, one seed in eight was still lost at 100 evaluations.
+    Large negative scores would shorten the lengths of the process and say nothing of the best designs: with them, one
+    seed in eight had not converged at 100 evaluations.
     """
     return np.maximum(scores, 0.0) if scores.max() > 0.0 else scores
 
@@ -170,37 +172,38 @@ def forwards(scores: Array) -> Array:
 def warped(score: npt.ArrayLike) -> Array:
     """Return the square root of scores, with their sign.
 
-    A jump's range grows with the square of the take-off speed, which is what grows evenly with the parameters.
+    The range grows with the square of the take-off speed, and the speed about linearly with the parameters.
     """
     score = np.asarray(score, dtype=float)
-    return np.sign(score) * np.sqrt(np.abs(score))
+    root: Array = np.sign(score) * np.sqrt(np.abs(score))
+    return root
 
 
 def unwarped(values: Array) -> Array:
-    """Return the scores whose square roots these are."""
+    """Return the scores of warped values; the inverse of `warped`."""
     return np.sign(values) * values**2
 
 
-def constraint_margins(rows: Sequence[Trial]) -> dict[str, Array]:
-    """Return the margins (n,) of each constraint that refused a design; NaN where a row does not know it.
+def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
+    """Return the margins (n,) of each constraint that rejected a design; NaN where a trial lacks it.
 
-    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that refuse most often.
+    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most often.
     """
-    refusals = Counter(reason for row in rows for reason in row.evaluation.reasons)
-    errors = {f.name for row in rows for f in row.evaluation.findings if f.severity == "error"}
-    ranked = sorted(errors & set(refusals), key=lambda name: (-refusals[name], name))[: MAX_CONSTRAINTS - 1]
-    margins = {name: np.array([_margin(row, name) for row in rows]) for name in ranked}
-    if refusals:
-        margins[VERDICT] = np.array([1.0 if row.evaluation.feasible else -1.0 for row in rows])
+    rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
+    errors = {f.name for trial in trials for f in trial.evaluation.findings if f.severity == "error"}
+    ranked = sorted(errors & set(rejections), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
+    margins = {name: np.array([_margin(trial, name) for trial in trials]) for name in ranked}
+    if rejections:
+        margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
     return margins
 
 
-def _margin(row: Trial, name: str) -> float:
-    return min((f.margin for f in row.evaluation.findings if f.name == name), default=np.nan)
+def _margin(trial: Trial, name: str) -> float:
+    return min((f.margin for f in trial.evaluation.findings if f.name == name), default=np.nan)
 
 
 def _scaled(margins: Array) -> Array:
-    """Return margins in units of their typical size, far ones compressed; the sign, which decides, is kept."""
+    """Return margins in units of their typical size, large ones compressed; the sign is kept."""
     size = float(np.median(np.abs(margins)))
     return np.arcsinh(margins / (size if size > 0 else 1.0))
 
@@ -215,7 +218,7 @@ def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:
 
 
 def _improve(objective: Callable[..., Any], start: Array, bounds: Array) -> tuple[Array, float]:
-    """Maximise the likelihood a little: the next fit starts where this one ends."""
+    """Maximise the likelihood with few steps; the next fit starts where this one ends."""
     found = minimize(
         objective, start, method="L-BFGS-B", jac=True, bounds=list(map(tuple, bounds)), options={"maxiter": _FIT_STEPS}
     )
@@ -232,4 +235,5 @@ def _log_h(z: Array) -> Array:
     tail = np.log(ratio) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi)
     # 1 + z·Φ/φ loses its digits below -1e3; there it is 1/z² to first order.
     tail = np.where(far < -1e3, -2.0 * np.log(-far) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi), tail)
-    return np.where(z > -1.0, np.log(plain), tail)
+    value: Array = np.where(z > -1.0, np.log(plain), tail)
+    return value

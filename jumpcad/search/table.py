@@ -1,4 +1,4 @@
-"""Rows of a study as a table: CSV for everybody, Parquet for many rows."""
+"""Trials as a table: CSV, or Parquet for very many."""
 
 import io
 from collections.abc import Sequence
@@ -8,18 +8,18 @@ from typing import Any
 from jumpcad.errors import JumpcadError
 from jumpcad.files.csv_text import to_csv
 from jumpcad.files.outputs import require_target, write_atomically
-from jumpcad.search.store import Trial
+from jumpcad.search.trial import Trial
 
 
-def table(rows: Sequence[Trial]) -> list[dict[str, Any]]:
-    """Return one flat record a row, all with the same columns; a figure that a row does not have is None."""
-    metrics = sorted({name for row in rows for name in row.evaluation.metrics})
-    margins = sorted({finding.name for row in rows for finding in row.evaluation.findings})
-    return [_record(row, metrics, margins) for row in rows]
+def _table(trials: Sequence[Trial]) -> list[dict[str, Any]]:
+    """Return one flat record per trial, all with the same columns; a figure that a trial does not have is None."""
+    metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
+    margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
+    return [_record(trial, metrics, margins) for trial in trials]
 
 
-def write_table(rows: Sequence[Trial], path: Path, force: bool = False) -> None:
-    """Write rows to a `.csv` or `.parquet` file, over one that is there only if forced.
+def write_table(trials: Sequence[Trial], path: Path, force: bool = False) -> None:
+    """Write trials to a `.csv` or `.parquet` file, over an existing one only if forced.
 
     Raises
     ------
@@ -27,7 +27,7 @@ def write_table(rows: Sequence[Trial], path: Path, force: bool = False) -> None:
         If the file exists, ends otherwise, or cannot be written; for Parquet also if PyArrow is not installed.
     """
     require_target(path, (".csv", ".parquet"), force)
-    records = table(rows)
+    records = _table(trials)
     if path.suffix == ".csv":
         columns = list(records[0]) if records else ["phase"]
         write_atomically(path, to_csv([columns, *(list(record.values()) for record in records)]))
@@ -46,23 +46,23 @@ def _parquet(records: list[dict[str, Any]]) -> bytes:
     return stream.getvalue()
 
 
-def _record(row: Trial, metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
-    evaluation = row.evaluation
+def _record(trial: Trial, metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
+    evaluation = trial.evaluation
     worst: dict[str, float] = {}
     for finding in evaluation.findings:
         worst[finding.name] = min(finding.margin, worst.get(finding.name, finding.margin))
     return {
-        "phase": row.phase,
-        "step": row.step,
-        "place": row.place,
-        **row.design.model_dump(),
+        "phase": trial.phase,
+        "step": trial.step,
+        "place": trial.place,
+        **trial.design.model_dump(),
         "verdict": evaluation.verdict,
         "feasible": evaluation.feasible,
         "reasons": " ".join(evaluation.reasons),
-        "score": row.score,
+        "score": trial.score,
         **{name: evaluation.metrics.get(name) for name in metrics},
         **{f"margin_{name}": worst.get(name) for name in margins},
         "detail": evaluation.detail,
-        "duration_s": row.duration_s,
-        "model": row.model,
+        "duration_s": trial.duration_s,
+        "model": trial.model,
     }

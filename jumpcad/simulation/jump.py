@@ -69,7 +69,7 @@ class PublishedQuantities:
     base_height_m: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Jump:
     """The answer of one simulation.
 
@@ -94,6 +94,11 @@ class Jump:
     published: PublishedQuantities | None = None
     trajectory: Trajectory | None = None
     findings: tuple[Finding, ...] = ()
+
+    def __repr__(self) -> str:
+        figures = (("range", self.ballistic_range_m), ("rise", self.com_rise_m))
+        shown = "".join(f", {name} {value:.3f} m" for name, value in figures if value is not None)
+        return f"<Jump {self.verdict}{shown}, fitness {self.fitness:.3f}, {1000.0 * self.mass_kg:.1f} g, {self.engine}>"
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON, without the trajectory."""

@@ -1,4 +1,4 @@
-"""Campaigns over hills."""
+"""Evaluators of hills."""
 
 from pathlib import Path
 
@@ -13,10 +13,10 @@ from jumpcad.search.store import StudyStore
 
 @pytest.fixture
 def evaluator():
-    """Return a function that opens a campaign in this process; all are closed at the end."""
+    """Return a function that makes an evaluator that computes in this process; all are closed at the end."""
     stores = []
 
-    def open_campaign(path: Path | None = None, model=None, space=SMALL, prior=(), pool=None) -> Evaluator:
+    def make(path: Path | None = None, model=None, space=SMALL, prior=(), pool=None) -> Evaluator:
         study = {
             "model": {"name": "hill"},
             "objective": "fitness",
@@ -28,6 +28,6 @@ def evaluator():
         stores.append(store)
         return Evaluator(space, find_objective("fitness"), model or Hill(), store, pool or local_pool(0), prior)
 
-    yield open_campaign
+    yield make
     for store in stores:
         store.close()

@@ -13,25 +13,25 @@ def designs(count, seed=0):
     return [SMALL.to_design(point) for point in SMALL.spread(count, np.random.default_rng(seed))]
 
 
-def test_finished_designs_come_from_the_ledger(evaluator, tmp_path):
+def test_finished_designs_are_read_from_the_study_file(evaluator, tmp_path):
     log = tmp_path / "log"
     first = evaluator(tmp_path / "s.db", Hill(log))
     batch = designs(10)
-    rows = first.evaluate([*batch, batch[0], batch[3]], "ga", 0)
+    trials = first.evaluate([*batch, batch[0], batch[3]], "ga", 0)
     assert len(log.read_text().splitlines()) == 10
-    assert rows[10] is rows[0]
+    assert trials[10] is trials[0]
     first.store.close()
     again = evaluator(tmp_path / "s.db", Hill(log))
-    assert [row.evaluation for row in again.evaluate(batch, "ga", 0)] == [row.evaluation for row in rows[:10]]
+    assert [trial.evaluation for trial in again.evaluate(batch, "ga", 0)] == [trial.evaluation for trial in trials[:10]]
     assert len(log.read_text().splitlines()) == 10
-    assert [row.place for row in again.rows] == list(range(10))
+    assert [trial.place for trial in again.trials] == list(range(10))
 
 
 def test_a_budget_is_kept(evaluator):
     one = evaluator()
-    rows = one.evaluate(designs(10), "ga", 0, limit=4)
-    assert [row is None for row in rows] == [False] * 4 + [True] * 6
-    assert len(one.rows) == 4
+    trials = one.evaluate(designs(10), "ga", 0, limit=4)
+    assert [trial is None for trial in trials] == [False] * 4 + [True] * 6
+    assert len(one.trials) == 4
 
 
 def test_an_interrupt_keeps_what_is_finished(evaluator, tmp_path):
@@ -45,15 +45,15 @@ def test_an_interrupt_keeps_what_is_finished(evaluator, tmp_path):
     with pytest.raises(KeyboardInterrupt):
         stopped.evaluate(designs(16), "ga", 0)
     stopped.store.close()
-    kept = StudyStore.read(tmp_path / "s.db").rows()
+    kept = StudyStore.read(tmp_path / "s.db").trials()
     # The task in hand is lost with the interrupt; tasks before it are kept, in the places that they were proposed in.
     assert 0 < len(kept) <= 6
     resumed = evaluator(tmp_path / "s.db")
     resumed.evaluate(designs(16), "ga", 0)
     whole = evaluator()
     whole.evaluate(designs(16), "ga", 0)
-    assert [(row.place, row.design, row.score) for row in resumed.store.rows()] == [
-        (row.place, row.design, row.score) for row in whole.store.rows()
+    assert [(trial.place, trial.design, trial.score) for trial in resumed.store.trials()] == [
+        (trial.place, trial.design, trial.score) for trial in whole.store.trials()
     ]
 
 
@@ -70,11 +70,11 @@ def test_a_model_that_always_fails_ends_the_run(evaluator):
     steep = [design for design in designs(32) if design.rest_angle_deg > 60.0]
     with pytest.raises(JumpcadError, match=r"every evaluation failed.*ZeroDivisionError"):
         one.evaluate(steep, "ga", 0)
-    assert one.store.rows() == []
+    assert one.store.trials() == []
 
 
 def test_a_single_bad_design_is_a_row(evaluator):
     one = evaluator(model=Trap(way="bug"))
-    rows = one.evaluate(designs(32), "ga", 0)
-    assert {row.evaluation.verdict for row in rows if row.design.rest_angle_deg > 60.0} == {QUARANTINED}
+    trials = one.evaluate(designs(32), "ga", 0)
+    assert {trial.evaluation.verdict for trial in trials if trial.design.rest_angle_deg > 60.0} == {QUARANTINED}
     assert any("quarantined: ZeroDivisionError" in note for note in one.store.notes())

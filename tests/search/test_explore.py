@@ -13,15 +13,15 @@ CENTRE = SMALL.to_design([0.5, 0.5, 0.5])
 
 def test_sweeps_peak_at_the_top(evaluator):
     for one in sweep(evaluator(), CENTRE, 26):
-        scores = [row.score or 0.0 for row in one.rows]
+        scores = [trial.score or 0.0 for trial in one.trials]
         step = one.values[1] - one.values[0]
         assert abs(one.values[int(np.argmax(scores))] - TOP[one.parameter]) <= step / 2 + 1e-9
 
 
 def test_sampled_components_are_equal_and_the_elite_s_are_not(evaluator):
     one = evaluator(space=Space.default())
-    rows = sample(one, 512, 0)
-    every, best = components(one, rows), components(one, elite(rows))
+    trials = sample(one, 512, 0)
+    every, best = components(one, trials), components(one, elite(trials))
     assert every.shares == pytest.approx(np.full(8, 1 / 8), abs=0.01)
     assert every.shares.sum() == pytest.approx(1.0)
     # The hill confines three of eight parameters, so that standardised or not, chance alone spreads the rest.
@@ -41,8 +41,8 @@ def test_importance_knows_which_parameters_decide(evaluator):
 
 def test_feasibility_map_shows_the_border(evaluator):
     found = feasibility_map(evaluator(), CENTRE, "rest_angle_deg", "compression_ratio", 15)
-    for y, line in zip(found.y, found.rows, strict=True):
-        assert {row.evaluation.verdict for row in line} == ({"loop"} if y > 0.7 else {"jump"})
+    for y, line in zip(found.y, found.trials, strict=True):
+        assert {trial.evaluation.verdict for trial in line} == ({"loop"} if y > 0.7 else {"jump"})
 
 
 def test_choices_are_swept_as_they_are(evaluator):

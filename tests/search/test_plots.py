@@ -7,13 +7,14 @@ import pytest
 
 from jumpcad.design import Design
 from jumpcad.search import plots
-from jumpcad.search.figures import PICTURES, save
+from jumpcad.search.figures import PICTURES, save_figure
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.studies import plot_study
-from jumpcad.search.study import Request, run_study
+from jumpcad.search.study import run_study
+from jumpcad.search.study_plots import plot_study
 
 REST = [
     "carrying_link_mm=100",
@@ -73,15 +74,15 @@ def test_a_study_has_its_pictures_and_they_repeat(tmp_path, fixed, method, names
 def test_the_surrogate_in_the_picture_is_the_bump(tmp_path):
     space = Space.parse(fix=[*REST, "rest_angle_deg=50"])
     with studied(tmp_path / "s.db", space) as store:
-        rows = [row for row in store.rows() if row.phase == "bo"]
+        trials = [trial for trial in store.trials() if trial.phase == "bo"]
     from jumpcad.search.surrogate import Posterior
 
-    posterior = Posterior.from_rows(space, rows, rows[-1].proposal["theta"], ())
-    figure = plots.acquisition(space, rows, posterior, find_objective("fitness"))
+    posterior = Posterior.from_trials(space, trials, trials[-1].proposal["theta"], ())
+    figure = plots.acquisition(space, trials, posterior, find_objective("fitness"))
     above, below = figure.axes
     curve = next(line for line in above.lines if line.get_label() == "surrogate")
     x, y = np.asarray(curve.get_xdata()), np.asarray(curve.get_ydata())
-    seen = np.array([row.design.compression_ratio for row in rows if row.score is not None])
+    seen = np.array([trial.design.compression_ratio for trial in trials if trial.score is not None])
     assert np.interp(seen, x, y) == pytest.approx(9.0 - 20.0 * (seen - 0.5) ** 2, abs=0.05)
     assert abs(x[np.argmax(y)] - 0.5) < 0.01
     gain = np.asarray(below.lines[0].get_ydata())
@@ -90,12 +91,12 @@ def test_the_surrogate_in_the_picture_is_the_bump(tmp_path):
 
 def test_history_shows_every_row_and_the_best_so_far(tmp_path):
     with studied(tmp_path / "s.db", Space.parse(fix=REST), "ga", 40) as store:
-        rows = [row for row in store.rows() if row.phase == "ga"]
-    (axes,) = plots.history(rows, find_objective("fitness")).axes
+        trials = [trial for trial in store.trials() if trial.phase == "ga"]
+    (axes,) = plots.history(trials, find_objective("fitness")).axes
     lines = {line.get_label(): np.asarray(line.get_ydata()) for line in axes.lines}
-    scores = [row.score for row in rows if row.score is not None]
+    scores = [trial.score for trial in trials if trial.score is not None]
     assert np.isfinite(lines["ga"]).sum() == len(scores)
-    assert len(lines["refused"]) == 40 - len(scores)
+    assert len(lines["rejected"]) == 40 - len(scores)
     assert np.nanmax(lines["best so far"]) == max(scores)
 
 
@@ -105,4 +106,4 @@ def test_an_unwritable_folder_is_one_line(tmp_path):
 
     (tmp_path / "file").write_text("")
     with pytest.raises(JumpcadError, match="cannot be written"):
-        save(panels(1)[0], tmp_path / "file", "x")
+        save_figure(panels(1)[0], tmp_path / "file", "x")

@@ -39,8 +39,8 @@ def test_a_plateau_beats_a_needle(evaluator):
     one = evaluator(model=Spiked())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": angle}) for angle in (60.0, 40.0, 30.0)], "bo", 0)
-    ranked = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)
-    assert [candidate.row.score for candidate in ranked] == [5.0, 4.9, 9.0]
+    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)
+    assert [candidate.trial.score for candidate in ranked] == [5.0, 4.9, 9.0]
     assert ranked[-1].parameters_score < 5.0
     assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
 
@@ -51,20 +51,20 @@ def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
     needles = [centre.model_copy(update={"stiffness_nmm_per_deg": 6.0 + number}) for number in range(12)]
     plateau = centre.model_copy(update={"rest_angle_deg": 30.0})
     one.evaluate([*needles, plateau], "bo", 0)
-    ranked = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)
-    assert sum(candidate.row.phase == "bo" for candidate in ranked) == 13
-    assert ranked[0].row.design == plateau
+    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)
+    assert sum(candidate.trial.phase == "bo" for candidate in ranked) == 13
+    assert ranked[0].trial.design == plateau
 
 
 def test_refused_neighbours_count_nothing_and_are_named(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
     one.evaluate([edge], "bo", 0)
-    candidate = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)[-1]
-    assert candidate.row.design == edge
+    candidate = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)[-1]
+    assert candidate.trial.design == edge
     assert candidate.parameters_score == 0.0
     assert candidate.print_score > 0.0
-    assert candidate.refusals["loop"] == pytest.approx(8, abs=1)  # half of the 16 parameters go up
+    assert candidate.rejections["loop"] == pytest.approx(8, abs=1)  # half of the 16 parameters go up
 
 
 @dataclass(frozen=True)
@@ -86,18 +86,18 @@ def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
     points = SMALL.spread(30, np.random.default_rng(1))
     points[:12, 0] = 0.599 / 0.7  # a compression ratio of 0.699
     one.evaluate([SMALL.to_design(point) for point in points], "bo", 0)
-    best, *_ = ranked = rank_candidates(one, one.rows, seed=0, tolerance_mm=0.2)
-    assert best.row.phase == "margin"
+    best, *_ = ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)
+    assert best.trial.phase == "margin"
     # 1 % above it is still feasible, and it gives away no more than twice what that costs.
-    assert 0.98 * 0.7 < best.row.design.compression_ratio < 0.7 / 1.008
-    assert best.refusals.get("loop", 0) <= 1
-    assert all(other.robust_score < 5.0 for other in ranked if other.row.design.compression_ratio > 0.699)
+    assert 0.98 * 0.7 < best.trial.design.compression_ratio < 0.7 / 1.008
+    assert best.rejections.get("loop", 0) <= 1
+    assert all(other.robust_score < 5.0 for other in ranked if other.trial.design.compression_ratio > 0.699)
 
 
 def test_the_best_differ_from_one_another(evaluator):
     one = evaluator()
     one.evaluate([SMALL.to_design([0.5, 0.5, 0.5 + shift]) for shift in (0.0, 0.001, 0.05, 0.2)], "bo", 0)
-    assert len(best_apart(SMALL, one.rows, 10)) == 3
+    assert len(best_apart(SMALL, one.trials, 10)) == 3
 
 
 def test_variation_stays_within_its_limits():
@@ -136,8 +136,8 @@ def test_active_bounds_and_their_worth(evaluator):
     one = evaluator(model=Slope())
     names = [parameter.name for parameter in SMALL.free]
     assert names == ["compression_ratio", "rest_angle_deg", "stiffness_nmm_per_deg"]
-    (row,) = one.evaluate([SMALL.to_design([1.0, 0.0, 1.0])], "bo", 0)
-    found = {bound.name: bound for bound in active_bounds(one, row, 1)}
+    (trial,) = one.evaluate([SMALL.to_design([1.0, 0.0, 1.0])], "bo", 0)
+    found = {bound.name: bound for bound in active_bounds(one, trial, 1)}
     assert set(found) == set(names)
     assert found["stiffness_nmm_per_deg"].worth == pytest.approx(0.05 * 2.0)
     assert found["stiffness_nmm_per_deg"].beyond == pytest.approx(31.25)

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.space import Space, physical_limits
+from jumpcad.search.parameter import physical_limits
+from jumpcad.search.space import Space
 
 
 def test_default_space_is_the_published_box():

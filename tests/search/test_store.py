@@ -15,7 +15,8 @@ from support.hills import Hill
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
-from jumpcad.search.store import StudyStore, Trial
+from jumpcad.search.store import StudyStore
+from jumpcad.search.trial import Trial
 
 TESTS = [str(Path(__file__).parent), str(Path(__file__).parents[1])]
 IDENTITY = {
@@ -27,7 +28,7 @@ IDENTITY = {
 }
 
 
-def rows(count, phase="ga", step=0):
+def trials(count, phase="ga", step=0):
     points = Space.default().spread(count, np.random.default_rng(step))
     designs = [Space.default().to_design(point) for point in points]
     evaluations = [Hill()(design) for design in designs]
@@ -48,32 +49,32 @@ def rows(count, phase="ga", step=0):
 
 
 def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
-    first, second = rows(5, "bo"), rows(5, "ga", 1)
+    first, second = trials(5, "bo"), trials(5, "ga", 1)
     with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
         store.append(first)
         store.append(reversed(second))
     with StudyStore.read(tmp_path / "s.db") as store:
-        assert store.rows() == [*second, *first]
+        assert store.trials() == [*second, *first]
         assert store.identity == IDENTITY
     assert os.listdir(tmp_path) == ["s.db"]
 
 
 def test_one_failing_row_undoes_its_batch(tmp_path):
-    good = rows(4)
+    good = trials(4)
     with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
         store.append(good[:2])
         with pytest.raises(sqlite3.IntegrityError):
             store.append([good[2], good[1]])
-        assert store.rows() == good[:2]
+        assert store.trials() == good[:2]
 
 
 def test_a_study_is_read_while_it_is_written(tmp_path):
     with StudyStore.write(tmp_path / "s.db", IDENTITY) as writer:
-        writer.append(rows(3))
+        writer.append(trials(3))
         with StudyStore.read(tmp_path / "s.db") as reader:
-            assert len(reader.rows()) == 3
-            writer.append(rows(2, "bo", 1))
-            assert len(reader.rows()) == 5
+            assert len(reader.trials()) == 3
+            writer.append(trials(2, "bo", 1))
+            assert len(reader.trials()) == 5
             with pytest.raises(JumpcadError):
                 reader.note("readers do not write")
 
@@ -109,7 +110,7 @@ def test_locked_by_another_program(tmp_path, monkeypatch):
         pytest.raises(JumpcadError, match="locked by another program"),
         StudyStore.write(tmp_path / "s.db", IDENTITY) as it,
     ):
-        it.append(rows(1))
+        it.append(trials(1))
     other.close()
 
 
@@ -118,10 +119,10 @@ def test_killed_writer_leaves_whole_batches(tmp_path):
         import os, signal, sys
         sys.path[:0] = {TESTS}
         from pathlib import Path
-        from test_store import rows, IDENTITY
+        from test_store import trials, IDENTITY
         from jumpcad.search.store import StudyStore
         store = StudyStore.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
-        store.append(rows(7))
+        store.append(trials(7))
         store._connection.execute("BEGIN")
         store._connection.execute("DELETE FROM evaluations")
         os.kill(os.getpid(), signal.SIGKILL)
@@ -129,7 +130,7 @@ def test_killed_writer_leaves_whole_batches(tmp_path):
     done = subprocess.run([sys.executable, "-c", code])
     assert done.returncode == -signal.SIGKILL
     with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
-        assert store.rows() == rows(7)
+        assert store.trials() == trials(7)
 
 
 def test_full_disk_is_one_line_and_keeps_what_was_there(tmp_path):
@@ -137,16 +138,16 @@ def test_full_disk_is_one_line_and_keeps_what_was_there(tmp_path):
         import resource, signal, sys
         sys.path[:0] = {TESTS}
         from pathlib import Path
-        from test_store import rows, IDENTITY
+        from test_store import trials, IDENTITY
         from jumpcad.errors import JumpcadError
         from jumpcad.search.store import StudyStore
         store = StudyStore.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
-        store.append(rows(3))
+        store.append(trials(3))
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
         try:
             for step in range(1, 100):
-                store.append(rows(8, step=step))
+                store.append(trials(8, step=step))
         except JumpcadError as error:
             print(error)
     """)
@@ -154,7 +155,7 @@ def test_full_disk_is_one_line_and_keeps_what_was_there(tmp_path):
     assert "cannot be written" in done.stdout, done.stderr
     assert "repeat the command" in done.stdout
     with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
-        assert store.rows()[:3] == rows(3)
+        assert store.trials()[:3] == trials(3)
 
 
 def test_files_that_are_no_studies(tmp_path):
@@ -175,7 +176,7 @@ def test_files_that_are_no_studies(tmp_path):
 
 def test_damaged_study(tmp_path):
     with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
-        store.append(rows(40))
+        store.append(trials(40))
     content = bytearray((tmp_path / "s.db").read_bytes())
     content[4096:12288] = b"\xff" * 8192
     (tmp_path / "s.db").write_bytes(content)
@@ -191,10 +192,10 @@ def test_study_of_another_format(tmp_path):
 
 
 def edited(path, *statements):
-    """Make a study of rows of two phases, then change it as another program would."""
+    """Make a study of trials of two phases, then change it as another program would."""
     with StudyStore.write(path, IDENTITY) as store:
         store.remember("stages", [{"method": "ga", "evaluations": 9, "initial": 0}])
-        store.append([*rows(5), *rows(4, "bo", 1)])
+        store.append([*trials(5), *trials(4, "bo", 1)])
     connection = sqlite3.connect(path)
     for statement in statements:
         connection.execute(statement)
@@ -206,7 +207,7 @@ def edited(path, *statements):
 def read_all(path):
     """Read everything that a study holds."""
     with StudyStore.read(path) as store:
-        return store.rows(), store.recall("stages"), store.notes()
+        return store.trials(), store.recall("stages"), store.notes()
 
 
 @pytest.mark.parametrize(
@@ -242,7 +243,7 @@ def test_a_damaged_row_is_named(tmp_path, column, value, reason):
         read_all(path)
     assert str(caught.value).isprintable()
     with pytest.raises(JumpcadError, match="is damaged"), StudyStore.write(path, IDENTITY) as store:
-        store.rows()
+        store.trials()
 
 
 @pytest.mark.parametrize(

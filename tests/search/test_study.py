@@ -1,4 +1,4 @@
-"""Whole studies: the same rows, whoever computes them and whatever interrupts them."""
+"""Whole studies: the same trials, whoever computes them and whatever interrupts them."""
 
 import os
 import random
@@ -15,18 +15,19 @@ from support.places import TESTS
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request, plan_stages
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.study import Request, plan_stages, run_study
+from jumpcad.search.study import run_study
 
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4)
 SCRIPT = TESTS / "support" / "study_script.py"
 
 
 def contents(path):
-    """Return all rows of a study but for how long they took."""
+    """Return all trials of a study but for how long they took."""
     with StudyStore.read(path) as store:
-        return [replace(row, duration_s=0.0) for row in store.rows()]
+        return [replace(trial, duration_s=0.0) for trial in store.trials()]
 
 
 def run(request, path=None, workers=0):
@@ -84,9 +85,9 @@ def test_a_larger_budget_lengthens_a_study(tmp_path, method):
     run(request, tmp_path / "s.db")
     before = contents(tmp_path / "s.db")
     result = run(replace(request, evaluations=32), tmp_path / "s.db")
-    assert len(result.rows) == 32
+    assert len(result.trials) == 32
     after = contents(tmp_path / "s.db")
-    assert all(row in after for row in before)
+    assert all(trial in after for trial in before)
     with pytest.raises(JumpcadError, match="planned for 32 evaluations, not 24"):
         run(request, tmp_path / "s.db")
 
@@ -123,10 +124,10 @@ def test_a_study_of_another_version_is_refused(tmp_path):
 
 def test_genetic_then_bayesian_ends_on_the_top():
     result = run(replace(REQUEST, evaluations=60))
-    assert [row.phase for row in result.rows] == ["ga"] * 30 + ["bo"] * 30
+    assert [trial.phase for trial in result.trials] == ["ga"] * 30 + ["bo"] * 30
     assert result.best.score > 9.99
     assert len(result.candidates) > 1
-    assert result.winner == result.candidates[0].row
+    assert result.winner == result.candidates[0].trial
     assert result.bounds == []
 
 

@@ -9,7 +9,6 @@ from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.store import Trial
 from jumpcad.search.surrogate import (
     VERDICT,
     Posterior,
@@ -20,6 +19,7 @@ from jumpcad.search.surrogate import (
     unwarped,
     warped,
 )
+from jumpcad.search.trial import Trial
 
 
 @pytest.fixture
@@ -46,7 +46,7 @@ def test_fitting_finds_the_axis_that_does_not_matter(data):
     assert lengths[2] > 5.0 > lengths[0]
 
 
-def test_a_believer_does_not_change_the_mean(data):
+def test_conditioning_on_the_own_mean_does_not_change_it(data):
     before = Surrogate(*data)
     point = np.array([0.5, 0.5, 0.5])
     after = before.condition_on(point)
@@ -75,7 +75,7 @@ def rows_of(count, model=None):
 
 
 def test_scatter_counts_the_neighbours_that_are_refused():
-    posterior = Posterior.from_rows(SMALL, rows_of(60), {}, None)
+    posterior = Posterior.from_trials(SMALL, rows_of(60), {}, None)
     posterior = Posterior(None, {"loop": posterior.constraints["loop"]})
     edge = (0.7 - 0.1) / 0.7  # of the compression ratio, the first axis
     for inside in (0.02, 0.05):
@@ -86,8 +86,8 @@ def test_scatter_counts_the_neighbours_that_are_refused():
         assert posterior.log_feasible(point) > posterior.log_feasible(point, scatter)
 
 
-def test_expected_improvement_is_the_integral_over_the_belief():
-    posterior = Posterior.from_rows(SMALL, rows_of(24), {}, None)
+def test_expected_improvement_is_the_integral_over_the_posterior():
+    posterior = Posterior.from_trials(SMALL, rows_of(24), {}, None)
     points = SMALL.spread(8, np.random.default_rng(5))
     mean, deviation = posterior.score.predict(points)
     for best in (1.0, 8.0, 12.0):
@@ -101,7 +101,7 @@ def test_expected_improvement_is_the_integral_over_the_belief():
 
 
 def test_improvement_keeps_its_slope_far_below_the_best():
-    posterior = Posterior.from_rows(SMALL, rows_of(24), {}, None)
+    posterior = Posterior.from_trials(SMALL, rows_of(24), {}, None)
     points = SMALL.spread(8, np.random.default_rng(5))
     far = [posterior.log_improvement(points, best) for best in (1e2, 1e4, 1e6, 1e8)]
     assert np.isfinite(far).all()
@@ -109,7 +109,7 @@ def test_improvement_keeps_its_slope_far_below_the_best():
 
 
 def test_probability_of_feasibility_learns_the_border():
-    posterior = Posterior.from_rows(SMALL, rows_of(64), {}, None)
+    posterior = Posterior.from_trials(SMALL, rows_of(64), {}, None)
     border = [parameter.name for parameter in SMALL.free].index("compression_ratio")
     points = SMALL.spread(256, np.random.default_rng(7))
     ratio = 0.1 + 0.7 * points[:, border]
@@ -119,12 +119,12 @@ def test_probability_of_feasibility_learns_the_border():
 
 
 def test_margins_of_constraints_that_refuse():
-    rows = rows_of(40)
-    margins = constraint_margins(rows)
+    trials = rows_of(40)
+    margins = constraint_margins(trials)
     assert set(margins) == {"loop", VERDICT}
-    assert margins["loop"] == pytest.approx([0.7 - row.design.compression_ratio for row in rows])
+    assert margins["loop"] == pytest.approx([0.7 - trial.design.compression_ratio for trial in trials])
     assert set(margins[VERDICT]) == {1.0, -1.0}
-    assert constraint_margins([row for row in rows if row.score is not None]) == {}
+    assert constraint_margins([trial for trial in trials if trial.score is not None]) == {}
 
 
 def test_a_margin_that_an_early_refusal_leaves_unknown_is_left_out():
@@ -133,16 +133,16 @@ def test_a_margin_that_an_early_refusal_leaves_unknown_is_left_out():
             return Evaluation("below_ground", {}, (Finding("below_ground", "error", -1.0, "mm", "", ""),))
         return Hill()(design)
 
-    rows = rows_of(40, two_gates)
-    margins = constraint_margins(rows)
-    flat = np.array([row.design.rest_angle_deg < 40.0 for row in rows])
+    trials = rows_of(40, two_gates)
+    margins = constraint_margins(trials)
+    flat = np.array([trial.design.rest_angle_deg < 40.0 for trial in trials])
     assert (np.isnan(margins["loop"]) == flat).all()
-    Posterior.from_rows(SMALL, rows, {}, None)
+    Posterior.from_trials(SMALL, trials, {}, None)
 
 
 def test_nothing_feasible_yet_leaves_feasibility_to_decide():
-    rows = [row for row in rows_of(64) if row.score is None]
-    posterior = Posterior.from_rows(SMALL, rows, {}, None)
+    trials = [trial for trial in rows_of(64) if trial.score is None]
+    posterior = Posterior.from_trials(SMALL, trials, {}, None)
     assert posterior.score is None
     assert (posterior.log_improvement(np.full((2, 3), 0.5), 0.0) == 0.0).all()
 

@@ -4,7 +4,8 @@ import sys
 from pathlib import Path
 
 from jumpcad.search.pool import local_pool
-from jumpcad.search.study import Request, run_study
+from jumpcad.search.request import Request
+from jumpcad.search.study import run_study
 from support.hills import SMALL, Hill
 
 if __name__ == "__main__":

@@ -1,1 +1,84 @@
-"""The methods that propose designs: genetic, Bayesian, and fronts of two objectives."""
+"""The methods that propose designs: one module each, and one line in `METHODS`.
+
+A method is a function that takes an `Evaluator` and a `Task` and returns when the task's evaluations are spent. All
+else follows from its line: the choices and help of `jumpcad optimize`, the plan of a study, what its file may hold.
+"""
+
+import importlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from jumpcad.search.evaluator import Evaluator
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a method is asked to do.
+
+    Parameters
+    ----------
+    evaluations
+        Number of new designs, at most.
+    seed
+        Random seed.
+    initial
+        How many of them are spread evenly over the space first, for a method that learns.
+    batch
+        Designs that are proposed and evaluated together, for a method that learns.
+    preset
+        Settings of the genetic algorithm, by name.
+    """
+
+    evaluations: int
+    seed: int
+    initial: int = 0
+    batch: int = 1
+    preset: str = "recommended"
+
+
+@dataclass(frozen=True)
+class Method:
+    """A line of the registry.
+
+    Parameters
+    ----------
+    name
+        On the command line; also the phase of the method's trials in a study file.
+    function
+        Where it is: `module.function` in this package. The module is imported when the method runs.
+    meaning
+        What the help says of it.
+    front
+        Whether it searches a front of score against spring energy, not one best design.
+    learns
+        Whether it fits a surrogate: it then starts with evenly spread designs, and each proposal carries the
+        hyperparameters (`theta`) with which the next step starts.
+    """
+
+    name: str
+    function: str
+    meaning: str
+    front: bool = False
+    learns: bool = False
+
+    def run(self, evaluator: "Evaluator", task: Task) -> None:
+        """Search; the trials are the evaluator's."""
+        module, name = self.function.split(".")
+        getattr(importlib.import_module(f"{__name__}.{module}"), name)(evaluator, task)
+
+
+METHODS = {
+    method.name: method
+    for method in (
+        Method("ga", "genetic.run_genetic", "genetic algorithm"),
+        Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True),
+        Method("pareto", "pareto.run_pareto", "front of range against spring energy", front=True, learns=True),
+        Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
+    )
+}
+SEQUENCES = {"ga+bo": ("ga", "bo")}
+"""Two methods, one after the other; the second learns from the first."""
+DEFAULT = "ga+bo"
+NAMES = (*SEQUENCES, *METHODS)
+FRONTS = tuple(name for name, method in METHODS.items() if method.front)

@@ -1,7 +1,7 @@
 """Bayesian optimisation: Gaussian processes, expected improvement, probability of feasibility, batches.
 
-Each step depends on its number, the seed, the rows before it and the hyperparameters kept with the last of them, so a
-resumed search skips the steps that the ledger holds and goes on with the same proposals.
+Each step depends on its number, the seed, the trials before it and the hyperparameters kept with the last of them. A
+resumed search therefore skips the steps that are in the study file and goes on with the same proposals.
 """
 
 import itertools
@@ -14,42 +14,40 @@ from threadpoolctl import threadpool_limits
 from jumpcad.design import Design
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.methods import Task
 from jumpcad.search.space import Space
-from jumpcad.search.store import Trial
 from jumpcad.search.surrogate import Posterior
+from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array
 
 REFIT_AFTER, REFIT_EVERY = 80, 5
 ELITE = 4
 
 Proposer = Callable[[Posterior, Sequence[Trial], int, np.random.Generator], list[Proposal]]
-"""Makes the proposals of a step: from what is believed, the rows behind it, and how many are wanted at most."""
+"""Makes the proposals of a step from the posterior, the trials that it was fitted to, and their greatest number."""
 
 
 def default_initial(space: Space, evaluations: int, prior: int = 0) -> int:
-    """Return how many spread points come first: three a free parameter, at most half of all, less what is known."""
+    """Return the number of spread designs: three per free parameter, at most half of all, minus the prior trials."""
     return max(0, min(3 * space.dimension, evaluations // 2) - prior)
 
 
-def run_bayesian(evaluator: Evaluator, evaluations: int, seed: int, initial: int, batch: int = 1) -> None:
-    """Search with `evaluations` new designs, the first `initial` of them spread evenly; the rows are the campaign's.
+def run_bayesian(evaluator: Evaluator, task: Task) -> None:
+    """Search for the highest score.
 
     Parameters
     ----------
-    campaign
-        Its rows so far, and those of its prior study, are learned from.
-    evaluations, initial
-        How many, and how many of them before the first fit.
-    seed
-        Decides everything that chance decides.
-    batch
-        Proposals a step; they are evaluated together, and do not know of each other's results.
+    evaluator
+        Its trials so far, and those of its prior study, are learned from.
+    task
+        `initial` designs are evaluated before the first fit; the proposals of a batch are made without each other's
+        results.
     """
 
     def proposer(
-        posterior: Posterior, rows: Sequence[Trial], count: int, generator: np.random.Generator
+        posterior: Posterior, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
-        best, elite = incumbent(evaluator.space, rows)
+        best, elite = incumbent(evaluator.space, trials)
         proposals: list[Proposal] = []
         while len(proposals) < count:
             proposal = propose(evaluator.space, posterior, best, elite, unproposed(evaluator, proposals), generator)
@@ -60,33 +58,31 @@ def run_bayesian(evaluator: Evaluator, evaluations: int, seed: int, initial: int
                 posterior = posterior.condition_on(proposal.unit)
         return proposals
 
-    run_steps(evaluator, "bo", evaluations, seed, initial, batch, proposer)
+    run_steps(evaluator, "bo", task, proposer)
 
 
-def run_steps(
-    evaluator: Evaluator, phase: str, evaluations: int, seed: int, initial: int, batch: int, proposer: Proposer
-) -> None:
-    """Evaluate `initial` spread designs, then what `proposer` proposes in steps of at most `batch`."""
+def run_steps(evaluator: Evaluator, phase: str, task: Task, proposer: Proposer) -> None:
+    """Evaluate the initial designs, then what `proposer` proposes, a batch a step."""
     space = evaluator.space
-    if initial:
-        points = space.spread(initial, np.random.default_rng([seed, 1]))
-        evaluator.evaluate([space.to_design(point) for point in points], phase, 0, limit=evaluations)
-    left = evaluations - sum(row.phase == phase for row in evaluator.rows)
+    if task.initial:
+        points = space.spread(task.initial, np.random.default_rng([task.seed, 1]))
+        evaluator.evaluate([space.to_design(point) for point in points], phase, 0, limit=task.evaluations)
+    left = task.evaluations - sum(trial.phase == phase for trial in evaluator.trials)
     thetas: dict[str, Any] = {}
     for step in itertools.count(1):
         if left <= 0:
             return
-        count = min(batch, left)
+        count = min(task.batch, left)
         finished = evaluator.finished(phase, step, count)
         if finished is not None:
             thetas = dict(finished[-1].proposal["theta"])
         else:
-            known = known_rows(evaluator)
+            known = known_trials(evaluator)
             fit = None if len(known) <= REFIT_AFTER or step % REFIT_EVERY == 0 else ()
             # One thread: sums in a fixed order give the same bits however many cores there are.
             with threadpool_limits(1):
-                posterior = Posterior.from_rows(space, known, thetas, fit)
-                proposals = proposer(posterior, known, count, np.random.default_rng([seed, 2, step]))
+                posterior = Posterior.from_trials(space, known, thetas, fit)
+                proposals = proposer(posterior, known, count, np.random.default_rng([task.seed, 2, step]))
             thetas = thetas | posterior.thetas
             notes = [proposal.note() | {"theta": thetas} for proposal in proposals]
             evaluator.evaluate([proposal.design for proposal in proposals], phase, step, proposals=notes)
@@ -97,7 +93,7 @@ def run_steps(
 
 
 def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[[Design], bool]:
-    """Return the test whether a design may be proposed beside these."""
+    """Return the test whether a design may be proposed together with these."""
     taken = {tuple(proposal.design.to_vector()) for proposal in proposals}
 
     def admits(design: Design) -> bool:
@@ -106,13 +102,13 @@ def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[
     return admits
 
 
-def known_rows(evaluator: Evaluator) -> list[Trial]:
-    """Return the rows to learn from: the prior study's and the campaign's, each design once."""
-    return list({row.key: row for row in [*evaluator.prior, *evaluator.rows]}.values())
+def known_trials(evaluator: Evaluator) -> list[Trial]:
+    """Return the trials to learn from: the prior study's and the evaluator's, each design once."""
+    return list({trial.key: trial for trial in [*evaluator.prior, *evaluator.trials]}.values())
 
 
-def incumbent(space: Space, rows: Sequence[Trial]) -> tuple[float, Array]:
+def incumbent(space: Space, trials: Sequence[Trial]) -> tuple[float, Array]:
     """Return the best score so far (0 where there is none) and the points (k, d) of the best few designs."""
-    feasible = sorted((row for row in rows if row.score is not None), key=lambda row: -(row.score or 0.0))
-    elite = np.array([space.to_unit(row.design) for row in feasible[:ELITE]]).reshape(-1, space.dimension)
+    feasible = feasible_trials(trials)
+    elite = np.array([space.to_unit(trial.design) for trial in feasible[:ELITE]]).reshape(-1, space.dimension)
     return (feasible[0].score or 0.0) if feasible else 0.0, np.clip(elite, 0.0, 1.0)

@@ -1,8 +1,8 @@
 """Genetic algorithm, by PyGAD, in the unit cube of a space.
 
-PyGAD proposes, the campaign evaluates: every population goes to the pool as one batch, and finished designs come from
-the ledger. That makes the ledger the checkpoint of every generation, written before PyGAD sees its fitness; a resumed
-run repeats the generations in milliseconds and goes on, so no second file can disagree with the study.
+PyGAD proposes, the evaluator evaluates: every population goes to the pool as one batch, and finished designs come from
+the study file. The study file is thus the checkpoint of every generation, written before PyGAD sees its fitness; a
+resumed run repeats the finished generations in milliseconds and goes on. No second file can disagree with the study.
 """
 
 import logging
@@ -15,11 +15,13 @@ import numpy as np
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.methods import Task
 from jumpcad.search.space import Space
+from jumpcad.search.trial import feasible_trials
 from jumpcad.transforms import Array
 
 PATIENCE = 50
-"""Generations without a single new design after which the search has run dry."""
+"""The search ends after so many generations without a new design."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ PRESETS: dict[str, GeneticSettings] = {
             "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
         },
     ),
-    # The published study's: five of eight genes are replaced at random, so that it searches little better than chance.
+    # The published study's. Five of eight genes are replaced at random: little better than random search.
     "published": GeneticSettings(
         10,
         {
@@ -58,46 +60,46 @@ def find_preset(name: str) -> GeneticSettings:
     return PRESETS[name]
 
 
-def run_genetic(evaluator: Evaluator, evaluations: int, seed: int, preset: str = "recommended") -> None:
-    """Search with `evaluations` new designs at most; the rows are the campaign's.
+def run_genetic(evaluator: Evaluator, task: Task) -> None:
+    """Search for the highest score; a rejected design has fitness 0.
 
-    A refused design has fitness 0. With a prior study, its best designs make half of the first population.
+    With a prior study, its best designs make half of the first population.
     """
-    settings = find_preset(preset)
+    settings = find_preset(task.preset)
     operators = dict(settings.operators)
     if "mutation_num_genes" in operators:
         operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
-    score = Fitness(evaluator, "ga", evaluations, refused=0.0)
-    evolve(score, _first_population(evaluator, settings.population, seed), operators, seed)
+    score = Fitness(evaluator, "ga", task.evaluations, rejected=0.0)
+    evolve(score, _first_population(evaluator, settings.population, task.seed), operators, task.seed)
 
 
 class Fitness:
-    """PyGAD's view of a campaign: fitness of a population, and when to stop."""
+    """What PyGAD asks for: the fitness of a population, and whether to stop."""
 
-    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, refused: Any) -> None:
+    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, rejected: Any) -> None:
         self.evaluator = evaluator
         self.phase = phase
         self.left = evaluations
-        self.refused = refused
+        self.rejected = rejected
         self._idle = 0
 
-    def objectives(self, row: Any) -> Any:
-        """Return the fitness of a feasible row."""
-        return row.score
+    def objectives(self, trial: Any) -> Any:
+        """Return the fitness of a feasible trial."""
+        return trial.score
 
     def __call__(self, ga: Any, population: Any, _indices: Any) -> list[Any]:
-        """Return the fitness of each solution (n, genes); what the budget no longer reaches counts as refused."""
+        """Return the fitness of each solution (n, genes); designs beyond the budget count as rejected."""
         space = self.evaluator.space
-        before = len(self.evaluator.rows)
+        before = len(self.evaluator.trials)
         designs = [space.to_design(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
-        rows = self.evaluator.evaluate(designs, self.phase, int(ga.generations_completed), limit=self.left)
-        new = len(self.evaluator.rows) - before
+        trials = self.evaluator.evaluate(designs, self.phase, int(ga.generations_completed), limit=self.left)
+        new = len(self.evaluator.trials) - before
         self.left -= new
         self._idle = 0 if new else self._idle + 1
-        return [self.refused if row is None or row.score is None else self.objectives(row) for row in rows]
+        return [self.rejected if trial is None or trial.score is None else self.objectives(trial) for trial in trials]
 
     def on_generation(self, _ga: Any) -> str | None:
-        """Stop PyGAD when the budget is spent or nothing new comes any more."""
+        """Stop PyGAD when the budget is spent or no new designs come."""
         return "stop" if self.left <= 0 or self._idle >= PATIENCE else None
 
 
@@ -136,6 +138,6 @@ def _gene_space(space: Space) -> list[Any]:
 def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
     space = evaluator.space
     spread = space.spread(count, np.random.default_rng([seed, 0]))
-    best = sorted((row for row in evaluator.prior if row.score is not None), key=lambda row: -(row.score or 0.0))
-    known = np.array([space.to_unit(row.design) for row in best[: count // 2]]).reshape(-1, space.dimension)
+    best = feasible_trials(evaluator.prior)
+    known = np.array([space.to_unit(trial.design) for trial in best[: count // 2]]).reshape(-1, space.dimension)
     return np.vstack([known, spread])[:count]

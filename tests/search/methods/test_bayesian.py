@@ -5,6 +5,7 @@ import pytest
 from support.hills import SMALL, TOP, Hill
 
 from jumpcad.search.acquisition import propose
+from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import default_initial, incumbent, run_bayesian
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Posterior, Surrogate
@@ -12,12 +13,12 @@ from jumpcad.search.surrogate import Posterior, Surrogate
 FIXED = [f"{p.name}={p.lower}" for p in SMALL.parameters if not p.free]
 
 
-def best(rows):
-    return max(row.score or 0.0 for row in rows)
+def best(trials):
+    return max(trial.score or 0.0 for trial in trials)
 
 
-def believe(function, count=40):
-    """Return the belief of a function (n, 3) to (n,) of the unit cube."""
+def fitted_to(function, count=40):
+    """Return the posterior of a function (n, 3) to (n,) of the unit cube."""
     x = SMALL.spread(count, np.random.default_rng(0))
     return Posterior(Surrogate(x, function(x)), {})
 
@@ -25,7 +26,7 @@ def believe(function, count=40):
 def test_bounds_become_active_where_the_top_is_beyond_them():
     proposal = propose(
         SMALL,
-        believe(lambda x: x[:, 0] - x[:, 2]),
+        fitted_to(lambda x: x[:, 0] - x[:, 2]),
         4.0,
         np.empty((0, 3)),
         lambda design: True,
@@ -37,7 +38,7 @@ def test_bounds_become_active_where_the_top_is_beyond_them():
 
 def test_choices_and_refusals_are_respected():
     space = Space.parse(fix=FIXED, choose=["stiffness_nmm_per_deg=8,19,30"])
-    posterior = believe(lambda x: -((x - 0.4) ** 2).sum(axis=1))
+    posterior = fitted_to(lambda x: -((x - 0.4) ** 2).sum(axis=1))
     proposal = propose(space, posterior, 0.0, np.empty((0, 3)), lambda design: True, np.random.default_rng(1))
     assert proposal.design.stiffness_nmm_per_deg == 19.0
     other = propose(
@@ -50,51 +51,51 @@ def test_choices_and_refusals_are_respected():
 def test_the_top_is_found_in_few_evaluations(evaluator):
     for seed in range(3):
         one = evaluator()
-        run_bayesian(one, 30, seed, initial=9)
-        assert len(one.rows) == 30
-        assert best(one.rows) > 9.99
+        run_bayesian(one, Task(30, seed, initial=9))
+        assert len(one.trials) == 30
+        assert best(one.trials) > 9.99
 
 
 def test_batches_find_it_too_and_do_not_repeat_themselves(evaluator):
     one = evaluator()
-    run_bayesian(one, 41, 0, initial=9, batch=4)
-    assert len({row.key for row in one.rows}) == 41
-    assert best(one.rows) > 9.99
-    assert [sum(row.step == step for row in one.rows) for step in range(9)] == [9, *[4] * 8]
+    run_bayesian(one, Task(41, 0, initial=9, batch=4))
+    assert len({trial.key for trial in one.trials}) == 41
+    assert best(one.trials) > 9.99
+    assert [sum(trial.step == step for trial in one.trials) for step in range(9)] == [9, *[4] * 8]
 
 
 def test_few_of_the_proposals_are_refused(evaluator):
     # 14 % of the box are beyond the hill's limit on the ratio, right beside its top.
     one = evaluator()
-    run_bayesian(one, 60, 1, initial=12)
-    refused = [row for row in one.rows[12:] if row.score is None]
+    run_bayesian(one, Task(60, 1, initial=12))
+    refused = [trial for trial in one.trials[12:] if trial.score is None]
     assert len(refused) <= 4
 
 
 def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
     whole = evaluator()
-    run_bayesian(whole, 26, 3, initial=6, batch=2)
+    run_bayesian(whole, Task(26, 3, initial=6, batch=2))
     for cut in (3, 6, 11, 16, 25):
         path = tmp_path / f"{cut}.db"
         begun = evaluator(path)
-        begun.store.append(whole.rows[:cut])
+        begun.store.append(whole.trials[:cut])
         begun.store.close()
         log = tmp_path / f"{cut}.log"
         resumed = evaluator(path, Hill(log))
-        run_bayesian(resumed, 26, 3, initial=6, batch=2)
-        assert [(row.key, row.score, row.proposal) for row in resumed.rows] == [
-            (row.key, row.score, row.proposal) for row in whole.rows
+        run_bayesian(resumed, Task(26, 3, initial=6, batch=2))
+        assert [(trial.key, trial.score, trial.proposal) for trial in resumed.trials] == [
+            (trial.key, trial.score, trial.proposal) for trial in whole.trials
         ]
         assert len(log.read_text().splitlines()) == 26 - cut
 
 
 def test_a_prior_study_saves_the_first_points(evaluator):
     teacher = evaluator()
-    run_bayesian(teacher, 30, 0, initial=9)
-    pupil = evaluator(prior=teacher.rows)
-    run_bayesian(pupil, 4, 1, initial=default_initial(SMALL, 4, prior=30))
-    assert not {row.key for row in pupil.rows} & {row.key for row in teacher.rows}
-    assert best(pupil.rows) > 9.9
+    run_bayesian(teacher, Task(30, 0, initial=9))
+    pupil = evaluator(prior=teacher.trials)
+    run_bayesian(pupil, Task(4, 1, initial=default_initial(SMALL, 4, prior=30)))
+    assert not {trial.key for trial in pupil.trials} & {trial.key for trial in teacher.trials}
+    assert best(pupil.trials) > 9.9
 
 
 @pytest.mark.parametrize(
@@ -108,8 +109,8 @@ def test_an_exhausted_space_ends_the_search(evaluator):
     space = Space.parse(fix=[*FIXED, f"rest_angle_deg={TOP['rest_angle_deg']}", "compression_ratio=0.6"],
                         choose=["stiffness_nmm_per_deg=8,19,30"])  # fmt: skip
     one = evaluator(space=space)
-    run_bayesian(one, 20, 0, initial=2)
-    assert len(one.rows) == 3
+    run_bayesian(one, Task(20, 0, initial=2))
+    assert len(one.trials) == 3
 
 
 def test_incumbent():

@@ -1,41 +1,42 @@
-"""PyGAD through the campaign."""
+"""PyGAD through the evaluator."""
 
 import numpy as np
 import pytest
 from support.hills import SMALL, TOP
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search.methods import Task
 from jumpcad.search.methods.genetic import find_preset, run_genetic
 from jumpcad.search.space import Space
 
 
-def best(rows):
-    return max(row.score or 0.0 for row in rows)
+def best(trials):
+    return max(trial.score or 0.0 for trial in trials)
 
 
 @pytest.mark.parametrize("evaluations", [1, 7, 20, 53])
 def test_the_budget_is_met_exactly(evaluator, evaluations):
     one = evaluator()
-    run_genetic(one, evaluations, seed=1)
-    assert len(one.rows) == evaluations
-    assert len({row.key for row in one.rows}) == evaluations
+    run_genetic(one, Task(evaluations, seed=1))
+    assert len(one.trials) == evaluations
+    assert len({trial.key for trial in one.trials}) == evaluations
 
 
 def test_it_climbs_where_chance_does_not(evaluator):
     # Of points within 0.05 of the top of a unit cube there are 0.05 %: chance meets one in 200 with p = 0.1.
     for seed in range(3):
         one = evaluator()
-        run_genetic(one, 200, seed)
-        assert best(one.rows) > 10.0 * np.exp(-2.0 * 0.05**2)
-        assert all(row.evaluation.verdict == "loop" for row in one.rows if row.score is None)
+        run_genetic(one, Task(200, seed))
+        assert best(one.trials) > 10.0 * np.exp(-2.0 * 0.05**2)
+        assert all(trial.evaluation.verdict == "loop" for trial in one.trials if trial.score is None)
 
 
 def test_seed_decides_everything(evaluator):
     runs = []
     for seed in (5, 5, 6):
         one = evaluator()
-        run_genetic(one, 80, seed)
-        runs.append([row.key for row in one.rows])
+        run_genetic(one, Task(80, seed))
+        runs.append([trial.key for trial in one.trials])
     assert runs[0] == runs[1] != runs[2]
 
 
@@ -45,8 +46,8 @@ def test_published_preset_replaces_five_genes(evaluator):
     assert settings.operators["mutation_num_genes"] == 5
     assert settings.operators["keep_parents"] == 2
     one = evaluator(space=Space.default())
-    run_genetic(one, 60, 0, "published")
-    assert len(one.rows) == 60
+    run_genetic(one, Task(60, 0, preset="published"))
+    assert len(one.trials) == 60
 
 
 def test_a_space_of_choices_runs_dry(evaluator):
@@ -55,8 +56,8 @@ def test_a_space_of_choices_runs_dry(evaluator):
     names = [parameter.name for parameter in SMALL.free[1:]]
     space = Space.parse(fix=[*rest, *fixed], choose=[f"{names[0]}=25,55,70", f"{names[1]}=10,20"])
     one = evaluator(space=space)
-    run_genetic(one, 100, 0)
-    assert space.size == len(one.rows) == 6
+    run_genetic(one, Task(100, 0))
+    assert space.size == len(one.trials) == 6
 
 
 def test_one_free_parameter(evaluator):
@@ -65,16 +66,16 @@ def test_one_free_parameter(evaluator):
     )
     for preset in ("recommended", "published"):
         one = evaluator(space=space)
-        run_genetic(one, 60, 0, preset)
-        assert best(one.rows) > 9.9
+        run_genetic(one, Task(60, 0, preset=preset))
+        assert best(one.trials) > 9.9
 
 
 def test_a_prior_study_seeds_the_population(evaluator):
     teacher = evaluator()
-    run_genetic(teacher, 300, 0)
-    pupil = evaluator(prior=teacher.rows)
-    run_genetic(pupil, 20, 9)
-    assert best(pupil.rows) == best(teacher.rows)
+    run_genetic(teacher, Task(300, 0))
+    pupil = evaluator(prior=teacher.trials)
+    run_genetic(pupil, Task(20, 9))
+    assert best(pupil.trials) == best(teacher.trials)
 
 
 def test_unknown_preset():

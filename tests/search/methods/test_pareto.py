@@ -6,22 +6,16 @@ from pygad.utils.quality_indicators import hypervolume as reference_hypervolume
 from support.hills import SMALL, Hill
 
 from jumpcad.design import Design
-from jumpcad.search.methods.pareto import (
-    REFERENCE_ENERGY_J,
-    energy_caps_j,
-    energy_j,
-    front,
-    hypervolume,
-    run_nsga2,
-    run_pareto,
-)
+from jumpcad.search.fronts import REFERENCE_ENERGY_J, energy_j, front, hypervolume
+from jumpcad.search.methods import Task
+from jumpcad.search.methods.pareto import energy_caps_j, run_nsga2, run_pareto
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
-from jumpcad.search.store import Trial
+from jumpcad.search.trial import Trial
 
 
 @pytest.fixture
-def rows():
+def trials():
     generator = np.random.default_rng(0)
     found = []
     for place, point in enumerate(Space.default().spread(200, generator)):
@@ -32,19 +26,19 @@ def rows():
     return found
 
 
-def test_front_is_what_nothing_dominates(rows):
-    points = [(row.score, energy_j(row.design)) for row in rows if row.score is not None]
+def test_front_is_what_nothing_dominates(trials):
+    points = [(trial.score, energy_j(trial.design)) for trial in trials if trial.score is not None]
     brute = {
         (score, energy)
         for score, energy in points
         if not any((s >= score and e <= energy) and (s, e) != (score, energy) for s, e in points)
     }
-    assert {(row.score, energy_j(row.design)) for row in front(rows)} == brute
+    assert {(trial.score, energy_j(trial.design)) for trial in front(trials)} == brute
 
 
-def test_hypervolume_is_pygads(rows):
-    points = np.array([[row.score, -energy_j(row.design)] for row in rows if row.score is not None])
-    assert hypervolume(rows) == pytest.approx(reference_hypervolume(points, [0.0, -REFERENCE_ENERGY_J]), rel=1e-12)
+def test_hypervolume_is_pygads(trials):
+    points = np.array([[trial.score, -energy_j(trial.design)] for trial in trials if trial.score is not None])
+    assert hypervolume(trials) == pytest.approx(reference_hypervolume(points, [0.0, -REFERENCE_ENERGY_J]), rel=1e-12)
     assert hypervolume([]) == 0.0
 
 
@@ -62,35 +56,35 @@ def test_a_design_without_a_pose_has_no_energy():
 
 
 def dominated_share(evaluator):
-    """Return the area under the true front that a campaign's front misses, as a share."""
+    """Return the area under the true front that an evaluator's front misses, as a share."""
     grid = np.array(np.meshgrid(*[np.linspace(0, 1, 21)] * 3)).reshape(3, -1).T
     true = []
     for place, point in enumerate(grid):
         design = SMALL.to_design(point)
         score = Hill()(design).metrics.get("fitness")
         true.append(Trial("pareto", 0, place, design, Evaluation("jump"), score, "m", 0.0))
-    return hypervolume(evaluator.rows) / hypervolume(true)
+    return hypervolume(evaluator.trials) / hypervolume(true)
 
 
 def test_constrained_improvement_finds_the_front(evaluator):
     one = evaluator()
-    run_pareto(one, 57, 0, initial=9)
-    assert len(one.rows) == 57
+    run_pareto(one, Task(57, 0, initial=9))
+    assert len(one.trials) == 57
     assert dominated_share(one) > 0.99
 
 
 def test_nsga2_finds_most_of_it(evaluator):
     one = evaluator()
-    run_nsga2(one, 300, 0)
-    assert len(one.rows) == 300
+    run_nsga2(one, Task(300, 0))
+    assert len(one.trials) == 300
     assert dominated_share(one) > 0.95
 
 
 def test_a_front_resumes(evaluator, tmp_path):
     whole, first = evaluator(), evaluator(tmp_path / "s.db")
-    run_pareto(whole, 30, 0, initial=9)
-    run_pareto(first, 20, 0, initial=9)
+    run_pareto(whole, Task(30, 0, initial=9))
+    run_pareto(first, Task(20, 0, initial=9))
     first.store.close()
     longer = evaluator(tmp_path / "s.db")
-    run_pareto(longer, 30, 0, initial=9)
-    assert [row.key for row in longer.rows] == [row.key for row in whole.rows]
+    run_pareto(longer, Task(30, 0, initial=9))
+    assert [trial.key for trial in longer.trials] == [trial.key for trial in whole.trials]

@@ -1,0 +1,38 @@
+"""Fronts of score against spring energy: which trials are on one, and how good it is as a whole."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from jumpcad.design import Design
+from jumpcad.errors import CannotBuildError
+from jumpcad.search.trial import Trial
+
+REFERENCE_ENERGY_J = 1.5
+"""Energy of the reference point of the hypervolume; its score is 0."""
+
+
+def energy_j(design: Design) -> float:
+    """Return the energy of a design's loaded springs (J); infinite if it has no assembled pose."""
+    try:
+        return design.spring_energy_j
+    except CannotBuildError:
+        return np.inf
+
+
+def front(trials: Sequence[Trial]) -> list[Trial]:
+    """Return the trials with a positive score that no other one reaches with less energy, by energy."""
+    scored = [trial for trial in trials if trial.score is not None]
+    best, chosen = 0.0, []
+    for trial in sorted(scored, key=lambda trial: (energy_j(trial.design), -(trial.score or 0.0))):
+        if trial.score is not None and trial.score > best:
+            best = trial.score
+            chosen.append(trial)
+    return chosen
+
+
+def hypervolume(trials: Sequence[Trial], reference_energy_j: float = REFERENCE_ENERGY_J) -> float:
+    """Return the area that a front dominates, from score 0 and the reference energy (score units times J)."""
+    chosen = [trial for trial in front(trials) if energy_j(trial.design) < reference_energy_j]
+    ends = [energy_j(trial.design) for trial in chosen[1:]] + [reference_energy_j]
+    return sum((trial.score or 0.0) * (end - energy_j(trial.design)) for trial, end in zip(chosen, ends, strict=False))

@@ -1,0 +1,90 @@
+"""`optimize`: the whole search in one call."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from jumpcad.arguments import typed
+from jumpcad.design import Design, load_design
+from jumpcad.search.methods import DEFAULT
+from jumpcad.search.models import robot_model
+from jumpcad.search.pool import open_pool
+from jumpcad.search.request import Request
+from jumpcad.search.result import Result
+from jumpcad.search.space import NOTHING, Space
+from jumpcad.search.study import run_study
+from jumpcad.settings import Settings
+from jumpcad.workshop import Workshop
+
+
+@typed
+def optimize(
+    method: str = DEFAULT,
+    evaluations: int = 250,
+    seed: int = 0,
+    objective: str | None = None,
+    model: str = "printed",
+    study: str | Path | None = None,
+    fixed: Mapping[str, float] = NOTHING,
+    bounds: Mapping[str, tuple[float, float]] = NOTHING,
+    choices: Mapping[str, Sequence[float]] = NOTHING,
+    around: Design | str | Path | None = None,
+    only: Sequence[str] = (),
+    within_percent: float | int | None = None,
+    workshop: Workshop | str | Path = "default",
+    settings: Settings | str | Path = "default",
+    engine: str | None = None,
+    workers: int | None = None,
+    dask: str | None = None,
+    limit_s: float | int = 60.0,
+    preset: str = "recommended",
+    batch: int = 1,
+    prior: str | Path | None = None,
+) -> Result:
+    """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
+
+    The same search as `jumpcad optimize`, which has the same options.
+
+    Parameters
+    ----------
+    method
+        `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), or `pareto` and `nsga2` for a front.
+    evaluations
+        How many designs are evaluated; the robust pick comes on top.
+    seed
+        Random seed: the same call finds the same.
+    objective
+        `fitness`, `range`, `rise`, `range-per-joule` or `jumps-per-joule`; `range` for a front, else `fitness`.
+    model
+        The robot that is evaluated: `printed`, `capsule` or `published`.
+    study
+        A file (.db) in which every trial is kept, and from which the same call goes on; none if None.
+    fixed, bounds, choices
+        By parameter: a value, a pair of limits in place of `SEARCH_BOUNDS`, allowed values.
+    around, only, within_percent
+        Free only some parameters, or search near a design; see `Space.make`.
+    workshop, settings, engine
+        Where `printed` is built and how it is simulated; see `robot_model`.
+    workers, dask, limit_s
+        Processes (one for each core if None, none if 0) or the address of a Dask scheduler, and the timeout for each
+        evaluation (s).
+    preset, batch, prior
+        Settings of the genetic algorithm, Bayesian proposals evaluated together, an earlier study to learn from.
+
+    Returns
+    -------
+    Result
+        `design`, `score` and `fitness` of the winner, the ranked `candidates`, all `trials`.
+
+    Raises
+    ------
+    JumpcadError
+        If an argument is wrong, or the study file holds another study, is damaged or in use.
+    """
+    centre = load_design(around) if isinstance(around, str | Path) else around
+    space = Space.make(fixed, bounds, choices, centre, only, within_percent)
+    request = Request.make(
+        space, robot_model(model, workshop, settings, engine), method, objective,
+        evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
+    )  # fmt: skip
+    with open_pool(workers, dask, limit_s) as pool:
+        return run_study(request, None if study is None else Path(study), pool)

@@ -1,0 +1,146 @@
+"""`Request`: what a study is asked for, and in which stages it is searched."""
+
+import hashlib
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.search.methods import DEFAULT, FRONTS, METHODS, NAMES, SEQUENCES
+from jumpcad.search.methods.bayesian import default_initial
+from jumpcad.search.methods.genetic import find_preset
+from jumpcad.search.models import RobotModel, versions
+from jumpcad.search.objective import Model, find_objective
+from jumpcad.search.space import Space
+from jumpcad.search.trial import Trial
+
+MOST_EVALUATIONS = 1_000_000
+"""A week at two a second."""
+LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
+"""Packages that decide what is proposed next, beside those that decide an evaluation."""
+
+
+@dataclass(frozen=True, repr=False)
+class Request:
+    """What a study is asked for.
+
+    Parameters
+    ----------
+    space, model, objective
+        Where is searched, with which robot, and for what (a name among the objectives).
+    method
+        One of `jumpcad.search.methods.NAMES`.
+    evaluations
+        How many designs are evaluated; the robust pick comes on top.
+    seed
+        Random seed.
+    preset
+        Settings of the genetic algorithm.
+    batch
+        Bayesian proposals that are evaluated together; 1 learns the most from each.
+    prior
+        A study file to learn from.
+    tolerance_mm
+        By how much a length may come out wrong, for the robust pick.
+    """
+
+    space: Space
+    model: Model
+    objective: str = "fitness"
+    method: str = DEFAULT
+    evaluations: int = 250
+    seed: int = 0
+    preset: str = "recommended"
+    batch: int = 1
+    prior: Path | None = None
+    tolerance_mm: float = 0.2
+
+    @classmethod
+    def make(
+        cls, space: Space, model: RobotModel, method: str | None = None, objective: str | None = None, **others: Any
+    ) -> Self:
+        """Return a request in which method and model decide what is left out.
+
+        The method is then `ga+bo`, the objective `fitness` (`range` of a front), the tolerance that of the workshop.
+        """
+        aim = objective or ("range" if method in FRONTS else "fitness")
+        return cls(space, model, aim, method or DEFAULT, tolerance_mm=model.tolerance_mm, **others)
+
+    def __post_init__(self) -> None:
+        find_objective(self.objective)
+        find_preset(self.preset)
+        if self.method not in NAMES:
+            hint = did_you_mean(self.method, NAMES)
+            raise JumpcadError(f"{self.method!r} is not one of the methods {', '.join(NAMES)}{hint}")
+        for name, value, least, most in (
+            ("evaluations", self.evaluations, 1, MOST_EVALUATIONS),
+            ("seed", self.seed, 0, 2**32 - 1),
+            ("batch", self.batch, 1, MOST_EVALUATIONS),
+            ("tolerance_mm", self.tolerance_mm, 0, 100),
+        ):
+            if value < least:
+                raise JumpcadError(f"{name} = {value:g} must be at least {least}")
+            if value > most:
+                raise JumpcadError(f"{name} = {value} must be at most {most}")
+
+    def __repr__(self) -> str:
+        return f"<Request {self.title}: {self.evaluations} evaluations, {self.space.dimension} parameters free>"
+
+    @property
+    def title(self) -> str:
+        """Method, robot and objective in words."""
+        return f"{self.method} on the {self.model.describe()['name']} robot, {self.objective}"
+
+    @property
+    def is_front(self) -> bool:
+        """Whether a front is searched, not one best design."""
+        return self.method in FRONTS
+
+    def identity(self, prior: Sequence[Trial]) -> dict[str, Any]:
+        """Return all that decides the trials of the study, except how many they are."""
+        learned = json.dumps([[trial.key, trial.score] for trial in prior])
+        return {
+            "model": self.model.describe(),
+            "objective": self.objective,
+            "method": self.method,
+            "space": self.space.describe(),
+            "seed": self.seed,
+            "preset": self.preset,
+            "batch": self.batch,
+            "tolerance_mm": self.tolerance_mm,
+            "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
+            "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
+        }
+
+    def default_name(self) -> str:
+        """Return a file name that the same request always has, and no other one."""
+        record = [self.identity([]), str(self.prior), self.evaluations if self.method in SEQUENCES else 0]
+        digest = hashlib.sha256(json.dumps(record, sort_keys=True).encode()).hexdigest()
+        return f"study-{self.method.replace('+', '-')}-{digest[:8]}.db"
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One method at work: how many evaluations, and how many of them spread evenly first, if it learns."""
+
+    method: str
+    evaluations: int
+    initial: int = 0
+
+
+def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
+    """Return the stages of a request that learns from `prior` earlier trials.
+
+    Of a sequence, the second method gets a fifth of the evaluations, at least 50, at most half of all and at most 100:
+    Bayesian optimisation then reaches the top of whatever hill the genetic algorithm found.
+    """
+    total = request.evaluations
+    if request.method in SEQUENCES:
+        first, second = SEQUENCES[request.method]
+        last = min(max(total // 5, 50), total // 2, 100)
+        return [Stage(first, total - last), Stage(second, last)]
+    learns = METHODS[request.method].learns
+    return [Stage(request.method, total, default_initial(request.space, total, prior) if learns else 0)]

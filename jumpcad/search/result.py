@@ -1,0 +1,133 @@
+"""`Result`: what a study found, as values, as plain data, and as a design file."""
+
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from jumpcad.design import Design
+from jumpcad.errors import CannotBuildError
+from jumpcad.files.outputs import require_target, sealed, write_atomically
+from jumpcad.search.fronts import front, hypervolume
+from jumpcad.search.request import Request
+from jumpcad.search.robust import ActiveBound, Candidate
+from jumpcad.search.trial import Trial, count_rejections
+
+HEADING = "# Found by jumpcad optimize"
+
+
+@dataclass(frozen=True, repr=False)
+class Result:
+    """What a study found.
+
+    Parameters
+    ----------
+    request
+        What was asked for.
+    trials
+        All designs that the search evaluated, in order.
+    best
+        The trial with the highest score; None where no design jumps.
+    candidates
+        The best designs with the scores of their neighbours, most robust first; none for a front.
+    bounds
+        Bounds of the search on which the winner lies.
+    notes
+        What happened to the run: lost workers, quarantined designs.
+    """
+
+    request: Request
+    trials: list[Trial]
+    best: Trial | None
+    candidates: list[Candidate]
+    bounds: list[ActiveBound]
+    notes: list[str]
+
+    @property
+    def winner(self) -> Trial | None:
+        """The trial of the most robust of the best designs; None where no design jumps."""
+        return self.candidates[0].trial if self.candidates else self.best
+
+    @property
+    def design(self) -> Design:
+        """The winner's design.
+
+        Raises
+        ------
+        CannotBuildError
+            If no design jumps.
+        """
+        return self._won().design
+
+    @property
+    def score(self) -> float:
+        """The winner's score, by the study's objective. Raises as `design`."""
+        return self._won().score or 0.0
+
+    @property
+    def fitness(self) -> float:
+        """The winner's range over its longest link. Raises as `design`."""
+        return self._won().evaluation.metrics["fitness"]
+
+    @property
+    def front(self) -> list[Trial]:
+        """The trials that no other one beats with less spring energy, by energy."""
+        return front(self.trials)
+
+    @property
+    def hypervolume(self) -> float:
+        """The area that the front dominates (score units times J)."""
+        return hypervolume(self.trials)
+
+    @property
+    def rejected(self) -> dict[str, int]:
+        """How many designs each reason rejected, most frequent first."""
+        return count_rejections(self.trials)
+
+    def to_toml(self) -> str:
+        """Return the winner's design file. Raises as `design`."""
+        heading = f"{HEADING}: {self.request.title} {self.score:.4g}.\n"
+        return sealed(heading + self.design.to_toml())
+
+    def save(self, path: str | Path, force: bool = False) -> Path:
+        """Write the winner's design file.
+
+        Raises
+        ------
+        CannotBuildError
+            If no design jumps.
+        JumpcadError
+            If the file does not end in .toml, cannot be written, or is a user's and `force` is not given.
+        """
+        text = self.to_toml()
+        require_target(Path(path), (".toml",), force)
+        write_atomically(Path(path), text)
+        return Path(path)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        data: dict[str, Any] = {
+            "method": self.request.method,
+            "objective": self.request.objective,
+            "evaluations": len(self.trials),
+            "refused": self.rejected,
+            "best": None if self.best is None else self.best.to_dict(),
+            "winner": None if self.winner is None else self.winner.to_dict(),
+            "candidates": [candidate.to_dict() for candidate in self.candidates],
+            "active_bounds": [asdict(bound) for bound in self.bounds],
+            "notes": self.notes,
+        }
+        if self.request.is_front:
+            data |= {"front": [trial.to_dict() for trial in self.front], "hypervolume": self.hypervolume}
+        return data
+
+    def __repr__(self) -> str:
+        found = "no design jumps" if self.winner is None else f"{self.request.objective} {self.score:.4g}"
+        return f"<Result {self.request.method}: {found}, {len(self.trials)} trials, {len(self.candidates)} candidates>"
+
+    def _won(self) -> Trial:
+        if self.winner is None:
+            reasons = ", ".join(f"{name} {count}" for name, count in list(self.rejected.items())[:5])
+            raise CannotBuildError(
+                f"none of {len(self.trials)} designs jumps ({reasons}): widen the bounds, or evaluate more designs"
+            )
+        return self.winner

@@ -1,0 +1,46 @@
+"""The pictures of a study."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from jumpcad.search import plots
+from jumpcad.search.figures import save_figure
+from jumpcad.search.methods import FRONTS
+from jumpcad.search.objective import find_objective
+from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
+from jumpcad.search.surrogate import Posterior
+from jumpcad.search.trial import Trial, searched
+
+
+def plot_study(store: StudyStore, folder: Path) -> list[Path]:
+    """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
+    trials, identity = searched(store.trials()), store.identity
+    space, objective = Space.from_record(identity["space"]), find_objective(identity["objective"])
+    figures: dict[str, Callable[[], Figure]] = {}
+    if trials:
+        figures["history"] = partial(plots.history, trials, objective)
+        figures["slices"] = partial(plots.slices, space, trials, objective)
+    if trials and space.dimension > 1:
+        figures["parallel"] = partial(plots.parallel, space, trials)
+    if trials and identity["method"] in FRONTS:
+        figures["pareto"] = partial(plots.pareto, trials, objective)
+    if space.dimension <= 2:
+        for name, number, count in _moments(trials):
+            posterior = Posterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=())
+            figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective)
+    return [save_figure(draw(), folder, name) for name, draw in figures.items()]
+
+
+def _moments(trials: Sequence[Trial]) -> list[tuple[str, int, int]]:
+    """Return the first and the last proposal of a Bayesian search.
+
+    Of each: the picture's name, the trial whose hyperparameters are drawn, and how many trials are.
+    """
+    proposed = [number for number, trial in enumerate(trials) if "theta" in trial.proposal]
+    if not proposed:
+        return []
+    return [("acquisition-first", proposed[0], proposed[0]), ("acquisition", proposed[-1], len(trials))]

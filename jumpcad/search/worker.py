@@ -1,0 +1,93 @@
+"""What runs in a worker process: one task of evaluations, each with a timeout."""
+
+import contextlib
+import os
+import pickle
+import signal
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import cloudpickle
+
+from jumpcad.design import Design
+from jumpcad.errors import JumpcadError
+from jumpcad.search.objective import Evaluation, Model
+
+
+@dataclass(frozen=True)
+class Failure:
+    """An evaluation that ended in an unforeseen exception."""
+
+    text: str
+
+
+def start_worker() -> None:
+    # Ctrl-C is sent to the whole process group; only the parent answers it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Engines print a greeting; the parent may be printing one JSON document.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
+
+
+def _end_with_parent(parent: int) -> None:
+    """End this process when its parent was killed; else it would wait for ever."""
+    while os.getppid() == parent:
+        time.sleep(1.0)
+    os._exit(1)
+
+
+@lru_cache(maxsize=1)
+def _unpacked(sent: bytes) -> Model:
+    """Return a pickled model; the same object for all tasks of a search.
+
+    Raises
+    ------
+    JumpcadError
+        If this machine has other versions than the one that asks.
+    """
+    model: Model
+    model, asked = cloudpickle.loads(sent)
+    for name, version in model.versions().items():
+        if version != asked[name]:
+            raise JumpcadError(
+                f"a worker has {name} {version}, not {asked[name]}: install there what is installed here, "
+                f"or repeat the command if it changed meanwhile"
+            )
+    return model
+
+
+def evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> bytes:
+    """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
+
+    Pickled by the executor, which is prepared for functions and classes, it takes four times as long.
+    """
+    model = _unpacked(sent)
+    results: list[tuple[Any, float]] = []
+    for design in designs:
+        start = time.perf_counter()
+        with _alarm(limit_s):
+            try:
+                result: Evaluation | Failure = model(design)
+            except JumpcadError:
+                raise
+            except Exception as error:  # a bug that one design in a thousand meets must not end the run
+                result = Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
+        results.append((result, time.perf_counter() - start))
+    return pickle.dumps(results)
+
+
+@contextlib.contextmanager
+def _alarm(limit_s: float) -> Iterator[None]:
+    """Have the system end this process if the block takes longer, also where Python cannot interrupt."""
+    if limit_s <= 0 or not hasattr(signal, "setitimer"):
+        yield
+        return
+    signal.setitimer(signal.ITIMER_REAL, limit_s)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)

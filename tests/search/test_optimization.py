@@ -1,0 +1,100 @@
+"""`jumpcad.optimize`: the search of the command line, in one call."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+import jumpcad
+from jumpcad.cli.commands import app
+from jumpcad.errors import CannotBuildError, JumpcadError
+
+WEAK = {"stiffness_nmm_per_deg": 5, "compression_ratio": 0.1}
+QUICK = {"model": "capsule", "settings": "screening", "workers": 0}
+OPTIONS = ["--model", "capsule", "--settings", "screening", "--workers", "0", "--json"]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def command(*arguments):
+    done = CliRunner().invoke(app, [*arguments, *OPTIONS], catch_exceptions=False)
+    return json.loads(done.stdout)
+
+
+def test_it_finds_what_the_command_finds_and_goes_on_with_its_study(folder):
+    best = jumpcad.optimize("ga", evaluations=24, seed=3, study=folder / "mine.db", **QUICK)
+    found = command("optimize", "ga", "--evaluations", "24", "--seed", "3", "--study", "theirs.db", "-o", "theirs.toml")
+    assert best.design.model_dump() == found["winner"]["design"]
+    assert (best.score, best.fitness) == (found["winner"]["score"], found["winner"]["fitness"])
+    assert len(best.trials) == found["evaluations"] == 24
+    assert best.save("mine.toml").read_bytes() == (folder / "theirs.toml").read_bytes()
+    longer = jumpcad.optimize("ga", evaluations=30, seed=3, study="theirs.db", **QUICK)
+    assert [trial.key for trial in longer.trials[:24]] == [trial.key for trial in best.trials]
+
+
+def test_the_space_is_given_by_numbers():
+    best = jumpcad.optimize(
+        "bo", evaluations=6, fixed={"c_coef": 1}, bounds={"rest_angle_deg": (50, 60)},
+        choices={"d_coef": [0.8, 0.7]}, **QUICK,
+    )  # fmt: skip
+    texts = {"fix": ["c_coef=1"], "bound": ["rest_angle_deg=50:60"], "choose": ["d_coef=0.7,0.8"]}
+    assert best.request.space == jumpcad.search.Space.parse(**texts)
+    for trial in best.trials:
+        assert trial.design.c_coef == 1.0
+        assert 50.0 <= trial.design.rest_angle_deg <= 60.0
+    assert {trial.design.d_coef for trial in best.trials} == {0.7, 0.8}
+
+
+def test_a_front_has_its_trials_and_its_own_objective():
+    found = jumpcad.optimize("nsga2", evaluations=40, **QUICK)
+    energies = [trial.design.spring_energy_j for trial in found.front]
+    assert found.request.objective == "range"
+    assert energies == sorted(energies)
+    assert found.hypervolume > 0.0
+    assert found.candidates == []
+
+
+def test_where_nothing_jumps_the_trials_are_kept_and_the_design_is_asked_for_in_vain(folder):
+    found = jumpcad.optimize(
+        "ga", evaluations=12, fixed={"stiffness_nmm_per_deg": 5, "compression_ratio": 0.1}, **QUICK
+    )
+    assert len(found.trials) == 12
+    assert found.winner is None
+    for ask in (lambda: found.design, lambda: found.score, lambda: found.save(folder / "w.toml")):
+        with pytest.raises(CannotBuildError, match=r"none of 12 designs jumps \(.*: widen the bounds"):
+            ask()
+    assert not (folder / "w.toml").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"method": "gaa"}, "did you mean ga"),
+        ({"method": 5}, r"optimize\(\) takes a text as method"),
+        ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
+        ({"evaluations": 1.5}, "takes a int as evaluations, not 1.5"),
+        ({"fixed": {"c_coeff": 1}}, "did you mean c_coef"),
+        ({"fixed": {"c_coef": "1"}}, r"c_coef = '1' \(str\) is not a number"),
+        ({"fixed": {"c_coef": 10**400}}, "c_coef = .* is outside"),
+        ({"fixed": {"c_coef": float("nan")}}, "c_coef = nan is outside"),
+        ({"fixed": {5: 1}}, "5 is not a parameter of a design"),
+        ({"fixed": [1]}, "takes a Mapping as fixed"),
+        ({"bounds": {"c_coef": 1.0}}, "give several numbers"),
+        ({"bounds": {"c_coef": (1.1, 0.9)}}, "empty range"),
+        ({"bounds": {"c_coef": (0.9, 1.0, 1.1)}}, "c_coef has 3 bounds"),
+        ({"choices": {"c_coef": []}}, "no values to choose from"),
+        ({"fixed": {"c_coef": 1}, "bounds": {"c_coef": (0.9, 1.1)}}, "given twice"),
+        ({"workers": 1, "dask": "tcp://x"}, "exclude each other"),
+        ({"engine": "ode"}, "not an engine of a search"),
+        ({"study": "none/s.db"}, "none/s.db"),
+    ],
+)
+def test_wrong_arguments_are_one_line(folder, options, message):
+    with pytest.raises(JumpcadError, match=message) as error:
+        jumpcad.optimize(**({"model": "capsule", "evaluations": 2} | options))
+    assert "\n" not in str(error.value)
+    assert list(folder.iterdir()) == []

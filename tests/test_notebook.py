@@ -1,0 +1,105 @@
+"""What objects say of themselves: one short line, and in a notebook a picture and the key figures."""
+
+import base64
+import io
+import re
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from PIL import Image
+from support.hills import SMALL, Hill
+
+import jumpcad
+from jumpcad.bundle.manifest import Bundle
+from jumpcad.bundle.renders import renders, rest_picture
+from jumpcad.search import Request, Result, Space, StudyStore, Trial, robot_model
+from jumpcad.search.robust import Candidate
+
+LONGEST = 200
+DESIGN = jumpcad.Design.from_vector([123.456789, 1.0123456789, 0.8123456, 1.2345678, 0.5123456, 61.23456, 12.345, 33.3])
+
+
+@pytest.fixture(scope="module")
+def result():
+    return jumpcad.evaluate(jumpcad.load_design("kenan-2.0"))
+
+
+def table(html):
+    """Return the lines of the table in a notebook's HTML, which is well-formed."""
+    root = ElementTree.fromstring(re.search("<table>.*</table>", html)[0])
+    return {row[0].text: row[1].text for row in root.iter("tr")}
+
+
+def things(result, folder):
+    trial = Trial("bo", 3, 1, DESIGN, Hill()(DESIGN), 1.23456789, "m", 0.1)
+    request = Request(SMALL, Hill())
+    yield from (DESIGN, result, result.robot, result.jump, result.robot.workshop)
+    yield replace(jumpcad.capsule_robot(DESIGN), name="x" * 300)
+    yield jumpcad.simulate(jumpcad.capsule_robot(jumpcad.load_design("best-bo").model_copy(update={"c_coef": 1.2})))
+    yield jumpcad.Settings(dt_s=0.000123456, drag_per_s=1.0, flight="simulated")
+    yield Bundle(folder, {"name": "n" * 200, "files": {}})
+    yield from (trial, request, robot_model("capsule"), Space.default(), Space.parse(fix=["c_coef=1"]), Hill()(DESIGN))
+    yield Candidate(trial, 1.0, 2.0, {"loop": 3})
+    yield Result(request, [trial], trial, [Candidate(trial, 1.0, 2.0, {})], [], ["note"] * 50)
+    yield Result(request, [], None, [], [], [])
+    with StudyStore.write(None, {"model": {"name": "hill"}}) as store:
+        yield store
+
+
+def test_reprs_are_one_short_line(result, tmp_path):
+    for thing in things(result, tmp_path / ("f" * 200)):
+        said = repr(thing)
+        assert said.startswith(f"<{type(thing).__name__}")
+        assert said.endswith(">")
+        assert "\n" not in said
+        assert len(said) <= LONGEST
+
+
+def test_reprs_say_the_figures_that_matter(result):
+    assert "mm=123.46," in repr(DESIGN)
+    assert f"range {result.jump.ballistic_range_m:.3f} m" in repr(result)
+    assert f"{1000 * result.robot.mass_kg:.1f} g" in repr(result.robot)
+
+
+def test_a_robot_has_picture_and_figures(result):
+    html = result.robot._repr_html_()
+    (data,) = re.findall(r'src="data:image/png;base64,([\w+/=]+)"', html)
+    shown = np.asarray(Image.open(io.BytesIO(base64.b64decode(data))).convert("L"))
+    assert shown.shape == (315, 420)
+    assert 0.02 < (shown < 200).mean() < 0.9
+    assert table(html)["mass"] == f"{1000 * result.robot.mass_kg:.1f} g"
+    assert table(html)["spring energy"] == f"{result.robot.spring.energy_j:.3f} J"
+    assert len(html) < 100_000
+
+
+def test_the_picture_is_the_bundles(result):
+    assert rest_picture(result.robot, (200, 150)) == renders(result.robot, (200, 150))["rest"]
+
+
+def test_a_capsule_robot_has_figures_only():
+    robot = jumpcad.capsule_robot(DESIGN)
+    assert "<img" not in robot._repr_html_()
+    assert table(robot._repr_html_())["longest link"] == f"{DESIGN.l_max_mm:.1f} mm"
+
+
+def test_jumps_and_evaluations_have_tables(result):
+    for thing in (result.jump, result):
+        shown = table(thing._repr_html_())
+        assert shown["verdict"] == "jump (pybullet)"
+        assert shown["ballistic range"] == f"{result.jump.ballistic_range_m:.3f} m"
+    assert table(result._repr_html_())["winding time"] == f"{result.metrics['winding_time_s']:.1f} s"
+
+
+def test_a_rejected_design_says_why():
+    weak = jumpcad.load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 0.5})
+    jump = jumpcad.simulate(jumpcad.capsule_robot(weak))
+    shown = table(jump._repr_html_())
+    assert shown["verdict"] == "too_weak (pybullet)"
+    assert "error: too_weak" in shown
+    assert "ballistic range" not in shown
+
+
+def test_names_are_escaped():
+    assert "<b>" not in replace(jumpcad.capsule_robot(DESIGN), name="<b>&")._repr_html_()
