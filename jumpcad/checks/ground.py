@@ -5,7 +5,7 @@ from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
 from jumpcad.dimensions import COLLAR_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM
-from jumpcad.findings import Finding, limit
+from jumpcad.findings import Finding, at_least, limit
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot import Robot
@@ -35,8 +35,8 @@ def ground_findings(robot: Robot) -> list[Finding]:
     name, lowest = min(((what, float(height.min())) for what, height in heights.items()), key=lambda item: item[1])
     clearance = lowest + sections.foot_depth_mm
     return [
-        limit(
-            "ground_clearance", clearance - GROUND_GAP_MM, "mm",
+        at_least(
+            "ground_clearance", clearance, GROUND_GAP_MM, "mm",
             f"{name} passes {clearance:.1f} mm above the ground; {GROUND_GAP_MM:g} mm are kept",
             "lower compression_ratio, or raise rest_angle_deg",
         )
@@ -65,6 +65,7 @@ def foot_findings(robot: Robot) -> list[Finding]:
             "foot_clearance", gap - FOOT_GAP_MM, "mm",
             f"{found} of the foot, springs wound; {FOOT_GAP_MM:g} mm are kept",
             "lower compression_ratio, or raise ground_link_angle_deg",
+            value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
         )
     ]  # fmt: skip
 

@@ -118,13 +118,21 @@ def interference_findings(robot: Robot) -> list[Finding]:
     found = [
         Finding(
             "interference", "error", -volume, "mm³", f"{a} and {b} share {volume:.2f} mm³, {label}",
-            "raise carrying_link_mm or d_coef, or wind less",
+            "raise carrying_link_mm or d_coef, or wind less", value=volume, limit=0.0,
         )
         for a, b, label, volume in overlaps(robot)
     ]  # fmt: skip
     positions = f"{WINDING_POSITIONS} positions of winding and {DROP_POSITIONS} of the drop"
     return found or [
-        Finding("interference", "info", TOLERANCE_MM3, "mm³", f"no two pieces meet in {positions}", "nothing to do")
+        Finding(
+            "interference",
+            "info",
+            TOLERANCE_MM3,
+            "mm³",
+            f"no two pieces meet in {positions}",
+            "nothing to do",
+            limit=TOLERANCE_MM3,
+        )
     ]
 
 

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from jumpcad.findings import Finding, limit
+from jumpcad.findings import Finding, at_most
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
@@ -111,9 +111,10 @@ class LoadCase:
         return (on_leg, on_pin), on_lever
 
 
-def stress_finding(name: str, what: str, stress: float, allowable: float, remedy: str) -> Finding:
+def stress_finding(name: str, what: str, stress: float, allowable: float, remedy: str, grows: str = "") -> Finding:
+    """Return the finding of a stress against its limit (MPa); `grows` is the part that a failure makes stronger."""
     message = f"{what}: {stress:.1f} of {allowable:.1f} MPa"
-    return limit(name, allowable - stress, "MPa", message, remedy)
+    return at_most(name, stress, allowable, "MPa", message, remedy, grows=grows)
 
 
 def leg_axle_moment_nmm(arms_n: tuple[Array, Array], cam_n: Array, span_mm: float, coil_mm: float) -> float:

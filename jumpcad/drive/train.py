@@ -16,7 +16,7 @@ from jumpcad.catalogue import Motor
 from jumpcad.drive.cam import CamLaw
 from jumpcad.drive.gears import Gear, GearPair, centre_distance_mm, gear_pair, least_shift
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, at_most, limit
 from jumpcad.transforms import Array
 
 Pairs = npt.NDArray[np.void]
@@ -287,13 +287,13 @@ def _train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limits: Trai
     winding_s = _winding_s(law, motor, ratio, efficiency)
     allowed = _allowed_nm(motor, limits)
     findings = [
-        Finding(
-            "motor_torque", "info", allowed - peak, "N·m",
+        at_most(
+            "motor_torque", peak, allowed, "N·m",
             f"{motor.name} gives {1000 * peak:.1f} mN·m at most; {1000 * allowed:.1f} mN·m are allowed",
             "a stronger motor, or a larger ratio",
         ),
-        Finding(
-            "cam_speed", "info", limits.cam_speed_max_rad_s - free_speed / ratio, "rad/s",
+        at_most(
+            "cam_speed", free_speed / ratio, limits.cam_speed_max_rad_s, "rad/s",
             f"the unloaded cam turns at {free_speed / ratio:.1f} rad/s",
             "a slower motor, or a larger ratio",
         ),
@@ -302,22 +302,21 @@ def _train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limits: Trai
     for number, pair in reversed(list(enumerate(stages, start=1))):
         stress = pair.pinion.lewis_stress_mpa(wheel_torque / pair.ratio)
         findings += [
-            Finding(
-                f"gear_strength_{number}", "info", limits.stress_mpa - stress, "MPa",
+            at_most(
+                f"gear_strength_{number}", stress, limits.stress_mpa, "MPa",
                 f"teeth of pair {number} bear {stress:.1f} of {limits.stress_mpa:g} MPa (Lewis, load at one tip)",
                 "wider gears, or a larger module",
             ),
-            Finding(
-                f"gear_mesh_{number}", "info", min(pair.involute_margin_mm, pair.contact_ratio - 1.1), "mm",
+            limit(
+                f"gear_mesh_{number}", min(pair.involute_margin_mm, pair.contact_ratio - 1.1), "mm",
                 f"pair {number} meshes with a contact ratio of {pair.contact_ratio:.2f}",
                 "more teeth",
             ),
         ]  # fmt: skip
         wheel_torque /= pair.ratio * limits.pair_efficiency
-    tip_room = limits.cam_gear_tip_max_mm - stages[-1].wheel.tip_radius_mm
     findings.append(
-        Finding(
-            "cam_gear_room", "info", tip_room, "mm",
+        at_most(
+            "cam_gear_room", stages[-1].wheel.tip_radius_mm, limits.cam_gear_tip_max_mm, "mm",
             f"the cam gear's tip radius is {stages[-1].wheel.tip_radius_mm:.1f} mm; "
             f"{limits.cam_gear_tip_max_mm:.1f} mm fit",
             "a stronger motor, or another pair of gears",

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, at_most, limit
 from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
@@ -95,20 +95,20 @@ class Run:
         """Say whether the run has passed its audit so far."""
         return self.worst_energy_ratio <= ENERGY_RATIO_LIMIT and self.worst_gap_m <= LOOP_GAP_LIMIT_M
 
-    def findings(self) -> tuple[Finding, Finding]:
+    def findings(self) -> tuple[Finding, ...]:
         """Return the audit's findings `audit_energy` and `audit_loop`."""
-        energy, gap = ENERGY_RATIO_LIMIT - self.worst_energy_ratio, 1000.0 * (LOOP_GAP_LIMIT_M - self.worst_gap_m)
         remedy = "use a smaller dt_s or more solver_iterations; if that does not help, the design is at a dead point"
         return (
-            Finding(
-                "audit_energy", "error" if energy < 0 else "info", energy, "",
+            at_most(
+                "audit_energy", self.worst_energy_ratio, ENERGY_RATIO_LIMIT, "",
                 f"mechanical energy reached {self.worst_energy_ratio:.4f} of the springs' energy; "
                 f"the limit is {ENERGY_RATIO_LIMIT}", remedy,
             ),
-            Finding(
-                "audit_loop", "error" if gap < 0 else "info", gap, "mm",
+            limit(
+                "audit_loop", 1000.0 * (LOOP_GAP_LIMIT_M - self.worst_gap_m), "mm",
                 f"the loop came apart by up to {1000 * self.worst_gap_m:.4f} mm; the limit is "
                 f"{1000 * LOOP_GAP_LIMIT_M:g} mm", remedy,
+                value=1000.0 * self.worst_gap_m, allowed=1000.0 * LOOP_GAP_LIMIT_M,
             ),
         )  # fmt: skip
 
