@@ -24,8 +24,14 @@ MILLIMETRES = 4
 PLATES = ("body_plate_left", "body_plate_right")
 
 
+def dxf_files(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield path and content of every body plate's drawing."""
+    for name, drawing in write_dxfs(robot).items():
+        yield f"dxf/{name}.dxf", drawing
+
+
 def write_dxfs(robot: Robot) -> dict[str, str]:
-    """Return the DXF document of every body plate by the part's name; none for a robot without a plan."""
+    """Return the DXF document of every body plate by the part's name."""
     layout = robot.layout
     thickness = dict(zip(PLATES, (layout.lateral.left_plate, layout.lateral.right_plate), strict=True))
     return {

@@ -4,6 +4,8 @@ Every body's frame is a node (`foot_frame`) with its parts below it, so that a v
 metres and y up.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 import trimesh
 from trimesh.visual.material import PBRMaterial
@@ -17,6 +19,11 @@ Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 """From the robot's z up to y up."""
 FRAME = "robot"
 ROUGHNESS = 0.6
+
+
+def glb_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
+    """Yield path and content of the scene."""
+    yield f"{robot.name}.glb", write_glb(robot)
 
 
 def write_glb(robot: Robot) -> bytes:

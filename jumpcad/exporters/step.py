@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.exporters.curves import Arc, Circle, Curve, Line, curves_of
 from jumpcad.parts.part import Drawing
+from jumpcad.robot import Robot
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Slab, Stack
 
@@ -24,12 +25,12 @@ FUZZY_MM = (0.0, 1e-4, 1e-3)
 
 
 def is_installed() -> bool:
-    """Tell whether the library that writes STEP is there."""
+    """Tell whether the library that writes STEP is installed."""
     return find_spec("build123d") is not None
 
 
 def require_step() -> None:
-    """Refuse to go on without the library that writes STEP.
+    """Require the library that writes STEP.
 
     Raises
     ------
@@ -38,6 +39,12 @@ def require_step() -> None:
     """
     if not is_installed():
         raise JumpcadError('STEP needs build123d, which is not installed: pip install "jumpcad[step]"')
+
+
+def step_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
+    """Yield path and content of every printed part's file."""
+    for part in robot.parts:
+        yield f"step/{part.name}.step", write_step(part.drawing)
 
 
 def write_step(drawing: Drawing) -> bytes:
