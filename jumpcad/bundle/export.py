@@ -55,10 +55,10 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
     if len(os.fsencode(robot.name)) > LONGEST_NAME:
         raise JumpcadError(f"{robot.name!r} names files: use at most {LONGEST_NAME} bytes")
     exporters = chosen(["step"] if step else [])
-    return write_folder(folder, robot.name, _facts(robot), _contents(robot, exporters, pictures), force)
+    return write_folder(folder, robot.name, _facts(robot), contents(robot, exporters, pictures), force)
 
 
-def _contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
+def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
     """Yield path and content of every file of a bundle but its manifest."""
     yield DESIGN, robot.design.to_toml()
     yield WORKSHOP, robot.workshop.to_toml()

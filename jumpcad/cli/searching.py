@@ -11,6 +11,7 @@ import typer
 
 from jumpcad.cli.output import console
 from jumpcad.errors import JumpcadError
+from jumpcad.simulation.engines import ENGINES, default_engine, in_words, require_engine
 
 if TYPE_CHECKING:
     from jumpcad.search.evaluator import Watch
@@ -47,7 +48,7 @@ WithinOption = Annotated[
 ]
 WorkshopOption = Annotated[str, typer.Option(help="Workshop of the printed robot: a template's name or a file.")]
 SettingsOption = Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")]
-EngineOption = Annotated[str | None, typer.Option(help="pybullet or mujoco; the first that is installed.")]
+EngineOption = Annotated[str | None, typer.Option(help=f"{in_words(ENGINES, 'or')}; the first that is installed.")]
 LimitOption = Annotated[float, typer.Option(help="Seconds that one evaluation may take.", metavar="SECONDS")]
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER", file_okay=False)
@@ -128,11 +129,10 @@ def make_model(name: str, workshop: str, settings: str, engine: str | None) -> "
     """Return the model that the options describe."""
     from jumpcad.search.models import MODELS, RobotModel
     from jumpcad.settings import load_settings
-    from jumpcad.simulation.engines import ENGINES, default_engine
     from jumpcad.workshop import load_workshop
 
-    if engine is not None and engine not in ENGINES:
-        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {' and '.join(ENGINES)}")
+    if engine is not None:
+        require_engine(engine)
     if name not in MODELS or name == "published":
         return RobotModel(name)
     return RobotModel(

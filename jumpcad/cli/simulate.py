@@ -13,12 +13,14 @@ import typer
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 from jumpcad.cli.subjects import WorkshopOption, designed, tell_template, written_robot
 from jumpcad.errors import JumpcadError
+from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, in_words
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
     from jumpcad.mechanism.model import Mechanism
     from jumpcad.simulation import Jump, Settings
 
+ENGINE_HELP = f"{', '.join(ENGINES)} or both; the first that is installed."
 TRAJECTORY_SUFFIXES = (".csv", ".json")
 LINES = (
     ("ballistic range", "ballistic_range_m", "{:.4f} m"),
@@ -47,7 +49,7 @@ def simulate(
     capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
     workshop: WorkshopOption = None,
-    engine: Annotated[str | None, typer.Option(help="pybullet, mujoco or both; the first that is installed.")] = None,
+    engine: Annotated[str | None, typer.Option(help=ENGINE_HELP)] = None,
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
     flight: Annotated[bool, typer.Option("--flight", help="Go on to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
@@ -78,7 +80,7 @@ def simulate(
         return
     engines = _engines(engine)
     if trajectory and len(engines) > 1:
-        raise JumpcadError("--trajectory records one engine: choose --engine pybullet or mujoco")
+        raise JumpcadError(f"--trajectory records one engine: choose --engine {in_words(ENGINES, 'or')}")
     asked = _settings(settings, flight, trajectory is not None)
     robot = capsule_robot(subject) if capsule else written or designed(design, workshop)
     model = "capsule" if capsule else "URDF" if written else "printed"
@@ -107,16 +109,14 @@ def _published(design: "Design", engine: str | None, as_json: bool) -> None:
 
 
 def _engines(asked: str | None) -> list[str]:
-    """Return the engines to use; without a wish the first that is installed, said where it is not the usual one."""
-    from jumpcad.simulation.engines import ENGINES, default_engine
-
+    """Return the engines to use: those asked for, else the first that is installed; a line says if it is another."""
     if asked == "both":
-        return list(ENGINES)
+        return list(GENERAL)
     if asked is not None:
         return [asked]
     engine = default_engine()
-    if engine != ENGINES[0]:
-        print(f"jumpcad: {ENGINES[0]} is not installed; simulated with {engine}", file=sys.stderr)
+    if engine != GENERAL[0]:
+        print(f"jumpcad: {GENERAL[0]} is not installed; simulated with {engine}", file=sys.stderr)
     return [engine]
 
 

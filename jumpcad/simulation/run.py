@@ -4,6 +4,7 @@ An engine moves a `World`; everything that is decided about the run is decided h
 """
 
 import math
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -46,6 +47,15 @@ class World(Protocol):
 
     def state(self) -> State:
         """Return where the bodies are and how they move."""
+
+
+class Engine(Protocol):
+    """Makes worlds for robots, and carries out their runs by its `run`: `Run`, or a class derived from it."""
+
+    run: "type[Run]"
+
+    def world(self, mechanism: Mechanism, settings: Settings) -> AbstractContextManager[World]:
+        """Put a robot on the ground, ready for release, and take it away afterwards."""
 
 
 @dataclass(frozen=True)
