@@ -33,7 +33,7 @@ STAGES: dict[str, tuple[ModuleType, str]] = {
     "gate": (building, "geometry_findings"),
     "sections": (assembly, "sections"),
     "drive": (assembly, "synthesise"),
-    "plan": (assembly, "make_plan"),
+    "plan": (assembly, "make_layout"),
     "drawings": (assembly, "drawings"),
     "printed masses": (assembly, "mass_properties"),
     "growth": (building, "strength_findings"),

@@ -20,7 +20,7 @@ from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import SlabSection
+from jumpcad.solids.stack import Sections
 from jumpcad.transforms import Array
 from jumpcad.workshop import Material, Workshop
 
@@ -201,11 +201,13 @@ class _Scan:
         """Volume moments (10,)."""
         return mesh_moments(self._solid)
 
-    def sections_at(self, heights_mm: Array) -> list[SlabSection]:
-        """Return the cross-sections at heights (n,); neighbours that do not differ are one object."""
+    def sections_at(self, heights_mm: Array) -> Sections:
+        """Return the cross-sections at heights (n,); neighbours that differ by less than `SMALLEST_MM2` are one."""
         regions: list[Region] = []
+        which = []
         for height in heights_mm:
             region = self._solid.slice(float(height)).simplify(STRAIGHT_MM)
-            same = regions and (region - regions[-1]).area() + (regions[-1] - region).area() < SMALLEST_MM2
-            regions.append(regions[-1] if same else region)
-        return [SlabSection(region) for region in regions]
+            if not regions or (region - regions[-1]).area() + (regions[-1] - region).area() >= SMALLEST_MM2:
+                regions.append(region)
+            which.append(len(regions) - 1)
+        return Sections(regions, np.array(which), np.zeros(len(which)))

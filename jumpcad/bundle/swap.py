@@ -1,4 +1,4 @@
-"""Two folders change places in one step, where the system can: nobody ever finds neither under its name."""
+"""Atomically exchanges two directories, where the system can (docs/decisions/swap.md says why)."""
 
 import ctypes
 import os

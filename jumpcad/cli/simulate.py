@@ -13,14 +13,13 @@ import typer
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 from jumpcad.cli.subjects import WorkshopOption, designed, tell_template, written_robot
 from jumpcad.errors import JumpcadError
-from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, in_words
+from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
     from jumpcad.mechanism.model import Mechanism
     from jumpcad.simulation import Jump, Settings
 
-ENGINE_HELP = f"{', '.join(ENGINES)} or both; the first that is installed."
 TRAJECTORY_SUFFIXES = (".csv", ".json")
 LINES = (
     ("ballistic range", "ballistic_range_m", "{:.4f} m"),
@@ -49,7 +48,7 @@ def simulate(
     capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
     workshop: WorkshopOption = None,
-    engine: Annotated[str | None, typer.Option(help=ENGINE_HELP)] = None,
+    engine: Annotated[str | None, typer.Option(help=engine_help())] = None,
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
     flight: Annotated[bool, typer.Option("--flight", help="Go on to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,

@@ -10,7 +10,7 @@ from manifold3d import Manifold
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.parts.part import UNSEEN_MM, laid, lying_on_left
 from jumpcad.solids.outline import Region
-from jumpcad.solids.stack import Stack
+from jumpcad.solids.stack import Slab, Stack
 from jumpcad.transforms import Array, chained, in_metres, pose_about_z
 
 if TYPE_CHECKING:
@@ -67,9 +67,9 @@ def bought(
 ) -> BoughtPart:
     """Return a bought part drawn as slabs (y0, y1, region in x-z), turned counter-clockwise in x-z and moved (mm).
 
-    What is drawn about its own origin from regions that are kept is one shape for all copies, and measured once.
+    Copies drawn about their own origin are equal: one shape for all of them, measured once.
     """
-    shape, top, uniform = _drawn(tuple(slabs))
+    shape, top, uniform = _drawn(tuple(Slab(*slab) for slab in slabs))
     x, y, z = at_mm
     pose = lying_on_left(top + y, x, z) @ pose_about_z(turn_rad)
     return BoughtPart(
@@ -78,10 +78,10 @@ def bought(
 
 
 @lru_cache(maxsize=256)
-def _drawn(slabs: tuple[tuple[float, float, Region], ...]) -> tuple[Stack, float, MassProperties]:
-    """Return slabs laid on their left face, the height y of that face, and the mass properties at unit density."""
-    stack, _ = laid(slabs)
-    return stack, max(y1 for _, y1, _ in slabs), stack.mass_properties(1.0)
+def _drawn(slabs: tuple[Slab, ...]) -> tuple[Stack, float, MassProperties]:
+    """Return slabs along y laid on their left face, the y of that face, and the mass properties at unit density."""
+    stack, _ = laid((slab.z0_mm, slab.z1_mm, slab.outline) for slab in slabs)
+    return stack, max(slab.z1_mm for slab in slabs), stack.mass_properties(1.0)
 
 
 @lru_cache(maxsize=64)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class EngineEntry:
-    """A line of the registry: module and class of an engine, and the package that it needs.
+    """A line of the registry: module and class of an engine, the package that it needs, a note for the help.
 
     A `general` engine is a rigid-body simulator independent of this project: `--engine both` compares those, and the
     first of them that is installed is the default.
@@ -27,18 +27,20 @@ class EngineEntry:
 
     module: str
     maker: str
-    package: str
+    package: str = ""
     general: bool = True
+    note: str = ""
 
     @property
     def is_installed(self) -> bool:
-        """Tell whether the package is there."""
-        return importlib.util.find_spec(self.package) is not None
+        """Tell whether the package is there, if one is needed."""
+        return not self.package or importlib.util.find_spec(self.package) is not None
 
 
 ENGINES = {
     "pybullet": EngineEntry("jumpcad.simulation.bullet", "BulletEngine", package="pybullet"),
     "mujoco": EngineEntry("jumpcad.simulation.mujoco", "MujocoEngine", package="mujoco"),
+    "planar": EngineEntry("jumpcad.simulation.planar", "PlanarEngine", general=False, note="fast"),
 }
 """Every engine by its name."""
 GENERAL = tuple(name for name, entry in ENGINES.items() if entry.general)
@@ -87,6 +89,12 @@ def default_engine() -> str:
         'no physics engine is installed: pip install "jumpcad[mujoco]" (everywhere) or "pybullet==3.2.7" '
         "(Python 3.11 on Linux x86_64)"
     )
+
+
+def engine_help() -> str:
+    """Return what the command line's help says of the choice: the general engines, `both`, the others."""
+    others = [f"{name} ({entry.note})" for name, entry in ENGINES.items() if not entry.general]
+    return f"{in_words([*GENERAL, 'both', *others], 'or')}; else the first installed."
 
 
 def in_words(names: Iterable[str], word: str) -> str:

@@ -19,7 +19,8 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
     settings
         Time step, friction and so on; the default settings if None.
     engine
-        A name of `jumpcad.simulation.ENGINES`: `pybullet`, or `mujoco` for an independent result to compare.
+        A name of `jumpcad.simulation.ENGINES`: `pybullet`, `mujoco` for an independent result to compare, or `planar`,
+        the push-off in the plane in a fraction of their time.
 
     Returns
     -------

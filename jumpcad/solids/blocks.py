@@ -4,8 +4,9 @@ Unlike a `Stack` its cross-section changes from layer to layer. The section at a
 same numbers as the solid: a bar's is a set of rectangles, a finger's the hull of two discs.
 """
 
+import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
@@ -16,8 +17,8 @@ from manifold3d import CrossSection, Manifold, OpType
 
 from jumpcad.solids.finish import finished
 from jumpcad.solids.moments import mesh_moments
-from jumpcad.solids.outline import Region, circle_points
-from jumpcad.solids.stack import NOTHING, SlabSection
+from jumpcad.solids.outline import Region, circle_points, corners_key
+from jumpcad.solids.stack import NOTHING, Sections
 from jumpcad.transforms import Array
 
 Contours = list[Array]
@@ -25,6 +26,10 @@ Contours = list[Array]
 
 class Block(Protocol):
     """One simple piece, z up from the bed."""
+
+    @property
+    def key(self) -> Hashable:
+        """The numbers that it is made of: equal pieces have equal keys."""
 
     @property
     def bounds_mm(self) -> Array:
@@ -47,6 +52,11 @@ class Bar:
 
     region: Region
     y_mm: tuple[tuple[float, float], ...]
+
+    @property
+    def key(self) -> Hashable:
+        """The corners of the region and the intervals."""
+        return corners_key(self.region), self.y_mm
 
     @property
     def bounds_mm(self) -> Array:
@@ -103,6 +113,12 @@ class Finger:
     tip_height_mm: float
 
     @property
+    def key(self) -> Hashable:
+        """Centres, diameters and heights."""
+        root = (*self.root_mm.tolist(), self.root_diameter_mm, self.root_height_mm)
+        return root, (*self.tip_mm.tolist(), self.tip_diameter_mm, self.tip_height_mm)
+
+    @property
     def bounds_mm(self) -> Array:
         """Lower and upper corner of the bounding box, (2, 3)."""
         flat = self.outline_mm
@@ -145,6 +161,11 @@ class Turned:
     place_mm: Array
 
     @property
+    def key(self) -> Hashable:
+        """The block's key, the angle and the place."""
+        return self.block.key, self.angle_rad, *self.place_mm.tolist()
+
+    @property
     def bounds_mm(self) -> Array:
         """Lower and upper corner of the bounding box, (2, 3)."""
         low, high = self.block.bounds_mm
@@ -164,12 +185,13 @@ class Turned:
     def contours_at(self, heights_mm: Array) -> list[Contours]:
         """Return the block's outlines at heights (n,), turned and moved."""
         sections = self.block.contours_at(heights_mm)
-        known = {id(contour): contour for contours in sections for contour in contours}
+        keys = [[contour.tobytes() for contour in contours] for contours in sections]
+        known = dict(zip(itertools.chain(*keys), itertools.chain(*sections), strict=True))
         if not known:
             return sections
         ends = np.cumsum([len(contour) for contour in known.values()])[:-1]
         moved = dict(zip(known, np.split(self._moved(np.concatenate(list(known.values()))), ends), strict=True))
-        return [[moved[id(contour)] for contour in contours] for contours in sections]
+        return [[moved[key] for key in at_height] for at_height in keys]
 
     def _moved(self, points_mm: Array) -> Array:
         cos, sin = math.cos(self.angle_rad), math.sin(self.angle_rad)
@@ -183,6 +205,16 @@ class Blocks:
 
     added: tuple[Block, ...]
     removed: tuple[Block, ...] = ()
+
+    @cached_property
+    def _key(self) -> Hashable:
+        return tuple(block.key for block in self.added), tuple(block.key for block in self.removed)
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (isinstance(other, Blocks) and self._key == other._key)
+
+    def __hash__(self) -> int:
+        return hash(self._key)
 
     @cached_property
     def bounds_mm(self) -> Array:
@@ -208,23 +240,24 @@ class Blocks:
         return finished(whole)
 
     def regions_at(self, heights_mm: npt.ArrayLike) -> list[Region]:
-        """Return the cross-sections at heights (n,); equal neighbours are one object."""
+        """Return the cross-sections at heights (n,)."""
+        sections = self.sections_at(heights_mm)
+        return [sections.outlines[number] for number in sections.which]
+
+    def sections_at(self, heights_mm: npt.ArrayLike) -> Sections:
+        """Return the same as outlines that differ, which no chamfer narrows."""
         heights = np.asarray(heights_mm, dtype=float)
+        numbers: dict[tuple[int, tuple[bytes, ...]], int] = {}
         regions: list[Region] = []
-        last: list[bytes] | None = None
+        which = []
         for added, removed in zip(_gathered(self.added, heights), _gathered(self.removed, heights), strict=True):
-            case = [contour.tobytes() for contour in (*added, *removed)]
-            if case != last:
+            case = len(added), tuple([contour.tobytes() for contour in (*added, *removed)])
+            number = numbers.setdefault(case, len(regions))
+            if number == len(regions):
                 region = CrossSection(added) if added else NOTHING
                 regions.append(region - CrossSection(removed) if removed else region)
-                last = case
-            else:
-                regions.append(regions[-1])
-        return regions
-
-    def sections_at(self, heights_mm: npt.ArrayLike) -> list[SlabSection]:
-        """Return the same as sections that no chamfer narrows."""
-        return [SlabSection(region) for region in self.regions_at(heights_mm)]
+            which.append(number)
+        return Sections(regions, np.array(which, dtype=np.int64), np.zeros(len(heights)))
 
 
 def _gathered(blocks: tuple[Block, ...], heights_mm: Array) -> Iterator[Contours]:

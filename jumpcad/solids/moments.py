@@ -46,10 +46,10 @@ def areas_and_borders(regions: Sequence[CrossSection]) -> tuple[Array, Array]:
     return _areas(*sides), _borders(*sides)
 
 
-def border_mm(region: CrossSection) -> float:
-    """Return the length of a region's border, holes included (mm)."""
-    start, end, _ = _sides([region])
-    return float(np.hypot(*(end - start)).sum())
+def borders_mm(regions: Sequence[CrossSection]) -> Array:
+    """Return the lengths (n,) of the borders of several regions, holes included (mm)."""
+    start, end, ends = _sides(regions)
+    return _sums([np.hypot(*(end - start))], ends)[:, 0]
 
 
 def _areas(start: Array, end: Array, ends: npt.NDArray[np.int64]) -> Array:
@@ -102,7 +102,7 @@ def _sides(regions: Sequence[CrossSection]) -> tuple[Array, Array, npt.NDArray[n
     return start, end, np.array(ends)
 
 
-def _sums(products: list[Array], ends: npt.NDArray[np.int64]) -> Array:
+def _sums(products: Sequence[Array], ends: npt.NDArray[np.int64]) -> Array:
     """Return the sums (n, k) of k rows of products over the sides of n regions, which end at `ends` (n,)."""
     starts = np.concatenate([[0], ends[:-1]])
     some = starts < ends
@@ -129,7 +129,7 @@ def prism_moments(area: Array, z0_mm: npt.ArrayLike, z1_mm: npt.ArrayLike) -> Ar
         *(a * height, sx * height, sy * height, a * lever),
         *(sxx * height, syy * height, a * square, sxy * height, sy * lever, sx * lever),
     ]
-    return np.sum(columns, axis=1)
+    return np.asarray(np.sum(columns, axis=1))
 
 
 def mesh_moments(solid: Manifold) -> Array:

@@ -1,6 +1,7 @@
 """Flat regions that parts are extruded from, in mm.
 
-Every function returns a `manifold3d.CrossSection`, here called a `Region`: a set of polygons without overlaps.
+Every function returns a `manifold3d.CrossSection`, here called a `Region`: a set of polygons without overlaps. To
+Python two of them are never equal, so whatever compares or remembers regions does so by their `corners_key`.
 Circles are polygons of at least 64 sides. The corners of a disc lie on its circle, so it is never wider than its
 diameter; the sides of a hole touch its circle, so it is never narrower. What must slide through therefore does.
 """
@@ -15,9 +16,10 @@ import numpy.typing as npt
 from manifold3d import CrossSection, FillRule, JoinType, OpType
 
 from jumpcad.errors import JumpcadError
+from jumpcad.transforms import Array
 
 Region: TypeAlias = CrossSection
-Point: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
+Point: TypeAlias = Sequence[float] | Array
 
 MIN_FACETS = 64
 SAGITTA_MM = 0.005  # a polygon may leave its circle by this much: a tenth of what a printer resolves
@@ -34,22 +36,27 @@ def _half_step(diameter_mm: float) -> float:
     return math.acos(max(1.0 - 2.0 * SAGITTA_MM / diameter_mm, 0.0))
 
 
-def circle_points(diameter_mm: float, centre_mm: Point = ORIGIN, around: bool = False) -> npt.NDArray:
+def circle_points(diameter_mm: float, centre_mm: Point = ORIGIN, around: bool = False) -> Array:
     """Return the corners (n, 2) of a circle's polygon, counter-clockwise; `around` puts its sides on the circle."""
     if not diameter_mm > 0:
         raise JumpcadError(f"a circle's diameter of {diameter_mm:g} mm must be more than 0")
     count = facets(diameter_mm)
     radius = diameter_mm / 2.0 / (math.cos(math.pi / count) if around else 1.0)
-    return np.asarray(centre_mm, dtype=float) + radius * _unit_circle(count)
+    return np.asarray(np.asarray(centre_mm, dtype=float) + radius * _unit_circle(count))
 
 
 @lru_cache(maxsize=64)
-def _unit_circle(count: int) -> npt.NDArray:
+def _unit_circle(count: int) -> Array:
     """Return the corners (count, 2) of a polygon in the unit circle, the first on +x, counter-clockwise."""
     angles = np.arange(count) * (2.0 * math.pi / count)
     corners = np.column_stack([np.cos(angles), np.sin(angles)])
     corners.setflags(write=False)
     return corners
+
+
+def corners_key(region: Region) -> tuple[bytes, ...]:
+    """Return the corners of a region's contours as bytes: the same for two regions that are made in the same way."""
+    return tuple(contour.tobytes() for contour in region.to_polygons())
 
 
 def disc(diameter_mm: float, centre_mm: Point = ORIGIN) -> Region:

@@ -2,8 +2,8 @@
 
 Faces of a union that lie nanometres apart survive in memory and tear when a file rounds them to 32 bits. Here every
 corner lies on a grid that 32-bit floats hold exactly, and all outlines of a stack are cut at each other's corners and
-crossings first (iterated snap rounding, Hobby 1999). Walls and caps then share their edges by construction: the
-surface is closed as a matter of bookkeeping, before and after writing.
+crossings first (iterated snap rounding, Hobby 1999). Walls and caps then have the same edges, so that the surface is
+closed, before and after writing. docs/decisions/skin.md compares this with booleans in space.
 """
 
 from collections import defaultdict
@@ -141,7 +141,8 @@ def _crossings(points: Ints, edges: Ints) -> Ints:
     inside = (turn != 0) & (sign * along_i > 0) & (sign * along_i < abs(turn))
     inside &= (sign * along_j > 0) & (sign * along_j < abs(turn))
     share = along_i[inside] / turn[inside]
-    return np.rint(start[i][inside] + share[:, None] * run_i[inside]).astype(np.int64)
+    crossing = start[i][inside] + share[:, None] * run_i[inside]
+    return np.asarray(np.rint(crossing), dtype=np.int64)
 
 
 def _hits(points: Ints, edges: Ints) -> tuple[Ints, Ints]:
@@ -200,7 +201,7 @@ def _inside(points: Ints, edges: Ints, asked: Ints, sign: Ints) -> npt.NDArray[n
     right = upwards * _cross(end[wall] - start[wall], middle[point] - start[wall]) > 0
     winding = np.zeros(len(asked), dtype=np.int64)
     np.add.at(winding, point[right], upwards[right])
-    return winding != 0
+    return np.asarray(winding != 0)
 
 
 def _loops(points: Ints, starts: Ints, ends: Ints) -> list[Ints]:

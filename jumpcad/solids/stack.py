@@ -6,8 +6,8 @@ and what it shares with another stack all follow from the polygons, without a me
 
 import functools
 import itertools
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,9 +17,11 @@ from manifold3d import CrossSection, JoinType, Manifold, Mesh64, OpType
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.solids.moments import areas_moments, mass_of, prism_moments
-from jumpcad.solids.outline import Region
+from jumpcad.solids.outline import Region, corners_key
 from jumpcad.solids.skin import skin
 from jumpcad.transforms import Array
+
+Numbers = npt.NDArray[np.int64]
 
 Z_DIGITS = 4  # heights are rounded to this many decimals of a mm: faces meant to meet do, in 32-bit floats too
 SLIVER_MM = 0.01
@@ -27,21 +29,30 @@ SMALLEST_AREA_MM2 = 1e-6  # what clipping leaves where two regions only touch
 NOTHING: Region = CrossSection()
 
 
-class SlabSection(NamedTuple):
-    """A cross-section: an outline whose border a chamfer sets back by `inset_mm`."""
+class Sections(NamedTuple):
+    """Cross-sections at heights (n,): different outlines, which of them each is, and how far a chamfer sets it back.
 
-    outline: Region
-    inset_mm: float = 0.0
+    Two heights have the same cross-section where their numbers `which` (n,) and insets `inset_mm` (n,) are the same.
+    """
+
+    outlines: Sequence[Region]
+    which: Numbers
+    inset_mm: Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Slab:
-    """An outline, with its border set back by `inset_mm`, extruded from `z0_mm` to `z1_mm`."""
+    """An outline, with its border set back by `inset_mm`, extruded from `z0_mm` to `z1_mm`.
+
+    `number` is the outline's number within a stack: slabs of one number have one outline. Slabs are equal if their
+    numbers and the corners of their outlines are.
+    """
 
     z0_mm: float
     z1_mm: float
     outline: Region
     inset_mm: float = 0.0
+    number: int = 0
 
     @functools.cached_property
     def region(self) -> Region:
@@ -53,16 +64,25 @@ class Slab:
         """Thickness of the slab (mm)."""
         return self.z1_mm - self.z0_mm
 
+    @property
+    def _numbers(self) -> tuple[float, float, float, int]:
+        return self.z0_mm, self.z1_mm, self.inset_mm, self.number
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Slab) or self._numbers != other._numbers:
+            return False
+        return self.outline is other.outline or corners_key(self.outline) == corners_key(other.outline)
+
+    def __hash__(self) -> int:
+        return hash((self._numbers, self.outline.bounds()))  # quicker than the corners, which few slabs need
+
 
 SlabLike = Slab | tuple[float, float, Region]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Stack:
-    """Slabs in ascending order whose z intervals do not overlap; make one with `Stack.of`.
-
-    A stack equals itself alone, as its regions do, so that what is known of it can be kept by it.
-    """
+    """Slabs in ascending order whose z intervals do not overlap; make one with `Stack.of`."""
 
     slabs: tuple[Slab, ...]
 
@@ -121,10 +141,12 @@ class Stack:
             raise JumpcadError(f"a bottom slab of {bottom.height_mm:g} mm is too thin for a chamfer of {depth_mm:g} mm")
         steps, z, height = [], 0.0, first_layer_mm or layer_mm
         while (inset := depth_mm - z - height / 2.0) > 1e-9:
-            top = min(z + height, bottom.height_mm)
-            steps.append(Slab(_z(bottom.z0_mm + z), _z(bottom.z0_mm + top), bottom.region, inset))
+            top, whole = min(z + height, bottom.height_mm), bottom.inset_mm
+            steps.append(
+                replace(bottom, z0_mm=_z(bottom.z0_mm + z), z1_mm=_z(bottom.z0_mm + top), inset_mm=whole + inset)
+            )
             z, height = top, layer_mm
-        rest = Slab(_z(bottom.z0_mm + z), bottom.z1_mm, bottom.region)
+        rest = replace(bottom, z0_mm=_z(bottom.z0_mm + z))
         upper = (rest, *self.slabs[1:]) if rest.height_mm > 1e-9 else self.slabs[1:]
         return Stack((*steps, *upper))
 
@@ -167,14 +189,16 @@ class Stack:
 
     def regions_at(self, heights_mm: npt.ArrayLike) -> list[Region]:
         """Return the cross-sections at heights (n,), at the edge of two slabs the upper one's; `NOTHING` outside."""
-        return [slab.region if slab else NOTHING for slab in self._slabs_at(heights_mm)]
+        regions = [*(slab.region for slab in self.slabs), NOTHING]
+        return [regions[number] for number in self._slabs_at(heights_mm)]
 
-    def sections_at(self, heights_mm: npt.ArrayLike) -> list[SlabSection]:
+    def sections_at(self, heights_mm: npt.ArrayLike) -> Sections:
         """Return the same as outlines with what a chamfer takes from them."""
-        return [
-            SlabSection(slab.outline, slab.inset_mm) if slab else SlabSection(NOTHING)
-            for slab in self._slabs_at(heights_mm)
-        ]
+        place = {number: index for index, number in enumerate(self._outlines)}
+        which = np.array([*(place[slab.number] for slab in self.slabs), len(place)])
+        insets = np.array([*(slab.inset_mm for slab in self.slabs), 0.0])
+        slabs = self._slabs_at(heights_mm)
+        return Sections([*self._outlines.values(), NOTHING], which[slabs], insets[slabs])
 
     def footprint(self) -> Region:
         """Return the outline seen from above."""
@@ -183,29 +207,35 @@ class Stack:
     def solid(self) -> Manifold:
         """Return the stack as one closed solid whose corners 32-bit floats hold exactly (on a grid of 1 µm)."""
         heights = [(slab.z0_mm, slab.z1_mm) for slab in self.slabs]
-        clean = {id(slab.region): _without_slivers(slab.region).to_polygons() for slab in self.slabs}
-        vertices, faces = skin(heights, [clean[id(slab.region)] for slab in self.slabs])
+        regions = {(slab.number, slab.inset_mm): slab.region for slab in self.slabs}
+        clean = {case: without_slivers(region).to_polygons() for case, region in regions.items()}
+        vertices, faces = skin(heights, [clean[slab.number, slab.inset_mm] for slab in self.slabs])
         return Manifold(Mesh64(vertices, faces.astype(np.uint64)))
 
-    def _slabs_at(self, heights_mm: npt.ArrayLike) -> list[Slab | None]:
-        """Return the slabs at heights (n,), at the edge of two the upper one."""
+    @functools.cached_property
+    def _outlines(self) -> dict[int, Region]:
+        """The outlines by their numbers."""
+        return {slab.number: slab.outline for slab in self.slabs}
+
+    def _slabs_at(self, heights_mm: npt.ArrayLike) -> Numbers:
+        """Return the numbers of the slabs at heights (n,), at the edge of two the upper one's; -1 outside."""
         heights = np.asarray(heights_mm, dtype=float)
         numbers = np.searchsorted([slab.z0_mm for slab in self.slabs], heights, side="right") - 1
         inside = (numbers >= 0) & (heights < np.array([slab.z1_mm for slab in self.slabs])[numbers])
-        return [self.slabs[number] if within else None for number, within in zip(numbers, inside, strict=True)]
+        return np.where(inside, numbers, -1)
 
     def _widest(self) -> list[Region]:
         """Return the regions that matter for how far the stack reaches: without those that others contain."""
-        whole = {slab.outline for slab in self.slabs if not slab.inset_mm}
-        return [slab.region for slab in self.slabs if not slab.inset_mm or slab.outline not in whole]
+        whole = {slab.number for slab in self.slabs if not slab.inset_mm}
+        return [slab.region for slab in self.slabs if not slab.inset_mm or slab.number not in whole]
 
     def _mapped(self, change: Callable[[Region], Region], change_z: Callable[[float], float] = lambda z: z) -> "Stack":
-        """Return the stack with every region and height changed; regions that were one object stay one object."""
-        changed = {outline: change(outline) for outline in {slab.outline: None for slab in self.slabs}}
+        """Return the stack with every region and height changed."""
+        changed = {number: change(outline) for number, outline in self._outlines.items()}
         slabs = []
         for slab in self.slabs:
             low, high = sorted((_z(change_z(slab.z0_mm)), _z(change_z(slab.z1_mm))))
-            slabs.append(Slab(low, high, changed[slab.outline], slab.inset_mm))
+            slabs.append(replace(slab, z0_mm=low, z1_mm=high, outline=changed[slab.number]))
         return Stack(tuple(sorted(slabs, key=lambda slab: slab.z0_mm)))
 
 
@@ -229,17 +259,16 @@ def overlap_volume_mm3(a: Stack, T_world_a: Array, b: Stack, T_world_b: Array) -
     if abs(abs(turn[2, 2]) - 1.0) > 1e-9:
         raise ValueError("the extrusion axes of the two stacks are not parallel")
     flat = np.column_stack([turn[:2, :2], shift[:2]])
-    placed: dict[int, Region] = {}
     total = 0.0
     for slab_b in b.slabs:
         low, high = sorted(turn[2, 2] * z + shift[2] for z in (slab_b.z0_mm, slab_b.z1_mm))
+        region_b = None
         for slab_a in a.slabs:
             height = min(high, slab_a.z1_mm) - max(low, slab_a.z0_mm)
             if height <= 10.0**-Z_DIGITS:
                 continue
-            region_b = placed.get(id(slab_b.region))
             if region_b is None:
-                region_b = placed[id(slab_b.region)] = slab_b.region.transform(flat)
+                region_b = slab_b.region.transform(flat)
             if _apart(slab_a.region, region_b):
                 continue
             area = (slab_a.region ^ region_b).area()
@@ -263,7 +292,7 @@ def _z(height_mm: float) -> float:
     return round(float(height_mm), Z_DIGITS)
 
 
-def _without_slivers(region: Region) -> Region:
+def without_slivers(region: Region) -> Region:
     """Return the region with gaps and walls narrower than two `SLIVER_MM` closed and removed.
 
     They come from outlines that nearly coincide; in a file their sides would touch along a line.
@@ -281,28 +310,37 @@ def _clean(slabs: Iterable[SlabLike]) -> list[Slab]:
 def _arranged(added: Iterable[SlabLike], removed: Iterable[SlabLike]) -> Stack:
     """Return disjoint slabs that cover what is added but not removed.
 
-    Heights between which the same slabs are present share one region object.
+    Heights at which the same of the given slabs are present, and no others between them, are in one slab.
     """
     plus, minus = _clean(added), _clean(removed)
     levels = sorted({z for slab in (*plus, *minus) for z in (slab.z0_mm, slab.z1_mm)})
-    known: dict[tuple[frozenset[int], frozenset[int]], Region] = {}
+    numbers: dict[tuple[tuple[int, ...], tuple[int, ...]], int] = {}
+    regions: list[Region] = []
     slabs: list[Slab] = []
     for z0, z1 in itertools.pairwise(levels):
-        solid = [slab.region for slab in plus if slab.z0_mm <= z0 and slab.z1_mm >= z1]
-        void = [slab.region for slab in minus if slab.z0_mm <= z0 and slab.z1_mm >= z1]
+        solid, void = _present(plus, z0, z1), _present(minus, z0, z1)
         if not solid:
             continue
-        key = (frozenset(map(id, solid)), frozenset(map(id, void)))
-        if key not in known:
-            region = solid[0] if len(solid) == 1 else CrossSection.batch_boolean(solid, OpType.Add)
-            known[key] = CrossSection.batch_boolean([region, *void], OpType.Subtract) if void else region
-        region = known[key]
-        if region.area() <= SMALLEST_AREA_MM2:
+        number = numbers.setdefault((solid, void), len(regions))
+        if number == len(regions):
+            regions.append(_difference([plus[n].outline for n in solid], [minus[n].outline for n in void]))
+        if regions[number].area() <= SMALLEST_AREA_MM2:
             continue
-        if slabs and slabs[-1].region is region and slabs[-1].z1_mm == z0:
-            slabs[-1] = Slab(slabs[-1].z0_mm, z1, region)
+        if slabs and slabs[-1].number == number and slabs[-1].z1_mm == z0:
+            slabs[-1] = replace(slabs[-1], z1_mm=z1)
         else:
-            slabs.append(Slab(z0, z1, region))
+            slabs.append(Slab(z0, z1, regions[number], number=number))
     if not slabs:
         raise JumpcadError("nothing is left of a part: its slabs are empty or wholly cut away")
     return Stack(tuple(slabs))
+
+
+def _present(slabs: Sequence[Slab], z0_mm: float, z1_mm: float) -> tuple[int, ...]:
+    """Return the numbers of the slabs that reach from one height to another."""
+    return tuple(number for number, slab in enumerate(slabs) if slab.z0_mm <= z0_mm and slab.z1_mm >= z1_mm)
+
+
+def _difference(added: Sequence[Region], removed: Sequence[Region]) -> Region:
+    """Return what lies in an added region but in no removed one."""
+    region = added[0] if len(added) == 1 else CrossSection.batch_boolean(list(added), OpType.Add)
+    return CrossSection.batch_boolean([region, *removed], OpType.Subtract) if removed else region

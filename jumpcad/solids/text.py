@@ -11,6 +11,7 @@ from matplotlib.path import Path as Curve
 
 from jumpcad.errors import JumpcadError
 from jumpcad.solids.outline import SAGITTA_MM, Region
+from jumpcad.transforms import Array
 
 FONT = "DejaVuSans-Bold.ttf"  # shipped with the plotting library, so the same letters everywhere
 TRACED_AT = 100.0  # size at which letters are traced: large enough for smooth curves, small enough for few corners
@@ -54,9 +55,9 @@ def _font() -> FT2Font:
     return font
 
 
-def _letter(font: FT2Font, letter: str) -> tuple[float, list]:
+def _letter(font: FT2Font, letter: str) -> tuple[float, list[Array]]:
     """Return how far a letter moves the pen, and its closed contours (n, 2)."""
     glyph = font.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
     vertices, codes = font.get_path()
-    polygons = Curve(vertices, codes).to_polygons() if len(vertices) else []
+    polygons = [np.asarray(polygon) for polygon in Curve(vertices, codes).to_polygons()] if len(vertices) else []
     return glyph.linearHoriAdvance / 65536.0, polygons

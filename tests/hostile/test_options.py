@@ -41,7 +41,7 @@ REFUSED = {
     "a preset of air": (*SEARCH, "--preset", ""),
     "a method of air": ("optimize", "\x1b[2J", "--study", "s.db"),
     "an engine of air": (*SEARCH, "--engine", "[/x]"),
-    "a scheduler of air": ("optimize", "--model", "capsule", "--study", "s.db", "--dask", "\x1b[31m:0"),
+    "processes and a scheduler": ("optimize", "--workers", "2", "--dask", "tcp://127.0.0.1:1"),
     "points of none": (*EXPLORE, "sweep", "--points", "0"),
     "points below none": (*EXPLORE, "sweep", "--points", "-1"),
     "one point": (*EXPLORE, "sweep", "--points", "1"),

@@ -11,7 +11,7 @@ from jumpcad.printing import runs
 from jumpcad.printing.layer_mass import line_spacing_mm, mass_properties, sliced
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.outline import disc, rectangle, tapered_bar
-from jumpcad.solids.stack import SlabSection, Stack
+from jumpcad.solids.stack import Sections, Stack
 from jumpcad.workshop import load_workshop
 
 PROCESS = load_workshop("default").process.model_copy(
@@ -80,16 +80,24 @@ def test_small_sparse_areas_are_filled_when_the_process_says_so():
 
 def test_layers_cover_the_part_from_the_bed_up():
     process = PROCESS.model_copy(update={"first_layer_mm": 0.3})
-    found = sliced(BOX.moved(z_mm=1.0), process)
-    assert (found[0].z0_mm, found[0].z1_mm) == pytest.approx((1.0, 1.3))
-    assert found[-1].z1_mm == pytest.approx(5.0, abs=0.1)
-    assert len({layer.section.outline for layer in found}) == 1
+    levels, sections = sliced(BOX.moved(z_mm=1.0), process)
+    assert levels[:2] == pytest.approx([1.0, 1.3])
+    assert np.diff(levels)[1:] == pytest.approx(process.layer_height_mm)
+    assert levels[-1] == pytest.approx(5.0, abs=0.1)
+    assert len(levels) == len(sections.which) + 1
+    assert set(sections.which.tolist()) == {0}
+
+
+def test_equal_shapes_are_weighed_once():
+    one, same, other = (Stack.of([(0, 4, disc(diameter))]) for diameter in (12.0, 12.0, 12.1))
+    assert mass_properties(one, 1.0, PROCESS, 0.4) is mass_properties(same, 1.0, PROCESS, 0.4)
+    assert grams(other) > grams(one)
+    assert grams(one, infill=1.0) > grams(one)
 
 
 def test_what_is_known_of_a_shape_is_kept_as_long_as_the_shape():
-    shape = Stack.of([(0, 4, disc(12.0))])
-    assert mass_properties(shape, 1.0, PROCESS, 0.4) is mass_properties(shape, 1.0, PROCESS, 0.4)
-    assert grams(shape, infill=1.0) > grams(shape)
+    shape = Stack.of([(0, 4, disc(12.5))])
+    grams(shape)
     gone = weakref.ref(shape)
     del shape
     gc.collect()
@@ -104,9 +112,9 @@ class Turned:
         self.bounds_mm = shape.bounds_mm
 
     def sections_at(self, heights_mm):
-        regions = [section.outline for section in self.shape.sections_at(heights_mm)]
-        turned = {r: SlabSection(r.rotate(self.angle_deg).translate((1.234567, -0.7654321))) for r in regions}
-        return [turned[r] for r in regions]
+        outlines, which, inset_mm = self.shape.sections_at(heights_mm)
+        turned = [outline.rotate(self.angle_deg).translate((1.234567, -0.7654321)) for outline in outlines]
+        return Sections(turned, which, inset_mm)
 
 
 def test_a_part_weighs_the_same_however_it_lies_on_the_bed():

@@ -6,7 +6,7 @@ import pytest
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
 from jumpcad.parts.foot import foot
-from jumpcad.solids.blocks import Bar, Blocks, Finger
+from jumpcad.solids.blocks import Bar, Blocks, Finger, Turned
 from jumpcad.solids.outline import disc, hole, rectangle
 from jumpcad.workshop import load_workshop
 
@@ -50,14 +50,30 @@ def test_a_bar_with_a_hole_is_rectangles_beside_the_hole():
     assert above.area() == pytest.approx(2 * 2.0 * 20.0)
 
 
-def test_what_is_removed_is_removed_and_equal_neighbours_are_one():
+def test_what_is_removed_is_removed_and_equal_heights_are_one_outline():
     block = Blocks(
         (Bar(rectangle((10.0, 4.0), (0.0, 2.0)), ((0.0, 5.0),)),), (Bar(rectangle((2.0, 2.0)), ((-1.0, 6.0),)),)
     )
-    low, still_low, high, still_high = block.regions_at([0.2, 0.8, 1.2, 3.0])
-    assert (low.area(), high.area()) == pytest.approx((40.0, 50.0))
-    assert low is still_low
-    assert high is still_high
+    outlines, which, inset = block.sections_at([0.2, 0.8, 1.2, 3.0])
+    assert [outline.area() for outline in outlines] == pytest.approx([40.0, 50.0])
+    assert which.tolist() == [0, 0, 1, 1]
+    assert not inset.any()
+
+
+def test_a_turned_block_has_turned_sections():
+    turned = Turned(FINGER, 0.7, np.array([5.0, -2.0]))
+    require_same_sections(Blocks((turned,)), np.array([0.5, 4.5, 6.0, 8.9]), 1e-6)
+
+
+def test_blocks_of_the_same_numbers_are_equal_and_others_are_not():
+    def blocks(width=8.0, tip=4.0, angle=0.7, removed=2.0):
+        finger = Finger(np.array([3.0, 8.0]), 8.0, 9.0, np.array([-60.0, 40.0]), 5.0, tip)
+        bar = Bar(rectangle((20.0, width)), ((1.0, 3.0),))
+        return Blocks((Turned(finger, angle, np.zeros(2)), bar), (Bar(disc(removed), ((0.0, 9.0),)),))
+
+    assert blocks() == blocks()
+    assert hash(blocks()) == hash(blocks())
+    assert len({blocks(), blocks(width=8.1), blocks(tip=4.1), blocks(angle=0.8), blocks(removed=2.1)}) == 5
 
 
 def test_moments_are_those_of_the_sections():

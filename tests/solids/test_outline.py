@@ -77,3 +77,13 @@ def test_impossible_sizes_are_refused():
         outline.disc(0.0)
     with pytest.raises(JumpcadError, match=r"D-bore of 3 mm cannot be 3\.2 mm"):
         outline.d_bore(3.0, 3.2)
+
+
+def test_regions_made_alike_have_one_key():
+    assert outline.corners_key(outline.ring(9.0, 4.0)) == outline.corners_key(outline.ring(9.0, 4.0))
+    keys = {outline.corners_key(outline.ring(9.0, bore, at)) for bore in (4.0, 4.1) for at in ((0, 0), (0, 1))}
+    assert len(keys) == 4
+    # the same corners in one contour or in two are not the same
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    apart = outline.polygon(square, square + 5.0)
+    assert len(outline.corners_key(apart)) == 2

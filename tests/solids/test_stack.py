@@ -6,30 +6,16 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold, OpType
+from support.stacks import random_stack
 
 from jumpcad.errors import JumpcadError
 from jumpcad.solids.finish import faults, to_trimesh
-from jumpcad.solids.outline import disc, hole, polygon, rectangle, stadium, tapered_bar
+from jumpcad.solids.outline import disc, hole, polygon, rectangle, tapered_bar
 from jumpcad.solids.stack import Stack, overlap_volume_mm3
 
 
 def stl(stack):
     return trimesh.exchange.stl.export_stl(to_trimesh(stack.solid()))
-
-
-def random_stack(rng):
-    """Return a part with the usual trouble: shared, nearly shared and crossing outlines, pockets and chamfers."""
-    p, q, width = rng.uniform(-30, 30, 2), rng.uniform(-30, 30, 2), rng.uniform(6, 14)
-    z = np.round(rng.uniform(1, 5, 3), 2).cumsum()
-    slabs = [
-        (0.0, z[0], stadium(p, q, width)),
-        (0.0, z[1], disc(width + rng.uniform(-1, 3), p)),
-        (0.0, z[2], disc(width - 1, q)),
-        (z[0], z[1], tapered_bar(p, q, width * rng.choice([1.0, 0.8]), width)),
-    ]
-    pocket = polygon(q + rng.uniform(-4, 4, (3, 2)))
-    cuts = [(z[0] - 0.5, z[2], hole(4.0, q)), (z[1] - rng.choice([0.0, 0.3]), z[2], pocket)]
-    return Stack.of(slabs).through(hole(3.2, p)).minus(cuts).chamfered(0.35, 0.2).rotated(rng.uniform(0, 360))
 
 
 def test_overlapping_slabs_count_once():
@@ -83,6 +69,40 @@ def test_a_chamfer_is_the_slope_sampled_in_the_middle_of_each_layer():
     assert max(np.hypot(*contour.T).min() for contour in bored.slabs[0].region.to_polygons()[1:]) > 3.24
     with pytest.raises(JumpcadError, match=r"bottom slab of 0\.3 mm is too thin"):
         Stack.of([(0, 0.3, disc(9))]).chamfered(0.35, 0.2)
+
+
+def test_steps_of_a_chamfer_are_one_outline_set_back():
+    block = Stack.of([(0, 3, rectangle((20, 20))), (3, 5, disc(10))]).chamfered(0.35, 0.2)
+    outlines, which, inset = block.sections_at([0.1, 0.3, 1.0, 4.0, 5.0])
+    assert which.tolist()[:3] == [which[0]] * 3
+    assert inset == pytest.approx([0.25, 0.05, 0.0, 0.0, 0.0])
+    assert [outlines[number].area() for number in which] == pytest.approx([400, 400, 400, disc(10).area(), 0])
+
+
+def test_what_a_pocket_divides_stays_one_outline():
+    block = Stack.of([(0, 6, rectangle((20, 20)))]).minus([(2, 4, disc(8))])
+    for shape in (block, block.flipped(), block.rotated(30).moved(1, 2, 0)):
+        assert shape.sections_at([1.0, 3.0, 5.0]).which.tolist() == [0, 1, 0]
+
+
+def test_slabs_of_one_number_have_one_outline():
+    for seed in range(10):
+        stack = random_stack(np.random.default_rng(seed))
+        areas = {(slab.number, slab.outline.area()) for slab in stack.slabs}
+        assert len(areas) == len({number for number, _ in areas})
+
+
+def test_stacks_that_are_made_alike_are_equal_and_others_are_not():
+    slabs = [(0, 3, (10.0, 0.0)), (1, 5, (6.0, 2.0))]
+
+    def made(changes=(0.0, 0.0)):
+        return Stack.of([(z0, z1 + changes[0], disc(d + changes[1], (x, 0.0))) for z0, z1, (d, x) in slabs])
+
+    assert made() == made()
+    assert hash(made()) == hash(made())
+    assert len({made(), made().moved(), made((0.1, 0.0)), made((0.0, 0.1)), made().mirrored().mirrored()}) == 3
+    assert made() != made().chamfered(0.35, 0.2)
+    assert Stack.of([(0, 3, disc(9))]) != Stack.of([(0, 4, disc(9))])
 
 
 def test_shared_volume_of_coaxial_cylinders():

@@ -30,7 +30,7 @@ ANY = (0, 1, 2)
 """Exit codes of a request that may be good or bad; a bug's 3 is never among them."""
 LONGEST = 4000
 """Characters that a complaint may have at most: ten clauses of a path, a key, a value and a reason."""
-ALARM_S = 20
+ALARM_S = 60
 """After which a command counts as hanging; none takes a tenth of it."""
 MEMORY = 2**30
 """Bytes that a command may take beside what this process has; a process of its own may have four times as many."""

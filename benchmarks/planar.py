@@ -1,0 +1,179 @@
+"""The planar engine against converged PyBullet and MuJoCo (step 1/16000 s), and its CPU time.
+
+Errors of range on the table of reference flights, on printed robots of random designs that pass the gate, and on
+slipping ones; CPU time of everything in turn, so that a busy machine slows all alike. MuJoCo slips with contacts that
+its steps resolve.
+Run `python benchmarks/planar.py [--json] [--rounds N] [--printed N] [--slipping N]`.
+"""
+
+import argparse
+import csv
+import json
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+
+from jumpcad import published
+from jumpcad.building import build
+from jumpcad.design import SEARCH_BOUNDS, Design, load_design
+from jumpcad.errors import CannotBuildError
+from jumpcad.files import template_names
+from jumpcad.findings import errors
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.feasibility import statics_findings
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, load_settings, simulate
+from jumpcad.simulation.planar import PlanarWorld
+from jumpcad.simulation.planar_model import Effects
+
+TESTS = Path(__file__).parents[1] / "tests"
+sys.path.insert(0, str(TESTS))
+from support.push_off import last_contact_range_m, softer_mujoco_range_m  # noqa: E402
+
+FINE, DEFAULT = load_settings("fine"), load_settings("default")
+RIVALS = ("pybullet", "mujoco")
+FRICTIONS = (0.3, 0.6)
+SLIDES = 0.005
+"""Share of the springs' energy lost at the ground from which on a foot has slid."""
+
+
+def of_table() -> Iterator[tuple[Robot, str, float | None]]:
+    """Yield the robots of the table of reference flights, with verdict and range."""
+    with (TESTS / "data" / "reference_flights.csv").open(encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            robot = capsule_robot(Design(**{key: float(row[key]) for key in SEARCH_BOUNDS}))
+            yield robot, row["verdict"], float(row["ballistic_range_m"]) if row["ballistic_range_m"] else None
+
+
+def printed_robots(count: int) -> list[Robot]:
+    """Return the templates and random designs as printed robots that pass the gate."""
+    rng = np.random.default_rng(12)
+    lower, upper = np.transpose([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()])
+    designs = [load_design(name) for name in template_names("robots")][:count]
+    robots: list[Robot] = []
+    while len(robots) < count:
+        design = designs.pop(0) if designs else Design.from_vector(rng.uniform(lower, upper).tolist())
+        try:
+            robot = build(design)
+        except CannotBuildError:
+            continue
+        if not errors(statics_findings(robot)):
+            robots.append(robot)
+    return robots
+
+
+def errors_of(values: list[float | None], truths: list[float | None]) -> dict[str, float]:
+    """Return how many jump here and not there, and the error of range (%) of those that jump in both.
+
+    A range under 10 mm, that of a jump straight up, counts as 10 mm.
+    """
+    wrong = sum((value is None) != (truth is None) for value, truth in zip(values, truths, strict=True))
+    pairs = np.array([pair for pair in zip(values, truths, strict=True) if None not in pair], dtype=float)
+    off = 100.0 * np.abs(pairs[:, 0] - pairs[:, 1]) / np.maximum(pairs[:, 1], 0.01)
+    quantiles = {"median": float(np.median(off)), "p90": float(np.quantile(off, 0.9)), "max": float(off.max())}
+    return {"robots": len(values), "jumps": len(pairs), "wrong_verdicts": wrong} | quantiles
+
+
+def table_errors() -> dict[str, dict[str, float]]:
+    """Return the errors on the table of reference flights."""
+    robots, _, ranges = zip(*of_table(), strict=True)
+    return {
+        name: errors_of([simulate(robot, settings, "planar").ballistic_range_m for robot in robots], list(ranges))
+        for name, settings in (("default", DEFAULT), ("fine", FINE))
+    }
+
+
+def printed_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
+    """Return the errors on printed robots at the default step, against each rival and of one against the other."""
+    ranges = {rival: [simulate(robot, FINE, rival).ballistic_range_m for robot in robots] for rival in RIVALS}
+    ranges["mujoco, contacts of 8 steps"] = [softer_mujoco_range_m(robot, FINE, 8.0) for robot in robots]
+    planar = [simulate(robot, DEFAULT, "planar").ballistic_range_m for robot in robots]
+    result = {rival: errors_of(planar, found) for rival, found in ranges.items()}
+    return result | {"mujoco against pybullet": errors_of(ranges["mujoco"], ranges["pybullet"])}
+
+
+def sliding_range_m(robot: Robot, settings: Settings, rival: str) -> float | None:
+    """Return a rival's range after the last contact, MuJoCo's with four times as many steps and contacts of 31 µs."""
+    if rival == "mujoco":
+        return softer_mujoco_range_m(robot, settings.model_copy(update={"dt_s": FINE.dt_s / 4}), 8.0)
+    return last_contact_range_m(robot, settings, rival)
+
+
+def slipping_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
+    """Return the errors at frictions where feet slide, each rival to its last contact."""
+    frictions = np.random.default_rng(3).uniform(*FRICTIONS, len(robots))
+    cases = [
+        (robot, FINE.model_copy(update={"ground_friction": float(friction)}))
+        for robot, friction in zip(robots, frictions, strict=True)
+    ]
+    coarse = {"dt_s": DEFAULT.dt_s}
+    planar = [simulate(robot, settings.model_copy(update=coarse), "planar") for robot, settings in cases]
+    slides = [jump.energy is not None and jump.energy.contact_j > SLIDES * jump.spring_energy_j for jump in planar]
+    result = {}
+    for rival in RIVALS:
+        ranges = [sliding_range_m(robot, settings, rival) for robot, settings in cases]
+        sliding = [index for index, slid in enumerate(slides) if slid]
+        result[rival] = errors_of([planar[k].ballistic_range_m for k in sliding], [ranges[k] for k in sliding])
+    return result
+
+
+def cpu_ms(call: Callable[[], object]) -> float:
+    """Return the CPU time of a call."""
+    start = process_time()
+    call()
+    return 1000.0 * (process_time() - start)
+
+
+def speeds(rounds: int) -> dict[str, dict[str, float]]:
+    """Return CPU times on the table's jumps, medians over designs and rounds, and how much faster than the study's."""
+    robots = [robot for robot, known, _ in of_table() if known == "jump"]
+    fine, default = (
+        {robot.design: PlanarWorld(robot, settings, Effects()) for robot in robots} for settings in (FINE, DEFAULT)
+    )
+    calls: dict[str, Callable[[Robot], object]] = {
+        "published": lambda robot: published.simulate(robot.design),
+        "pybullet": lambda robot: simulate(robot, DEFAULT),
+        "planar": lambda robot: simulate(robot, DEFAULT, "planar"),
+        "push-off": lambda robot: default[robot.design].push_off(),
+        "push-off, 1/16000": lambda robot: fine[robot.design].push_off(),
+    }
+    for call in calls.values():
+        call(robots[0])
+    times = np.median(
+        [[[cpu_ms(partial(call, robot)) for call in calls.values()] for robot in robots] for _ in range(rounds)], axis=0
+    )
+    return {
+        name: {"cpu_ms": float(np.median(times[:, k])), "times_faster": float(np.median(times[:, 0] / times[:, k]))}
+        for k, name in enumerate(calls)
+    }
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--printed", type=int, default=40)
+    parser.add_argument("--slipping", type=int, default=20)
+    arguments = parser.parse_args()
+    result: dict[str, dict[str, dict[str, float]]] = {"speed": speeds(arguments.rounds), "table": table_errors()}
+    robots = printed_robots(max(arguments.printed, arguments.slipping))
+    if arguments.printed:
+        result["printed"] = printed_errors(robots[: arguments.printed])
+    if arguments.slipping:
+        result["slipping"] = slipping_errors(robots[: arguments.slipping])
+    if arguments.json:
+        print(json.dumps(result, indent=2))
+        return
+    for topic, rows in result.items():
+        print(topic)
+        for name, row in rows.items():
+            print(f"  {name}: " + ", ".join(f"{key} {value:.3g}" for key, value in row.items()))
+
+
+if __name__ == "__main__":
+    main()

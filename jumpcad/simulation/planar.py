@@ -1,0 +1,160 @@
+"""The planar engine: the push-off in x-z by a compiled loop, some fifty times as fast as that of a general engine.
+
+It holds the mechanism without its left and right, and neglects what the body's spheres touch before take-off (and says
+so where they do). What a run decides is decided in `Run`, but for the take-off: here it is the last contact before the
+robot flies.
+"""
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from jumpcad.errors import JumpcadError
+from jumpcad.findings import Finding, limit
+from jumpcad.mechanism.linkage import Complex as ComplexArray
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism
+from jumpcad.settings import Settings
+from jumpcad.simulation import planar_kernel as kernel
+from jumpcad.simulation.mechanics import State
+from jumpcad.simulation.planar_model import Effects, planar_model
+from jumpcad.simulation.planar_state import Moment, PushOff
+from jumpcad.simulation.run import AIRBORNE_S, AUDIT_EVERY_S, TAKEOFF_WITHIN_S, Run, Takeoff
+from jumpcad.transforms import Array
+
+LACKING = ("restitution", "rolling_friction_m", "drag_per_s", "published_quantities")
+"""Settings that the plane, or a run that ends at touchdown, does not have."""
+
+
+class PlanarWorld:
+    """One robot in the plane; a `World` for `Run`."""
+
+    def __init__(self, mechanism: Mechanism, settings: Settings, effects: Effects) -> None:
+        self.model = planar_model(mechanism, settings, effects)
+        self.settings = settings
+        self._aside_m = [mechanism.bodies[name].com_m[1] for name in BODY_NAMES]
+        self.joint_damping_j = 0.0
+        self.moment = kernel.released(
+            self.model, -mechanism.spring.wind_rad, float(effects.release_rad_s), complex(0.0, mechanism.foot_depth_m)
+        )
+
+    def go_to(self, moment: Moment) -> None:
+        """Go to another moment of the same motion."""
+        self.moment = moment
+        self.joint_damping_j = moment.losses.damping_j + moment.losses.friction_j
+
+    def push_off(self) -> PushOff:
+        """Return how the push-off from this moment ends, staying where it is."""
+        dt = self.settings.dt_s
+        audit = max(1, round(AUDIT_EVERY_S / dt))
+        return kernel.push_off(
+            self.model, self.moment, dt, AIRBORNE_S, TAKEOFF_WITHIN_S, self.settings.max_time_s, audit
+        )
+
+    def advance(self, steps: int) -> float:
+        """Go on by a number of time steps; return the leg joint's coordinate before the last of them.
+
+        Raises
+        ------
+        JumpcadError
+            If the loop reaches a dead point, beyond which the leg's angle does not say how the links lie.
+        """
+        before = kernel.advance(self.model, self.moment, self.settings.dt_s, steps - 1)
+        self.go_to(kernel.advance(self.model, before, self.settings.dt_s, 1))
+        if not self.moment.closed:
+            raise JumpcadError(
+                "foot and front link come into line in flight, where the planar engine ends: use --engine pybullet or "
+                'flight = "ballistic"'
+            )
+        return before.leg_rad
+
+    def loaded(self) -> bool:
+        """Say whether the ground carries the foot, or the body has come down to it."""
+        contact = self.moment.contact
+        return contact.first_ns + contact.second_ns > 0.0 or self.moment.belly_gap_m <= 0.0
+
+    def state(self) -> State:
+        """Return where the bodies are and how they move."""
+        model, moment, speed = self.model, self.moment, self.moment.speed
+        links = kernel.links_at(model, moment.leg_rad)
+        turn = complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
+        leg, front = -links.back_pivot / model.l2_m, (model.l4_m - links.front_pivot) / model.l3_m
+        directions = np.array([links.pitch, leg, front, 1.0]) * turn
+        place, place1 = np.array(links.place), np.array(links.place1)
+        com = moment.ankle_m + place * turn
+        velocity = speed.ankle + (place1 * speed.leg - 1j * place * speed.foot) * turn
+        still = np.zeros(len(BODY_NAMES))
+        return State(
+            np.column_stack([com.real, self._aside_m, com.imag]),
+            _about_y(directions),
+            np.column_stack([velocity.real, still, velocity.imag]),
+            np.column_stack([still, speed.foot + np.array(links.turn1) * speed.leg, still]),
+            moment.leg_rad,
+        )
+
+
+class PlanarRun(Run):
+    """A run whose push-off is one call of the compiled loop."""
+
+    body_gap_m = math.inf
+    """Least distance of the body from the ground during the push-off."""
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Return the audit's findings, and `body_contact` where the body has come down to the ground."""
+        if self.body_gap_m > 0.0:
+            return super().findings()
+        touching = limit(
+            "body_contact", 1000.0 * self.body_gap_m, "mm", "the body comes down to the ground during the push-off",
+            "use --engine pybullet: the planar engine ends where the body touches the ground", violated="warning",
+        )  # fmt: skip
+        return (*super().findings(), touching)
+
+    def _push_off(self) -> Takeoff | None:
+        """Go on to the last contact before the robot flies; record on the way if asked for."""
+        world = self.world
+        assert isinstance(world, PlanarWorld)
+        found = world.push_off()
+        gained = found.worst_gain_j / self.mechanism.spring.energy_j
+        self.worst_energy_ratio = max(self.worst_energy_ratio, 1.0 + gained)
+        self.body_gap_m = found.belly_gap_m
+        if self.settings.trajectory and found.steps:
+            self._advance(found.steps)
+        world.go_to(found.moment)
+        self.steps = found.steps
+        if not (found.flown and self.sound):
+            return None
+        return self._takeoff(self.time_s, world.state(), world.joint_damping_j)
+
+
+class PlanarEngine:
+    """Makes planar worlds, with the effects that it was given."""
+
+    run = PlanarRun
+
+    def __init__(self, effects: Effects | None = None) -> None:
+        self.effects = effects or Effects()
+
+    @contextmanager
+    def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["PlanarWorld"]:
+        """Put a robot on the ground, ready for release.
+
+        Raises
+        ------
+        JumpcadError
+            If the settings ask for what this engine does not have.
+        """
+        for key in LACKING:
+            if value := getattr(settings, key):
+                raise JumpcadError(
+                    f"{key} = {value}: the planar engine has none; leave it out or use --engine pybullet"
+                )
+        yield PlanarWorld(mechanism, settings, self.effects)
+
+
+def _about_y(direction: ComplexArray) -> Array:
+    """Return the turns (n, 3, 3) about +y that take the x axis to directions x + iz (n,)."""
+    turns = np.zeros((len(direction), 3, 3))
+    turns[:, 0, 0] = turns[:, 2, 2] = direction.real
+    turns[:, 2, 0], turns[:, 0, 2], turns[:, 1, 1] = direction.imag, -direction.imag, 1.0
+    return turns

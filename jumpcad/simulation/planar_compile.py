@@ -1,0 +1,19 @@
+"""Compiled where numba is installed, plain Python elsewhere: the same statements, and so the same numbers."""
+
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def compiled(function: Function) -> Function:
+    """Return a function compiled to machine code, kept on disk for the next process, or as it is without numba.
+
+    Numba notices a change in the file of a function, not one in the files of what that function calls: everything that
+    is compiled stands in one module.
+    """
+    try:
+        from numba import njit
+    except ImportError:
+        return function
+    return cast(Function, njit(cache=True, error_model="numpy")(function))

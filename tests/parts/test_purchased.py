@@ -1,0 +1,35 @@
+"""Bought parts: the catalogue's mass spread over a shape that all copies share."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.parts.purchased import bought
+from jumpcad.solids.outline import disc, ring
+
+
+def rod(length=40.0, at=(0.0, 0.0, 0.0), turn=0.0, diameter=3.0):
+    return bought("pin", "rod", "body", 2.2, [(0.0, length, disc(diameter))], at, turn)
+
+
+def test_a_rod_across_the_robot_turns_like_a_cylinder():
+    mass = rod(at=(5.0, -20.0, 7.0)).mass
+    assert mass.mass_kg == pytest.approx(2.2e-3)
+    assert mass.com_m == pytest.approx([0.005, 0.0, 0.007], abs=1e-12)
+    across = 2.2e-3 * (3.0 * 0.0015**2 + 0.040**2) / 12.0
+    assert np.diag(mass.inertia_kg_m2) == pytest.approx([across, 2.2e-3 * 0.0015**2 / 2.0, across], rel=3e-3)
+
+
+def test_copies_are_one_shape_and_other_sizes_are_others():
+    one, copy = rod(), rod(at=(9.0, 9.0, 9.0), turn=1.0)
+    assert one.shape is copy.shape
+    assert one.look is copy.look
+    for other in (rod(length=41.0), rod(diameter=3.1)):
+        assert other.shape != one.shape
+        assert other.shape.volume_mm3 > one.shape.volume_mm3
+
+
+def test_a_turn_is_counter_clockwise_in_x_z():
+    offset = bought("arm", "arm", "body", 1.0, [(0.0, 2.0, ring(4.0, 2.0, (10.0, 0.0)))], turn_rad=math.pi / 2)
+    assert offset.mass.com_m == pytest.approx([0.0, 0.001, 0.010], abs=1e-12)

@@ -1,0 +1,54 @@
+"""How parts lie on the bed: along it, or askew, against the diagonal's geometry."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.errors import CannotBuildError
+from jumpcad.printing.bed import fit_to_bed, require_bed
+
+BED = (180.0, 120.0, 100.0)
+
+
+def fit(x, y, z=10.0, bed=BED):
+    corners = np.array([[0.0, 0.0], [x, 0.0], [x, y], [0.0, y]])
+    return fit_to_bed(np.array([[0.0, 0.0, 0.0], [x, y, z]]), lambda: corners, bed)
+
+
+def test_a_part_lies_along_the_bed_with_the_least_side_left_as_margin():
+    assert fit(150.0, 100.0).angle_deg == 0.0
+    assert fit(150.0, 100.0).margin_mm == pytest.approx(20.0)
+    assert fit(100.0, 150.0).angle_deg == 90.0
+    assert fit(100.0, 100.0, 95.0).margin_mm == pytest.approx(5.0)
+
+
+def test_a_thin_part_as_long_as_the_diagonal_lies_askew():
+    diagonal = math.hypot(*BED[:2])
+    askew = fit(diagonal - 8.0, 5.0)
+    assert askew.margin_mm >= 0.0
+    assert 0.0 < askew.angle_deg < 90.0
+    angle = math.radians(askew.angle_deg)
+    assert (diagonal - 8.0) * math.cos(angle) + 5.0 * math.sin(angle) <= BED[0]
+    assert (diagonal - 8.0) * math.sin(angle) + 5.0 * math.cos(angle) <= BED[1]
+    assert fit(diagonal + 1.0, 5.0).margin_mm < 0.0
+
+
+def test_a_slanting_bar_is_turned_to_the_diagonal():
+    """A bar at -30° and as long as the diagonal but 2 mm fits at a turn of 30° and the diagonal's own angle."""
+    end = 214.0 * np.array([math.cos(math.radians(30.0)), -math.sin(math.radians(30.0))])
+    bounds = np.array([[0.0, end[1], 0.0], [end[0], 0.0, 5.0]])
+    askew = fit_to_bed(bounds, lambda: np.array([[0.0, 0.0], end]), BED)
+    assert askew.margin_mm >= 0.0
+    assert askew.angle_deg == pytest.approx(30.0 + math.degrees(math.atan2(BED[1], BED[0])), abs=1.0)
+
+
+def test_a_part_of_the_beds_size_fits():
+    assert fit(*BED).margin_mm == pytest.approx(0.0)
+
+
+def test_a_part_too_tall_or_too_long_is_refused_with_its_size():
+    for size in ((50.0, 50.0, 101.0), (260.0, 20.0, 10.0)):
+        bounds = np.array([np.zeros(3), size])
+        with pytest.raises(CannotBuildError, match=rf"part leg of {size[0]:.1f}×.*180\.0×120\.0×100\.0 mm"):
+            require_bed("leg", bounds, lambda: bounds[:, :2], BED)  # noqa: B023

@@ -1,0 +1,102 @@
+"""What PrusaSlicer is asked and how it answers, by a stand-in program; the real one is in tests/clients."""
+
+import os
+
+import pytest
+
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.printing.prusaslicer import slice_part, slicer_program, slicer_settings, slicer_version
+from jumpcad.workshop import load_workshop
+
+WORKSHOP = load_workshop("default")
+MATERIAL = WORKSHOP.material("links")
+GCODE = """M83
+;HEIGHT:0.2
+;TYPE:Perimeter
+G1 X0 Y0 Z.2 F600
+G1 X100 Y0 E10
+; filament_diameter = 1.75
+; estimated printing time (normal mode) = 1h 2m 3s
+; perimeters = 99
+"""
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="the stand-in is a shell script")
+
+
+@pytest.fixture
+def stand_in(tmp_path, monkeypatch):
+    """Return a function that puts a shell script in PrusaSlicer's place."""
+
+    def put(script):
+        program = tmp_path / "bin" / "prusa-slicer"
+        program.parent.mkdir(exist_ok=True)
+        program.write_text(f"#!/bin/sh\n{script}\n")
+        program.chmod(0o755)
+        monkeypatch.setenv("PATH", f"{program.parent}:/usr/bin:/bin")
+
+    return put
+
+
+def sliced(tmp_path):
+    model = tmp_path / "leg.stl"
+    model.touch()
+    return slice_part(model, WORKSHOP.printer, WORKSHOP.process, MATERIAL)
+
+
+def writing(gcode):
+    """Return a script that writes G-code where `--output` says."""
+    return f'while [ "$1" != --output ]; do shift; done\ncat > "$2" <<\'END\'\n{gcode}END'
+
+
+def test_settings_are_the_workshops_in_prusaslicers_words():
+    settings = slicer_settings(WORKSHOP.printer, WORKSHOP.process, MATERIAL)
+    assert float(settings["layer_height"]) == WORKSHOP.process.layer_height_mm
+    assert float(settings["fill_density"].rstrip("%")) == pytest.approx(100.0 * WORKSHOP.process.infill)
+    assert settings["fill_pattern"] == WORKSHOP.process.infill_pattern
+    solid = slicer_settings(WORKSHOP.printer, WORKSHOP.process.model_copy(update={"infill": 1.0}), MATERIAL)
+    assert solid["fill_pattern"] == "rectilinear", "the only pattern that PrusaSlicer fills 100 % with"
+    for extra in ("skirts", "brim_width", "elefant_foot_compensation", "support_material"):
+        assert settings[extra] == "0"
+
+
+def test_grams_and_time_are_those_of_the_gcode(stand_in, tmp_path):
+    stand_in(writing(GCODE))
+    found = sliced(tmp_path)
+    # 10 mm of 1.75 mm filament are 24.05 mm³
+    assert found.grams == pytest.approx(0.02405 * MATERIAL.density_g_cm3, rel=1e-3)
+    assert found.time_s == 3723.0
+    assert found.ignored["perimeters"] == (str(WORKSHOP.process.perimeters), "99")
+
+
+def test_gcode_without_remarks_is_another_programs(stand_in, tmp_path):
+    stand_in(writing("G1 X1 E1\n"))
+    with pytest.raises(JumpcadError, match=r"without its usual remarks for leg\.stl"):
+        sliced(tmp_path)
+
+
+def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):
+    stand_in("echo 'no layers were detected'; exit 1")
+    with pytest.raises(CannotBuildError, match=r"refused leg\.stl: no layers were detected"):
+        sliced(tmp_path)
+    stand_in("exit 139")
+    with pytest.raises(JumpcadError, match="exit code 139: it said nothing") as crash:
+        sliced(tmp_path)
+    assert not isinstance(crash.value, CannotBuildError)
+
+
+def test_versions_of_which_settings_are_known_are_taken(stand_in):
+    stand_in("echo PrusaSlicer-2.5.0+linux-x64")
+    assert slicer_version().startswith("2.5.0")
+    stand_in("echo PrusaSlicer-3.0.1")
+    with pytest.raises(JumpcadError, match=r"version 3\.0\.1.*install version 2"):
+        slicer_version()
+    stand_in("echo something else")
+    with pytest.raises(JumpcadError, match="does not say that it is PrusaSlicer"):
+        slicer_version()
+
+
+def test_without_the_program_there_is_a_way_out(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert slicer_program() is None
+    with pytest.raises(JumpcadError, match="not installed: install PrusaSlicer, or leave the printed masses"):
+        slicer_version()

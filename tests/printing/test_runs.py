@@ -1,0 +1,54 @@
+"""Runs of layers: where cross-sections jump, and which layers are taken together."""
+
+import numpy as np
+
+from jumpcad.printing.runs import ALIKE_LAYERS, LayerRun, jumps_of, runs_of
+from jumpcad.workshop import load_workshop
+
+PROCESS = load_workshop("default").process.model_copy(update={"top_layers": 3, "bottom_layers": 2})
+
+
+def disc_moments(radii_mm):
+    """Return the area moments (n, 6) of discs about the origin: π r², and π r⁴ / 4 about either axis."""
+    r = np.asarray(radii_mm, dtype=float)
+    zero = np.zeros_like(r)
+    return np.pi * np.stack([r**2, zero, zero, r**4 / 4.0, r**4 / 4.0, zero], axis=-1)
+
+
+def cut(area, jumps):
+    runs = runs_of(area, jumps, PROCESS)
+    assert [run.first for run in runs[1:]] == [run.end for run in runs[:-1]]
+    assert (runs[0].first, runs[-1].end) == (0, len(area))
+    return runs
+
+
+def test_a_cylinder_is_bottom_middle_and_top():
+    area = disc_moments([5.0] * 20)
+    assert jumps_of(np.zeros(20, dtype=np.int64), area[:, 0]) == []
+    assert cut(area, []) == [LayerRun(0, 2), LayerRun(2, 17), LayerRun(17, 20)]
+
+
+def test_a_shoulder_is_a_jump_with_a_top_below_and_a_bottom_above():
+    area = disc_moments([8.0] * 12 + [5.0] * 12)
+    jumps = jumps_of(np.repeat([0, 1], 12), area[:, 0])
+    assert jumps == [12]
+    assert [run.first for run in cut(area, jumps)] == [0, 2, 9, 12, 14, 21]
+
+
+def test_a_cone_has_no_jumps_and_short_odd_runs():
+    area = disc_moments(np.linspace(9.0, 3.0, 40))
+    assert jumps_of(np.arange(40), area[:, 0]) == []
+    inner = [run for run in cut(area, []) if run.first >= 2 and run.end <= 37]
+    assert inner
+    assert all((run.end - run.first) % 2 == 1 and run.end - run.first <= min(ALIKE_LAYERS, 3) for run in inner)
+
+
+def test_a_cone_that_ends_in_a_plate_jumps_there():
+    radii = np.concatenate([np.linspace(9.0, 8.0, 20), np.full(10, 14.0)])
+    which = np.concatenate([np.arange(20), np.full(10, 20)])
+    assert jumps_of(which, disc_moments(radii)[:, 0]) == [20]
+
+
+def test_the_middle_of_an_odd_run_is_its_middle():
+    assert LayerRun(4, 9).middle == 6
+    assert LayerRun(7, 8).middle == 7

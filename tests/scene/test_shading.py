@@ -1,0 +1,30 @@
+"""Shading: one vertex where a surface is round, several where it has an edge."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from jumpcad.scene.shading import creased
+
+
+def test_a_box_has_three_vertices_at_a_corner_and_a_ball_one():
+    vertices, normals, faces = creased(trimesh.creation.box((1.0, 2.0, 3.0)))
+    assert (len(vertices), len(faces)) == (24, 12)
+    assert np.abs(normals).max(axis=1) == pytest.approx(1.0)
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    vertices, normals, _ = creased(ball)
+    assert len(vertices) == len(ball.vertices)
+    np.testing.assert_allclose(normals, vertices, atol=0.02)
+
+
+def test_faces_stay_where_they_are():
+    mesh = trimesh.creation.cylinder(5.0, 8.0, sections=48)
+    vertices, normals, faces = creased(mesh)
+    np.testing.assert_allclose(vertices[faces], mesh.triangles)
+    assert ((normals[faces] * mesh.face_normals[:, None]).sum(axis=2) > np.cos(0.5)).all()
+
+
+def test_a_needle_without_area_is_left_out():
+    mesh = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0, 0]], [[0, 1, 2], [0, 3, 1]], process=False)
+    _, _, faces = creased(mesh)
+    assert len(faces) == 1

@@ -1,0 +1,244 @@
+"""The planar engine against the table of converged flights, both general engines, and its own uncompiled self."""
+
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.flights import Flight
+from support.push_off import last_contact_range_m, softer_mujoco_range_m
+
+from jumpcad import cli
+from jumpcad.building import build
+from jumpcad.design import Design, load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, load_settings, simulate
+from jumpcad.simulation import planar_kernel as kernel
+from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld
+from jumpcad.simulation.planar_compile import compiled
+from jumpcad.simulation.planar_model import Effects
+from jumpcad.simulation.planar_state import Motion
+
+FINE = load_settings("fine")
+WITHOUT_NUMBA = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+PROGRAM = """
+import json
+from jumpcad import Settings, capsule_robot, load_design, simulate
+for name in ("kenan-2.0", "best-bo"):
+    for friction in (0.3, 1.5):
+        jump = simulate(capsule_robot(load_design(name)), Settings(ground_friction=friction), "planar").to_dict()
+        print(json.dumps([jump["verdict"], jump["ballistic_range_m"], jump["com_rise_m"], jump["takeoff_time_s"],
+                          *jump["energy"].values()]))
+"""
+
+
+def test_verdicts(flights: list[Flight]) -> None:
+    verdicts = {flight.name: simulate(flight.robot, engine="planar").verdict for flight in flights}
+    weak_as_no_takeoff = {name: "no_takeoff" if v == "too_weak" else v for name, v in verdicts.items()}
+    assert weak_as_no_takeoff == {flight.name: flight.verdict for flight in flights}
+
+
+def test_jumps_of_the_table(jumping: list[Flight]) -> None:
+    """At the default step."""
+    for flight in jumping:
+        jump, table = simulate(flight.robot, Settings(flight="simulated"), "planar"), flight.values
+        assert jump.engine == "planar"
+        assert jump.ballistic_range_m == pytest.approx(table["ballistic_range_m"], rel=0.003), flight.name
+        assert jump.com_rise_m == pytest.approx(table["com_rise_m"], rel=0.003), flight.name
+        assert jump.takeoff_energy_ratio == pytest.approx(table["takeoff_energy_ratio"], abs=0.007), flight.name
+        assert jump.touchdown_distance_m == pytest.approx(table["touchdown_distance_m"], abs=0.003), flight.name
+
+
+def test_range_converges(jumping: list[Flight]) -> None:
+    best = next(flight.robot for flight in jumping if flight.name == "best-bo")
+    ranges = [
+        simulate(best, Settings(dt_s=1 / rate), "planar").ballistic_range_m for rate in (1000, 4000, 16000, 64000)
+    ]
+    errors = [abs(value / ranges[-1] - 1) for value in ranges[:-1]]
+    assert errors[0] > 2 * errors[1] > 4 * errors[2]
+    assert errors[2] < 2e-4
+
+
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-printable"])
+def test_printed_robots(name: str, engine: str) -> None:
+    pytest.importorskip(engine)
+    robot = build(load_design(name))
+    planar, other = simulate(robot, engine="planar"), simulate(robot, FINE, engine)
+    assert planar.verdict == other.verdict == "jump"
+    assert planar.ballistic_range_m == pytest.approx(other.ballistic_range_m, rel=0.003)
+    assert planar.com_rise_m == pytest.approx(other.com_rise_m, rel=0.003)
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.4, 0.5, 0.6])
+def test_slipping(kenan: Robot, friction: float) -> None:
+    """Against both engines' last contact; MuJoCo's contacts are springs, which its steps must resolve."""
+    settings = FINE.model_copy(update={"ground_friction": friction})
+    planar = simulate(kenan, settings, "planar")
+    assert planar.energy is not None
+    assert planar.energy.contact_j > 0.005 * planar.spring_energy_j
+    pytest.importorskip("mujoco")
+    assert planar.ballistic_range_m == pytest.approx(softer_mujoco_range_m(kenan, settings, 32.0), rel=0.01)
+    pytest.importorskip("pybullet")
+    assert planar.ballistic_range_m == pytest.approx(last_contact_range_m(kenan, settings, "pybullet"), rel=0.002)
+
+
+def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
+    pairs = [
+        Settings(ground_friction=ground, foot_friction=foot) for ground, foot in ((0.3, 1.0), (0.6, 0.5), (0.6, 1.0))
+    ]
+    ranges = [simulate(kenan, settings, "planar").ballistic_range_m for settings in pairs]
+    assert ranges[0] == ranges[1]
+    assert ranges[2] > 1.5 * ranges[0]
+
+
+def test_dry_friction_in_the_joints_costs_energy(kenan: Robot) -> None:
+    """Three joints with dry friction take its torque times the angles that they turn, about δ each."""
+    torque = 0.005
+    dry = simulate(kenan, Settings(joint_damping_nms_per_rad=0.0, joint_friction_nm=torque), "planar")
+    assert dry.energy is not None
+    assert dry.energy.joint_damping_j == pytest.approx(3 * torque * kenan.spring.wind_rad, rel=0.1)
+    stuck = simulate(kenan, Settings(joint_friction_nm=kenan.design.peak_spring_torque_nm, max_time_s=0.1), "planar")
+    assert stuck.verdict == "no_takeoff"
+
+
+def test_a_hop_with_wound_springs_is_no_takeoff(kenan: Robot) -> None:
+    """Thrown up by 0.3 mm with springs too weak for a jump: in the air for more than 4 ms, rising, and down again."""
+    weak = replace(kenan, spring=replace(kenan.spring, stiffness_nm_per_rad=0.02))
+    world = PlanarWorld(weak, FINE, Effects())
+    world.go_to(world.moment._replace(speed=Motion(0.08j, 0.0, 0.0)))
+    thrown = world.moment
+    world.advance(round(0.005 / FINE.dt_s))
+    assert not world.loaded()
+    assert kernel.rising(world.model, world.moment)
+    world.go_to(thrown)
+    found = world.push_off()
+    assert not found.flown
+    assert found.steps * FINE.dt_s > 0.02
+
+
+@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason="numba is not installed")
+def test_compiled_and_plain_give_the_same_numbers() -> None:
+    said = [
+        subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=True, env=environment)
+        for environment in (None, WITHOUT_NUMBA)
+    ]
+    compiled, plain = ([json.loads(line) for line in run.stdout.splitlines()] for run in said)
+    assert len(compiled) == 4
+    for one, other in zip(compiled, plain, strict=True):
+        assert one[0] == other[0] == "jump"
+        assert one[1:] == pytest.approx(other[1:], rel=1e-9, abs=1e-12)
+
+
+def test_a_missing_compiler_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "numba", None)
+
+    def twice(number: float) -> float:
+        return 2.0 * number
+
+    assert compiled(twice) is twice
+
+
+def test_the_same_bits_again(kenan: Robot, jumping: list[Flight]) -> None:
+    settings = Settings(flight="simulated", trajectory=True)
+
+    def bits() -> str:
+        jump = simulate(kenan, settings, "planar")
+        assert jump.trajectory is not None
+        return f"{jump.to_dict()} {jump.trajectory.position_m.tobytes().hex()}"
+
+    first = bits()
+    for flight in jumping[:3]:
+        simulate(flight.robot, Settings(ground_friction=0.3), "planar")
+    assert bits() == first
+
+
+def test_trajectory(kenan: Robot) -> None:
+    """Energy only falls, the loop stays closed, and recording changes nothing."""
+    jump = simulate(kenan, Settings(flight="simulated", trajectory=True), "planar")
+    path = jump.trajectory
+    assert path is not None
+    assert np.all(np.diff(path.time_s) > 0)
+    total = path.kinetic_j + path.potential_j + path.spring_j
+    assert np.all(np.diff(total) < 1e-4 * total[0])
+    assert path.spring_j[0] == pytest.approx(jump.spring_energy_j)
+    loop = next(finding for finding in jump.findings if finding.name == "audit_loop")
+    assert loop.margin == pytest.approx(0.5, abs=1e-9)
+    plain = simulate(kenan, Settings(flight="simulated"), "planar")
+    assert (plain.ballistic_range_m, plain.touchdown_distance_m) == (jump.ballistic_range_m, jump.touchdown_distance_m)
+
+
+def test_energy_budget_adds_up(jumping: list[Flight]) -> None:
+    for flight in jumping:
+        jump = simulate(flight.robot, engine="planar")
+        assert jump.energy is not None
+        assert sum(vars(jump.energy).values()) == pytest.approx(jump.spring_energy_j, rel=1e-9)
+        assert abs(jump.energy.contact_j) < 0.003 * jump.spring_energy_j, "no slip: nothing but the step's error"
+
+
+def test_gate_and_limits_are_those_of_all_engines(kenan: Robot) -> None:
+    weak = simulate(capsule_robot(Design.from_vector([100, 1.0, 0.833, 0.934, 0.2, 70, 5, 40])), engine="planar")
+    assert weak.verdict == "too_weak"
+    stands = Design.from_vector([171.289, 1.139, 0.66, 1.043, 0.436, 67.926, 12.932, 38.146])
+    assert simulate(capsule_robot(stands), engine="planar").verdict == "no_takeoff"
+    assert simulate(kenan, Settings(max_time_s=0.01), "planar").verdict == "no_takeoff"
+
+
+def test_a_body_that_comes_down_is_said(flights: list[Flight]) -> None:
+    """A robot that the gate calls too weak, simulated all the same: it rises a little and sits down on its body."""
+    robot = next(flight.robot for flight in flights if flight.name == "random-00")
+    with PlanarEngine().world(robot, Settings()) as world:
+        run = PlanarRun(world, robot, Settings())
+        run.go()
+    assert run.takeoff is None
+    finding = run.findings()[-1]
+    assert (finding.name, finding.severity) == ("body_contact", "warning")
+    assert -1.0 < finding.margin <= 0.0
+    assert "pybullet" in finding.remedy
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("restitution", 0.5), ("rolling_friction_m", 0.01), ("drag_per_s", 0.1), ("published_quantities", True)],
+)
+def test_what_the_plane_does_not_have_is_refused(kenan: Robot, key: str, value: float) -> None:
+    with pytest.raises(JumpcadError, match=f"{key} = {value}.*pybullet"):
+        simulate(kenan, Settings(**{key: value}), "planar")
+
+
+def test_left_and_right_do_not_count(lopsided: Robot) -> None:
+    """What is moved aside or turned about x or z changes nothing."""
+    bodies = {
+        name: replace(body, com_m=body.com_m * [1.0, 3.0, 1.0], inertia_kg_m2=np.diag(np.diag(body.inertia_kg_m2)))
+        for name, body in lopsided.bodies.items()
+    }
+    ranges = [
+        simulate(robot, engine="planar").ballistic_range_m for robot in (lopsided, replace(lopsided, bodies=bodies))
+    ]
+    assert ranges[0] == ranges[1]
+
+
+def test_a_dead_point_in_flight_is_said(jumping: list[Flight]) -> None:
+    """A leg that turns on to where foot and front link are in line, beyond which its angle does not tell the pose."""
+    robot = next(flight.robot for flight in jumping if flight.name == "ga-c")
+    world = PlanarWorld(robot, Settings(), Effects(one_sided_spring=True))
+    speed = Motion(0j, 0.0, 60.0)
+    world.go_to(world.moment._replace(ankle_m=1j, leg_rad=0.0, speed=speed))
+    with pytest.raises(JumpcadError, match=r"into line in flight.*pybullet") as caught:
+        world.advance(200)
+    assert "\n" not in str(caught.value)
+
+
+def test_the_command_line_knows_it(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.argv", ["jumpcad", "simulate", "kenan-2.0", "--capsule", "--engine", "planar", "--json"])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    document = json.loads(capsys.readouterr().out)
+    assert not end.value.code
+    assert (document["engine"], document["verdict"]) == ("planar", "jump")
