@@ -1,20 +1,17 @@
 """File formats: one module each, and the registry of those that a bundle has.
 
-The registry loads when it is first used, so that a simulation, which runs the MJCF model, loads that format alone.
+A simulation, which runs the MJCF model, loads that format alone.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from jumpcad.faces import face
 
 if TYPE_CHECKING:
     from jumpcad.exporters.registry import EXPORTERS as EXPORTERS
     from jumpcad.exporters.registry import Exporter as Exporter
 
-__all__ = ["EXPORTERS", "Exporter"]
+_HOMES = {"EXPORTERS": "registry", "Exporter": "registry"}
 
-
-def __getattr__(name: str) -> Any:
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from jumpcad.exporters import registry
-
-    return getattr(registry, name)
+__all__ = list(_HOMES)
+__getattr__, __dir__ = face(__name__, _HOMES)

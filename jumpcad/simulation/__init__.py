@@ -3,28 +3,26 @@
 The public names load when they are first used: the command line's help names the engines without loading one.
 """
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from jumpcad.simulation.engines import ENGINES, default_engine
+from jumpcad.faces import face
 
 if TYPE_CHECKING:
-    from jumpcad.settings import Settings as Settings
-    from jumpcad.settings import load_settings as load_settings
+    from jumpcad.simulation.engines import ENGINES as ENGINES
+    from jumpcad.simulation.engines import default_engine as default_engine
     from jumpcad.simulation.jump import Jump as Jump
+    from jumpcad.simulation.simulator import Settings as Settings
+    from jumpcad.simulation.simulator import load_settings as load_settings
     from jumpcad.simulation.simulator import simulate as simulate
 
 _HOMES = {
-    "Jump": "jumpcad.simulation.jump",
-    "Settings": "jumpcad.settings",
-    "load_settings": "jumpcad.settings",
-    "simulate": "jumpcad.simulation.simulator",
+    "ENGINES": "engines",
+    "Jump": "jump",
+    "Settings": "simulator",
+    "default_engine": "engines",
+    "load_settings": "simulator",
+    "simulate": "simulator",
 }
 
-__all__ = ["ENGINES", "Jump", "Settings", "default_engine", "load_settings", "simulate"]
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(_HOMES[name]), name)
+__all__ = list(_HOMES)
+__getattr__, __dir__ = face(__name__, _HOMES)

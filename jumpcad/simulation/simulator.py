@@ -3,7 +3,8 @@
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.settings import Settings
+from jumpcad.settings import Settings as Settings
+from jumpcad.settings import load_settings as load_settings
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.jump import Jump
 from jumpcad.simulation.run import Run

@@ -12,9 +12,9 @@ from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.robot import Robot
-from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation import Settings, engines, simulate
 from jumpcad.simulation.bullet import LINKS
-from jumpcad.simulation.engines import default_engine, engine_named
+from jumpcad.simulation.engines import EngineEntry, default_engine, engine_named
 from jumpcad.simulation.mechanics import Mechanics
 
 ENGINES = ["pybullet", "mujoco"]
@@ -131,6 +131,20 @@ def test_mujoco_refuses_what_it_does_not_have(kenan: Robot, key: str) -> None:
     pytest.importorskip("mujoco")
     with pytest.raises(JumpcadError, match=f"{key} = 0.5.*pybullet"):
         simulate(kenan, Settings(**{key: 0.5}), "mujoco")
+
+
+def test_an_engine_of_the_registry_simulates_and_is_named_to_users(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    entry = EngineEntry("jumpcad.simulation.planar", "PlanarEngine", general=False, note="a second name")
+    monkeypatch.setitem(engines.ENGINES, "flat", entry)
+    assert replace(simulate(kenan, engine="flat"), engine="planar") == simulate(kenan, engine="planar")
+    assert (
+        engines.engine_help()
+        == "pybullet, mujoco, both, planar (fast) or flat (a second name); else the first installed."
+    )
+    with pytest.raises(JumpcadError, match="pybullet, mujoco, planar and flat"):
+        simulate(kenan, engine="plane")
 
 
 def test_unknown_engine(kenan: Robot) -> None:
