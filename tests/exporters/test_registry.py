@@ -41,6 +41,7 @@ def test_paths_of_exporters_do_not_meet(small_robot: Robot) -> None:
 
 
 def test_a_simulation_loads_no_format_but_its_own() -> None:
-    code = "import sys, jumpcad.exporters.mjcf; print({'ezdxf', 'jumpcad.scene.visuals', 'jumpcad.robot'} & set(sys.modules))"
+    others = {"ezdxf", "jumpcad.robot", "jumpcad.scene.visuals"}
+    code = f"import sys, jumpcad.exporters.mjcf; print({others} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "set()\n"
