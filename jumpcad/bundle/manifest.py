@@ -1,4 +1,4 @@
-"""What a bundle's manifest says, and whether its files are still so."""
+"""A bundle's manifest: reads it, and compares the bundle's files with it."""
 
 import hashlib
 import json

@@ -1,4 +1,4 @@
-"""What pictures of a robot there are: at rest, compressed, exploded, and its jump."""
+"""Pictures of a robot: at rest, springs loaded (`compressed`), exploded, steps of assembly, and its jump."""
 
 import io
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Spring, cam, gears and motor: the margins that their synthesis found, judged."""
+"""Spring, cam, gears and motor: the limits of their synthesis as findings."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Is the robot's name on its plates as it was given?"""
+"""The robot's name on its plates: can all of its letters be engraved?"""
 
 from jumpcad.findings import Finding, at_most
 from jumpcad.robot import Robot

@@ -1,4 +1,4 @@
-"""Does anything but the foot touch the ground or the foot while the legs move (mm)?"""
+"""Clearance of body, legs and lever above the ground, and of the body above the foot, while the legs move (mm)."""
 
 import numpy as np
 from manifold3d import Manifold
@@ -15,11 +15,11 @@ GROUND_GAP_MM = FOOT_GAP_MM = 0.5
 """Least gaps to the ground and to the foot; judgement: play of the joints and the flexing of legs and foot."""
 POSITIONS = 9
 SEARCH_MM = 3.0
-"""Gaps that are wider need not be known."""
+"""Larger gaps are not measured."""
 
 
 def ground_findings(robot: Robot) -> list[Finding]:
-    """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from wound to rest."""
+    """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from loaded to rest."""
     layout = robot.layout
     linkage, sections, cam = Linkage(robot.design), layout.sections, layout.drive.cam
     leg = np.linspace(-robot.design.compression_rad, 0.0, POSITIONS)
@@ -44,7 +44,7 @@ def ground_findings(robot: Robot) -> list[Finding]:
 
 
 def foot_findings(robot: Robot) -> list[Finding]:
-    """Return `foot_clearance`: the gap between the foot and what the body carries, springs wound (exact)."""
+    """Return `foot_clearance`: the gap between the foot and what the body carries, springs loaded (exact)."""
     layout = robot.layout
     linkage = Linkage(robot.design)
     wound = Moment("wound", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)

@@ -1,4 +1,4 @@
-"""Do solids meet that should not? Exact intersection volumes through winding and drop (mm).
+"""Interference: exact intersection volumes of solids over the cam's lift and the roller's drop (mm).
 
 Nearly every part is extruded along y, as all motion is in planes parallel to x-z, so most pairs are compared as flat
 regions over common intervals of y; the others as solids.
@@ -77,7 +77,7 @@ def components(robot: Robot) -> list[Component]:
 
 
 def moments(layout: Layout) -> list[Moment]:
-    """Return the positions that are looked at: winding with its cam angles, and the roller's drop."""
+    """Return the positions that are checked: the cam's lift, and the roller's drop."""
     cam, wound = layout.drive.cam, layout.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [

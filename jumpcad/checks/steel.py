@@ -17,7 +17,7 @@ ROLLER_SCREW_YIELD_MPA = 640.0
 
 
 def steel_findings(case: LoadCase) -> Iterator[Finding]:
-    """Yield a finding for every way in which what is bought could break."""
+    """Yield a finding for every way in which a bought part could break."""
     yield from (*_pins(case), *_fatigue(case), *_bearings(case))
 
 
@@ -42,7 +42,7 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
 
 
 def _fatigue(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of what a number of jumps breaks: springs, axles and pins. None of it breaks at the first one."""
+    """Yield those of fatigue: springs, axles and pins after a number of jumps; none of them breaks at the first one."""
     safety, spring = case.workshop.safety, case.layout.drive.spring
     lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
     allowed = spring_share(safety.jumps) * spring.tensile_mpa

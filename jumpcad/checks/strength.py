@@ -1,10 +1,10 @@
-"""Does it break? Links, eyes, pins and seats wound, at release and at landing (N, N·mm, mm, MPa).
+"""Strength of links, eyes, pins and seats: springs loaded, at release and at landing (N, N·mm, mm, MPa).
 
-Wound, the cam's push on the lever and the springs' arms bend main leg and lever about the hub. At release the same
-torque goes into the foot (`jumpcad.strength.loads`). At landing the robot falls from as high as its springs' energy
-could lift it and is stopped over `safety.landing_stop_mm`; the legs fold against the springs, which bend them no more
-than winding did. All links print lying, so that motion bends them along their layers; the foot prints on its sole, so
-that its lugs are pulled across theirs.
+With loaded springs, the cam's push on the lever and the springs' arms bend main leg and lever about the hub. At
+release the same torque goes into the foot (`jumpcad.strength.loads`). At landing the robot falls from as high as its
+springs' energy could lift it and is stopped over `safety.landing_stop_mm`; the legs fold against the springs, which
+bend them no more than the loaded springs do. All links print lying, so that motion bends them along their layers; the
+foot prints on its sole, so that its lugs are pulled across theirs.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""`jumpcad check`: can it be made, does it hold, does everything clear?"""
+"""`jumpcad check`: limits of printing, strength, drive and clearance."""
 
 from typing import TYPE_CHECKING, Annotated
 

@@ -1,7 +1,7 @@
 """DXF of the body plates: flat sheets can be cut by laser instead of printed. Lengths in mm, seen from the outside.
 
 Layer `CUT` holds the outline and every hole, `ENGRAVE` the name. What stands on a plate (the motor's socket) is not in
-a flat drawing; a cut plate wants it printed and glued on.
+a flat drawing; it is printed and glued onto a cut plate.
 """
 
 import io

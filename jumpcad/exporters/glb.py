@@ -1,6 +1,6 @@
 """GLB: the assembled robot as a scene of named, coloured parts, standing with springs at rest.
 
-Every body's frame is a node (`foot_frame`) with its parts below it, so that a viewer can pose the robot. glTF wants
+Every body's frame is a node (`foot_frame`) with its parts below it, so that a viewer can pose the robot. glTF uses
 metres and y up.
 """
 

@@ -1,6 +1,6 @@
 """3MF: one plate a file, every part a named object (3MF Core Specification 1.3).
 
-Written by hand because the bytes must repeat and a strict reader must have nothing to say: fixed dates, fixed order.
+Written here and not by a library: fixed dates and a fixed order give the same bytes, and strict readers report nothing.
 """
 
 import io

@@ -59,10 +59,10 @@ def allowed(text: str) -> str:
 
 
 def rpy(rotation: Array) -> Array:
-    """Return roll, pitch and yaw (3,) about fixed axes (rad) of a rotation (3, 3), as URDF and SDF want them."""
+    """Return roll, pitch and yaw (3,) about fixed axes (rad) of a rotation (3, 3), as in URDF and SDF."""
     return Rotation.from_matrix(rotation).as_euler("xyz")
 
 
 def wxyz(rotation: Array) -> Array:
-    """Return the quaternion (4,), scalar first, of a rotation (3, 3), as MJCF wants it."""
+    """Return the quaternion (4,), scalar first, of a rotation (3, 3), as in MJCF."""
     return Rotation.from_matrix(rotation).as_quat(scalar_first=True)

@@ -1,6 +1,6 @@
 """One run: from release through take-off to the ballistic or the simulated flight, audited throughout.
 
-An engine moves a `World`; everything that is decided about the run is decided here, the same for all engines.
+An engine moves a `World`. Take-off, flight and audit are found here, in the same way for all engines.
 """
 
 import math
@@ -43,7 +43,7 @@ class World(Protocol):
         """
 
     def loaded(self) -> bool:
-        """Say whether the ground carries any of the robot."""
+        """Tell whether the ground carries any of the robot's weight."""
 
     def state(self) -> State:
         """Return where the bodies are and how they move."""
@@ -148,7 +148,7 @@ class Run:
         airborne = 0
         left: tuple[float, State, float] | None = None
         while airborne < hold or self.mechanics.velocity_m_s(world.state())[2] <= 0:
-            # In the first half of the springs' travel nothing leaves the ground, and nobody needs to look for it.
+            # In the first half of the springs' travel nothing leaves the ground, so contacts are not looked up.
             leg_rad = self._advance(hold if leg_rad < half_wound else 1)
             if leg_rad >= half_wound:
                 airborne = 0 if world.loaded() else airborne + 1
