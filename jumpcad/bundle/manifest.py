@@ -107,7 +107,7 @@ class Bundle:
 
     def is_unchanged(self, path: str) -> bool:
         """Tell whether a plain file is as the manifest says."""
-        return self.manifest["files"].get(path) == _sha256(self.folder / path)
+        return bool(self.manifest["files"].get(path) == _sha256(self.folder / path))
 
 
 def open_bundle(folder: str | Path) -> Bundle:

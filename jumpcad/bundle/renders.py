@@ -135,7 +135,8 @@ def _corners(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
 def _widened(corners: Array) -> Array:
     """Return a frame with room around what is added, so that it is seen where it belongs."""
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-    return middle + STEP_ROOM * (corners - middle)
+    widened: Array = middle + STEP_ROOM * (corners - middle)
+    return widened
 
 
 def _png(picture: Image.Image) -> bytes:

@@ -72,7 +72,8 @@ def foot_findings(robot: Robot) -> list[Finding]:
 
 def _along(vector: Array, unit: Array) -> Array:
     """Return the components (n,) of vectors (n, 2) along units (n, 2)."""
-    return np.einsum("ij,ij->i", vector, unit)
+    along: Array = np.einsum("ij,ij->i", vector, unit)
+    return along
 
 
 def _body_discs(robot: Robot) -> tuple[Array, Array]:

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import ezdxf
-from ezdxf.layouts import Modelspace
+from ezdxf.filemanagement import new
+from ezdxf.layouts.layout import Modelspace
 
 from jumpcad.parts.body_plate import ENGRAVING_MM
 from jumpcad.parts.part import Part
@@ -53,7 +54,7 @@ def sheet(part: Part, thickness_mm: float) -> tuple[Region, Region]:
 def write_dxf(cut: Region, engraved: Region) -> str:
     """Return a DXF document (R2010) with closed polylines, the same text for the same regions."""
     with _fixed_metadata():
-        document = ezdxf.new("R2010", units=MILLIMETRES)
+        document = new("R2010", units=MILLIMETRES)
         for layer, colour, region in ((CUT, RED, cut), (ENGRAVE, BLUE, engraved)):
             document.layers.add(layer, color=colour)
             _outlines(document.modelspace(), layer, region)

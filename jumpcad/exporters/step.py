@@ -7,7 +7,7 @@ A part that is a stack of extruded outlines is exact: flat faces, and cylinders 
 import io
 from collections.abc import Iterator
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.exporters.curves import Arc, Circle, Curve, Line, curves_of
@@ -67,7 +67,7 @@ def write_step(drawing: Drawing) -> bytes:
     return buffer.getvalue()
 
 
-def _stacked(stack: Stack) -> "Iterator[Shape]":
+def _stacked(stack: Stack) -> "Iterator[Shape[Any]]":
     """Yield a stack as one solid of flat and cylindrical faces, more and more tolerant of faces that nearly meet."""
     first, *others = (solid for slab in stack.slabs for solid in _extruded(slab))
     if not others:
@@ -105,7 +105,7 @@ def _edge(curve: Curve, z_mm: float) -> "Edge":
             return Edge.make_circle(radius, Plane((*centre, z_mm)))
 
 
-def _faceted(drawing: Drawing) -> "Iterator[Shape]":
+def _faceted(drawing: Drawing) -> "Iterator[Shape[Any]]":
     """Yield the mesh of a part as one solid; triangles that lie in one plane become one face."""
     from build123d import Face, Shell, Solid, Wire
 

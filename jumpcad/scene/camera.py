@@ -61,4 +61,5 @@ def aimed(frame_m: Array, view: View, aspect: float) -> Camera:
 
 def turned(vectors: Array, rotation: Array) -> Array:
     """Return vectors (…, 3) turned by a matrix (3, 3), the same on every processor."""
-    return np.einsum("...j,kj->...k", vectors, rotation)
+    result: Array = np.einsum("...j,kj->...k", vectors, rotation)
+    return result

@@ -231,4 +231,5 @@ class Run:
         return Takeoff(time_s, flight, budget, left / self.mechanism.spring.energy_j)
 
     def _body_position_m(self, state: State) -> Array:
-        return self.mechanics.frame_positions_m(state)[BODY_INDEX]
+        position: Array = self.mechanics.frame_positions_m(state)[BODY_INDEX]
+        return position
