@@ -1,4 +1,4 @@
-"""Constraint violations as data: one list serves the command line, the search and the report."""
+"""Checked limits as data: one list of findings serves the command line, the search and the report."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -11,8 +11,20 @@ Severity = Literal["info", "warning", "error"]
 class Finding:
     """One checked limit.
 
-    ``margin`` is signed, in ``unit``: negative means violated, and by how much.
-    ``message`` says what was found, ``remedy`` what to change.
+    Attributes
+    ----------
+    name
+        Of the check, such as `leg_strength`.
+    severity
+        `info` where the limit is kept; else `warning`, or `error` where it forbids the robot.
+    margin
+        Signed, in `unit`: negative where the limit is violated, and by how much.
+    message, remedy
+        What was found, and what to change.
+    value, limit
+        What was found and what is allowed, in `unit`; None where no single number is compared.
+    grows
+        The factor of `jumpcad.strength.sizing.Growth` that makes the part stronger, if any does.
     """
 
     name: str
@@ -21,17 +33,60 @@ class Finding:
     unit: str
     message: str
     remedy: str
+    value: float | None = None
+    limit: float | None = None
+    grows: str = ""
+
+    @property
+    def use(self) -> float | None:
+        """Share of the limit that is used, 1 at the limit: value / limit of a maximum, limit / value of a minimum.
+
+        None where one of the two is unknown, or where they are not positive and their ratio says nothing.
+        """
+        if self.value is None or self.limit is None or not self.limit > 0.0:
+            return None
+        is_maximum = (self.margin < 0.0) == (self.limit < self.value)
+        used, whole = (self.value, self.limit) if is_maximum else (self.limit, self.value)
+        return used / whole if used >= 0.0 and whole > 0.0 else None
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
         return dict(vars(self))  # flat, so the slow deep copy of `asdict` is not needed
 
 
-def limit(name: str, margin: float, unit: str, message: str, remedy: str, violated: Severity = "error") -> Finding:
-    """Return the finding of a limit that is violated where its margin is negative."""
-    return Finding(name, violated if margin < 0 else "info", float(margin), unit, message, remedy)
+def at_most(
+    name: str, value: float, allowed: float, unit: str, message: str, remedy: str, violated: Severity = "error",
+    grows: str = "",
+) -> Finding:  # fmt: skip
+    """Return the finding of a value that may be as large as what is allowed."""
+    return limit(name, allowed - value, unit, message, remedy, violated, value=value, allowed=allowed, grows=grows)
+
+
+def at_least(
+    name: str, value: float, needed: float, unit: str, message: str, remedy: str, violated: Severity = "error",
+    grows: str = "",
+) -> Finding:  # fmt: skip
+    """Return the finding of a value that may be as small as what is needed."""
+    return limit(name, value - needed, unit, message, remedy, violated, value=value, allowed=needed, grows=grows)
+
+
+def limit(
+    name: str, margin: float, unit: str, message: str, remedy: str, violated: Severity = "error", *,
+    value: float | None = None, allowed: float | None = None, grows: str = "",
+) -> Finding:  # fmt: skip
+    """Return the finding of a limit that is violated where its margin is negative.
+
+    For a limit that is not one number against another; see `at_most` and `at_least` for those that are.
+    """
+    severity: Severity = violated if margin < 0 else "info"
+    return Finding(name, severity, float(margin), unit, message, remedy, _number(value), _number(allowed), grows)
 
 
 def errors(findings: Iterable[Finding]) -> list[Finding]:
     """Return the findings that forbid the robot."""
     return [finding for finding in findings if finding.severity == "error"]
+
+
+def _number(value: float | None) -> float | None:
+    """Return a plain float of what may be one of numpy's."""
+    return None if value is None else float(value)

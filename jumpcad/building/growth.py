@@ -1,8 +1,8 @@
-"""The printed robot of a design, strong enough: assembled, judged by strength checks, and grown where it is weak."""
+"""The printed robot of a design: assembled, checked, and made stronger where a check fails that a section can pass."""
 
 from jumpcad.arguments import typed
 from jumpcad.building.assembly import assembled
-from jumpcad.checks.strength import strength_findings
+from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
@@ -12,31 +12,13 @@ from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 GROWTH_ROUNDS = 10
-GROWS_ON_FAILURE = {
-    "leg_strength": "leg",
-    "leg_flex": "leg",
-    "leg_sideways": "thickness",
-    "hub_strength": "leg",
-    "lever_strength": "lever",
-    "front_link_strength": "front",
-    "front_link_buckling": "front",
-    "eye_strength": "thickness",
-    "foot_lug_strength": "lug",
-    "toe_strength": "toe",
-    "toe_landing": "toe",
-    "toe_joint_strength": "toe",
-    "rail_strength": "rail",
-    "plate_seat": "plate",
-    "cam_key_strength": "key",
-}
-"""What grows when a check fails: a factor of `Growth`."""
 
 
 @typed
 def build(design: Design, workshop: Workshop | None = None, name: str = "robot") -> Robot:
     """Build the printed robot of a design in a workshop; its name, if it has one, is engraved on its plates.
 
-    Sections grow until the strength checks pass, or until there is no room for more.
+    Sections grow until the checks that name them pass (`Finding.grows`), or until there is no room for more.
 
     Raises
     ------
@@ -54,11 +36,7 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     growth = Growth()
     robot = assembled(design, workshop, name, growth)
     for _ in range(GROWTH_ROUNDS):
-        weak = {
-            GROWS_ON_FAILURE[finding.name]
-            for finding in errors(strength_findings(robot))
-            if finding.name in GROWS_ON_FAILURE
-        }
+        weak = {finding.grows for finding in errors(constraint_findings(robot)) if finding.grows}
         if not weak:
             break
         growth = growth.more(weak)

@@ -1,1 +1,16 @@
-"""One folder with everything that a robot is made, printed and simulated from."""
+"""One folder with everything that a robot is made, printed and simulated from: written, opened, verified, sliced."""
+
+from typing import TYPE_CHECKING
+
+from jumpcad.faces import face
+
+if TYPE_CHECKING:
+    from jumpcad.bundle.manifest import Bundle as Bundle
+    from jumpcad.bundle.manifest import open_bundle as open_bundle
+    from jumpcad.bundle.manifest import verify as verify
+    from jumpcad.bundle.sliced import slice_bundle as slice_bundle
+
+_HOMES = {"Bundle": "manifest", "open_bundle": "manifest", "slice_bundle": "sliced", "verify": "manifest"}
+
+__all__ = list(_HOMES)
+__getattr__, __dir__ = face(__name__, _HOMES)

@@ -1,6 +1,6 @@
 """The bill of materials: every printed part, and every bought one down to each nut and washer.
 
-Prices come from the workshop, printing times from a slicer; what nobody has told stays blank.
+Prices come from the workshop, printing times from a slicer; what is not known stays blank.
 """
 
 from collections import defaultdict

@@ -1,7 +1,7 @@
 """A bundle's folder: what jumpcad may replace in it, and what is a user's own.
 
-What the manifest lists is ours, as long as nobody changed it. Everything else is a user's and stays; what cannot stay
-is refused before anything is written.
+Files that are as the manifest says are replaced. All others are the user's and are kept; where one cannot be kept,
+`JumpcadError` is raised before anything is written.
 """
 
 import hashlib
@@ -84,7 +84,7 @@ def change_files(
 
 
 def require_unedited(bundle: Bundle, paths: Iterable[str], force: bool = False) -> None:
-    """Refuse, before the work, what `change_files` would refuse after it: files that are not as jumpcad wrote them.
+    """Require files to be as jumpcad wrote them: `change_files` would reject others, but only after the work.
 
     Raises
     ------

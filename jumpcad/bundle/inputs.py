@@ -1,4 +1,4 @@
-"""What a bundle keeps of its inputs: from it the same robot is built again."""
+"""Design and workshop of a bundle, from which the same robot can be built again."""
 
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.design import Design, load_design

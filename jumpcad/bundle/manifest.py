@@ -1,4 +1,4 @@
-"""What a bundle's manifest says, and whether its files are still so."""
+"""A bundle's manifest: reads it, and compares the bundle's files with it."""
 
 import hashlib
 import json
@@ -110,7 +110,7 @@ class Bundle:
 
     def is_unchanged(self, path: str) -> bool:
         """Tell whether a plain file is as the manifest says."""
-        return self.manifest["files"].get(path) == _sha256(self.folder / path)
+        return bool(self.manifest["files"].get(path) == _sha256(self.folder / path))
 
 
 def open_bundle(folder: str | Path) -> Bundle:

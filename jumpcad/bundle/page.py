@@ -9,10 +9,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 
 from jumpcad.bundle.bom import BillLine, bill_of_materials, euros
-from jumpcad.checks import constraint_findings
+from jumpcad.checks import quick_findings
 from jumpcad.exporters.xml import allowed
 from jumpcad.findings import Finding
-from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.robot import Robot
 
 STYLE = """
@@ -79,9 +78,8 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
 
 def _limits(robot: Robot) -> Iterator[str]:
     """Yield the quick checks, the violated ones first."""
-    findings = [*geometry_findings(robot.design), *statics_findings(robot), *constraint_findings(robot)]
     order = ("error", "warning", "info")
-    found = sorted(findings, key=lambda finding: order.index(finding.severity))
+    found = sorted(quick_findings(robot), key=lambda finding: order.index(finding.severity))
     violated = sum(finding.severity != "info" for finding in found)
     yield "<h2>Limits</h2>"
     yield f"<p>{violated} of {len(found)} are violated. <code>jumpcad check</code> looks at printability and at"

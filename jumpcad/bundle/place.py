@@ -1,4 +1,4 @@
-"""A folder put in its place whole or not at all.
+"""Replaces a folder atomically: all of it or nothing.
 
 It is written beside its place and changes places with the old one in one step: whenever a build is killed, a whole
 folder stands under the name, the old one or the new one, and at most a hidden one is left over beside it. Where the

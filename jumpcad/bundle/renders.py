@@ -1,4 +1,4 @@
-"""What pictures of a robot there are: at rest, compressed, exploded, and its jump."""
+"""Pictures of a robot: at rest, springs loaded (`compressed`), exploded, steps of assembly, and its jump."""
 
 import io
 from collections.abc import Sequence
@@ -142,7 +142,8 @@ def _corners(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
 def _widened(corners: Array) -> Array:
     """Return a frame with room around what is added, so that it is seen where it belongs."""
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-    return middle + STEP_ROOM * (corners - middle)
+    widened: Array = middle + STEP_ROOM * (corners - middle)
+    return widened
 
 
 def _png(picture: Image.Image) -> bytes:

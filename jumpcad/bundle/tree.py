@@ -1,4 +1,4 @@
-"""What lies in a folder. No link is followed, and nothing but a plain file is ever opened."""
+"""Lists what is in a folder. No link is followed, no file is opened."""
 
 import os
 import stat

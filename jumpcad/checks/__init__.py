@@ -1,13 +1,20 @@
-"""What can be wrong with a built robot, as findings with signed margins.
+"""Checks of a finished robot: each is a function that returns findings, with signed margins and remedies.
 
-Names by module: `strength` leg_strength, hub_strength, lever_strength, leg_flex, leg_sideways, front_link_strength,
-front_link_buckling, eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, rail_strength,
-plate_seat, cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
+A new check is a function in a file of its own and a line in `CHECKS`. Its finding may name what grows where it fails
+(`Finding.grows`); `build` then makes that section stronger, if the check is cheap.
+
+Names of findings by module: `mechanism.feasibility` loop, winding, below_ground, tips, too_weak; `strength`
+leg_strength, hub_strength, lever_strength, leg_flex, leg_sideways, front_link_strength, front_link_buckling,
+eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, rail_strength, plate_seat,
+cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
 roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
 motor_torque; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
-solid; `interference` interference; `engraving` engraving; and those of `jumpcad.mechanism.feasibility`: loop,
-winding, below_ground, tips, too_weak.
+solid; `interference` interference; `engraving` engraving.
 """
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
 
 from jumpcad.checks.drive import drive_findings
 from jumpcad.checks.engraving import engraving_findings
@@ -16,31 +23,55 @@ from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import bed_findings, printability_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.findings import Finding
-from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
+from jumpcad.mechanism.feasibility import feasibility_findings
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.robot import Robot
 
-__all__ = ["check", "constraint_findings"]
+__all__ = ["CHECKS", "Check", "check", "constraint_findings", "quick_findings"]
+
+
+@dataclass(frozen=True)
+class Check:
+    """A line of the registry.
+
+    `find` takes what the check `needs` (a Mechanism, or a Robot with its parts) and returns findings. A `cheap` check
+    looks at no mesh and at no motion, takes about a millisecond, and runs for every design of a search.
+    """
+
+    find: Callable[[Any], Iterable[Finding]]
+    needs: type[Mechanism] = Robot
+    cheap: bool = False
+
+
+CHECKS = (
+    Check(feasibility_findings, needs=Mechanism, cheap=True),
+    Check(strength_findings, cheap=True),
+    Check(drive_findings, cheap=True),
+    Check(ground_findings, cheap=True),
+    Check(bed_findings, cheap=True),
+    Check(foot_findings),
+    Check(printability_findings),
+    Check(interference_findings),
+    Check(engraving_findings),
+)
+"""Every check, in the order of its findings."""
 
 
 def check(robot: Mechanism) -> list[Finding]:
-    """Return the findings of every check on a robot, kept limits included; a mechanism alone has the gate's only."""
-    feasibility = [*geometry_findings(robot.design), *statics_findings(robot)]
-    if not isinstance(robot, Robot):
-        return feasibility
-    return [
-        *feasibility,
-        *constraint_findings(robot),
-        *foot_findings(robot),
-        *printability_findings(robot),
-        *interference_findings(robot),
-        *engraving_findings(robot),
-    ]
+    """Return the findings of every check, kept limits included; a mechanism without parts has those of feasibility."""
+    return _findings(robot, CHECKS)
+
+
+def quick_findings(robot: Mechanism) -> list[Finding]:
+    """Return the findings of the cheap checks, feasibility included."""
+    return _findings(robot, (check for check in CHECKS if check.cheap))
 
 
 def constraint_findings(robot: Robot) -> list[Finding]:
-    """Return the findings that are cheap enough for every design of a search: no meshes, no sweep.
+    """Return the findings of the cheap checks that need parts: those that a simulated jump does not carry already."""
+    return _findings(robot, (check for check in CHECKS if check.cheap and check.needs is Robot))
 
-    Those of the gate are not among them, since every simulated jump carries them.
-    """
-    return [*strength_findings(robot), *drive_findings(robot), *ground_findings(robot), *bed_findings(robot)]
+
+def _findings(robot: Mechanism, checks: Iterable[Check]) -> list[Finding]:
+    """Return what checks find that have what they need."""
+    return [found for check in checks if isinstance(robot, check.needs) for found in check.find(robot)]

@@ -1,16 +1,19 @@
-"""Spring, cam, gears and motor: the margins that their synthesis found, judged."""
+"""Spring, cam, gears and motor: the limits of their synthesis as findings."""
 
-from jumpcad.findings import Finding, limit
+from dataclasses import replace
+
+from jumpcad.findings import Finding
 from jumpcad.robot import Robot
+
+ROUND_OFF = 1e-6
 
 
 def drive_findings(robot: Robot) -> list[Finding]:
     """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*` and `motor_*` by what they limit."""
-    return [
-        limit(found.name, _rounded(found.margin), found.unit, found.message, found.remedy)
-        for found in robot.layout.drive.findings
-    ]
+    return [_judged(found) for found in robot.layout.drive.findings]
 
 
-def _rounded(margin: float) -> float:
-    return 0.0 if abs(margin) < 1e-6 else margin
+def _judged(found: Finding) -> Finding:
+    """Return a finding with its severity; the cam's search stops on its limits, to some 1e-9 on either side."""
+    margin = 0.0 if abs(found.margin) < ROUND_OFF else found.margin
+    return replace(found, margin=margin, severity="error" if margin < 0.0 else "info")

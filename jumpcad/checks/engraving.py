@@ -1,6 +1,6 @@
-"""Is the robot's name on its plates as it was given?"""
+"""The robot's name on its plates: can all of its letters be engraved?"""
 
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, at_most
 from jumpcad.robot import Robot
 from jumpcad.solids.text import engravable
 
@@ -8,12 +8,12 @@ from jumpcad.solids.text import engravable
 def engraving_findings(robot: Robot) -> list[Finding]:
     """Return `engraving` for a name with letters that cannot be engraved; they are left out."""
     lacking = "".join(dict.fromkeys(letter for letter in robot.name if not engravable(letter)))
-    if robot.layout is None or not lacking:
+    if not lacking:
         return []
     return [
-        Finding(
-            "engraving", "warning", -float(len(lacking)), "letters",
+        at_most(
+            "engraving", len(lacking), 0, "letters",
             f"the engraving's font has no {lacking!r}: the plates of {robot.name!r} go without",
-            "use Latin, Greek or Cyrillic letters, if the plates shall show all of the name",
+            "use Latin, Greek or Cyrillic letters, if the plates shall show all of the name", "warning",
         )
     ]  # fmt: skip

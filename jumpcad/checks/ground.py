@@ -1,11 +1,11 @@
-"""Does anything but the foot touch the ground or the foot while the legs move (mm)?"""
+"""Clearance of body, legs and lever above the ground, and of the body above the foot, while the legs move (mm)."""
 
 import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
 from jumpcad.dimensions import COLLAR_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM
-from jumpcad.findings import Finding, limit
+from jumpcad.findings import Finding, at_least, limit
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array, direction
@@ -14,11 +14,11 @@ GROUND_GAP_MM = FOOT_GAP_MM = 0.5
 """Least gaps to the ground and to the foot; judgement: play of the joints and the flexing of legs and foot."""
 POSITIONS = 9
 SEARCH_MM = 3.0
-"""Gaps that are wider need not be known."""
+"""Larger gaps are not measured."""
 
 
 def ground_findings(robot: Robot) -> list[Finding]:
-    """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from wound to rest."""
+    """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from loaded to rest."""
     layout = robot.layout
     linkage, sections, cam = robot.linkage, layout.sections, layout.drive.cam
     leg = np.linspace(-robot.design.compression_rad, 0.0, POSITIONS)
@@ -34,8 +34,8 @@ def ground_findings(robot: Robot) -> list[Finding]:
     name, lowest = min(((what, float(height.min())) for what, height in heights.items()), key=lambda item: item[1])
     clearance = lowest + sections.foot_depth_mm
     return [
-        limit(
-            "ground_clearance", clearance - GROUND_GAP_MM, "mm",
+        at_least(
+            "ground_clearance", clearance, GROUND_GAP_MM, "mm",
             f"{name} passes {clearance:.1f} mm above the ground; {GROUND_GAP_MM:g} mm are kept",
             "lower compression_ratio, or raise rest_angle_deg",
         )
@@ -43,7 +43,7 @@ def ground_findings(robot: Robot) -> list[Finding]:
 
 
 def foot_findings(robot: Robot) -> list[Finding]:
-    """Return `foot_clearance`: the gap between the foot and what the body carries, springs wound (exact)."""
+    """Return `foot_clearance`: the gap between the foot and what the body carries, springs loaded (exact)."""
     layout = robot.layout
     linkage = robot.linkage
     wound = Moment("wound", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
@@ -64,13 +64,15 @@ def foot_findings(robot: Robot) -> list[Finding]:
             "foot_clearance", gap - FOOT_GAP_MM, "mm",
             f"{found} of the foot, springs wound; {FOOT_GAP_MM:g} mm are kept",
             "lower compression_ratio, or raise ground_link_angle_deg",
+            value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
         )
     ]  # fmt: skip
 
 
 def _along(vector: Array, unit: Array) -> Array:
     """Return the components (n,) of vectors (n, 2) along units (n, 2)."""
-    return np.einsum("ij,ij->i", vector, unit)
+    along: Array = np.einsum("ij,ij->i", vector, unit)
+    return along
 
 
 def _body_discs(robot: Robot) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""Do solids meet that should not? Exact intersection volumes through winding and drop (mm).
+"""Interference: exact intersection volumes of solids over the cam's lift and the roller's drop (mm).
 
 Nearly every part is extruded along y, as all motion is in planes parallel to x-z, so most pairs are compared as flat
 regions over common intervals of y; the others as solids.
@@ -77,7 +77,7 @@ def components(robot: Robot) -> list[Component]:
 
 
 def moments(layout: Layout) -> list[Moment]:
-    """Return the positions that are looked at: winding with its cam angles, and the roller's drop."""
+    """Return the positions that are checked: the cam's lift, and the roller's drop."""
     cam, wound = layout.drive.cam, layout.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [
@@ -118,13 +118,21 @@ def interference_findings(robot: Robot) -> list[Finding]:
     found = [
         Finding(
             "interference", "error", -volume, "mm³", f"{a} and {b} share {volume:.2f} mm³, {label}",
-            "raise carrying_link_mm or d_coef, or wind less",
+            "raise carrying_link_mm or d_coef, or wind less", value=volume, limit=0.0,
         )
         for a, b, label, volume in overlaps(robot)
     ]  # fmt: skip
     positions = f"{WINDING_POSITIONS} positions of winding and {DROP_POSITIONS} of the drop"
     return found or [
-        Finding("interference", "info", TOLERANCE_MM3, "mm³", f"no two pieces meet in {positions}", "nothing to do")
+        Finding(
+            "interference",
+            "info",
+            TOLERANCE_MM3,
+            "mm³",
+            f"no two pieces meet in {positions}",
+            "nothing to do",
+            limit=TOLERANCE_MM3,
+        )
     ]
 
 

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from jumpcad.findings import Finding, limit
+from jumpcad.findings import Finding, at_most
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
@@ -75,7 +75,7 @@ class LoadCase:
 
     @cached_property
     def toe_blow_n(self) -> float:
-        """What one toe's tip bears that lands first: the body turns away from it."""
+        """Force on a toe's tip that lands first (N): less than the landing force, since the body turns."""
         body = self.robot.bodies[BODY]
         about_x, about_y = 1000.0 * np.sqrt(np.diag(body.inertia_kg_m2)[:2] / body.mass_kg)
         return self.landing_n * reflected_share(toe_reach_mm(self.robot.design), (float(about_x), float(about_y)))
@@ -102,7 +102,7 @@ class LoadCase:
     def wound_forces_n(self) -> tuple[tuple[Array, Array], Array]:
         """Forces (2,) of the springs' arms on leg and plates, and that of the cam on the lever.
 
-        In the body's frame, springs wound, roller at the end of the lift; both springs together.
+        In the body's frame, springs loaded, roller at the end of the lift; both springs together.
         """
         layout = self.layout
         on_leg, on_lever = loaded_forces_n(self.robot.design, layout.drive)
@@ -111,9 +111,10 @@ class LoadCase:
         return (on_leg, on_pin), on_lever
 
 
-def stress_finding(name: str, what: str, stress: float, allowable: float, remedy: str) -> Finding:
+def stress_finding(name: str, what: str, stress: float, allowable: float, remedy: str, grows: str = "") -> Finding:
+    """Return the finding of a stress against its limit (MPa); `grows` is the part that a failure makes stronger."""
     message = f"{what}: {stress:.1f} of {allowable:.1f} MPa"
-    return limit(name, allowable - stress, "MPa", message, remedy)
+    return at_most(name, stress, allowable, "MPa", message, remedy, grows=grows)
 
 
 def leg_axle_moment_nmm(arms_n: tuple[Array, Array], cam_n: Array, span_mm: float, coil_mm: float) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 import trimesh
 from manifold3d import CrossSection, JoinType
 
-from jumpcad.findings import Finding, limit
+from jumpcad.findings import Finding, at_least, at_most, limit
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import faults
@@ -94,14 +94,17 @@ def _narrowest(
             low, high = (low, middle) if fails(region, middle) else (middle, high)
         worst, where = high, part
     found = f"the narrowest {what} is {worst:.2f} mm, in {where}" if where else f"no {what} is under {worst:.2f} mm"
-    return limit(name, worst - least_mm, "mm", f"{found}; {least_mm:g} mm are needed", remedy)
+    message = f"{found}; {least_mm:g} mm are needed"
+    if not where:  # all that is known is that it is wider than was looked for
+        return limit(name, worst - least_mm, "mm", message, remedy, allowed=least_mm)
+    return at_least(name, worst, least_mm, "mm", message, remedy)
 
 
 def _largest(name: str, what: str, sizes: Sequence[tuple[float, str]], most_mm: float, remedy: str) -> Finding:
     """Return the finding of the largest of named sizes."""
     worst, where = max(sizes, default=(0.0, ""))
     found = f"the longest {what} is {worst:.2f} mm, in {where}" if where else f"no part has an {what}"
-    return limit(name, most_mm - worst, "mm", f"{found}; {most_mm:g} mm hold without support", remedy)
+    return at_most(name, worst, most_mm, "mm", f"{found}; {most_mm:g} mm hold without support", remedy)
 
 
 def _tall_regions(drawing: Drawing, least_mm: float) -> Iterator[tuple[float, Region]]:
@@ -204,7 +207,5 @@ def _solid_findings(drawings: Sequence[Drawing]) -> list[Finding]:
     broken = [(drawing.name, found) for drawing in drawings if (found := faults(write_stl(drawing.mesh)))]
     remedy = "change the dimension that thins the part"
     if not broken:
-        return [limit("solid", 0.0, "faults", "every part's file is one closed solid", remedy)]
-    return [
-        limit("solid", -float(len(found)), "faults", f"{name}: {', '.join(found)}", remedy) for name, found in broken
-    ]
+        return [at_most("solid", 0, 0, "faults", "every part's file is one closed solid", remedy)]
+    return [at_most("solid", len(found), 0, "faults", f"{name}: {', '.join(found)}", remedy) for name, found in broken]

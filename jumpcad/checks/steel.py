@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import ROLLER_WASHER_MM
-from jumpcad.findings import Finding, limit
+from jumpcad.findings import Finding, at_most
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
 from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
 from jumpcad.strength.stress import pin_stress_mpa
@@ -17,7 +17,7 @@ ROLLER_SCREW_YIELD_MPA = 640.0
 
 
 def steel_findings(case: LoadCase) -> Iterator[Finding]:
-    """Yield a finding for every way in which what is bought could break."""
+    """Yield a finding for every way in which a bought part could break."""
     yield from (*_pins(case), *_fatigue(case), *_bearings(case))
 
 
@@ -45,20 +45,20 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
 
 
 def _fatigue(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of what a number of jumps breaks: springs, axles and pins. None of it breaks at the first one."""
+    """Yield those of fatigue: springs, axles and pins after a number of jumps; none of them breaks at the first one."""
     safety, spring = case.workshop.safety, case.layout.drive.spring
     lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
     allowed = spring_share(safety.jumps) * spring.tensile_mpa
-    yield limit(
-        "spring_fatigue", allowed - spring.stress_mpa, "MPa",
+    yield at_most(
+        "spring_fatigue", spring.stress_mpa, allowed, "MPa",
         f"the springs' wire bears {spring.stress_mpa:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps; it lasts "
         f"{'without end' if math.isinf(lasts) else f'about {lasts:.0f}'}",
         "lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip
     name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1])
     allowed = pin_limit_mpa(safety.steel_yield_mpa / YIELD_SHARE, safety.jumps)
-    yield limit(
-        "axle_fatigue", allowed - stress, "MPa",
+    yield at_most(
+        "axle_fatigue", stress, allowed, "MPa",
         f"the {name.replace('_', ' ')} bears {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
         "raise bought.axle_mm with its bearings, or lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip
@@ -72,8 +72,8 @@ def _bearings(case: LoadCase) -> Iterator[Finding]:
     (arms, _), push = case.wound_forces_n
     force = bearing_load_n((arms, push), case.layout.sections.thickness_mm, cam[1] - cam[0], hub)
     allowed = allowed_n(hub, case.workshop)
-    yield limit(
-        "hub_bearing_load", allowed - force, "N",
+    yield at_most(
+        "hub_bearing_load", force, allowed, "N",
         f"the {hub.name} at the cam's side of the leg's hub bears {force:.0f} of {allowed:.0f} N, its static rating "
         f"over {case.workshop.safety.bearing_factor:g}",
         'bought.leg_bearing = "any" for a stronger one, or "" for none', "warning",

@@ -1,10 +1,10 @@
-"""Does it break? Links, eyes, pins and seats wound, at release and at landing (N, N·mm, mm, MPa).
+"""Strength of links, eyes, pins and seats: springs loaded, at release and at landing (N, N·mm, mm, MPa).
 
-Wound, the cam's push on the lever and the springs' arms bend main leg and lever about the hub. At release the same
-torque goes into the foot (`jumpcad.strength.loads`). At landing the robot falls from as high as its springs' energy
-could lift it and is stopped over `safety.landing_stop_mm`; the legs fold against the springs, which bend them no more
-than winding did. All links print lying, so that motion bends them along their layers; the foot prints on its sole, so
-that its lugs are pulled across theirs.
+With loaded springs, the cam's push on the lever and the springs' arms bend main leg and lever about the hub. At
+release the same torque goes into the foot (`jumpcad.strength.loads`). At landing the robot falls from as high as its
+springs' energy could lift it and is stopped over `safety.landing_stop_mm`; the legs fold against the springs, which
+bend them no more than the loaded springs do. All links print lying, so that motion bends them along their layers; the
+foot prints on its sole, so that its lugs are pulled across theirs.
 """
 
 import math
@@ -15,7 +15,7 @@ import numpy as np
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.checks.steel import steel_findings
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
-from jumpcad.findings import Finding, limit
+from jumpcad.findings import Finding, at_most, limit
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
 from jumpcad.robot import Robot
 from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm, toe_reach_mm
@@ -55,26 +55,26 @@ def _leg(case: LoadCase) -> Iterator[Finding]:
     sections, cam = layout.sections, layout.drive.cam
     leg = sections.leg(case.shell)
     stress = tapered_stress_mpa(leg, torque, float(np.abs(case.forces.leg_axial_n).max()))
-    yield stress_finding("leg_strength", "main leg in bending at release", stress, case.allowable_mpa, WEAKER)
+    yield stress_finding("leg_strength", "main leg in bending at release", stress, case.allowable_mpa, WEAKER, "leg")
     holes = case.holes
     hub = max(2.0 * holes.hub_radius_mm, sections.leg_root_mm)
     stress = bored_stress_mpa(torque, sections.thickness_mm, hub, holes.hub_bore_mm)
     yield stress_finding(
         "hub_strength", "main leg beside its hub's bore, wound", stress, case.allowable_mpa,
-        f"a smaller bought.leg_bearing, or {WEAKER}",
+        f"a smaller bought.leg_bearing, or {WEAKER}", "leg",
     )  # fmt: skip
     lever = Beam(
         sections.thickness_mm, np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS), case.shell
     )
     along = cam.peak_contact_n * math.sin(cam.max_pressure_angle_rad)
     stress = tapered_stress_mpa(lever, torque, along)
-    yield stress_finding("lever_strength", "lever in bending, wound", stress, case.allowable_mpa, WEAKER)
+    yield stress_finding("lever_strength", "lever in bending, wound", stress, case.allowable_mpa, WEAKER, "lever")
     share = leg_flex_share(layout.design, leg, case.workshop.material("links").modulus_mpa)
     allowed = case.workshop.safety.leg_flex_share
     yield limit(
         "leg_flex", 100.0 * (allowed - share), "%",
         f"{100 * share:.1f} % of the springs' energy bends the main leg at release; {100 * allowed:g} % are allowed",
-        WEAKER,
+        WEAKER, value=100.0 * share, allowed=100.0 * allowed, grows="leg",
     )  # fmt: skip
 
 
@@ -83,14 +83,15 @@ def _front_link(case: LoadCase) -> Iterator[Finding]:
     bar = case.layout.sections.front(case.shell)
     stress = float(bar.stress_mpa(0.0, case.front_n))
     yield stress_finding(
-        "front_link_strength", "front link along its length at release", stress, case.allowable_mpa, WEAKER
+        "front_link_strength", "front link along its length at release", stress, case.allowable_mpa, WEAKER, "front"
     )
     load = buckling_load_n(bar, case.layout.design.l3_mm, case.workshop.material("links").modulus_mpa)
     allowed = load / case.workshop.safety.strength_factor
-    yield limit(
-        "front_link_buckling", allowed - case.landing_n, "N",
+    yield at_most(
+        "front_link_buckling", case.landing_n, allowed, "N",
         f"front link under the whole landing: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
         "shorten the front link (c_coef, carrying_link_mm), or raise landing_stop_mm with softer ground",
+        grows="front",
     )  # fmt: skip
 
 
@@ -101,12 +102,16 @@ def _eyes(case: LoadCase) -> Iterator[Finding]:
     stress = eye_stress_mpa(
         force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, holes.running(case.layout.axle_mm)
     )
-    yield stress_finding("eye_strength", "eyes of main leg and front link", stress, case.allowable_mpa, WEAKER)
+    yield stress_finding(
+        "eye_strength", "eyes of main leg and front link", stress, case.allowable_mpa, WEAKER, "thickness"
+    )
     pull = max(case.ankle_n, case.front_n) / 2.0
     bore = holes.press(case.layout.axle_mm)
     stress = eye_stress_mpa(pull, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, bore)
     interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.strength_factor
-    yield stress_finding("foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER)
+    yield stress_finding(
+        "foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER, "lug"
+    )
 
 
 def _foot(case: LoadCase) -> Iterator[Finding]:
@@ -116,15 +121,17 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
     toe, rail = sections.toe(case.shell), sections.rail(case.shell)
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, toes))
     remedy = f"shorten the toes (e_coef), or {WEAKER}"
-    yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, remedy)
+    yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, remedy, "toe")
     stress = tapered_stress_mpa(rail, rail_moment_nmm(design, toes))
-    yield stress_finding("rail_strength", "the foot's rails in bending at release", stress, case.allowable_mpa, remedy)
+    yield stress_finding(
+        "rail_strength", "the foot's rails in bending at release", stress, case.allowable_mpa, remedy, "rail"
+    )
     blow = case.toe_blow_n
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
-    yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, remedy)
+    yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, remedy, "toe")
     if case.layout.toes_apart:
         stress = _toe_joint_mpa(case, max(0.5 * toes, blow))
-        yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, remedy)
+        yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, remedy, "toe")
 
 
 def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
@@ -153,7 +160,9 @@ def _sideways(case: LoadCase) -> Iterator[Finding]:
     shear = VON_MISES * bar_shear_mpa(moment * math.cos(angle), heights, sections.thickness_mm)
     stress = float(np.max(np.hypot(bending, shear)))
     remedy = f"shorten the toes (e_coef), lower ground_link_angle_deg, or {WEAKER}"
-    yield stress_finding("leg_sideways", "main leg bent sideways by one toe's tip", stress, case.allowable_mpa, remedy)
+    yield stress_finding(
+        "leg_sideways", "main leg bent sideways by one toe's tip", stress, case.allowable_mpa, remedy, "thickness"
+    )
 
 
 def _seats(case: LoadCase) -> Iterator[Finding]:
@@ -163,11 +172,13 @@ def _seats(case: LoadCase) -> Iterator[Finding]:
     worst = max(float(np.linalg.norm(force)) for force in (cam - arms[1], cam, arms[1])) / 2.0
     stress = worst / (case.layout.axle_mm * (case.layout.lateral.left_plate[1] - case.layout.lateral.left_plate[0]))
     allowable = body.strength_in_plane_mpa / safety.strength_factor
-    yield stress_finding("plate_seat", "plates under axles and pins", stress, allowable, "raise body.plate_mm")
+    yield stress_finding("plate_seat", "plates under axles and pins", stress, allowable, "raise body.plate_mm", "plate")
     gears = case.workshop.material("gears")
     torque = 1000.0 * case.layout.drive.cam.peak_torque_nm
     bore = case.holes.running(case.layout.axle_mm)
     stress = VON_MISES * tube_shear_mpa(torque, case.layout.sections.key_mm, bore)
     allowable = gears.strength_interlayer_mpa / safety.strength_factor
     remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
-    yield stress_finding("cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, remedy)
+    yield stress_finding(
+        "cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, remedy, "key"
+    )

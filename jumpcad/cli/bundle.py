@@ -219,7 +219,7 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
     for note in facts["notes"]:
         print(f"note           {note}")
     print(f"printed robot  {_said(jump)}")
-    print(f"as capsules    {_said(facts['capsule_jump'])}")
+    print(f"study's masses {_said(facts['capsule_jump'])}")
     print(f"written        {len(facts['files']) + 1} files in {facts['folder']}")
 
 

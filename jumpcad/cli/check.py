@@ -1,4 +1,4 @@
-"""`jumpcad check`: can it be made, does it hold, does everything clear?"""
+"""`jumpcad check`: limits of printing, strength, drive and clearance."""
 
 from typing import TYPE_CHECKING, Annotated
 
@@ -37,7 +37,8 @@ def check(
     robot = build(load_design(design), load_workshop(workshop))
     findings = sorted(check_robot(robot), key=lambda finding: SEVERITIES.index(finding.severity))
     if as_json:
-        print_json({"design": design, "workshop": workshop, "findings": [finding.to_dict() for finding in findings]})
+        data = [finding.to_dict() | {"use": finding.use} for finding in findings]
+        print_json({"design": design, "workshop": workshop, "findings": data})
     else:
         _print_table(findings)
     if errors(findings):

@@ -13,6 +13,7 @@ import typer
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
 from jumpcad.cli.subjects import WorkshopOption, designed, tell_template, written_robot
 from jumpcad.errors import JumpcadError
+from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
@@ -47,9 +48,7 @@ def simulate(
     capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
     workshop: WorkshopOption = None,
-    engine: Annotated[
-        str | None, typer.Option(help="pybullet, mujoco, both, or planar (fast); else the first installed.")
-    ] = None,
+    engine: Annotated[str | None, typer.Option(help=engine_help())] = None,
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
     flight: Annotated[bool, typer.Option("--flight", help="Simulate the flight up to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
@@ -80,7 +79,7 @@ def simulate(
         return
     engines = _engines(engine)
     if trajectory and len(engines) > 1:
-        raise JumpcadError("--trajectory records one engine: choose --engine pybullet, mujoco or planar")
+        raise JumpcadError(f"--trajectory records one engine: choose --engine {in_words(ENGINES, 'or')}")
     asked = _settings(settings, flight, trajectory is not None)
     robot = capsule_robot(subject) if capsule else written or designed(design, workshop)
     model = "capsule" if capsule else "URDF" if written else "printed"
@@ -110,8 +109,6 @@ def _published(design: "Design", engine: str | None, as_json: bool) -> None:
 
 def _engines(asked: str | None) -> list[str]:
     """Return the engines to use: by default the first installed, with a message if it is not PyBullet."""
-    from jumpcad.simulation.engines import GENERAL, default_engine
-
     if asked == "both":
         return list(GENERAL)
     if asked is not None:

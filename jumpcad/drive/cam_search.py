@@ -18,7 +18,7 @@ from jumpcad.drive.cam import Cam, CamGeometry
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, LIMITS, ROWS, SCALES, CamLimits, axis_range, measure
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, limit
 from jumpcad.transforms import Array
 
 
@@ -54,11 +54,24 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
         min_convex_radius_mm=float(numbers["convex_radius"][0]),
         peak_contact_n=float(numbers["force"][0]),
         contact_pressure_mpa=float(numbers["pressure"][0]),
-        findings=tuple(
-            Finding(limit.name, "info", float(value), limit.unit, limit.message, limit.remedy)
-            for limit, value in zip(LIMITS, margin, strict=True)
-        ),
+        findings=_findings(limits, margin, numbers),
     )
+
+
+def _findings(limits: CamLimits, margin: Array, numbers: dict[str, Array]) -> tuple[Finding, ...]:
+    """Return the finding of every limit; those of places and gaps have a margin alone."""
+    compared = {
+        "cam_pressure_angle": (numbers["pressure_angle"][0], limits.pressure_angle_rad),
+        "cam_contact": (numbers["pressure"][0], limits.pressure_mpa),
+        "cam_roller_load": (numbers["force"][0], limits.roller_load_n),
+    }
+    found = []
+    for checked, room in zip(LIMITS, margin, strict=True):
+        value, allowed = compared.get(checked.name, (None, None))
+        found.append(
+            limit(checked.name, room, checked.unit, checked.message, checked.remedy, value=value, allowed=allowed)
+        )
+    return tuple(found)
 
 
 def _refusal(law: CamLaw, margin: Array) -> str:

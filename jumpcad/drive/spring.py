@@ -11,7 +11,7 @@ from typing import Literal
 
 from jumpcad.catalogue import Wire
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, at_most
 
 TURNS_MIN, INDEX_MIN, INDEX_MAX = 2.0, 4.0, 16.0
 """Least turns, and least and largest diameter of coil over wire; judgement: what makers of springs offer."""
@@ -175,8 +175,8 @@ def _of_wire(
         tensile_mpa=tensile_mpa,
         mass_g=wire.density_g_cm3 * volume / 1000,
         findings=(
-            Finding(
-                "spring_stress", "info", allowable - stress, "MPa",
+            at_most(
+                "spring_stress", stress, allowable, "MPa",
                 f"the wound springs' wire of {d:g} mm bears {stress:.0f} of {allowable:.0f} MPa",
                 "lower stiffness_nmm_per_deg or compression_ratio",
             ),

@@ -14,7 +14,7 @@ from jumpcad.drive.gear_pair import GearPair
 from jumpcad.drive.motor import allowed_nm, free_speed_rad_s, winding
 from jumpcad.drive.train_limits import TrainLimits
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, at_most, limit
 
 CONTACT_RATIO_MIN = 1.1
 """Least pairs of teeth in contact on average; judgement: handbooks advise 1.2 for gears that run long and fast."""
@@ -106,13 +106,13 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
 def _motor_findings(motor: Motor, ratio: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
     allowed, cam_speed = allowed_nm(motor, limits), free_speed_rad_s(motor) / ratio
     return [
-        Finding(
-            "motor_torque", "info", allowed - torque_nm, "N·m",
+        at_most(
+            "motor_torque", torque_nm, allowed, "N·m",
             f"{motor.name} gives {1000 * torque_nm:.1f} mN·m at most; {1000 * allowed:.1f} mN·m are allowed",
             "a stronger motor, or a larger ratio",
         ),
-        Finding(
-            "cam_speed", "info", limits.cam_speed_max_rad_s - cam_speed, "rad/s",
+        at_most(
+            "cam_speed", cam_speed, limits.cam_speed_max_rad_s, "rad/s",
             f"the unloaded cam turns at {cam_speed:.1f} rad/s",
             "a slower motor, or a larger ratio",
         ),
@@ -126,14 +126,13 @@ def _gear_findings(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimit
     for number, pair in reversed(list(enumerate(stages, start=1))):
         stress = pair.pinion.lewis_stress_mpa(wheel_torque / pair.ratio)
         findings += [
-            Finding(
-                f"gear_strength_{number}", "info", limits.stress_mpa - stress, "MPa",
+            at_most(
+                f"gear_strength_{number}", stress, limits.stress_mpa, "MPa",
                 f"teeth of pair {number} bear {stress:.1f} of {limits.stress_mpa:g} MPa (Lewis, load at one tip)",
                 "wider gears, or a larger module",
             ),
-            Finding(
-                f"gear_mesh_{number}", "info",
-                min(pair.involute_margin_mm, pair.contact_ratio - CONTACT_RATIO_MIN), "mm",
+            limit(
+                f"gear_mesh_{number}", min(pair.involute_margin_mm, pair.contact_ratio - CONTACT_RATIO_MIN), "mm",
                 f"pair {number} meshes with a contact ratio of {pair.contact_ratio:.2f}",
                 "more teeth",
             ),
@@ -144,8 +143,8 @@ def _gear_findings(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimit
 
 def _room_finding(pair: GearPair, limits: TrainLimits) -> Finding:
     tip = pair.wheel.tip_radius_mm
-    return Finding(
-        "cam_gear_room", "info", limits.cam_gear_tip_max_mm - tip, "mm",
+    return at_most(
+        "cam_gear_room", tip, limits.cam_gear_tip_max_mm, "mm",
         f"the cam gear's tip radius is {tip:.1f} mm; {limits.cam_gear_tip_max_mm:.1f} mm fit",
         "a stronger motor, or another pair of gears",
     )  # fmt: skip

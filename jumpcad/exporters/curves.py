@@ -1,4 +1,4 @@
-"""Polygons told apart into straight lines, arcs and circles again (mm).
+"""Straight lines, arcs and circles recovered from polygons (mm).
 
 Parts are drawn with polygons fine enough to print (`jumpcad.solids.outline`). CAD programs want the curves that they
 stand for. A chain of corners that lie on one circle, close together, is an arc. Inside corners are holes and hollows,

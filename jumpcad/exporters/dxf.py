@@ -1,7 +1,7 @@
 """DXF of the body plates: flat sheets can be cut by laser instead of printed. Lengths in mm, seen from the outside.
 
 Layer `CUT` holds the outline and every hole, `ENGRAVE` the name. What stands on a plate (the motor's socket) is not in
-a flat drawing; a cut plate wants it printed and glued on.
+a flat drawing; it is printed and glued onto a cut plate.
 """
 
 import io
@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import ezdxf
-from ezdxf.layouts import Modelspace
+from ezdxf.filemanagement import new
+from ezdxf.layouts.layout import Modelspace
 
 from jumpcad.parts.body_plate import ENGRAVING_MM
 from jumpcad.parts.part import Part
@@ -24,8 +25,14 @@ MILLIMETRES = 4
 PLATES = ("body_plate_left", "body_plate_right")
 
 
+def dxf_files(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield path and content of every body plate's drawing."""
+    for name, drawing in write_dxfs(robot).items():
+        yield f"dxf/{name}.dxf", drawing
+
+
 def write_dxfs(robot: Robot) -> dict[str, str]:
-    """Return the DXF document of every body plate by the part's name; none for a robot without a plan."""
+    """Return the DXF document of every body plate by the part's name."""
     layout = robot.layout
     thickness = dict(zip(PLATES, (layout.lateral.left_plate, layout.lateral.right_plate), strict=True))
     return {
@@ -47,7 +54,7 @@ def sheet(part: Part, thickness_mm: float) -> tuple[Region, Region]:
 def write_dxf(cut: Region, engraved: Region) -> str:
     """Return a DXF document (R2010) with closed polylines, the same text for the same regions."""
     with _fixed_metadata():
-        document = ezdxf.new("R2010", units=MILLIMETRES)
+        document = new("R2010", units=MILLIMETRES)
         for layer, colour, region in ((CUT, RED, cut), (ENGRAVE, BLUE, engraved)):
             document.layers.add(layer, color=colour)
             _outlines(document.modelspace(), layer, region)

@@ -1,8 +1,10 @@
 """GLB: the assembled robot as a scene of named, coloured parts, standing with springs at rest.
 
-Every body's frame is a node (`foot_frame`) with its parts below it, so that a viewer can pose the robot. glTF wants
+Every body's frame is a node (`foot_frame`) with its parts below it, so that a viewer can pose the robot. glTF uses
 metres and y up.
 """
+
+from collections.abc import Iterator
 
 import numpy as np
 import trimesh
@@ -17,6 +19,11 @@ Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 """From the robot's z up to y up."""
 FRAME = "robot"
 ROUGHNESS = 0.6
+
+
+def glb_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
+    """Yield path and content of the scene."""
+    yield f"{robot.name}.glb", write_glb(robot)
 
 
 def write_glb(robot: Robot) -> bytes:

@@ -6,7 +6,7 @@ fraction of that in the settings. The project's own MuJoCo engine runs this very
 """
 
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESHES_FROM_BESIDE
@@ -17,6 +17,7 @@ from jumpcad.settings import Settings, surface_friction
 from jumpcad.transforms import rotation_about_y
 
 if TYPE_CHECKING:
+    from jumpcad.robot import Robot
     from jumpcad.scene.visuals import Visual
 
 SUBSTEPS = 4
@@ -27,6 +28,13 @@ IMPEDANCE = [0.99, 0.9999, 0.0001, 0.5, 2.0]
 """Share of a constraint that is enforced, and how it grows with penetration (MuJoCo's `solimp`)."""
 LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100
 """Fewer do not reach the tolerance; what MuJoCo takes where a file says nothing."""
+
+
+def mjcf_files(robot: "Robot") -> Iterator[tuple[str, str]]:
+    """Yield path and content of the model; its meshes are those beside the URDF."""
+    from jumpcad.scene.visuals import visuals
+
+    yield f"mjcf/{robot.name}.xml", write_mjcf(robot, visuals(robot))
 
 
 def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:

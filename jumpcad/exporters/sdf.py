@@ -4,22 +4,25 @@ The model stands with springs at rest. Links' frames are the body frames of `Rob
 """
 
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
 from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.urdf import SWING_RAD
 from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot import Robot
+from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.transforms import Array
 
-if TYPE_CHECKING:
-    from jumpcad.scene.visuals import Visual
+
+def sdf_files(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield path and content of the model; its meshes are those beside the URDF."""
+    yield f"sdf/{robot.name}.sdf", write_sdf(robot, visuals(robot))
 
 
-def write_sdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:
+def write_sdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
     """Return the SDF document of a robot, with the settings' friction and damping."""
     settings = settings or Settings()
     root = ET.Element("sdf", version="1.9")
@@ -38,7 +41,7 @@ def write_sdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: 
     return document(root)
 
 
-def _fill(link: ET.Element, body: Body, visible: "list[Visual]", settings: Settings) -> None:
+def _fill(link: ET.Element, body: Body, visible: list[Visual], settings: Settings) -> None:
     inertial = add(link, "inertial")
     add(inertial, "pose", (*body.com_m, 0.0, 0.0, 0.0))
     add(inertial, "mass", body.mass_kg)

@@ -7,11 +7,12 @@ A part that is a stack of extruded outlines is exact: flat faces, and cylinders 
 import io
 from collections.abc import Iterator
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.exporters.curves import Arc, Circle, Curve, Line, curves_of
 from jumpcad.parts.part import Drawing
+from jumpcad.robot import Robot
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Slab, Stack
 
@@ -24,12 +25,12 @@ FUZZY_MM = (0.0, 1e-4, 1e-3)
 
 
 def is_installed() -> bool:
-    """Tell whether the library that writes STEP is there."""
+    """Tell whether the library that writes STEP is installed."""
     return find_spec("build123d") is not None
 
 
 def require_step() -> None:
-    """Refuse to go on without the library that writes STEP.
+    """Require the library that writes STEP.
 
     Raises
     ------
@@ -38,6 +39,12 @@ def require_step() -> None:
     """
     if not is_installed():
         raise JumpcadError('STEP needs build123d, which is not installed: pip install "jumpcad[step]"')
+
+
+def step_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
+    """Yield path and content of every printed part's file."""
+    for part in robot.parts:
+        yield f"step/{part.name}.step", write_step(part.drawing)
 
 
 def write_step(drawing: Drawing) -> bytes:
@@ -60,7 +67,7 @@ def write_step(drawing: Drawing) -> bytes:
     return buffer.getvalue()
 
 
-def _stacked(stack: Stack) -> "Iterator[Shape]":
+def _stacked(stack: Stack) -> "Iterator[Shape[Any]]":
     """Yield a stack as one solid of flat and cylindrical faces, more and more tolerant of faces that nearly meet."""
     first, *others = (solid for slab in stack.slabs for solid in _extruded(slab))
     if not others:
@@ -98,7 +105,7 @@ def _edge(curve: Curve, z_mm: float) -> "Edge":
             return Edge.make_circle(radius, Plane((*centre, z_mm)))
 
 
-def _faceted(drawing: Drawing) -> "Iterator[Shape]":
+def _faceted(drawing: Drawing) -> "Iterator[Shape[Any]]":
     """Yield the mesh of a part as one solid; triangles that lie in one plane become one face."""
     from build123d import Face, Shell, Solid, Wire
 

@@ -1,17 +1,19 @@
 """3MF: one plate a file, every part a named object (3MF Core Specification 1.3).
 
-Written by hand because the bytes must repeat and a strict reader must have nothing to say: fixed dates, fixed order.
+Written here and not by a library: fixed dates and a fixed order give the same bytes, and strict readers report nothing.
 """
 
 import io
 import zipfile
+from collections.abc import Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 import numpy.typing as npt
 
 from jumpcad.exporters.xml import allowed
-from jumpcad.printing.plates import Placed, Printable, PrintPlate
+from jumpcad.printing.plates import Placed, Printable, PrintPlate, packed
+from jumpcad.robot import Robot
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"
@@ -30,6 +32,13 @@ RELATIONSHIPS = (
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
     "</Relationships>\n"
 )
+
+
+def threemf_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
+    """Yield path and content of every print plate, the parts packed on the workshop's bed."""
+    bed, spacing = robot.workshop.printer.bed_mm, robot.workshop.process.part_spacing_mm
+    for plate in packed(robot.parts, bed, spacing):
+        yield f"print/{plate.name}.3mf", write_threemf(plate)
 
 
 def write_threemf(plate: PrintPlate) -> bytes:

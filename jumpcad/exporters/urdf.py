@@ -8,7 +8,7 @@ metres); what touches the ground are spheres.
 import json
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESH_FOLDER
@@ -19,10 +19,23 @@ from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings
 
 if TYPE_CHECKING:
+    from jumpcad.robot import Robot
     from jumpcad.scene.visuals import Visual
 
 SWING_RAD = math.pi / 2
 """Limits leave this much on either side of the travel: simulators make stops of them, and legs swing past rest."""
+
+
+def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
+    """Yield path and content of the meshes of all that is seen, of the URDF and of the loop beside it."""
+    from jumpcad.scene.visuals import visuals
+    from jumpcad.solids.stl import write_stl
+
+    visible = visuals(robot)
+    for name, mesh in {shape.mesh_name: shape.mesh for shape in visible}.items():
+        yield f"urdf/{MESH_FOLDER}/{name}.stl", write_stl(mesh)
+    yield f"urdf/{robot.name}.urdf", write_urdf(robot, visible)
+    yield f"urdf/{robot.name}.loop.json", write_loop(robot)
 
 
 def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:

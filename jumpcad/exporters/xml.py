@@ -59,10 +59,12 @@ def allowed(text: str) -> str:
 
 
 def rpy(rotation: Array) -> Array:
-    """Return roll, pitch and yaw (3,) about fixed axes (rad) of a rotation (3, 3), as URDF and SDF want them."""
-    return Rotation.from_matrix(rotation).as_euler("xyz")
+    """Return roll, pitch and yaw (3,) about fixed axes (rad) of a rotation (3, 3), as in URDF and SDF."""
+    angles: Array = Rotation.from_matrix(rotation).as_euler("xyz")
+    return angles
 
 
 def wxyz(rotation: Array) -> Array:
-    """Return the quaternion (4,), scalar first, of a rotation (3, 3), as MJCF wants it."""
-    return Rotation.from_matrix(rotation).as_quat(scalar_first=True)
+    """Return the quaternion (4,), scalar first, of a rotation (3, 3), as in MJCF."""
+    quaternion: Array = Rotation.from_matrix(rotation).as_quat(scalar_first=True)
+    return quaternion

@@ -11,13 +11,18 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, at_least
 from jumpcad.mechanism.linkage import Linkage, Pose, toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism
 from jumpcad.transforms import Array
 
 TAKEOFF_ENERGY_FACTOR = 1.3
 """Spring energy over the weight's work in the push-off, at least; measured: no wrong rejection among 399 designs."""
+
+
+def feasibility_findings(mechanism: Mechanism) -> list[Finding]:
+    """Return the findings of both steps for a mechanism whose masses are known."""
+    return [*geometry_findings(mechanism.design), *statics_findings(mechanism)]
 
 
 def geometry_findings(design: Design) -> list[Finding]:
@@ -36,8 +41,8 @@ def geometry_findings(design: Design) -> list[Finding]:
     if margin <= 0:
         return [loop]
     height = float(linkage.height_of_body_mm(-design.compression_rad).min())
-    below = Finding(
-        "below_ground", "error" if height < 0 else "info", height, "mm",
+    below = at_least(
+        "below_ground", height, 0.0, "mm",
         f"lowest body pivot, springs wound, is {height:.1f} mm above the line through ankle and front eye",
         "lower compression_ratio, or raise rest_angle_deg",
     )  # fmt: skip
@@ -52,15 +57,14 @@ def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -
     back, front = support_span_mm(mechanism.design)
     x = float(com[0, 0])
     stability = min(x - back, front - x)
-    tips = Finding(
-        "tips", "error" if stability < 0 else "info", stability, "mm",
+    tips = at_least(
+        "tips", stability, 0.0, "mm",
         f"centre of mass, springs wound, is at {x:.1f} mm from the ankle; the feet span {back:.1f} to {front:.1f} mm",
         "lengthen the toes (e_coef) or turn them back (smaller ground_link_angle_deg), or wind less",
     )  # fmt: skip
     work = mechanism.mass_kg * gravity_m_s2 * float(com[1, 1] - com[0, 1]) / 1000.0
-    surplus = mechanism.spring.energy_j - TAKEOFF_ENERGY_FACTOR * work
-    weak = Finding(
-        "too_weak", "error" if surplus < 0 else "info", surplus, "J",
+    weak = at_least(
+        "too_weak", mechanism.spring.energy_j, TAKEOFF_ENERGY_FACTOR * work, "J",
         f"the springs hold {mechanism.spring.energy_j:.4f} J; standing up against gravity takes {work:.4f} J, "
         f"and a jump needs {TAKEOFF_ENERGY_FACTOR} times that",
         "raise stiffness_nmm_per_deg or compression_ratio, or lower carrying_link_mm",
@@ -102,7 +106,7 @@ def _winding_finding(design: Design) -> Finding:
         "winding", "error", to_flat, "°",
         f"there is nothing to wind: the body tilts by {math.degrees(design.beta_rad):.1f}° at rest, so that "
         f"{to_flat:.1f}° are left of rest_angle_deg = {design.rest_angle_deg:g} to a flat leg",
-        "bring c_coef nearer to 1, or raise d_coef",
+        "bring c_coef nearer to 1, or raise d_coef", to_flat, 0.0,
     )  # fmt: skip
 
 
@@ -110,5 +114,5 @@ def _loop_finding(margin_mm: float, why: str) -> Finding:
     found = f"closes with {margin_mm:.2f} mm to spare" if margin_mm > 0 else f"is {-margin_mm:.2f} mm short of closing"
     return Finding(
         "loop", "info" if margin_mm > 0 else "error", margin_mm, "mm", f"the loop {found}: {why}",
-        "lower compression_ratio, or bring c_coef nearer to 1",
+        "lower compression_ratio, or bring c_coef nearer to 1", margin_mm, 0.0,
     )  # fmt: skip

@@ -1,1 +1,16 @@
 """What there is to see of a robot: meshes in their places, cameras, shading, the renderer, steps of assembly."""
+
+from typing import TYPE_CHECKING
+
+from jumpcad.faces import face
+
+if TYPE_CHECKING:
+    from jumpcad.scene.assembly_steps import Step as Step
+    from jumpcad.scene.camera import View as View
+    from jumpcad.scene.renderer import Renderer as Renderer
+    from jumpcad.scene.visuals import Visual as Visual
+
+_HOMES = {"Renderer": "renderer", "Step": "assembly_steps", "View": "camera", "Visual": "visuals"}
+
+__all__ = list(_HOMES)
+__getattr__, __dir__ = face(__name__, _HOMES)

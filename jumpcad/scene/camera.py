@@ -1,4 +1,4 @@
-"""Where a picture is taken from, and where on it a point comes to lie."""
+"""The camera of a picture: its place, its axes, and the projection of points."""
 
 import math
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 from jumpcad.transforms import Array
 
 FIELD_OF_VIEW_DEG = 14.0
-"""A long lens: nearly parallel lines."""
+"""Small, for a nearly parallel projection."""
 SLOPE = math.tan(math.radians(FIELD_OF_VIEW_DEG / 2.0))
 """Half the height of what is seen, over its distance."""
 MARGIN = 1.06
@@ -16,7 +16,7 @@ MARGIN = 1.06
 
 @dataclass(frozen=True)
 class View:
-    """From where a picture is taken: yaw from the robot's x axis and pitch above the ground (deg)."""
+    """The direction from which a picture is taken: yaw from the robot's x axis and pitch above the ground (deg)."""
 
     yaw_deg: float = -58.0
     pitch_deg: float = 20.0
@@ -61,4 +61,5 @@ def aimed(frame_m: Array, view: View, aspect: float) -> Camera:
 
 def turned(vectors: Array, rotation: Array) -> Array:
     """Return vectors (…, 3) turned by a matrix (3, 3), the same on every processor."""
-    return np.einsum("...j,kj->...k", vectors, rotation)
+    result: Array = np.einsum("...j,kj->...k", vectors, rotation)
+    return result

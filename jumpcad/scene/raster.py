@@ -12,7 +12,7 @@ from jumpcad.transforms import Array
 Ints = npt.NDArray[np.int64]
 
 X, Y, NEARNESS, SHADE = range(4)
-"""The columns of what is known of a corner."""
+"""Columns of a corner's data."""
 
 
 def drawn(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Array]:

@@ -1,4 +1,4 @@
-"""Shaded pictures of things, with the edges that a draughtsman would draw.
+"""Shaded pictures of meshes with their visible edges.
 
 Everything is drawn twice as large as asked and scaled down. An edge is a crease of a mesh that nothing nearer hides, or
 a border between two things.
@@ -33,7 +33,7 @@ BACKGROUND = 255
 PALE: Colour = (0.90, 0.90, 0.91)
 LIGHT = np.array([-0.5, -1.2, 1.6]) / math.hypot(-0.5, -1.2, 1.6)
 AMBIENT, DIFFUSE = 0.6, 0.45
-"""How bright a face is that the light does not reach, and how much brighter one that it falls on squarely."""
+"""Brightness of a face without light, and what light at a right angle adds."""
 MM = 0.001
 
 
@@ -73,9 +73,9 @@ class Renderer:
         view
             From where.
         frame_m
-            Points (n, 3) that the picture shall hold.
+            Points (n, 3) that the picture must contain.
         pale
-            Which things are only hinted at.
+            Which things are drawn in pale grey.
         """
         large = (SUPERSAMPLING * size[0], SUPERSAMPLING * size[1])
         camera = aimed(frame_m, view, size[0] / size[1])

@@ -1,4 +1,4 @@
-"""How a mesh is shaded: smooth where it is round, flat beside its edges."""
+"""Vertex normals of a mesh: smooth over small angles, sharp at creases."""
 
 from functools import lru_cache
 from typing import TYPE_CHECKING

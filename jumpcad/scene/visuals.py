@@ -55,12 +55,12 @@ class Visual:
 
     @property
     def mesh(self) -> "trimesh.Trimesh":
-        """The mesh in its own frame (mm), as detailed as eyes need."""
+        """The mesh in its own frame (mm), as detailed as a picture needs."""
         return self.source.drawing.look if isinstance(self.source, Part) else self.source.look
 
 
 def visuals(robot: Robot) -> tuple[Visual, ...]:
-    """Return every copy of every printed part, then every bought part; nothing for a robot that is a mechanism only."""
+    """Return every copy of every printed part, then every bought part."""
     return (*_printed(robot), *(_bought(item) for item in robot.hardware))
 
 

@@ -15,7 +15,7 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import Evaluation
 from jumpcad.settings import Settings, load_settings
-from jumpcad.simulation.engines import ENGINES, default_engine
+from jumpcad.simulation.engines import default_engine, require_engine
 from jumpcad.version import __version__
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop
 
@@ -146,8 +146,8 @@ def robot_model(
     JumpcadError
         If there is no such model, engine, workshop or settings.
     """
-    if engine is not None and engine not in ENGINES:
-        raise JumpcadError(f"{engine!r} is not an engine of a search; there are {', '.join(ENGINES)}")
+    if engine is not None:
+        require_engine(engine)
     if name not in MODELS or name == "published":
         return RobotModel(name)
     built_in = None if name != "printed" else workshop if isinstance(workshop, Workshop) else load_workshop(workshop)

@@ -123,8 +123,10 @@ def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
         if not abs(value) <= LARGEST:
             raise JumpcadError(f"{name} = {value:g} is no plausible figure")
     for finding in findings:
-        if math.isnan(finding.margin):  # infinite it may be: the audit of a simulation that blew up
-            raise JumpcadError(f"the margin of {finding.name} is not a number")
+        for figure in ("margin", "value", "limit"):
+            number = getattr(finding, figure)
+            if number is not None and math.isnan(number):  # infinite it may be: the audit of a run that blew up
+                raise JumpcadError(f"the {figure} of {finding.name} is not a number")
     return Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
 
 

@@ -19,6 +19,7 @@ from jumpcad.mechanism.poses import Release, release_pose
 from jumpcad.settings import Settings, surface_friction
 from jumpcad.simulation.engines import import_pybullet
 from jumpcad.simulation.mechanics import State
+from jumpcad.simulation.run import Run
 from jumpcad.transforms import quaternion_about_y
 
 RESET_EVERY = 500
@@ -37,6 +38,8 @@ class BulletEngine:
 
     A lock makes threads wait for each other; they lose nothing by it, because PyBullet holds the interpreter's lock.
     """
+
+    run = Run
 
     def __init__(self) -> None:
         self._bullet = import_pybullet()

@@ -1,17 +1,106 @@
-"""The engines, and what to say where one is missing."""
+"""The registry of engines, and what to say where one is not installed. Nothing heavy loads before an engine is used."""
 
 import importlib
 import importlib.util
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cache
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 from jumpcad.errors import JumpcadError
+from jumpcad.files.complaints import did_you_mean
 
-GENERAL = ("pybullet", "mujoco")
-"""General rigid-body engines, independent of each other and of this package."""
-ENGINES = (*GENERAL, "planar")
+if TYPE_CHECKING:
+    from jumpcad.simulation.run import Engine
+
+
+@dataclass(frozen=True)
+class EngineEntry:
+    """A line of the registry: module and class of an engine, the package that it needs, a note for the help.
+
+    A `general` engine is a rigid-body simulator independent of this project: `--engine both` compares those, and the
+    first of them that is installed is the default.
+    """
+
+    module: str
+    maker: str
+    package: str = ""
+    general: bool = True
+    note: str = ""
+
+    @property
+    def is_installed(self) -> bool:
+        """Tell whether the package is there, if one is needed."""
+        return not self.package or importlib.util.find_spec(self.package) is not None
+
+
+ENGINES = {
+    "pybullet": EngineEntry("jumpcad.simulation.bullet", "BulletEngine", package="pybullet"),
+    "mujoco": EngineEntry("jumpcad.simulation.mujoco", "MujocoEngine", package="mujoco"),
+    "planar": EngineEntry("jumpcad.simulation.planar", "PlanarEngine", general=False, note="fast"),
+}
+"""Every engine by its name."""
+GENERAL = tuple(name for name, entry in ENGINES.items() if entry.general)
+
+
+@cache
+def engine_named(name: str) -> "Engine":
+    """Return the one engine of a name that this process has.
+
+    Raises
+    ------
+    JumpcadError
+        If there is none of the name, or it is not installed.
+    """
+    require_engine(name)
+    entry = ENGINES[name]
+    engine: Engine = getattr(importlib.import_module(entry.module), entry.maker)()
+    return engine
+
+
+def require_engine(name: str) -> None:
+    """Refuse a name that no engine has.
+
+    Raises
+    ------
+    JumpcadError
+        Saying which ones there are.
+    """
+    if name not in ENGINES:
+        known = in_words(ENGINES, "and")
+        raise JumpcadError(f"{name!r} is not an engine; there are {known}{did_you_mean(name, list(ENGINES))}")
+
+
+def default_engine() -> str:
+    """Return the first general engine that is installed.
+
+    Raises
+    ------
+    JumpcadError
+        If there is none.
+    """
+    for name in GENERAL:
+        if ENGINES[name].is_installed:
+            return name
+    raise JumpcadError(
+        'no physics engine is installed: pip install "jumpcad[mujoco]" (everywhere) or "pybullet==3.2.7" '
+        "(Python 3.11 on Linux x86_64)"
+    )
+
+
+def engine_help() -> str:
+    """Return what the command line's help says of the choice: the general engines, `both`, the others."""
+    others = [f"{name} ({entry.note})" for name, entry in ENGINES.items() if not entry.general]
+    return f"{in_words([*GENERAL, 'both', *others], 'or')}; else the first installed."
+
+
+def in_words(names: Iterable[str], word: str) -> str:
+    """Return names as a sentence lists them: `a, b or c`."""
+    *most, last = names
+    return f"{', '.join(most)} {word} {last}" if most else last
 
 
 def import_pybullet(without_it: str = "--engine mujoco works without it") -> ModuleType:
@@ -36,26 +125,9 @@ def import_mujoco() -> ModuleType:
         ) from None
 
 
-def default_engine() -> str:
-    """Return the first general engine that is installed.
-
-    Raises
-    ------
-    JumpcadError
-        If there is none.
-    """
-    for engine in GENERAL:
-        if importlib.util.find_spec(engine) is not None:
-            return engine
-    raise JumpcadError(
-        'no physics engine is installed: pip install "jumpcad[mujoco]" (everywhere) or "pybullet==3.2.7" '
-        "(Python 3.11 on Linux x86_64)"
-    )
-
-
 @contextmanager
 def _silent_stderr() -> Iterator[None]:
-    """Keep the process's standard error shut: PyBullet greets there when it loads, where only errors belong."""
+    """Close the process's standard error for a moment: PyBullet writes a greeting there when it loads."""
     kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 2)
     try:

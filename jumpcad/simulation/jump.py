@@ -1,4 +1,4 @@
-"""What a simulation answers."""
+"""The result of a simulation."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -71,7 +71,7 @@ class PublishedQuantities:
 
 @dataclass(frozen=True, repr=False)
 class Jump:
-    """The answer of one simulation.
+    """The result of one simulation.
 
     `verdict` is `jump`, `no_takeoff`, the reason of the gate's refusal (`loop`, `below_ground`, `tips`, `too_weak`), or
     that of the audit's (`audit_energy`, `audit_loop`). What only a jump has is None under any other verdict; `fitness`

@@ -82,7 +82,8 @@ class Mechanics:
 
     def frame_positions_m(self, state: State) -> Array:
         """Return the origins (4, 3) of the bodies' frames."""
-        return state.com_m - np.einsum("bij,bj->bi", state.rotation, self.com_in_body_m)
+        origins: Array = state.com_m - np.einsum("bij,bj->bi", state.rotation, self.com_in_body_m)
+        return origins
 
 
 @dataclass(frozen=True)

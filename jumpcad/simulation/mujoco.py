@@ -13,11 +13,14 @@ from jumpcad.mechanism.poses import Release, release_pose
 from jumpcad.settings import Settings
 from jumpcad.simulation.engines import import_mujoco
 from jumpcad.simulation.mechanics import State
+from jumpcad.simulation.run import Run
 from jumpcad.transforms import quaternion_about_y
 
 
 class MujocoEngine:
     """Makes a model of its own for every robot."""
+
+    run = Run
 
     def __init__(self) -> None:
         self._mujoco = import_mujoco()

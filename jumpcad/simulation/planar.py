@@ -27,29 +27,6 @@ LACKING = ("restitution", "rolling_friction_m", "drag_per_s", "published_quantit
 """Settings that the plane, or a run that ends at touchdown, does not have."""
 
 
-class PlanarEngine:
-    """Makes planar worlds, with the effects that it was given."""
-
-    def __init__(self, effects: Effects | None = None) -> None:
-        self.effects = effects or Effects()
-
-    @contextmanager
-    def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["PlanarWorld"]:
-        """Put a robot on the ground, ready for release.
-
-        Raises
-        ------
-        JumpcadError
-            If the settings ask for what this engine does not have.
-        """
-        for key in LACKING:
-            if value := getattr(settings, key):
-                raise JumpcadError(
-                    f"{key} = {value}: the planar engine has none; leave it out or use --engine pybullet"
-                )
-        yield PlanarWorld(mechanism, settings, self.effects)
-
-
 class PlanarWorld:
     """One robot in the plane; a `World` for `Run`."""
 
@@ -148,6 +125,31 @@ class PlanarRun(Run):
         if not (found.flown and self.sound):
             return None
         return self._takeoff(self.time_s, world.state(), world.joint_damping_j)
+
+
+class PlanarEngine:
+    """Makes planar worlds, with the effects that it was given."""
+
+    run = PlanarRun
+
+    def __init__(self, effects: Effects | None = None) -> None:
+        self.effects = effects or Effects()
+
+    @contextmanager
+    def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["PlanarWorld"]:
+        """Put a robot on the ground, ready for release.
+
+        Raises
+        ------
+        JumpcadError
+            If the settings ask for what this engine does not have.
+        """
+        for key in LACKING:
+            if value := getattr(settings, key):
+                raise JumpcadError(
+                    f"{key} = {value}: the planar engine has none; leave it out or use --engine pybullet"
+                )
+        yield PlanarWorld(mechanism, settings, self.effects)
 
 
 def _about_y(direction: ComplexArray) -> Array:

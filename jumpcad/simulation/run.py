@@ -1,16 +1,17 @@
 """One run: from release through take-off to the ballistic or the simulated flight, audited throughout.
 
-An engine moves a `World`; everything that is decided about the run is decided here, the same for all engines.
+An engine moves a `World`. Take-off, flight and audit are found here, in the same way for all engines.
 """
 
 import math
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, at_most, limit
 from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
@@ -42,10 +43,19 @@ class World(Protocol):
         """
 
     def loaded(self) -> bool:
-        """Say whether the ground carries any of the robot."""
+        """Tell whether the ground carries any of the robot's weight."""
 
     def state(self) -> State:
         """Return where the bodies are and how they move."""
+
+
+class Engine(Protocol):
+    """Makes worlds for robots, and carries out their runs by its `run`: `Run`, or a class derived from it."""
+
+    run: "type[Run]"
+
+    def world(self, mechanism: Mechanism, settings: Settings) -> AbstractContextManager[World]:
+        """Put a robot on the ground, ready for release, and take it away afterwards."""
 
 
 @dataclass(frozen=True)
@@ -97,18 +107,18 @@ class Run:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return the audit's findings `audit_energy` and `audit_loop`."""
-        energy, gap = ENERGY_RATIO_LIMIT - self.worst_energy_ratio, 1000.0 * (LOOP_GAP_LIMIT_M - self.worst_gap_m)
         remedy = "use a smaller dt_s or more solver_iterations; if that does not help, the design is at a dead point"
         return (
-            Finding(
-                "audit_energy", "error" if energy < 0 else "info", energy, "",
+            at_most(
+                "audit_energy", self.worst_energy_ratio, ENERGY_RATIO_LIMIT, "",
                 f"mechanical energy reached {self.worst_energy_ratio:.4f} of the springs' energy; "
                 f"the limit is {ENERGY_RATIO_LIMIT}", remedy,
             ),
-            Finding(
-                "audit_loop", "error" if gap < 0 else "info", gap, "mm",
+            limit(
+                "audit_loop", 1000.0 * (LOOP_GAP_LIMIT_M - self.worst_gap_m), "mm",
                 f"the loop came apart by up to {1000 * self.worst_gap_m:.4f} mm; the limit is "
                 f"{1000 * LOOP_GAP_LIMIT_M:g} mm", remedy,
+                value=1000.0 * self.worst_gap_m, allowed=1000.0 * LOOP_GAP_LIMIT_M,
             ),
         )  # fmt: skip
 
@@ -138,7 +148,7 @@ class Run:
         airborne = 0
         left: tuple[float, State, float] | None = None
         while airborne < hold or self.mechanics.velocity_m_s(world.state())[2] <= 0:
-            # In the first half of the springs' travel nothing leaves the ground, and nobody needs to look for it.
+            # In the first half of the springs' travel nothing leaves the ground, so contacts are not looked up.
             leg_rad = self._advance(hold if leg_rad < half_wound else 1)
             if leg_rad >= half_wound:
                 airborne = 0 if world.loaded() else airborne + 1
@@ -221,4 +231,5 @@ class Run:
         return Takeoff(time_s, flight, budget, left / self.mechanism.spring.energy_j)
 
     def _body_position_m(self, state: State) -> Array:
-        return self.mechanics.frame_positions_m(state)[BODY_INDEX]
+        position: Array = self.mechanics.frame_positions_m(state)[BODY_INDEX]
+        return position

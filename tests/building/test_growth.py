@@ -4,13 +4,15 @@ from typing import Any
 
 import pytest
 
+from jumpcad import checks
 from jumpcad.building import assembly, build
 from jumpcad.checks import check
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import errors
-from jumpcad.strength.sizing import Growth
+from jumpcad.findings import Finding, at_least, errors
+from jumpcad.robot import Robot
+from jumpcad.strength.sizing import KEY_MM, Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 
@@ -49,6 +51,14 @@ def test_sections_grow_until_the_checks_pass(shop: Workshop, grown: set[str]) ->
         {**vars(r.layout.sections), "plate": r.layout.lateral.left_plate} for r in (as_sized, robot) if r.layout
     )
     assert grown <= {name for name in before if before[name] != after[name]}
+
+
+def test_any_check_can_make_a_section_grow(monkeypatch: pytest.MonkeyPatch) -> None:
+    def wide_key(robot: Robot) -> list[Finding]:
+        return [at_least("key_width", robot.layout.sections.key_mm, 7.5, "mm", "found", "remedy", grows="key")]
+
+    monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, checks.Check(wide_key, cheap=True)))
+    assert build(load_design("kenan-2.0")).layout.sections.key_mm == pytest.approx(1.1 * KEY_MM)
 
 
 def test_what_finds_no_room_to_grow_stays_and_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

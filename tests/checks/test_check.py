@@ -1,20 +1,22 @@
 """All checks together, the cheap ones among them, the drive's, and the command."""
 
 import json
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 import jumpcad
+from jumpcad import checks
 from jumpcad.checks import constraint_findings
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding, errors, limit
+from jumpcad.findings import Finding, at_most, errors, limit
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
+from jumpcad.strength.sizing import Growth
 
 
 def test_nothing_is_wrong_with_kenan(kenan: Robot) -> None:
@@ -29,6 +31,31 @@ def test_constraints_are_among_all_checks_and_leave_the_gates_to_the_jump(kenan:
     assert all(finding in everything for finding in constraints)
     assert {"loop", "below_ground", "tips", "too_weak"}.isdisjoint(finding.name for finding in constraints)
     assert {"loop", "below_ground", "tips", "too_weak"} < {finding.name for finding in everything}
+
+
+def test_a_check_of_the_registry_is_run_by_all_that_is_cheap(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    weight = at_most("weight", 1000.0 * kenan.mass_kg, 200.0, "g", "found", "remedy")
+    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight], cheap=True),))
+    assert checks.check(kenan) == checks.quick_findings(kenan) == constraint_findings(kenan) == [weight]
+    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight]),))
+    assert (checks.check(kenan), checks.quick_findings(kenan), constraint_findings(kenan)) == ([weight], [], [])
+    assert checks.check(capsule_robot(kenan.design)) == []
+
+
+def test_margins_are_the_distance_from_value_to_limit(kenan: Robot, strongest: Robot) -> None:
+    findings = [finding for robot in (kenan, strongest) for finding in jumpcad.check(robot)]
+    compared = [finding for finding in findings if finding.value is not None and finding.limit is not None]
+    assert len(compared) > 0.7 * len(findings)
+    for finding in compared:
+        assert abs(finding.margin) == pytest.approx(abs(finding.limit - finding.value), rel=1e-9, abs=1e-12)
+        assert finding.use is None or (finding.use <= 1.0) == (finding.margin >= 0.0)
+
+
+def test_what_a_check_makes_grow_is_a_factor_of_growth(strongest: Robot) -> None:
+    named = {finding.name: finding.grows for finding in constraint_findings(strongest) if finding.grows}
+    assert set(named.values()) == {field.name for field in fields(Growth)}
+    assert named["leg_sideways"] == named["eye_strength"] == "thickness"
+    assert named["toe_landing"] == "toe"
 
 
 def test_drive_reports_what_its_synthesis_found(kenan: Robot) -> None:

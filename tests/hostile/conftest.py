@@ -17,7 +17,7 @@ from support.commands import exit_code_of
 from support.sandbox import Sandbox
 from support.slicers import OBEDIENT
 
-from jumpcad import simulation
+from jumpcad.simulation.engines import engine_named
 
 ENGINES = tuple(name for name in ("pybullet", "mujoco") if importlib.util.find_spec(name))
 TRIES: Counter[str] = Counter()
@@ -112,7 +112,7 @@ def still_works(sandbox: Sandbox, good_jump: dict[str, str]) -> Callable[[str], 
     def check(engine: str) -> None:
         done = sandbox.call("simulate", "kenan-2.0", "--capsule", "--json", "--engine", engine)
         if done.out != good_jump[engine]:
-            simulation._engine.cache_clear()  # a fresh one for the cases to come
+            engine_named.cache_clear()  # a fresh one for the cases to come
             pytest.fail(f"{engine} no longer simulates a good robot as before: {done.out[:120]}")
 
     return check

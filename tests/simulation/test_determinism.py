@@ -80,7 +80,7 @@ def test_a_failed_run_leaves_no_robot_behind(kenan: Robot, monkeypatch: pytest.M
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        patch.setattr("jumpcad.simulation.Run.go", interrupted)
+        patch.setattr("jumpcad.simulation.run.Run.go", interrupted)
         with pytest.raises(KeyboardInterrupt):
             simulate(kenan)
     assert bits(kenan) == first

@@ -12,9 +12,9 @@ from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.robot import Robot
-from jumpcad.simulation import Settings, _engine, simulate
+from jumpcad.simulation import Settings, engines, simulate
 from jumpcad.simulation.bullet import LINKS
-from jumpcad.simulation.engines import default_engine
+from jumpcad.simulation.engines import EngineEntry, default_engine, engine_named
 from jumpcad.simulation.mechanics import Mechanics
 
 ENGINES = ["pybullet", "mujoco"]
@@ -25,7 +25,7 @@ FINE = Settings(dt_s=1 / 16000, solver_iterations=200)
 def test_pybullet_has_the_robots_inertia(lopsided: Robot) -> None:
     """Masses, centres and tensors read back from PyBullet (createMultiBody alone takes them from the colliders)."""
     bullet = pytest.importorskip("pybullet")
-    with _engine("pybullet").world(lopsided, Settings()) as world:
+    with engine_named("pybullet").world(lopsided, Settings()) as world:
         for link, name in enumerate((BODY, *LINKS), start=-1):
             info = bullet.getDynamicsInfo(world.robot_id, link, physicsClientId=world._client)
             axes = np.array(bullet.getMatrixFromQuaternion(info[4])).reshape(3, 3)
@@ -52,7 +52,7 @@ def test_flight_keeps_momentum_and_follows_the_parabola(kenan: Robot, engine: st
     """Once in the air, with springs, damping and loop at work inside: v_x is kept and v_z falls by g·t."""
     pytest.importorskip(engine)
     mechanics = Mechanics(kenan, 9.81)
-    with _engine(engine).world(kenan, FINE) as world:
+    with engine_named(engine).world(kenan, FINE) as world:
         world.advance(round(0.070 / FINE.dt_s))
         before = world.state()
         world.advance(round(0.020 / FINE.dt_s))
@@ -67,7 +67,7 @@ def test_frictionless_ground_gives_no_forward_push(kenan: Robot, engine: str) ->
     """Without horizontal forces the centre of mass goes straight up."""
     pytest.importorskip(engine)
     ice = FINE.model_copy(update={"ground_friction": 0.0})
-    with _engine(engine).world(kenan, ice) as world:
+    with engine_named(engine).world(kenan, ice) as world:
         world.advance(round(0.050 / FINE.dt_s))
         velocity = Mechanics(kenan, 9.81).velocity_m_s(world.state())
     assert np.abs(velocity[:2]).max() < 3e-4 < 0.5 < velocity[2]
@@ -133,13 +133,24 @@ def test_mujoco_refuses_what_it_does_not_have(kenan: Robot, key: str) -> None:
         simulate(kenan, Settings(**{key: 0.5}), "mujoco")
 
 
+def test_an_engine_of_the_registry_simulates_and_is_named_to_users(
+    kenan: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    entry = EngineEntry("jumpcad.simulation.planar", "PlanarEngine", general=False, note="a second name")
+    monkeypatch.setitem(engines.ENGINES, "flat", entry)
+    assert replace(simulate(kenan, engine="flat"), engine="planar") == simulate(kenan, engine="planar")
+    assert engines.engine_help().startswith("pybullet, mujoco, both, planar (fast) or flat (a second name); else")
+    with pytest.raises(JumpcadError, match="pybullet, mujoco, planar and flat"):
+        simulate(kenan, engine="plane")
+
+
 def test_unknown_engine(kenan: Robot) -> None:
     with pytest.raises(JumpcadError, match=r"'mujico' is not an engine.*did you mean mujoco"):
         simulate(kenan, engine="mujico")
 
 
 def test_a_missing_engine_is_said_with_the_way_out(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    _engine.cache_clear()
+    engine_named.cache_clear()
     monkeypatch.setitem(sys.modules, "pybullet", None)
     with pytest.raises(JumpcadError, match=r"pip install \"pybullet==3\.2\.7\".*--engine mujoco works"):
         simulate(kenan)

@@ -14,7 +14,7 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
-from jumpcad.simulation import _engine
+from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics, State, ballistics
 from jumpcad.transforms import Array
 
@@ -51,7 +51,7 @@ def test_release_closes_the_loop_with_a_flat_foot_on_the_ground(jumping: list[Fl
 def test_engine_puts_every_body_where_the_joints_say(lopsided: Robot, engine: str) -> None:
     pytest.importorskip(engine)
     poses = frames(lopsided)
-    with _engine(engine).world(lopsided, Settings()) as world:
+    with engine_named(engine).world(lopsided, Settings()) as world:
         state = world.state()
     mechanics = Mechanics(lopsided, 9.81)
     for name, origin, rotation in zip(BODY_NAMES, mechanics.frame_positions_m(state), state.rotation, strict=True):
@@ -122,7 +122,7 @@ def test_principal_axes_are_proper_and_give_the_tensor_back(lopsided: Robot) -> 
 
 
 def test_loop_gap_is_the_distance_of_its_ends(kenan: Robot) -> None:
-    with _engine("pybullet").world(kenan, Settings()) as world:
+    with engine_named("pybullet").world(kenan, Settings()) as world:
         state = world.state()
     moved = replace(state, com_m=state.com_m + np.outer([name == FOOT for name in BODY_NAMES], [3e-3, 0, 4e-3]))
     assert Mechanics(kenan, 9.81).loop_gap_m(moved) == pytest.approx(5e-3, rel=1e-6)

@@ -2,7 +2,8 @@
 
 from jumpcad.exporters import mjcf
 from jumpcad.robot import Robot
-from jumpcad.simulation import Settings, _engine
+from jumpcad.simulation import Settings
+from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics, ballistics
 from jumpcad.simulation.run import AIRBORNE_S
 
@@ -13,7 +14,7 @@ def last_contact_range_m(robot: Robot, settings: Settings, engine: str) -> float
     """Return the ballistic range after the last contact before the springs are spent; None if the robot stays down."""
     mechanics = Mechanics(robot, settings.gravity_m_s2)
     hold = round(AIRBORNE_S / settings.dt_s)
-    with _engine(engine).world(robot, settings) as world:
+    with engine_named(engine).world(robot, settings) as world:
         start = left = world.state()
         aloft = 0
         for _ in range(round(GIVEN_UP_S / settings.dt_s)):

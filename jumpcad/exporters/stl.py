@@ -1,0 +1,21 @@
+"""STL: one file per printed part, in printing orientation, mm."""
+
+from collections.abc import Iterator
+
+from jumpcad.robot import Robot
+from jumpcad.solids.finish import require_part
+from jumpcad.solids.stl import write_stl
+
+
+def stl_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
+    """Yield path and content of every part's file.
+
+    Raises
+    ------
+    CannotBuildError
+        If a part's file is not one closed solid.
+    """
+    for part in robot.parts:
+        stl = write_stl(part.mesh)
+        require_part(part.name, stl)
+        yield f"stl/{part.name}.stl", stl

@@ -1,0 +1,84 @@
+"""One simulated jump: the feasibility tests, then a run in an engine, then its verdict."""
+
+from jumpcad.findings import Finding, errors
+from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.settings import Settings as Settings
+from jumpcad.settings import load_settings as load_settings
+from jumpcad.simulation.engines import engine_named
+from jumpcad.simulation.jump import Jump
+from jumpcad.simulation.run import Run
+
+
+def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str = "pybullet") -> Jump:
+    """Let a robot jump.
+
+    Parameters
+    ----------
+    mechanism
+        Its bodies, joints, loop and spring are simulated.
+    settings
+        Time step, friction and so on; the default settings if None.
+    engine
+        A name of `jumpcad.simulation.ENGINES`: `pybullet`, `mujoco` for an independent result to compare, or `planar`,
+        the push-off in the plane in a fraction of their time.
+
+    Returns
+    -------
+    Jump
+        With the verdict of the gate, of the push-off, or of the audit. The same robot and settings give the same bits,
+        in any process and after any other robot.
+
+    Raises
+    ------
+    JumpcadError
+        If the engine is unknown, is not installed, or cannot do what the settings ask.
+    """
+    settings = settings or Settings()
+    maker = engine_named(engine)
+    findings = geometry_findings(mechanism.design)
+    if not errors(findings):
+        findings += statics_findings(mechanism, settings.gravity_m_s2)
+    refused = errors(findings)
+    if refused:
+        return Jump(refused[0].name, engine, mechanism.mass_kg, mechanism.spring.energy_j, findings=tuple(findings))
+    with maker.world(mechanism, settings) as world:
+        run = maker.run(world, mechanism, settings)
+        run.go()
+        return _jump(run, engine, tuple(findings))
+
+
+def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
+    mechanism, takeoff = run.mechanism, run.takeoff
+    audit = run.findings()
+    findings = (*findings, *audit)
+    failed = errors(audit)
+    if failed or takeoff is None:
+        verdict = failed[0].name if failed else "no_takeoff"
+        return Jump(
+            verdict,
+            engine,
+            mechanism.mass_kg,
+            mechanism.spring.energy_j,
+            trajectory=run.trajectory(),
+            findings=findings,
+        )
+    flight = takeoff.flight
+    return Jump(
+        "jump",
+        engine,
+        mechanism.mass_kg,
+        mechanism.spring.energy_j,
+        fitness=flight.range_m / (mechanism.design.l_max_mm / 1000.0),
+        ballistic_range_m=flight.range_m,
+        com_rise_m=flight.rise_m,
+        takeoff_energy_ratio=takeoff.energy_ratio,
+        takeoff_speed_m_s=flight.speed_m_s,
+        takeoff_angle_deg=flight.angle_deg,
+        takeoff_time_s=takeoff.time_s,
+        touchdown_distance_m=run.touchdown_distance_m,
+        energy=takeoff.energy,
+        published=run.published,
+        trajectory=run.trajectory(),
+        findings=findings,
+    )

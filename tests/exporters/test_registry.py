@@ -1,0 +1,47 @@
+"""A bundle has the files of every exporter in the registry, optional ones where they are asked for."""
+
+import subprocess
+import sys
+
+import pytest
+
+from jumpcad.bundle.export import contents
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters import registry
+from jumpcad.exporters.registry import EXPORTERS, Exporter, chosen
+from jumpcad.robot import Robot
+
+
+def test_a_bundle_has_what_the_exporters_write(small_robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    names = Exporter("names", lambda robot: [("names.txt", robot.name)])
+    monkeypatch.setattr(registry, "EXPORTERS", (*EXPORTERS, names))
+    files = dict(contents(small_robot, chosen(), pictures=False))
+    assert files["names.txt"] == small_robot.name
+    for exporter in EXPORTERS:
+        paths = [path for path, _ in exporter.files(small_robot)] if not exporter.optional else []
+        assert set(paths) <= set(files)
+        assert bool(paths) != exporter.optional
+
+
+def test_an_optional_exporter_is_asked_for_and_says_what_it_lacks(monkeypatch: pytest.MonkeyPatch) -> None:
+    def lacking() -> None:
+        raise JumpcadError("needs a library")
+
+    monkeypatch.setattr(
+        registry, "EXPORTERS", (Exporter("a", list), Exporter("b", list, optional=True, require=lacking))
+    )
+    assert [exporter.name for exporter in chosen()] == ["a"]
+    with pytest.raises(JumpcadError, match="needs a library"):
+        chosen(["b"])
+
+
+def test_paths_of_exporters_do_not_meet(small_robot: Robot) -> None:
+    paths = [path for exporter in chosen() for path, _ in exporter.files(small_robot)]
+    assert len(set(paths)) == len(paths)
+
+
+def test_a_simulation_loads_no_format_but_its_own() -> None:
+    others = {"ezdxf", "jumpcad.robot", "jumpcad.scene.visuals"}
+    code = f"import sys, jumpcad.exporters.mjcf; print({others} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "set()\n"

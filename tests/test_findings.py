@@ -1,0 +1,56 @@
+"""A finding's margin and use follow from its value and limit."""
+
+import math
+
+import pytest
+
+from jumpcad.findings import Finding, at_least, at_most, limit
+
+
+@pytest.mark.parametrize(
+    ("value", "allowed", "margin", "use", "severity"),
+    [
+        (10.0, 40.0, 30.0, 0.25, "info"),
+        (40.0, 40.0, 0.0, 1.0, "info"),
+        (50.0, 40.0, -10.0, 1.25, "error"),
+        (0.0, 40.0, 40.0, 0.0, "info"),
+        (1.0, 0.0, -1.0, None, "error"),
+        (5.0, math.inf, math.inf, 0.0, "info"),
+        (math.inf, 5.0, -math.inf, math.inf, "error"),
+    ],
+)
+def test_of_a_maximum_the_value_uses_its_share(
+    value: float, allowed: float, margin: float, use: float | None, severity: str
+) -> None:
+    finding = at_most("stress", value, allowed, "MPa", "found", "remedy")
+    assert (finding.margin, finding.use, finding.severity) == (margin, use, severity)
+    assert (finding.value, finding.limit) == (value, allowed)
+
+
+@pytest.mark.parametrize(
+    ("value", "needed", "margin", "use", "severity"),
+    [
+        (2.0, 0.5, 1.5, 0.25, "info"),
+        (0.5, 0.5, 0.0, 1.0, "info"),
+        (0.4, 0.5, 0.4 - 0.5, 1.25, "warning"),
+        (-0.4, 0.5, -0.9, None, "warning"),
+        (3.0, 0.0, 3.0, None, "info"),
+    ],
+)
+def test_of_a_minimum_the_limit_is_the_share(
+    value: float, needed: float, margin: float, use: float | None, severity: str
+) -> None:
+    finding = at_least("gap", value, needed, "mm", "found", "remedy", "warning")
+    assert (finding.margin, finding.use, finding.severity) == (margin, use, severity)
+
+
+def test_a_margin_alone_has_no_use() -> None:
+    finding = limit("walls", 0.1, "mm", "found", "remedy")
+    assert (finding.value, finding.limit, finding.use, finding.grows) == (None, None, None, "")
+
+
+def test_plain_data_gives_the_finding_back() -> None:
+    finding = at_most("stress", 10.0, 40.0, "MPa", "found", "remedy", grows="leg")
+    data = finding.to_dict()
+    assert list(data)[:6] == ["name", "severity", "margin", "unit", "message", "remedy"]
+    assert Finding(**data) == finding
