@@ -81,9 +81,5 @@ def _read_prior(request: Request) -> tuple[list[Trial], str]:
             if request.space.contains(trial.design)
         ]
         same = all(trial.model == request.model.digest for trial in trials)
-        return (
-            trials,
-            ""
-            if same
-            else f"{request.prior} was made by another version of the program; the search learns from it nevertheless",
-        )
+        remark = f"{request.prior} was made by another program; the search learns from it nevertheless"
+        return trials, "" if same else remark
