@@ -6,7 +6,7 @@ import os
 import resource
 import shutil
 import sys
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +22,7 @@ from jumpcad.simulation.engines import engine_named
 ENGINES = tuple(name for name in ("pybullet", "mujoco") if importlib.util.find_spec(name))
 TRIES: Counter[str] = Counter()
 FAILURES: Counter[str] = Counter()
+SPENT_S: defaultdict[str, float] = defaultdict(float)
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ def originals(tmp_path_factory: pytest.TempPathFactory) -> Originals:
         assert exit_code_of("build", "kenan-2.0", "-o", str(made.bundle), "--no-pictures", "--json") == 0
         assert exit_code_of("coupon", "-o", str(made.coupon), "--json") == 0
         search = ("--model", "capsule", "--evaluations", "6", "--workers", "0", "--study", str(made.study), "--json")
-        assert exit_code_of("optimize", *search) == 0
+        assert exit_code_of("optimize", "nsga2", *search) == 0
         assert exit_code_of("study", str(made.study), "--plots", str(folder / "plots"), "--json") == 0
     return made
 
@@ -118,10 +119,16 @@ def still_works(sandbox: Sandbox, good_jump: dict[str, str]) -> Callable[[str], 
     return check
 
 
+def spent_s() -> float:
+    """Return the CPU time of this process and of those that it started and that have ended (s)."""
+    return sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+
+
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
-    """Count the tries and failures of a class of inputs: the module `test_CLASS`."""
+    """Count the tries, failures and CPU time of a class of inputs: the module `test_CLASS`."""
     name = Path(report.nodeid.split("::")[0]).stem.removeprefix("test_")
     FAILURES[name] += report.failed
+    SPENT_S[name] += spent_s() - sum(SPENT_S.values())
     if report.when == "teardown":
         TRIES[name] += dict(report.user_properties).get("tries", 0)
 
@@ -129,9 +136,9 @@ def pytest_runtest_logreport(report: pytest.TestReport) -> None:
 def pytest_terminal_summary(terminalreporter: Any) -> None:
     """Print the counts."""
     terminalreporter.section("hostile inputs")
-    terminalreporter.write_line(f"{'class':12}{'tries':>8}{'failures':>10}")
+    terminalreporter.write_line(f"{'class':12}{'tries':>8}{'failures':>10}{'CPU s':>8}")
     for name in sorted(TRIES):
-        terminalreporter.write_line(f"{name:12}{TRIES[name]:8}{FAILURES[name]:10}")
-    terminalreporter.write_line(f"{'all':12}{TRIES.total():8}{FAILURES.total():10}")
-    spent = sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-    terminalreporter.write_line(f"{spent:.0f} s of CPU in this process and those that it started")
+        line = f"{name:12}{TRIES[name]:8}{FAILURES[name]:10}{SPENT_S[name]:8.0f}"
+        terminalreporter.write_line(line)
+    line = f"{'all':12}{TRIES.total():8}{FAILURES.total():10}{sum(SPENT_S.values()):8.0f}"
+    terminalreporter.write_line(line)

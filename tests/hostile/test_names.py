@@ -62,7 +62,12 @@ def test_a_design_may_have_any_name(sandbox: Sandbox, case: str) -> None:
     sandbox.run("new", "--", f"new-{name}", exits=ANY, writes=[f"new-{name}"])
 
 
-@pytest.mark.parametrize("case", NAMES)
+BUILT = ("chinese", "emoji", "combining", "right to left", "tab", "line", "colour", "c1", "not utf-8", "markup closed",
+         "formula", "xml", "braces", "blank", "long", "too long")  # fmt: skip
+"""Names that go into files of every kind, each of which may stumble over another sign."""
+
+
+@pytest.mark.parametrize("case", BUILT)
 def test_a_robot_of_any_name_is_built_or_refused(sandbox: Sandbox, case: str) -> None:
     """Its name goes into file names, XML, tables, and onto its plates."""
     if case != "too long":
@@ -77,7 +82,6 @@ def test_a_folder_may_have_any_name(sandbox: Sandbox, case: str) -> None:
     name = NAMES[case]
     option = f"--output={name}"
     top = name.split("/")[0]
-    sandbox.run("coupon", option, "--json", writes=[top])
     sandbox.run("coupon", option, writes=[top])
     sandbox.run("verify", "--", name)
 

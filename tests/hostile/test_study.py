@@ -65,7 +65,6 @@ def spoil(study: Path, statements: str) -> None:
 
 def ask(sandbox: Sandbox, exits: tuple[int, ...] = ANY) -> None:
     """Read a study in every way that is cheap."""
-    sandbox.run("study", "study.db", "--json", exits=exits)
     sandbox.run("study", "study.db", exits=exits)
     sandbox.run("study", "study.db", "--export", "rows.csv", "--json", exits=exits, writes=["rows.csv"])
 

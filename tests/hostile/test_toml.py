@@ -144,10 +144,7 @@ BASES: dict[str, Callable[[Path], str]] = {
 def test_a_workshop_stands_on_no_strange_ground(sandbox: Sandbox, case: str, key: str) -> None:
     sandbox.write("readings.toml", READINGS)
     sandbox.write("x.toml", f'{key} = "{BASES[case](sandbox.work)}"\n')
-    if case in ("a pipe", "a device"):
-        sandbox.process("coupon", "--workshop", "x.toml", "-o", "gauges", exits=(2,))
-    else:
-        ask(sandbox, "workshop", (2,))
+    ask(sandbox, "workshop", (2,))
 
 
 @pytest.mark.parametrize("count", [100, 1500])
@@ -169,12 +166,7 @@ def test_what_is_no_file_is_refused(sandbox: Sandbox, argument: str, kind: str) 
         path.mkdir()
     else:
         path.symlink_to({"device": "/dev/zero", "memory": "/proc/self/mem", "loop": "x.toml"}[kind])
-    if kind in ("folder", "loop", "memory"):
-        ask(sandbox, argument, (2,))
-        return
-    option = {"design": "--around", "workshop": "--workshop", "settings": "--settings", "readings": "--measured"}
-    words = ("optimize", "--model", "printed", "--study", "s.db", "--evaluations", "1")
-    sandbox.process(*(("coupon",) if argument == "readings" else words), option[argument], "x.toml", exits=(2,))
+    ask(sandbox, argument, (2,))
 
 
 MATERIALS = {
@@ -259,7 +251,7 @@ def test_a_design_in_a_corner_ends_in_a_verdict(sandbox: Sandbox, corner: tuple[
 HOLDS_BADLY = [47.2223, 0.3388, 0.5689, 0.263, 0.3217, 53.5764, 200, 28.8995]
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(6))
 def test_a_valid_design_is_built_or_cannot_be(sandbox: Sandbox, seed: int) -> None:
     """About a known troublemaker, and anywhere near the searched box."""
     generator = np.random.default_rng(seed)
