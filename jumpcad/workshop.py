@@ -269,7 +269,7 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]
         if not isinstance(base, str):
             raise JumpcadError(f"{path}: base = {shown(base)}: must be the name of a workshop or a path")
         beside = path.parent / base
-        base_path = beside if base.endswith(".toml") and beside.is_file() else find_template("workshops", base)
+        base_path = beside if base.endswith(".toml") and os.path.isfile(beside) else find_template("workshops", base)
         real = os.path.realpath(path)  # unlike Path.resolve, also of links that lead round in a circle
         if os.path.realpath(base_path) in (real, *above):
             raise JumpcadError(f"{path}: base = {shown(base)}: leads back to a file that builds on it")

@@ -34,7 +34,7 @@ def run(arguments: Sequence[str]) -> int:
     exception is a bug: 3, with its traceback. If the reader of the output has closed it (`| head`): 141.
     """
     try:
-        with standard_output():
+        with standard_output(coloured="--help" in arguments):
             return _carry_out(list(arguments))
     except OutputClosed:
         return OUTPUT_CLOSED

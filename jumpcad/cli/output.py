@@ -26,6 +26,8 @@ ForceFlag = Annotated[bool, typer.Option("--force", help="Replace files that are
 CONTROL = "[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]"
 """Characters that move the cursor, hide or reverse text, and lone surrogates (bytes of a path that are not UTF-8)."""
 COLOUR = "\x1b\\[[0-9;]*m"
+LONGEST_LINE = 2000
+"""Characters of an error; a path may have 4096."""
 
 
 class OutputClosed(Exception):
@@ -37,18 +39,25 @@ def escaped(text: str) -> str:
     return re.sub(CONTROL, _escape, text)
 
 
+def shortened(text: str) -> str:
+    """Return a text without its middle where it is too long for anyone to read."""
+    half = LONGEST_LINE // 2
+    return text if len(text) <= LONGEST_LINE else f"{text[:half]} … {text[-half:]}"
+
+
 def complain(message: str, exit_code: int) -> int:
     """Print an error as one line on standard error; return the exit code."""
     if sys.stderr is not None:
         try:
-            print(f"jumpcad: {escaped(message)}", file=sys.stderr, flush=True)
+            print(f"jumpcad: {shortened(escaped(message))}", file=sys.stderr, flush=True)
         except OSError:  # standard error is closed too
             _discard(sys.stderr)
     return exit_code
 
 
 class Output:
-    """Standard output for a command: keeps its lines and colours, escapes other control characters.
+    """Standard output for a command: keeps its lines, escapes other control characters, so that no name of a file
+    steers the terminal. The colours of tables and of the help are kept where `coloured`.
 
     Raises
     ------
@@ -58,15 +67,21 @@ class Output:
         If it cannot be written, for example to a full disk.
     """
 
-    def __init__(self, stream: TextIO) -> None:
+    def __init__(self, stream: TextIO, coloured: bool = False) -> None:
         self._stream = stream
+        kept = f"({COLOUR}|[\n\t])" if coloured else "([\n\t])"
+        self._pattern = re.compile(f"{kept}|{CONTROL}")
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._stream, name)
 
+    def coloured(self) -> "Output":
+        """Return the same output that keeps colours."""
+        return Output(self._stream, coloured=True)
+
     def write(self, text: str) -> int:
         """Write text."""
-        shown = re.sub(f"({COLOUR}|[\n\t])|{CONTROL}", lambda found: found[1] or _escape(found), text)
+        shown = self._pattern.sub(lambda found: found[1] or _escape(found), text)
         with self._written():
             self._stream.write(shown)
         return len(text)
@@ -88,7 +103,7 @@ class Output:
 
 
 @contextlib.contextmanager
-def standard_output() -> Iterator[None]:
+def standard_output(coloured: bool = False) -> Iterator[None]:
     """Print characters that the terminal's encoding lacks escaped, and raise at the end if not all was written."""
     _open_streams()
     for stream in (sys.stdout, sys.stderr):
@@ -97,7 +112,7 @@ def standard_output() -> Iterator[None]:
     if sys.stdout is None:  # closed by the caller
         yield
         return
-    output = Output(sys.stdout)
+    output = Output(sys.stdout, coloured)
     with contextlib.redirect_stdout(output):
         try:
             yield
@@ -106,9 +121,11 @@ def standard_output() -> Iterator[None]:
 
 
 def console(**options: Any) -> "Console":
-    """Return a console for tables, without markup."""
+    """Return a console for tables, without markup; what users named must be escaped before it goes there."""
     from rich.console import Console
 
+    if isinstance(sys.stdout, Output) and "stderr" not in options:
+        options["file"] = sys.stdout.coloured()
     return Console(markup=False, emoji=False, **options)
 
 

@@ -63,7 +63,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 def shown(value: Any) -> str:
     """Return a value as it is shown in one line: without control characters, and shortened."""
     try:
-        text = repr(value)
+        text = " ".join(repr(value).split()) if not isinstance(value, str) else repr(value)
     except (ValueError, RecursionError):  # Python writes no integer of more than 4300 digits, and nothing endless
         return "a value too long to show"
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."

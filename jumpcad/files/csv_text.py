@@ -4,6 +4,8 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 
+from jumpcad.files.names import without_controls
+
 FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet compute a cell (OWASP, CSV injection), in the full width of East Asian scripts too."""
 
@@ -20,6 +22,7 @@ def _cell(value: object) -> object:
     if not isinstance(value, str) or _is_number(value):
         return value
     text = value.replace("\r\n", "\n").replace("\r", "\n")  # a lone \r is not quoted, and would begin another row
+    text = "\n".join(map(without_controls, text.split("\n")))
     return f"'{text}" if text.startswith(FORMULA) else text
 
 

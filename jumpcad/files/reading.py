@@ -60,6 +60,7 @@ def read_json(path: Path) -> Any:
     except RecursionError:
         raise JumpcadError(f"{path}: {NESTED}") from None
     _require_shallow(data, path)
+    _require_characters(data, path)
     return data
 
 
@@ -113,6 +114,14 @@ def read_bytes(path: Path, kind: str = "a file") -> bytes:
 
 def _no_constant(name: str) -> None:
     raise ValueError(f"{name} is no number")
+
+
+def _require_characters(data: Any, path: Path) -> None:
+    """Refuse texts with halves of characters, which JSON can hold and no file or terminal."""
+    try:
+        json.dumps(data, ensure_ascii=False).encode()
+    except UnicodeEncodeError:
+        raise JumpcadError(f"{path}: not valid JSON: half of a character (a lone surrogate)") from None
 
 
 def _require_shallow(data: Any, path: Path) -> None:

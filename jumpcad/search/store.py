@@ -95,8 +95,9 @@ class StudyStore:
         JumpcadError
             If there is no such file, or it is no study, is damaged, or cannot be opened.
         """
-        if not path.is_file():
-            reason = "is a folder, a pipe or a device, not a study file" if path.exists() else "no such study file"
+        if not os.path.isfile(path):  # unlike Path.is_file, False for a name that is too long
+            there = os.path.exists(path)
+            reason = "is a folder, a pipe or a device, not a study file" if there else "no such study file"
             raise JumpcadError(f"{path}: {reason}")
         with plain_errors(path):
             store = cls(path, open_to_read(path))
