@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Sequence
 
 from jumpcad.files.names import without_controls
@@ -22,7 +23,7 @@ def _cell(value: object) -> object:
     if not isinstance(value, str) or _is_number(value):
         return value
     text = value.replace("\r\n", "\n").replace("\r", "\n")  # a lone \r is not quoted, and would begin another row
-    text = "\n".join(map(without_controls, text.split("\n")))
+    text = "".join(part if part in "\n\t" else without_controls(part) for part in re.split("([\n\t])", text))
     return f"'{text}" if text.startswith(FORMULA) else text
 
 
