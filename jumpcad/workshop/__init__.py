@@ -1,0 +1,17 @@
+"""`Workshop`: printer, process, materials, fits, bought parts, safety and masses, from a template or a TOML file."""
+
+from jumpcad.workshop.loading import DEFAULT, load_workshop
+from jumpcad.workshop.tables import BoughtParts, Fits, Material, Printer, Process
+from jumpcad.workshop.workshop import OWN_PARTS, Workshop
+
+__all__ = [
+    "DEFAULT",
+    "OWN_PARTS",
+    "BoughtParts",
+    "Fits",
+    "Material",
+    "Printer",
+    "Process",
+    "Workshop",
+    "load_workshop",
+]

@@ -1,0 +1,109 @@
+"""Reading workshop files: what they build on, the shipped printers and materials, and own parts like shipped ones."""
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from jumpcad.arguments import typed
+from jumpcad.catalogue import Article, load_catalogue
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean, find_template, read_toml, template_names
+from jumpcad.files.complaints import place, shown
+from jumpcad.files.names import NAME, NAME_RULE
+from jumpcad.workshop.workshop import OWN_PARTS, Workshop
+
+DEFAULT = "default"
+MOST_BASES = 20
+"""Files of a workshop that may build on each other."""
+
+
+@typed
+def load_workshop(name_or_path: str | Path = DEFAULT) -> Workshop:
+    """Return the workshop of a template (`default`) or of a TOML file, with everything that it builds on.
+
+    Raises
+    ------
+    JumpcadError
+        If a file is missing, or a key is unknown, out of range, or contradicts another.
+    """
+    path = find_template("workshops", name_or_path)
+    data, text = _assembled(path, ())
+    return Workshop.from_data(data, source=str(path), text=text)
+
+
+def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]:
+    """Return the data of a workshop file on top of its base, and the text of the file itself."""
+    if len(above) > MOST_BASES:
+        raise JumpcadError(f"{above[0]}: more than {MOST_BASES} workshops build on each other; join some of them")
+    data, text = read_toml(path)
+    whole: dict[str, Any] = {}
+    if "base" in data or path != find_template("workshops", DEFAULT):
+        base = data.pop("base", DEFAULT)
+        if not isinstance(base, str):
+            raise JumpcadError(f"{path}: base = {shown(base)}: must be the name of a workshop or a path")
+        beside = path.parent / base
+        base_path = beside if base.endswith(".toml") and os.path.isfile(beside) else find_template("workshops", base)
+        real = os.path.realpath(path)  # unlike Path.resolve, also of links that lead round in a circle
+        if os.path.realpath(base_path) in (real, *above):
+            raise JumpcadError(f"{path}: base = {shown(base)}: leads back to a file that builds on it")
+        whole, _ = _assembled(base_path, (*above, real))
+    if isinstance(data.get("printer"), str):
+        whole["printer"] = read_toml(find_template("printers", data.pop("printer")))[0]
+    data |= {
+        kind: _completed(kind, data[kind], str(path), text) for kind in OWN_PARTS if isinstance(data.get(kind), dict)
+    }
+    own = set(data["materials"]) if isinstance(data.get("materials"), dict) else set()
+    whole = _merged(whole, data)
+    if isinstance(whole.get("roles"), dict) and isinstance(whole.setdefault("materials", {}), dict):
+        used = [name for name in whole["roles"].values() if isinstance(name, str)]
+        if wrong := [name for name in sorted({*own, *used}) if not NAME.fullmatch(name)]:
+            raise JumpcadError(f"{path}: {shown(wrong[0])} cannot be the name of a material: {NAME_RULE}")
+        if unused := sorted(own - set(used)):
+            raise JumpcadError(
+                f"{path}: materials.{unused[0]}: no role uses it; the roles use {', '.join(sorted(set(used)))}"
+                f"{did_you_mean(unused[0], used)}"
+            )
+        whole["materials"] = {name: _material(path, name, whole["materials"].get(name)) for name in sorted(set(used))}
+    return whole, text
+
+
+def _material(path: Path, name: str, own: Any) -> Any:
+    """Return the data of a material: the shipped one, if there is one of that name, under the file's own figures."""
+    known = template_names("materials")
+    if name.lower() in known:
+        shipped = read_toml(find_template("materials", name.lower()))[0]
+        return _merged(shipped, own) if isinstance(own, dict) else shipped if own is None else own
+    if own is None:
+        raise JumpcadError(
+            f"{path}: roles: {name!r} is neither a table under [materials] nor one of {', '.join(known)}"
+            f"{did_you_mean(name.lower(), known)}"
+        )
+    return own
+
+
+def _completed(kind: str, tables: dict[str, Any], source: str, text: str) -> dict[str, Any]:
+    """Return own parts in which `like` has been replaced by the figures of the shipped part that it names."""
+    shipped: Mapping[str, Article] = getattr(load_catalogue(), kind, {})
+    completed = {}
+    for name, table in tables.items():
+        if isinstance(table, dict) and "like" in table and NAME.fullmatch(name):
+            like, key = table["like"], f"{kind}.{name}.like"
+            if not isinstance(like, str) or like not in shipped:
+                known = ", ".join(shipped) or "there are none"
+                hint = did_you_mean(like, shipped) if isinstance(like, str) else ""
+                where = place(source, text, key)
+                raise JumpcadError(f"{where}: {key} = {shown(like)}: is no shipped part of this kind ({known}){hint}")
+            figures = shipped[like].model_dump(exclude={"source"})
+            table = figures | {key: value for key, value in table.items() if key != "like"}
+        completed[name] = table
+    return completed
+
+
+def _merged(base: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
+    """Return nested data with the values of `over` in place of those of `base`."""
+    merged = dict(base)
+    for key, value in over.items():
+        both = isinstance(value, dict) and isinstance(merged.get(key), dict)
+        merged[key] = _merged(merged[key], value) if both else value
+    return merged

@@ -1,0 +1,143 @@
+"""`Workshop`: printer, process, materials, fits, bought parts, safety and masses, checked against each other.
+
+A workshop file gives any subset; what it leaves out comes from its `base` (the shipped `default` unless named).
+`printer = "mini"` takes a shipped printer whole; the names under `[roles]` choose materials, shipped or the file's own.
+`[motors.NAME]` and the like are parts of the user's own beside those of the catalogue; `like = "n20-298"` in such a
+table takes over every figure of a shipped part that the table does not give, but not its source.
+"""
+
+import itertools
+from collections.abc import Iterator, Mapping
+from typing import Literal
+
+from pydantic import Field
+
+from jumpcad.catalogue import (
+    Article,
+    Battery,
+    Bearing,
+    Board,
+    Catalogue,
+    Motor,
+    OwnParts,
+    StockSpring,
+    load_catalogue,
+)
+from jumpcad.files import Contradiction, Record, to_toml
+from jumpcad.files.names import Name
+from jumpcad.workshop.tables import (
+    BodyPlates,
+    BoughtParts,
+    Fits,
+    Masses,
+    Material,
+    Positive,
+    Printer,
+    Process,
+    Roles,
+    Safety,
+)
+
+Role = Literal["links", "body", "gears"]
+MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
+OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs")
+"""Tables of the user's own parts; `springs` are kept for reference, since the generator winds its own."""
+
+
+class Workshop(Record):
+    """Everything that a robot depends on beside its eight numbers.
+
+    `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials. `motors`,
+    `bearings`, `batteries`, `boards` and `springs` are the user's own parts alone.
+    """
+
+    printer: Printer
+    process: Process
+    roles: Roles
+    materials: dict[Name, Material]
+    fits: Fits
+    bought: BoughtParts
+    body: BodyPlates
+    safety: Safety
+    mass: Masses
+    prices_eur: dict[Name, Positive]
+    motors: OwnParts[Motor] = Field(default_factory=dict)
+    bearings: OwnParts[Bearing] = Field(default_factory=dict)
+    batteries: OwnParts[Battery] = Field(default_factory=dict)
+    boards: OwnParts[Board] = Field(default_factory=dict)
+    springs: OwnParts[StockSpring] = Field(default_factory=dict)
+
+    @property
+    def catalogue(self) -> Catalogue:
+        """The shipped catalogue with the user's own parts."""
+        return load_catalogue().with_own(self.motors, self.bearings, self.batteries, self.boards)
+
+    def __repr__(self) -> str:
+        materials = ", ".join(f"{role} {name[:20]}" for role, name in self.roles.model_dump().items())
+        return f"<Workshop: {self.printer.name[:60]}, layers of {self.process.layer_height_mm:g} mm, {materials}>"
+
+    def material_name(self, role: Role) -> str:
+        """Return the name of the material that a kind of part is printed in."""
+        return str(getattr(self.roles, role))
+
+    def material(self, role: Role) -> Material:
+        """Return the material that a kind of part is printed in."""
+        return self.materials[self.material_name(role)]
+
+    def to_toml(self) -> str:
+        """Return the workshop as a complete TOML document that reads back the same."""
+        data = self.model_dump(exclude_none=True)
+        return to_toml({key: value for key, value in data.items() if value or key not in OWN_PARTS})
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield the values that do not go together."""
+        printer, process, fits = self.printer, self.process, self.fits
+        thickest = round(MAX_LAYER_PER_NOZZLE * printer.nozzle_mm, 6)
+        for key in ("layer_height_mm", "first_layer_mm"):
+            height = getattr(process, key)
+            if height > thickest:
+                yield ("process", key), height, f"must be at most {thickest:g}, 0.8 of the nozzle: lower it"
+        widths = (round(0.8 * printer.nozzle_mm, 6), round(2.0 * printer.nozzle_mm, 6))
+        if not widths[0] <= process.line_width_mm <= widths[1]:
+            reason = f"a nozzle of {printer.nozzle_mm:g} mm lays lines of {widths[0]:g}…{widths[1]:g} mm"
+            yield ("process", "line_width_mm"), process.line_width_mm, reason
+        elif process.line_width_mm <= max(process.layer_height_mm, process.first_layer_mm):
+            yield ("process", "line_width_mm"), process.line_width_mm, "must be more than the layer height"
+        lines = round(2.0 * process.line_width_mm, 6)
+        if fits.wall_mm < lines:
+            reason = f"must be at least {lines:g}, two lines of process.line_width_mm: raise it"
+            yield ("fits", "wall_mm"), fits.wall_mm, reason
+        if fits.wall_min_mm > fits.wall_mm:
+            yield ("fits", "wall_min_mm"), fits.wall_min_mm, f"must be at most fits.wall_mm = {fits.wall_mm:g}"
+        if 2.0 * fits.first_layer_chamfer_mm >= fits.wall_mm:
+            reason = f"leaves nothing of a wall of {fits.wall_mm:g}: must be less than {fits.wall_mm / 2.0:g}"
+            yield ("fits", "first_layer_chamfer_mm"), fits.first_layer_chamfer_mm, reason
+        yield from _not_ascending(fits, ("press_mm", "sliding_mm", "loose_mm"))
+        yield from _not_ascending(fits, ("m2_tap_mm", "m2_clearance_mm"))
+        yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
+        for role, name in self.roles.model_dump().items():
+            if name not in self.materials:
+                yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
+        for kind in OWN_PARTS:
+            yield from _own_contradictions(kind, getattr(self, kind))
+
+
+def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Contradiction]:
+    """Yield what is wrong with the user's own parts of a kind."""
+    shipped: Mapping[str, Article] = getattr(load_catalogue(), kind, {})
+    for key, part in parts.items():
+        if key in shipped:
+            reason = f'is the name of a shipped part: choose another one, and like = "{key}" takes its figures over'
+            yield (kind, key), key, reason
+        if part.name != key:
+            yield (kind, key, "name"), part.name, "a part has its table's name: leave it out"
+        for where, value, reason in part.contradictions():
+            yield (kind, key, *where), value, reason
+
+
+def _not_ascending(fits: Fits, keys: tuple[str, ...]) -> Iterator[Contradiction]:
+    """Yield the fits that are tighter than the one before them."""
+    for tight, wide in itertools.pairwise(keys):
+        if getattr(fits, wide) < getattr(fits, tight):
+            limit = f"must be at least fits.{tight} = {getattr(fits, tight):g}, the tighter fit"
+            yield ("fits", wide), getattr(fits, wide), limit
