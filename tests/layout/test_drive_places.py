@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from support.built import built, geared
 
+from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
-    motor_half_mm,
     require_gear_room,
     spring_arm,
     spring_pin_place,
@@ -60,7 +60,7 @@ def test_the_socket_has_walls_around_the_motor_and_ears_across() -> None:
     """A motor of 10 x 12 mm, 0.3 mm of play and a wall of 1.6 mm on every side, ears of 5.6 mm."""
     motor = built("kenan-2.0").layout.drive.train.motor
     assert (motor.width_mm, motor.height_mm) == (10.0, 12.0)
-    assert motor_half_mm(motor) == pytest.approx((5.0 + 1.9, 6.0 + 1.9 + 5.6))
+    assert socket_half_mm(motor) == pytest.approx((5.0 + 1.9, 6.0 + 1.9 + 5.6))
 
 
 @pytest.mark.parametrize("stages", [1, 2])
