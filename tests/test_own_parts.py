@@ -296,18 +296,6 @@ def test_own_parts_are_checked_in_python_too() -> None:
         Workshop(**data | {"motors": {"mine": n20}})
 
 
-def test_shipped_parts_keep_the_rules_of_own_ones() -> None:
-    shipped = load_catalogue()
-    parts = [
-        *shipped.motors.values(),
-        *shipped.bearings.values(),
-        *shipped.batteries.values(),
-        *shipped.boards.values(),
-    ]
-    assert not [wrong for part in parts for wrong in part.contradictions()]
-    assert all(part.source for part in parts)
-
-
 def test_what_does_not_fit_is_an_answer_and_not_a_wrong_request(written: Write) -> None:
     with pytest.raises(CannotBuildError):
         build(KENAN, load_workshop(written(REFUSED["short shaft"][0])))

@@ -2,7 +2,6 @@
 
 import os
 import re
-import tomllib
 from pathlib import Path
 from typing import Annotated
 
@@ -13,13 +12,6 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     Record,
     TomlTable,
-    did_you_mean,
-    find_template,
-    read_json,
-    read_toml,
-    template_names,
-    templates_folder,
-    to_toml,
 )
 
 
@@ -89,62 +81,9 @@ def test_broken_toml_is_named_with_its_place(tmp_path: Path) -> None:
     )
 
 
-def test_file_that_is_not_text(tmp_path: Path) -> None:
-    file = tmp_path / "p.toml"
-    file.write_bytes(b"name = '\xff\xfe'")
-    with pytest.raises(JumpcadError, match="not a text file in UTF-8"):
-        read_toml(file)
-
-
-@pytest.mark.parametrize(
-    ("name", "reason"),
-    [
-        ("none.toml", "no such file"),
-        (".", "is a folder"),
-        ("file.toml/inside.toml", "Not a directory"),
-        ("x" * 300 + ".toml", "too long"),
-    ],
-    ids=["missing", "folder", "file as folder", "too long a name"],
-)
-def test_files_that_cannot_be_read(tmp_path: Path, name: str, reason: str) -> None:
-    (tmp_path / "file.toml").write_text("")
-    with pytest.raises(JumpcadError, match=reason):
-        read_toml(tmp_path / name)
-
-
 def test_python_callers_get_the_same_words_without_a_file() -> None:
     with pytest.raises(JumpcadError, match=r"^nozzle_mm = 0\.01: must be at least 0\.1$"):
         Printer(name="x", nozzle_mm=0.01, bed=Bed(width_mm=1.0))
-
-
-def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path) -> None:
-    assert {"best-bo", "best-ga", "kenan-1.0", "kenan-2.0"} <= set(template_names("robots"))
-    assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
-    assert find_template("robots", tmp_path / "mine.toml") == tmp_path / "mine.toml"
-    for wrong in ("kenan-3.0", "x" * 300):
-        with pytest.raises(JumpcadError, match="neither a TOML file nor one of the robots best-bo"):
-            find_template("robots", wrong)
-
-
-def test_a_bare_name_is_the_template_whatever_lies_in_the_current_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    for name in ("kenan-2.0", "mine"):
-        (tmp_path / name).write_text("")
-    assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
-    assert find_template("robots", "./kenan-2.0") == Path("kenan-2.0")
-    assert find_template("robots", "mine") == Path("mine")
-
-
-def test_hint_only_where_something_is_near() -> None:
-    assert did_you_mean("kenan2", ["kenan-2.0", "best-bo"]) == " (did you mean kenan-2.0?)"
-    assert did_you_mean("zzz", ["kenan-2.0", "best-bo"]) == ""
-
-
-def test_toml_reads_back() -> None:
-    data = {"a": 0.1 + 0.2, "b": {"c": [1, 2], "d": 'quote " and\nline'}}
-    assert tomllib.loads(to_toml(data)) == data
 
 
 @pytest.mark.parametrize(
@@ -175,31 +114,6 @@ def test_of_twenty_thousand_unknown_keys_ten_are_named(tmp_path: Path) -> None:
     told = complaint(tmp_path, 'name = "x"\n' + "".join(f"k{number} = 1\n" for number in range(20_000)))
     assert told.count("unknown key") + told.count("missing") == 10
     assert told.endswith("and 19991 more")  # the missing bed is one of them
-
-
-def test_pipes_and_devices_are_not_waited_for(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe.toml")
-    (tmp_path / "zero.toml").symlink_to("/dev/zero")
-    for name in ("pipe.toml", "zero.toml"):
-        with pytest.raises(JumpcadError, match="is a pipe or a device, not a TOML file"):
-            read_toml(tmp_path / name)
-
-
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ('{"a": NaN}', "NaN is no number"),
-        ("[-Infinity]", "-Infinity is no number"),
-        ("[" * 5000 + "]" * 5000, "nested deeper"),
-        ("[" * 21 + "]" * 21, "nested deeper"),
-        ("9" * 6000, "not valid JSON"),
-        ("{", "not valid JSON"),
-    ],
-)
-def test_json_that_is_none(tmp_path: Path, text: str, reason: str) -> None:
-    (tmp_path / "a.json").write_text(text)
-    with pytest.raises(JumpcadError, match=reason):
-        read_json(tmp_path / "a.json")
 
 
 def test_a_record_that_was_changed_behind_its_back_is_found_out() -> None:
