@@ -65,3 +65,31 @@ def test_json_that_is_none(tmp_path: Path, text: str, reason: str) -> None:
     (tmp_path / "a.json").write_text(text)
     with pytest.raises(JumpcadError, match=reason):
         read_json(tmp_path / "a.json")
+
+
+def test_broken_toml_is_named_with_its_place(tmp_path: Path) -> None:
+    (tmp_path / "p.toml").write_text('name = "MK4"\nnozzle_mm = \n')
+    with pytest.raises(JumpcadError, match=r"p\.toml: not valid TOML: Invalid value \(at line 2"):
+        read_toml(tmp_path / "p.toml")
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("a = " + "[" * 5000 + "]" * 5000, "nested deeper than 20 levels"),
+        ("a = " + "{a = " * 5000 + "1" + "}" * 5000, "nested deeper than 20 levels"),
+        (".".join("a" * 60) + " = 1", "nested deeper than 20 levels"),
+        ("[" + ".".join("a" * 20_000) + "]", "line 1 has more than 200 dots"),
+        ("a = " + "1" * 6000, "an integer of more digits than can be read"),
+        ("# " + "x" * (1 << 20), "is larger than 1 MiB"),
+        ("[" + " " * 200_000, "not valid TOML"),
+    ],
+    ids=["lists", "tables", "keys", "long key", "digits", "size", "blanks"],
+)
+def test_nonsense_from_strangers_is_one_short_line(tmp_path: Path, text: str, reason: str) -> None:
+    (tmp_path / "p.toml").write_text(text)
+    with pytest.raises(JumpcadError, match=reason) as caught:
+        read_toml(tmp_path / "p.toml")
+    told = str(caught.value).replace(str(tmp_path), "")
+    assert told.isprintable()
+    assert len(told) < 500
