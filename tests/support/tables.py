@@ -4,10 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from jumpcad.files import (
-    Record,
-    TomlTable,
-)
+from jumpcad.files import Record, TomlTable
 
 
 class Bed(TomlTable):
