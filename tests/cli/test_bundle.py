@@ -74,12 +74,13 @@ def test_render_draws_stills_and_the_jump_of_a_bundle(
 
 
 def test_a_folder_in_the_way_is_refused_in_one_line(run: Run, tmp_path: Path) -> None:
-    (tmp_path / "notes.txt").write_text("mine")
-    code, out, err = run("build", "kenan-2.0", "-o", tmp_path, "--no-pictures")
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / "notes.txt").write_text("mine")
+    code, out, err = run("build", "kenan-2.0", "-o", "b", "--no-pictures")
     assert (code, out) == (2, "")
     assert err.count("\n") == 1
     assert "not a bundle" in err
-    assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
+    assert [path.name for path in (tmp_path / "b").iterdir()] == ["notes.txt"]
 
 
 def test_pictures_belong_to_the_bundle_that_they_are_drawn_into(

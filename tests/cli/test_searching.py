@@ -39,7 +39,7 @@ def test_options_of_the_space_arrive(folder):
         (["optimize", "--bound", "c_coef=1.2:0.8"], "empty range"),
         (["optimize", "--workers", "-1"], "workers = -1"),
         (["optimize", "--workers", "1", "--dask", "tcp://x"], "exclude each other"),
-        (["optimize", "--engine", "ode"], "not an engine of a search"),
+        (["optimize", "--engine", "ode"], "'ode' is not an engine; there are pybullet"),
         (["optimize", "--settings", "defalt"], "default"),
         (["optimize", "--around", "nobody"], "neither a TOML file nor one of"),
         (["optimize", "--from-study", "none.db"], "no such study file"),
