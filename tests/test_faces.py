@@ -50,10 +50,3 @@ def test_examples_import_the_public_names_only():
     for path in (ROOT / "examples").glob("*.py"):
         imported = set(re.findall(r"^(?:from|import) (jumpcad[\w.]*)", path.read_text(), re.M))
         assert imported <= {"jumpcad", "jumpcad.search"}, path.name
-
-
-@pytest.mark.parametrize("name", ["simulate", "check"])
-def test_a_design_is_built_where_a_robot_is_taken(name):
-    design = jumpcad.load_design("kenan-2.0")
-    function = getattr(jumpcad, name)
-    assert repr(function(design)) == repr(function(jumpcad.build(design)))

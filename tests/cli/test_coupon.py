@@ -52,23 +52,6 @@ def test_what_is_told(run: Run) -> None:
     ]
 
 
-def test_the_same_workshop_gives_the_same_bytes(run: Run) -> None:
-    contents = []
-    for name in ("a", "b"):
-        assert run("coupon", "--workshop", "fine", "-o", name)[0] == 0
-        contents.append({str(file.relative_to(name)): file.read_bytes() for file in Path(name).rglob("*.*")})
-    assert contents[0] == contents[1]
-
-
-def test_readings_that_were_filled_in_are_not_lost(run: Run) -> None:
-    assert run("coupon", "-o", "c")[0] == 0
-    Path("c/readings.toml").write_text("[gears]\nturns_freely_mm = 0.1")
-    code, out, err = run("coupon", "-o", "c")
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert "c: readings.toml: edited or added since the bundle was written" in err
-    assert "0.1" in Path("c/readings.toml").read_text()
-
-
 @pytest.mark.parametrize(
     ("arguments", "exit_code", "complaint"),
     [

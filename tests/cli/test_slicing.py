@@ -4,19 +4,15 @@ import csv
 import hashlib
 import json
 import shutil
-import sys
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from support.commands import Run
-from support.slicers import OBEDIENT
+from support.slicers import OBEDIENT, pretend_slicer, three_parts
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle, verify
-from jumpcad.bundle.sliced import slice_bundle
-from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import slicer_program
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -26,10 +22,8 @@ needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer 
 
 @pytest.fixture(scope="module")
 def built(small_robot: Robot, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A bundle with a link of PETG, four collars of PETG and a plate of PLA."""
-    parts = tuple(part for part in small_robot.parts if part.name in ("body_plate_left", "front_link", "collar"))
-    robot = replace(small_robot, parts=parts, workshop=load_workshop("default"))
-    return export(robot, tmp_path_factory.mktemp("bundles") / "frog", pictures=False).folder
+    """A bundle of three kinds of parts."""
+    return export(three_parts(small_robot), tmp_path_factory.mktemp("bundles") / "frog", pictures=False).folder
 
 
 @pytest.fixture
@@ -41,15 +35,7 @@ def bundle(built: Path, tmp_path: Path) -> Path:
 @pytest.fixture
 def pretend(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
     """Put a Python program in the slicer's place."""
-
-    def install(program: str) -> None:
-        folder = tmp_path / "programs"
-        folder.mkdir()
-        (folder / "prusa-slicer").write_text(f"#!{sys.executable}\n{program}")
-        (folder / "prusa-slicer").chmod(0o755)
-        monkeypatch.setenv("PATH", str(folder))
-
-    return install
+    return lambda program: pretend_slicer(program, tmp_path, monkeypatch)
 
 
 @needs_slicer
@@ -71,19 +57,6 @@ def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(run: Run, bu
     before, after = load_workshop(bundle / "workshop.toml"), load_workshop(tmp_path / "weighed.toml")
     assert after.mass.weighed_g == {name: pytest.approx(part["grams"], abs=6e-4) for name, part in parts.items()}
     assert after.model_copy(update={"mass": before.mass}) == before
-
-
-def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
-    bundle: Path, small_robot: Robot, pretend: Callable[[str], None]
-) -> None:
-    pretend(OBEDIENT.replace("TAMPER", ""))
-    found = slice_bundle(bundle)
-    parts = {part.name: part for part in small_robot.parts}
-    for part in found.parts:
-        density = found.workshop.materials[part.material].density_g_cm3
-        shape, printer = parts[part.name].drawing.shape, found.workshop.printer
-        drawn = mass_properties(shape, density, found.workshop.process, printer.nozzle_mm).mass_kg
-        assert part.modelled_grams == pytest.approx(1000.0 * drawn, rel=2e-3)
 
 
 def test_grams_and_times_are_told_in_tables(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:

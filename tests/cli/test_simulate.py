@@ -5,31 +5,20 @@ import json
 from pathlib import Path
 
 import pytest
+from support.commands import Run
 
-from jumpcad import cli
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Settings, simulate
 
 
-def run(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *arguments: object
-) -> tuple[int, str, str]:
-    """Return exit code, standard output and standard error of a `jumpcad simulate`."""
-    monkeypatch.setattr("sys.argv", ["jumpcad", "simulate", *map(str, arguments)])
-    with pytest.raises(SystemExit) as end:
-        cli.main()
-    said = capsys.readouterr()
-    return int(end.value.code or 0), said.out, said.err
-
-
 @pytest.fixture
-def command(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch):
+def command(run: Run) -> Run:
     """`jumpcad simulate` as a function."""
-    return lambda *arguments: run(capsys, monkeypatch, *arguments)
+    return lambda *arguments: run("simulate", *arguments)
 
 
-def test_one_document_with_what_python_says(command) -> None:
+def test_one_document_with_what_python_says(command: Run) -> None:
     code, out, err = command("kenan-2.0", "--capsule", "--json")
     document = json.loads(out)
     jump = simulate(capsule_robot(load_design("kenan-2.0")))
@@ -39,7 +28,7 @@ def test_one_document_with_what_python_says(command) -> None:
     assert document["energy"]["joint_damping_j"] == jump.energy.joint_damping_j
 
 
-def test_both_engines_and_their_difference(command) -> None:
+def test_both_engines_and_their_difference(command: Run) -> None:
     pytest.importorskip("mujoco")
     code, out, _ = command("kenan-2.0", "--capsule", "--engine", "both", "--settings", "fine", "--json")
     document = json.loads(out)
@@ -52,7 +41,7 @@ def test_both_engines_and_their_difference(command) -> None:
     assert "% of the range of pybullet" in out.splitlines()[-1]
 
 
-def test_refused_design_says_why_and_what_to_change(command, tmp_path: Path) -> None:
+def test_refused_design_says_why_and_what_to_change(command: Run, tmp_path: Path) -> None:
     path = tmp_path / "loop.toml"
     path.write_text(Design.from_vector([100, 1.1596, 0.6455, 0.6, 0.8, 70, 30, 10]).to_toml())
     code, out, err = command(path, "--capsule")
@@ -66,7 +55,7 @@ def test_refused_design_says_why_and_what_to_change(command, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("suffix", ["csv", "json"])
-def test_trajectory_file(command, tmp_path: Path, suffix: str) -> None:
+def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"path.{suffix}"
     code, _, _ = command("kenan-2.0", "--capsule", "--flight", "--trajectory", path)
     assert code == 0
@@ -81,7 +70,7 @@ def test_trajectory_file(command, tmp_path: Path, suffix: str) -> None:
     assert read == {name: values.tolist() for name, values in expected.trajectory.columns().items()}
 
 
-def test_a_trajectory_replaces_nothing_unasked(command, tmp_path: Path) -> None:
+def test_a_trajectory_replaces_nothing_unasked(command: Run, tmp_path: Path) -> None:
     path = tmp_path / "path.csv"
     path.write_text("mine")
     code, out, err = command("kenan-2.0", "--capsule", "--trajectory", path)
@@ -107,21 +96,21 @@ def test_a_trajectory_replaces_nothing_unasked(command, tmp_path: Path) -> None:
         (["kenan-3.0", "--capsule"], "did you mean kenan-2.0"),
     ],
 )
-def test_wrong_requests(command, arguments: list[str], message: str) -> None:
+def test_wrong_requests(command: Run, arguments: list[str], message: str) -> None:
     code, out, err = command(*arguments)
     assert (code, out) == (2, "")
     assert message in err
     assert len(err.splitlines()) == 1
 
 
-def test_published_is_named_so(command) -> None:
+def test_published_is_named_so(command: Run) -> None:
     code, out, _ = command("kenan-1.0", "--published")
     assert code == 0
     assert "0.257138" in out
     assert "published distance" in out
 
 
-def test_the_other_engine_steps_in_with_one_line(command, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_other_engine_steps_in_with_one_line(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("mujoco")
     monkeypatch.setitem(__import__("sys").modules, "pybullet", None)
     code, out, err = command("kenan-2.0", "--capsule", "--json")

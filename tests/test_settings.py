@@ -4,10 +4,11 @@ from pathlib import Path
 
 import pytest
 
+from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, FOOT
-from jumpcad.robot import Robot
 from jumpcad.settings import surface_friction
 from jumpcad.simulation import Settings, load_settings
 
@@ -37,7 +38,8 @@ def test_published_table_is_the_papers() -> None:
     assert (table.joint_damping_nms_per_rad, table.restitution) == (0.001, 0.8)
 
 
-def test_friction_of_the_contacts_is_that_of_the_reference_flights(kenan: Robot) -> None:
+def test_friction_of_the_contacts_is_that_of_the_reference_flights() -> None:
+    kenan = capsule_robot(load_design("kenan-2.0"))
     settings = Settings()
     assert settings.ground_friction * surface_friction(kenan.bodies[FOOT], settings) == 1.5
     assert settings.ground_friction * surface_friction(kenan.bodies[BODY], settings) == 0.75
