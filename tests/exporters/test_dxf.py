@@ -1,4 +1,4 @@
-"""DXF and GLB read back by independent readers."""
+"""DXF read back by ezdxf: outlines, holes, and a name that reads from the outside."""
 
 import io
 import os

@@ -68,7 +68,7 @@ def test_the_space_is_given_by_numbers():
         ({"choices": {"c_coef": []}}, "no values to choose from"),
         ({"fixed": {"c_coef": 1}, "bounds": {"c_coef": (0.9, 1.1)}}, "given twice"),
         ({"workers": 1, "dask": "tcp://x"}, "exclude each other"),
-        ({"engine": "ode"}, "not an engine of a search"),
+        ({"engine": "ode"}, "not an engine"),
         ({"study": "none/s.db"}, "none/s.db"),
     ],
 )

@@ -1,4 +1,4 @@
-"""Pictures of searches: complete, and the same bytes for the same data."""
+"""Pictures of searches show the trials and the surrogate."""
 
 import numpy as np
 import pytest

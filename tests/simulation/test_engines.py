@@ -1,4 +1,4 @@
-"""Both engines hold the robot that they were given, and move it as mechanics says."""
+"""Both engines move a robot as mechanics says; how an engine is named and found."""
 
 import sys
 from dataclasses import replace

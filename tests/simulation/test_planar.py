@@ -1,4 +1,4 @@
-"""The planar engine against the table of converged flights, both general engines, and its own uncompiled self."""
+"""The planar engine against the table of converged flights and both general engines."""
 
 import json
 from dataclasses import replace

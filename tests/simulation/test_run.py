@@ -1,4 +1,4 @@
-"""The run: gate, audit, flight, trajectory, published quantities."""
+"""The run: audit, flight, trajectory, published quantities."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Bayesian optimisation: acquisition, batches, resumption."""
+"""Bayesian optimisation: few evaluations, batches, resumption."""
 
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill

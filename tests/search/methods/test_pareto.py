@@ -1,4 +1,4 @@
-"""Fronts against brute force and against PyGAD's own hypervolume."""
+"""Searches for a front: how much of the true one they find, and resumption."""
 
 import numpy as np
 import pytest
