@@ -1,6 +1,6 @@
 """All checks together, the cheap ones among them, and those of the drive."""
 
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import pytest
 
@@ -8,7 +8,7 @@ import jumpcad
 from jumpcad import checks
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
-from jumpcad.findings import Finding, at_most, errors, limit
+from jumpcad.findings import at_most, limit
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
@@ -51,24 +51,6 @@ def test_what_a_check_makes_grow_is_a_factor_of_growth(strongest: Robot) -> None
     assert set(named.values()) == {field.name for field in fields(Growth)}
     assert named["leg_sideways"] == named["eye_strength"] == "thickness"
     assert named["toe_landing"] == "toe"
-
-
-def test_drive_reports_what_its_synthesis_found(kenan: Robot) -> None:
-    assert kenan.layout is not None
-    slipping = Finding("motor_torque", "info", -0.01, "N·m", "too little torque", "a stronger motor")
-    train = replace(kenan.layout.drive.train, findings=(slipping,))
-    robot = replace(kenan, layout=replace(kenan.layout, drive=replace(kenan.layout.drive, train=train)))
-    (error,) = errors(constraint_findings(robot))
-    assert (error.name, error.margin) == ("motor_torque", -0.01)
-    names = {finding.name for finding in constraint_findings(kenan)}
-    assert {
-        "spring_stress",
-        "cam_pressure_angle",
-        "cam_undercut",
-        "cam_drop",
-        "gear_strength_1",
-        "motor_torque",
-    } < names
 
 
 def test_a_mechanism_without_parts_has_only_the_gates_findings() -> None:

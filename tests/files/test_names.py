@@ -3,7 +3,8 @@
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from jumpcad.files.names import NAME_RULE, Name, OptionalName, Text, control_character, without_controls
+from jumpcad.errors import without_controls
+from jumpcad.files.names import NAME_RULE, Name, OptionalName, Text, control_character
 
 
 def refused(kind: object, value: str) -> str:

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
@@ -282,9 +281,3 @@ def test_a_robot_that_stands_weighs_its_weight(kenan: Robot) -> None:
     borne = (arms[0] * contact.first_ns + arms[1] * contact.second_ns) / (contact.first_ns + contact.second_ns)
     centre = Mechanics(kenan, 9.81).centre_of_mass_m(world_at(kenan, upright).state())[0]
     assert borne == pytest.approx(centre, abs=1e-4)
-
-
-@pytest.mark.parametrize("name", ["pin_friction", "stop_rad", "release_rad_s"])
-def test_effects_out_of_range(name: str) -> None:
-    with pytest.raises(JumpcadError, match=f"{name} = -0.1: must be at least 0"):
-        Effects(**{name: -0.1})
