@@ -75,3 +75,19 @@ def test_foot_clearance_fires_on_a_battery_that_sinks(kenan: Robot) -> None:
     (finding,) = foot_findings(replace(kenan, hardware=tuple(hardware)))
     assert finding.severity == "error"
     assert "battery" in finding.message
+
+
+def test_the_motor_counts_with_its_corners(strongest: Robot) -> None:
+    """A motor 80 mm further down is the lowest thing on the body: the box of its catalogue sizes, however it turns."""
+    layout, lower = strongest.layout, np.array([0.0, -80.0])
+    motor = layout.drive.train.motor
+    sunk = replace(strongest, layout=replace(layout, motor_mm=layout.motor_mm + lower))
+    (finding,) = ground_findings(sunk)
+    assert "the body" in finding.message
+    leg = np.linspace(-strongest.design.compression_rad, 0.0, 91)
+    pose = strongest.linkage.pose(leg)
+    up = np.stack([np.sin(pose.foot_rad), np.cos(pose.foot_rad)], axis=-1)
+    middle = ((layout.motor_mm + lower - pose.ankle_mm) * up).sum(axis=1).min() + 1000.0 * strongest.foot_depth_m
+    corner = middle - np.hypot(motor.width_mm, motor.height_mm) / 2.0
+    flat_side = middle - max(motor.width_mm, motor.height_mm)
+    assert flat_side - 0.1 <= finding.margin + 0.5 <= corner + 1e-6
