@@ -11,6 +11,7 @@ from jumpcad.checks.interference import Moment, components, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
+from jumpcad.transforms import pose_about_y
 
 
 def lowest_above_ground_mm(robot: Robot, leg_rad: float, without: tuple[str, ...] = (FOOT,)) -> float:
@@ -91,3 +92,23 @@ def test_the_motor_counts_with_its_corners(strongest: Robot) -> None:
     corner = middle - np.hypot(motor.width_mm, motor.height_mm) / 2.0
     flat_side = middle - max(motor.width_mm, motor.height_mm)
     assert flat_side - 0.1 <= finding.margin + 0.5 <= corner + 1e-6
+
+
+def test_the_roller_counts_with_its_radius(strongest: Robot) -> None:
+    """A lever of 150 mm that points 1 rad below the body at rest has its roller lowest; it turns with the leg."""
+    layout = strongest.layout
+    roller_mm = strongest.workshop.catalogue.bearings[strongest.workshop.bought.roller].outer_mm
+    geometry = layout.drive.cam.geometry
+    down = replace(geometry, lever_mm=150.0, lead_rad=-1.0 - geometry.axis_rad)
+    cam = replace(layout.drive.cam, geometry=down)
+    long = replace(strongest, layout=replace(layout, drive=replace(layout.drive, cam=cam)))
+    (finding,) = ground_findings(long)
+    assert "the roller" in finding.message
+    lowest = np.inf
+    for leg in np.linspace(-strongest.design.compression_rad, 0.0, 9):
+        pose = strongest.linkage.pose([leg])
+        foot = pose_about_y(float(pose.foot_rad[0]), pose.ankle_mm[0])
+        lever = pose_about_y(1.0 + leg, layout.hub_mm)
+        tip = np.linalg.inv(foot) @ lever @ np.array([150.0, 0.0, 0.0, 1.0])
+        lowest = min(lowest, float(tip[2]))
+    assert finding.margin + 0.5 == pytest.approx(lowest - roller_mm / 2.0 + 1000.0 * strongest.foot_depth_m, abs=1e-6)

@@ -28,3 +28,13 @@ def test_a_needle_without_area_is_left_out():
     mesh = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0, 0]], [[0, 1, 2], [0, 3, 1]], process=False)
     _, _, faces = creased(mesh)
     assert len(faces) == 1
+
+
+@pytest.mark.parametrize(("sides", "faceted"), [(6, True), (8, True), (24, False), (48, False)])
+def test_a_nut_has_edges_and_a_rod_has_none(sides: int, faceted: bool) -> None:
+    """The sides of a prism of n sides meet at 360°/n: a hexagon nut shows its flats, a rod drawn with 24 is round."""
+    _, normals, _ = creased(trimesh.creation.cylinder(5.0, 8.0, sections=sides))
+    around = normals[np.abs(normals[:, 2]) < 0.5]
+    directions = np.unique(np.round(np.arctan2(around[:, 1], around[:, 0]), 3))
+    assert (len(around) > 2 * sides) == faceted
+    assert len(directions) >= sides

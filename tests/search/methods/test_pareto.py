@@ -1,5 +1,7 @@
 """Fronts against brute force and against PyGAD's own hypervolume."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pygad.utils.quality_indicators import hypervolume as reference_hypervolume
@@ -88,3 +90,10 @@ def test_a_front_resumes(evaluator, tmp_path):
     longer = evaluator(tmp_path / "s.db")
     run_pareto(longer, Task(30, 0, initial=9))
     assert [trial.key for trial in longer.trials] == [trial.key for trial in whole.trials]
+
+
+def test_the_same_score_for_more_energy_is_not_on_the_front(trials):
+    cheap, dear = sorted(trials, key=lambda trial: energy_j(trial.design))[:2]
+    assert energy_j(cheap.design) < energy_j(dear.design)
+    same = [replace(trial, score=0.5) for trial in (dear, cheap)]
+    assert front(same) == [same[1]]

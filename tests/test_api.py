@@ -1,0 +1,16 @@
+"""The public functions pass on what they are given."""
+
+from pathlib import Path
+
+import jumpcad
+from jumpcad.robot import Robot
+
+
+def test_a_bundle_has_pictures_and_no_step_files_unless_it_is_told_otherwise(
+    small_robot: Robot, tmp_path: Path
+) -> None:
+    for folder, pictures in (("with", True), ("without", False)):
+        bundle = jumpcad.export(small_robot, tmp_path / folder, pictures=pictures, step=False)
+        suffixes = {Path(name).suffix for name in bundle.files}
+        assert (".png" in suffixes) == pictures
+        assert ".step" not in suffixes
