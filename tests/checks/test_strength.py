@@ -197,3 +197,12 @@ def test_a_body_struck_beside_its_middle_turns_about_both_axes(kenan: Robot) -> 
     x, y = (design.l5_mm / 1000.0 * part for part in (math.cos(angle), math.sin(angle)))
     per_impulse = 1.0 / body.mass_kg + x**2 / body.inertia_kg_m2[1, 1] + y**2 / body.inertia_kg_m2[0, 0]
     assert case.toe_blow_n / case.landing_n == pytest.approx(1.0 / body.mass_kg / per_impulse)
+
+
+def test_the_springs_pin_is_a_beam_with_two_loads(kenan: Robot) -> None:
+    """Two equal forces at a distance a from either support bend a beam by F·a between them (Shigley, table A-9)."""
+    layout, lateral = kenan.layout, kenan.layout.lateral
+    force = 1000.0 * kenan.design.peak_spring_torque_nm / 2.0 / np.linalg.norm(layout.spring_pin_mm - layout.hub_mm)
+    support = sum(lateral.left_plate) / 2.0 - sum(lateral.right_plate) / 2.0
+    stress = 32.0 * force * (support / 2.0 - lateral.spring_left[1]) / (math.pi * layout.axle_mm**3)
+    assert LoadCase(kenan).steel_stresses_mpa["spring_pin"] == pytest.approx(stress, rel=1e-6)

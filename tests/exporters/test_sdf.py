@@ -5,13 +5,14 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from jumpcad.design import load_design
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import FOOT, Mechanism
+from jumpcad.mechanism.model import FOOT, FRONT_LINK, Mechanism
 from jumpcad.settings import Settings
 
 
@@ -72,3 +73,25 @@ def test_friction_is_the_grounds_times_the_surfaces(mechanism: Mechanism) -> Non
         for key in ("mu", "mu2"):
             for found in link.iter(key):
                 assert float(str(found.text)) == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_loop_is_one_point_of_two_links_and_masses_lie_where_they_do(mechanism: Mechanism) -> None:
+    """Read from the file alone: poses of links, the joint's point in its child, and the other link's eye."""
+    root = ET.fromstring(write_sdf(mechanism))
+
+    def pose(node: ET.Element) -> tuple[np.ndarray, np.ndarray]:
+        numbers = [float(value) for value in str(node.findtext("pose")).split()]
+        return Rotation.from_euler("xyz", numbers[3:]).as_matrix(), np.array(numbers[:3])
+
+    links = {str(link.get("name")): link for link in root.iter("link")}
+    (loop,) = (joint for joint in root.iter("joint") if joint.get("type") == "ball")
+    rotation, origin = pose(links[str(loop.findtext("child"))])
+    point = origin + rotation @ pose(loop)[1]
+    assert {loop.findtext("parent"), loop.findtext("child")} == {FRONT_LINK, FOOT}
+    for name, length in ((FRONT_LINK, mechanism.design.l3_mm), (FOOT, mechanism.design.l4_mm)):
+        rotation, origin = pose(links[name])
+        np.testing.assert_allclose(point, origin + rotation @ [length / 1000.0, 0.0, 0.0], atol=1e-6)
+    for name, link in links.items():
+        inertial = link.find("inertial")
+        assert inertial is not None
+        np.testing.assert_allclose(pose(inertial)[1], mechanism.bodies[name].com_m, atol=1e-9)

@@ -63,3 +63,17 @@ def test_a_nut_is_a_hexagon_of_iso_4032(robot: Robot) -> None:
     assert nut.shape.volume_mm3 == pytest.approx(volume, rel=0.01)
     size = np.ptp(np.asarray(nut.look.vertices), axis=0)
     assert sorted(size) == pytest.approx([2.4, 5.5, 5.5 * 2.0 / math.sqrt(3.0)], abs=0.01)
+
+
+def test_standoff_screws_go_through_the_plate_into_the_standoff(robot: Robot) -> None:
+    """A screw's head sits on the outside of its plate, and two diameters of thread (6 mm) at least hold inside."""
+    inside, outside = robot.layout.lateral.inside, robot.layout.lateral.outside
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        screws = [thing for thing in named(robot, "standoff_") if thing.name.endswith(f"_screw_{side}")]
+        assert len(screws) == len(robot.layout.standoffs_mm)
+        for screw in screws:
+            low, high = np.array(screw.solid.transform(screw.T_body_part[:3]).bounding_box())[[1, 4]]
+            tip, head = (low, high) if sign > 0 else (high, low)
+            inner, outer = (inside[1], outside[1]) if sign > 0 else (inside[0], outside[0])
+            assert sign * (inner - tip) >= 6.0 - 1e-6
+            assert 1.0 < sign * (head - outer) < 3.0
