@@ -6,7 +6,7 @@ import pytest
 from support.slicers import OBEDIENT, pretend_slicer, three_parts
 
 from jumpcad.bundle.export import export
-from jumpcad.bundle.sliced import slice_bundle
+from jumpcad.bundle.sliced import SlicedPart, slice_bundle
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 
@@ -22,3 +22,8 @@ def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
         shape, printer = parts[part.name].drawing.shape, found.workshop.printer
         drawn = mass_properties(shape, density, found.workshop.process, printer.nozzle_mm).mass_kg
         assert part.modelled_grams == pytest.approx(1000.0 * drawn, rel=2e-3)
+
+
+def test_a_model_that_is_a_tenth_heavier_says_so() -> None:
+    part = SlicedPart("main_leg", "PETG", 1, grams=10.0, modelled_grams=11.0, time_s=600.0)
+    assert part.difference == pytest.approx(0.10)

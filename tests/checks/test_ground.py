@@ -11,6 +11,7 @@ from jumpcad.checks.interference import Moment, components, pose_of
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import Robot
+from jumpcad.transforms import pose_about_y
 
 
 def lowest_above_ground_mm(robot: Robot, leg_rad: float, without: tuple[str, ...] = (FOOT,)) -> float:
@@ -75,3 +76,39 @@ def test_foot_clearance_fires_on_a_battery_that_sinks(kenan: Robot) -> None:
     (finding,) = foot_findings(replace(kenan, hardware=tuple(hardware)))
     assert finding.severity == "error"
     assert "battery" in finding.message
+
+
+def test_the_motor_counts_with_its_corners(strongest: Robot) -> None:
+    """A motor 80 mm further down is the lowest thing on the body: the box of its catalogue sizes, however it turns."""
+    layout, lower = strongest.layout, np.array([0.0, -80.0])
+    motor = layout.drive.train.motor
+    sunk = replace(strongest, layout=replace(layout, motor_mm=layout.motor_mm + lower))
+    (finding,) = ground_findings(sunk)
+    assert "the body" in finding.message
+    leg = np.linspace(-strongest.design.compression_rad, 0.0, 91)
+    pose = strongest.linkage.pose(leg)
+    up = np.stack([np.sin(pose.foot_rad), np.cos(pose.foot_rad)], axis=-1)
+    middle = ((layout.motor_mm + lower - pose.ankle_mm) * up).sum(axis=1).min() + 1000.0 * strongest.foot_depth_m
+    corner = middle - np.hypot(motor.width_mm, motor.height_mm) / 2.0
+    flat_side = middle - max(motor.width_mm, motor.height_mm)
+    assert flat_side - 0.1 <= finding.margin + 0.5 <= corner + 1e-6
+
+
+def test_the_roller_counts_with_its_radius(strongest: Robot) -> None:
+    """A lever of 150 mm that points 1 rad below the body at rest has its roller lowest; it turns with the leg."""
+    layout = strongest.layout
+    roller_mm = strongest.workshop.catalogue.bearings[strongest.workshop.bought.roller].outer_mm
+    geometry = layout.drive.cam.geometry
+    down = replace(geometry, lever_mm=150.0, lead_rad=-1.0 - geometry.axis_rad)
+    cam = replace(layout.drive.cam, geometry=down)
+    long = replace(strongest, layout=replace(layout, drive=replace(layout.drive, cam=cam)))
+    (finding,) = ground_findings(long)
+    assert "the roller" in finding.message
+    lowest = np.inf
+    for leg in np.linspace(-strongest.design.compression_rad, 0.0, 9):
+        pose = strongest.linkage.pose([leg])
+        foot = pose_about_y(float(pose.foot_rad[0]), pose.ankle_mm[0])
+        lever = pose_about_y(1.0 + leg, layout.hub_mm)
+        tip = np.linalg.inv(foot) @ lever @ np.array([150.0, 0.0, 0.0, 1.0])
+        lowest = min(lowest, float(tip[2]))
+    assert finding.margin + 0.5 == pytest.approx(lowest - roller_mm / 2.0 + 1000.0 * strongest.foot_depth_m, abs=1e-6)

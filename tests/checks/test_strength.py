@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.strengths import changed, margins
 
@@ -105,3 +106,40 @@ def test_twice_the_spring_torque_bends_twice_as_much(kenan: Robot) -> None:
     before, after = 15.0 - margins(kenan)["hub_strength"], 15.0 - margins(robot)["hub_strength"]
     assert after == pytest.approx(2.0 * before)
     assert math.isfinite(after)
+
+
+def test_the_plates_bear_the_push_of_the_cam_between_them(strongest: Robot) -> None:
+    """Bearing stress is force over the projected area, diameter times thickness (Shigley, 8-12), of two seats."""
+    layout = strongest.layout
+    (seat,) = (finding for finding in strength_findings(strongest) if finding.name == "plate_seat")
+    plate = layout.lateral.left_plate[1] - layout.lateral.left_plate[0]
+    borne = seat.value * 2.0 * layout.axle_mm * plate
+    arm = 1000.0 * strongest.design.peak_spring_torque_nm / layout.leg_pin_mm
+    push = layout.drive.cam.peak_contact_n
+    assert max(push, arm) <= borne + 1e-9 <= push + arm
+
+
+def test_pins_for_a_few_jumps_may_bear_their_yield_and_no_more(kenan: Robot) -> None:
+    """Up to 1e3 cycles the limit is the yield point (Shigley, 6-8)."""
+    few = changed(kenan, "safety", jumps=1000.0, steel_yield_mpa=900.0)
+    (axle,) = (finding for finding in strength_findings(few) if finding.name == "axle_fatigue")
+    assert axle.limit == pytest.approx(900.0)
+
+
+def test_a_body_struck_beside_its_middle_turns_about_both_axes(kenan: Robot) -> None:
+    """Speed at the struck point per impulse: 1/m + x²/I_y + y²/I_x (a free rigid body); 1/m if struck in the middle."""
+    case = LoadCase(kenan)
+    body, design = kenan.bodies["body"], kenan.design
+    angle = math.radians(design.ground_link_angle_deg)
+    x, y = (design.l5_mm / 1000.0 * part for part in (math.cos(angle), math.sin(angle)))
+    per_impulse = 1.0 / body.mass_kg + x**2 / body.inertia_kg_m2[1, 1] + y**2 / body.inertia_kg_m2[0, 0]
+    assert case.toe_blow_n / case.landing_n == pytest.approx(1.0 / body.mass_kg / per_impulse)
+
+
+def test_the_springs_pin_is_a_beam_with_two_loads(kenan: Robot) -> None:
+    """Two equal forces at a distance a from either support bend a beam by F·a between them (Shigley, table A-9)."""
+    layout, lateral = kenan.layout, kenan.layout.lateral
+    force = 1000.0 * kenan.design.peak_spring_torque_nm / 2.0 / np.linalg.norm(layout.spring_pin_mm - layout.hub_mm)
+    support = sum(lateral.left_plate) / 2.0 - sum(lateral.right_plate) / 2.0
+    stress = 32.0 * force * (support / 2.0 - lateral.spring_left[1]) / (math.pi * layout.axle_mm**3)
+    assert LoadCase(kenan).steel_stresses_mpa["spring_pin"] == pytest.approx(stress, rel=1e-6)

@@ -55,3 +55,9 @@ def test_the_centre_distance_is_that_of_a_worked_example():
     assert involute == pytest.approx(expected, abs=1e-12)
     assert pair.centre_distance_mm == pytest.approx(16.5 * math.cos(math.radians(20)) / math.cos(working))
     assert 16.5 < pair.centre_distance_mm < 16.5 + shift  # less than the sum of the shifts: the tips are cut
+
+
+def test_the_least_clearance_is_that_of_the_longer_tooth():
+    """Two equal gears of 40 teeth: a dedendum of 1.25 modules less an addendum of one; one of them has its tips cut."""
+    cut = GearPair(Gear(40, 1.0, 0.0, 5), Gear(40, 1.0, 0.0, 5, tip_cut_mm=0.1), 40.0)
+    assert cut.tip_clearance_mm == pytest.approx(0.25, abs=1e-9)

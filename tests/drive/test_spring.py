@@ -99,3 +99,19 @@ def test_a_short_body_is_preferred_to_a_thin_one_where_it_fits():
 def test_no_room_is_refused_with_what_to_change():
     with pytest.raises(CannotBuildError, match=r"no wire of 0\.5 to 2\.5 mm .* 780 N·mm .* stiffness_nmm_per_deg"):
         spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(5.0,)))
+
+
+def test_coils_are_neither_narrower_nor_wider_than_makers_wind_them():
+    """Spring index, coil over wire, of 4 to 16 and two turns at least, whatever bushing it has to clear."""
+    found = 0
+    for mandrel in np.arange(2.0, 40.0, 2.0):
+        roomy = replace(LIMITS, mandrel_min_mm=mandrel, outer_max_mm=60.0)
+        for stiffness, turn in ((0.02, 0.4), (0.2, 0.2), (0.2, 0.8), (1.0, 1.0), (4.0, 0.2)):
+            try:
+                spring = synthesise_spring(stiffness, turn, WIRE, roomy)
+            except CannotBuildError:
+                continue
+            found += 1
+            assert 4.0 - 1e-9 <= (spring.outer_diameter_mm - spring.wire_mm) / spring.wire_mm <= 16.0
+            assert spring.turns >= 2.0
+    assert found > 5

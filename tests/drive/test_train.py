@@ -69,11 +69,13 @@ def test_the_gears_fit_and_bear_their_load(law, limits):
     train = synthesise_train(law, MOTORS, limits)
     assert train.stages[-1].wheel.tip_radius_mm <= limits.cam_gear_tip_max_mm
     assert sum(pair.centre_distance_mm for pair in train.stages) >= limits.motor_distance_min_mm
+    findings = {finding.name: finding for finding in train.findings}
     torque = law.peak_torque_nm / 0.85
-    for pair in reversed(train.stages):
+    for number, pair in reversed(list(enumerate(train.stages, start=1))):
         force = 1000 * torque / pair.wheel.pitch_radius_mm
         stress = force / (limits.face_width_mm * pair.module_mm * pair.pinion.lewis_factor)
         assert stress <= limits.stress_mpa
+        assert findings[f"gear_strength_{number}"].value == pytest.approx(stress)
         assert pair.pinion.tip_thickness_mm >= limits.tip_min_mm
         assert pair.pinion.root_radius_mm >= limits.pinion_root_min_mm
         assert pair.contact_ratio > 1.1

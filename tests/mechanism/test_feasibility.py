@@ -3,6 +3,7 @@
 import csv
 import math
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -124,3 +125,14 @@ def test_lifting_work_of_a_parallelogram() -> None:
     legs = robot.bodies["main_leg"].mass_kg + robot.bodies["front_link"].mass_kg
     work = GRAVITY_M_S2 * rise * (robot.bodies["body"].mass_kg + legs / 2)
     assert weak.margin == pytest.approx(design.spring_energy_j - TAKEOFF_ENERGY_FACTOR * work, rel=1e-9)
+
+
+def test_a_robot_tips_over_its_nose_as_well_as_over_its_toes() -> None:
+    """A body whose centre is moved half a metre forwards or backwards takes the whole past either end of the feet."""
+    robot = capsule_robot(load_design("kenan-2.0"))
+    body = robot.bodies["body"]
+    assert statics_findings(robot)[0].margin > 0.0
+    for shift in (0.5, -0.5):
+        heavy = replace(body, com_m=body.com_m + np.array([shift, 0.0, 0.0]))
+        tips = statics_findings(replace(robot, bodies={**robot.bodies, "body": heavy}))[0]
+        assert (tips.name, tips.severity) == ("tips", "error")

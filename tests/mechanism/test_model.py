@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism, five_bar
@@ -52,3 +52,14 @@ def test_the_linkage_is_made_once(mechanism: Mechanism) -> None:
     assert mechanism.linkage is mechanism.linkage
     assert mechanism.linkage.design is mechanism.design
     assert f"{1000.0 * mechanism.mass_kg:.1f} g" in repr(mechanism)
+
+
+def test_a_joint_that_turns_back_keeps_its_furthest_angle() -> None:
+    """Here the front link turns furthest between loaded springs and rest: both ends alone miss 0.13 rad of it."""
+    design = Design.from_vector([189.773, 1.18, 0.864, 0.748, 0.655, 60.869, 14.361, 10.146])
+    linkage = Linkage(design)
+    turn = linkage.pose(np.linspace(-design.compression_rad, 0.0, 1000)).front_rad
+    assert turn.min() < min(turn[0], turn[-1]) - 0.13
+    _, front, _ = five_bar(linkage, (-design.compression_rad, 0.0))[0]
+    assert front.upper_rad == pytest.approx(turn.max(), abs=1e-3)
+    assert front.lower_rad == pytest.approx(turn.min(), abs=1e-3)

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from support.built import LONG_TOES, built, cut, hole_centres, placed
+import shapely
+from support.built import LONG_TOES, built, cut, hole_centres, placed, region
 
 from jumpcad.robot import Robot
 
@@ -51,3 +52,16 @@ def test_leg_tapers_with_the_moment_that_it_carries() -> None:
     ]
     expected = sections.leg_root_mm + (x + 0.1) / l2 * (sections.leg_tip_mm - sections.leg_root_mm)
     np.testing.assert_allclose(heights, expected, atol=0.15)
+
+
+def test_the_hub_has_two_walls_around_its_bearing(robot: Robot) -> None:
+    """All around the seat there is plastic: the wall of the workshop twice, as around every eye."""
+    layout, fits = robot.layout, robot.workshop.fits
+    hub = layout.hub_bearing
+    assert hub is not None
+    leg = region(cut(placed(robot, "main_leg"), layout.sections.thickness_mm / 2.0 - hub.width_mm / 2.0))
+    seat = hub.outer_mm / 2.0 + fits.press_mm
+    wall = shapely.Point(0.0, 0.0).buffer(seat + 2.0 * fits.wall_mm - 0.02) - shapely.Point(0.0, 0.0).buffer(
+        seat + 0.05
+    )
+    assert wall.difference(leg).area < 0.01 * wall.area

@@ -39,3 +39,13 @@ def test_a_box_is_drawn_with_sharp_edges_and_a_cylinder_round() -> None:
     assert side.sum() == (~side & (np.hypot(*vertices[:, :2].T) > 1.0)).sum() == 2 * 64
     assert np.allclose(normals[side, :2], vertices[side, :2] / 5.0, atol=0.03)
     assert np.allclose(trimesh.Trimesh(vertices, faces).area, trimesh.creation.cylinder(5.0, 8.0, sections=64).area)
+
+
+@pytest.mark.parametrize(("sides", "faceted"), [(6, True), (8, True), (24, False), (48, False)])
+def test_a_nut_has_edges_and_a_rod_has_none(sides: int, faceted: bool) -> None:
+    """The sides of a prism of n sides meet at 360°/n: a hexagon nut shows its flats, a rod drawn with 24 is round."""
+    _, normals, _ = creased(trimesh.creation.cylinder(5.0, 8.0, sections=sides))
+    around = normals[np.abs(normals[:, 2]) < 0.5]
+    directions = np.unique(np.round(np.arctan2(around[:, 1], around[:, 0]), 3))
+    assert (len(around) > 2 * sides) == faceted
+    assert len(directions) >= sides

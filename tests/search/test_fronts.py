@@ -1,5 +1,7 @@
 """Fronts against brute force and against PyGAD's own hypervolume."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pygad.utils.quality_indicators import hypervolume as reference_hypervolume
@@ -42,3 +44,10 @@ def test_hypervolume_is_pygads(trials):
 def test_a_design_without_a_pose_has_no_energy():
     design = Design.from_vector([100, 3.0, 0.1, 1, 0.5, 80, 10, 40])
     assert energy_j(design) == np.inf
+
+
+def test_the_same_score_for_more_energy_is_not_on_the_front(trials):
+    cheap, dear = sorted(trials, key=lambda trial: energy_j(trial.design))[:2]
+    assert energy_j(cheap.design) < energy_j(dear.design)
+    same = [replace(trial, score=0.5) for trial in (dear, cheap)]
+    assert front(same) == [same[1]]

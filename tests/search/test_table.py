@@ -6,8 +6,12 @@ import numpy as np
 import pytest
 from support.hills import SMALL
 
+from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.findings import Finding
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.table import write_table
+from jumpcad.search.trial import Trial
 
 
 @pytest.fixture
@@ -43,3 +47,14 @@ def test_tables_that_cannot_be_written(trials, tmp_path):
         with pytest.raises(JumpcadError, match=message):
             write_table(trials, tmp_path / name)
     assert (tmp_path / "t.csv").read_text() == "mine"
+
+
+def test_of_several_findings_of_a_name_the_worst_margin_counts(tmp_path):
+    design = load_design("kenan-2.0")
+    wall = [Finding("wall", "error", margin, "mm", "thin", "thicken it") for margin in (0.4, -0.2, 0.1)]
+    write_table(
+        [Trial("ga", 0, 0, design, Evaluation("jump", findings=tuple(wall)), None, "m", 0.0)], tmp_path / "t.csv"
+    )
+    with (tmp_path / "t.csv").open(newline="") as stream:
+        (record,) = csv.DictReader(stream)
+    assert float(record["margin_wall"]) == -0.2
