@@ -1,16 +1,35 @@
-"""What can go wrong because of what a user asked for, in one line of text."""
+"""Exceptions for user errors, in one line of text."""
+
+import unicodedata
+
+CONTROL = ("Cc", "Cf", "Cs", "Zl", "Zp")
+"""Unicode categories: control and format characters, halves of surrogate pairs, separators of lines."""
 
 
 class JumpcadError(Exception):
     """The request is wrong: one line that names the value, the limit and the way out.
 
+    Control characters of the message, which may quote a user's or a stranger's text, are shown as Python writes them.
     ``exit_code`` is what the command line returns for it.
     """
 
     exit_code = 2
+
+    def __init__(self, message: str) -> None:
+        super().__init__(without_controls(message))
 
 
 class CannotBuildError(JumpcadError):
     """The request is well-formed, but the answer is no: this design cannot work or cannot be made."""
 
     exit_code = 1
+
+
+def without_controls(text: str) -> str:
+    """Return a text with the escapes of Python in place of its control characters."""
+    if text.isprintable():  # at once for nearly every text
+        return text
+    return "".join(
+        letter.encode("unicode_escape").decode() if unicodedata.category(letter) in CONTROL else letter
+        for letter in text
+    )

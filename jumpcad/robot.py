@@ -1,12 +1,20 @@
 """`Robot`: a mechanism with the printed and bought parts that it is made of, its layout, and the workshop."""
 
+import os
+import re
 from dataclasses import dataclass
 
+from jumpcad.errors import JumpcadError
+from jumpcad.files.complaints import shown
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.workshop import Workshop
+
+NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
+LONGEST_NAME = 200
+"""Bytes of a robot's name: file systems allow 255 for a name with all that is put before and after it."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -20,3 +28,17 @@ class Robot(Mechanism):
     hardware: tuple[BoughtPart, ...]
     workshop: Workshop
     layout: Layout
+
+
+def require_name(name: str) -> None:
+    """Refuse a robot's name that cannot be that of its files.
+
+    Raises
+    ------
+    JumpcadError
+        Saying what it may hold.
+    """
+    if not NAME.fullmatch(name):
+        raise JumpcadError(f"{shown(name)} names files: use letters, digits, blanks, '.', '-', '+' and '_'")
+    if len(os.fsencode(name)) > LONGEST_NAME:
+        raise JumpcadError(f"{shown(name)} names files: use at most {LONGEST_NAME} bytes")

@@ -7,7 +7,7 @@ from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, require_name
 from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -23,12 +23,13 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     Raises
     ------
     JumpcadError
-        If the workshop was changed to what no file may say, or has the weight of a part that no robot has.
+        If the workshop was changed to what no file may say, or has the weight of a part that no robot has; if the name
+        cannot be that of files; or if an argument is of another type.
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
-    JumpcadError
-        If an argument is of another type.
     """
+    if name:
+        require_name(name)
     workshop = (workshop or load_workshop("default")).revalidated()
     refused = errors(geometry_findings(design))
     if refused:

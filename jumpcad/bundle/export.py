@@ -3,8 +3,6 @@
 The same robot gives the same bytes.
 """
 
-import os
-import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -16,13 +14,8 @@ from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures
-from jumpcad.errors import JumpcadError
 from jumpcad.exporters.registry import Exporter, Files, chosen
-from jumpcad.robot import Robot
-
-NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
-LONGEST_NAME = 200
-"""Bytes of a robot's name: file systems allow 255 for a name with all that is put before and after it."""
+from jumpcad.robot import Robot, require_name
 
 
 def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False) -> Bundle:
@@ -50,10 +43,7 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
     CannotBuildError
         If a part's file is not one closed solid.
     """
-    if not NAME.fullmatch(robot.name):
-        raise JumpcadError(f"{robot.name!r} names files: use letters, digits, blanks, '.', '-', '+' and '_'")
-    if len(os.fsencode(robot.name)) > LONGEST_NAME:
-        raise JumpcadError(f"{robot.name!r} names files: use at most {LONGEST_NAME} bytes")
+    require_name(robot.name)
     exporters = chosen(["step"] if step else [])
     return write_folder(folder, robot.name, _facts(robot), contents(robot, exporters, pictures), force)
 

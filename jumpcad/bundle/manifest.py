@@ -19,11 +19,27 @@ LARGEST_BYTES = 16_000_000
 """A manifest has some 20 kB; what is far larger is not read."""
 
 
+SUFFIXES = (
+    ".3mf", ".csv", ".dxf", ".gif", ".glb", ".html", ".json", ".md", ".obj", ".png", ".sdf", ".step", ".stl", ".svg",
+    ".toml", ".urdf", ".xml",
+)  # fmt: skip
+"""Of the files that a bundle may have. A stranger's manifest that lists others, such as .git/HEAD or a module of
+Python, would have them removed when the bundle is built anew."""
+
+
 def _safe(path: str) -> str:
     """Let a path pass that stays below the bundle's folder."""
     if not is_safe(path) or path == MANIFEST:
         raise ValueError("leads out of the bundle")
     return path
+
+
+def _ours(path: str) -> str:
+    """Let the path of a file pass that jumpcad can have written."""
+    hidden = any(name.startswith(".") for name in path.split("/"))
+    if hidden or not path.endswith(SUFFIXES):
+        raise ValueError("is no file of a bundle")
+    return _safe(path)
 
 
 def _apart(files: dict[str, str]) -> dict[str, str]:
@@ -61,7 +77,7 @@ class _Manifest(BaseModel):
     masses: list[_MassLine] = []
     mass_kg: float = 0.0
     bodies: dict[str, Any] = {}
-    files: Annotated[dict[Annotated[str, AfterValidator(_safe)], Sha256], AfterValidator(_apart)]
+    files: Annotated[dict[Annotated[str, AfterValidator(_ours)], Sha256], AfterValidator(_apart)]
 
 
 @dataclass(frozen=True, repr=False)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, status
 from jumpcad.cli.subjects import WorkshopOption, bundle_of, design_file, designed, tell_template
 from jumpcad.errors import JumpcadError
 
@@ -107,7 +107,7 @@ def render(
         print_json({"folder": str(folder), "files": sorted(files), "verdict": jump.verdict})
         return
     for name in sorted(files):
-        print(folder / name)
+        print(escaped(str(folder / name)))
     if jump.trajectory is None:
         print(f"no {GIF}: {jump.verdict}")
 
@@ -126,7 +126,7 @@ def verify(
     if as_json:
         print_json({"bundle": str(bundle), "differences": wrong, "added": added})
     else:
-        whole = f"{bundle}: {len(open_bundle(bundle).files)} files, all as they were built"
+        whole = f"{escaped(str(bundle))}: {len(open_bundle(bundle).files)} files, all as they were built"
         print("\n".join([*(wrong or [whole]), *(f"{path}: added, not in the manifest" for path in added)]))
     if wrong:
         raise typer.Exit(1)
@@ -220,7 +220,7 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
         print(f"note           {note}")
     print(f"printed robot  {_said(jump)}")
     print(f"study's masses {_said(facts['capsule_jump'])}")
-    print(f"written        {len(facts['files']) + 1} files in {facts['folder']}")
+    print(f"written        {len(facts['files']) + 1} files in {escaped(facts['folder'])}")
 
 
 def _said(jump: dict[str, Any]) -> str:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from jumpcad.cli.output import JsonFlag, console, print_json
+from jumpcad.cli.subjects import tell_template
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
@@ -34,6 +35,7 @@ def check(
     from jumpcad.findings import errors
     from jumpcad.workshop import load_workshop
 
+    tell_template(design)
     robot = build(load_design(design), load_workshop(workshop))
     findings = sorted(check_robot(robot), key=lambda finding: SEVERITIES.index(finding.severity))
     if as_json:

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
 
 FOLDER = Path("exports/coupon")
 WORKSHOP = Path("my-workshop.toml")
@@ -36,8 +36,8 @@ def coupon(
     if as_json:
         print_json(facts)
     elif measured is None:
-        print(f"{facts['folder']}: {len(facts['files']) + 1} files, {facts['grams']:.1f} g to print")
-        print(f"read {facts['folder']}/coupon.md next")
+        print(f"{escaped(facts['folder'])}: {len(facts['files']) + 1} files, {facts['grams']:.1f} g to print")
+        print(f"read {escaped(facts['folder'])}/coupon.md next")
     else:
         for key, change in facts["fits"].items():
             print(f"{key:<28} {change['before']:.3f} -> {change['after']:.3f}")

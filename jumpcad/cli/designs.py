@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
 
 
 def register(app: typer.Typer) -> None:
@@ -29,4 +29,5 @@ def new(
     if as_json:
         print_json({"file": str(file), "design": design.model_dump()})
     else:
-        print(f"{file}: a copy of {template}; try: jumpcad simulate {file}")
+        name = escaped(str(file))
+        print(f"{name}: a copy of {escaped(template)}; try: jumpcad simulate {name}")

@@ -27,12 +27,36 @@ LEAST_R_SQUARED = 0.5
 """Below it, an importance says little."""
 
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
-SamplesOption = Annotated[int, typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000)]
-PointsOption = Annotated[
-    int, typer.Option(help="Values of each parameter in a sweep or along an axis of the map.", min=2, max=1000)
+SAMPLES, POINTS, AROUND, OVER = 1000, 21, "best-bo", "rest_angle_deg,compression_ratio"
+"""What is taken where an option is left out."""
+USED_BY = {
+    "samples": ("pca", "importance"),
+    "points": ("sweep", "feasibility"),
+    "around": ("sweep", "feasibility"),
+    "over": ("feasibility",),
+}
+"""Views that an option applies to."""
+SamplesOption = Annotated[
+    int | None,
+    typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000, show_default=str(SAMPLES)),
 ]
-AroundOption = Annotated[str, typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN")]
-OverOption = Annotated[str, typer.Option(help="The two parameters of the feasibility map.", metavar="NAME,NAME")]
+PointsOption = Annotated[
+    int | None,
+    typer.Option(
+        help="Values of each parameter in a sweep or along an axis of the map.",
+        min=2,
+        max=1000,
+        show_default=str(POINTS),
+    ),
+]
+AroundOption = Annotated[
+    str | None,
+    typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND),
+]
+OverOption = Annotated[
+    str | None,
+    typer.Option(help="The two parameters of the feasibility map.", metavar="NAME,NAME", show_default=OVER),
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -44,10 +68,10 @@ def register(app: typer.Typer) -> None:
 def explore(
     *,
     view: ViewArgument,
-    samples: SamplesOption = 1000,
-    points: PointsOption = 21,
-    around: AroundOption = "best-bo",
-    over: OverOption = "rest_angle_deg,compression_ratio",
+    samples: SamplesOption = None,
+    points: PointsOption = None,
+    around: AroundOption = None,
+    over: OverOption = None,
     options: SearchOptions,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -65,10 +89,14 @@ def explore(
 
     if view not in VIEWS:
         raise JumpcadError(f"{view!r} is not one of the views {', '.join(VIEWS)}{did_you_mean(view, VIEWS)}")
+    for option, value in {"samples": samples, "points": points, "around": around, "over": over}.items():
+        if value is not None and view not in USED_BY[option]:
+            raise JumpcadError(f"--{option} {value}: does not apply to {view}, only to {' and '.join(USED_BY[option])}")
+    samples, points, over = samples or SAMPLES, points or POINTS, over or OVER
     require_study(options.study)
     require_plots(plots, force)
     space, robot = Space.parse(options.fix or (), options.bound or (), options.choose or ()), options.robot_model()
-    objective, centre = find_objective(options.objective or "fitness"), load_design(around)
+    objective, centre = find_objective(options.objective or "fitness"), load_design(around or AROUND)
     identity = {
         "model": robot.describe(), "objective": objective.name, "method": f"explore {view}", "space": space.describe(),
         "around": centre.model_dump(), "seed": options.seed, "versions": robot.versions(),

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
 from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
@@ -97,7 +97,7 @@ def optimize(
     with options.pool() as pool, watching(evaluations, as_json) as watch:
         if not as_json:
             where = f"{request.method} on the {options.model} robot"
-            print(f"study {path}: {where}, free parameters: {space.dimension}")
+            print(f"study {escaped(str(path))}: {where}, free parameters: {space.dimension}")
         result = run_study(request, path, pool, watch)
     if result.winner is not None:
         result.save(design_file, force)
@@ -142,13 +142,13 @@ def _print_result(result: "Result", design_file: Path) -> None:
     for one in result.candidates[:SHOWN]:
         scores = (one.trial.score or 0.0, one.parameters_score, one.print_score)
         print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {_counted(one.rejections)}")
-    print(f"\n{design_file}: {request.objective} {result.score:.4f}")
+    print(f"\n{escaped(str(design_file))}: {request.objective} {result.score:.4f}")
     for name, value in result.design.model_dump().items():
         print(f"  {name:24s}{value:12.5g}")
     for bound in result.bounds:
         change = "is rejected: " + bound.reason if bound.worth is None else f"changes the score by {bound.worth:+.4f}"
         print(f"at its {bound.side} bound: {bound.name} = {bound.value:g}; {bound.beyond:g} {change}")
-    print(f"\nnext: jumpcad build {design_file}")
+    print(f"\nnext: jumpcad build {escaped(str(design_file))}")
 
 
 def _counted(reasons: dict[str, int]) -> str:

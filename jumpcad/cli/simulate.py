@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
 from jumpcad.cli.subjects import WorkshopOption, designed, tell_template, written_robot
 from jumpcad.errors import JumpcadError
 from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
@@ -144,7 +144,7 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None
             engines = {jump.engine: result for jump, result in zip(jumps, results, strict=True)}
             print_json({**heading, "engines": engines, "range_difference_percent": _difference_percent(jumps)})
         return
-    print(f"{heading['design']}, {heading['model']} robot, settings {heading['settings']}")
+    print(escaped(f"{heading['design']}, {heading['model']} robot, settings {heading['settings']}"))
     for jump in jumps:
         print(f"{jump.engine}: {jump.verdict}")
         for finding in jump.findings:

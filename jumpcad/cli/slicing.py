@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, status
 
 if TYPE_CHECKING:
     from jumpcad.bundle.sliced import SlicedBundle
@@ -57,9 +57,10 @@ def slice_command(
         return
     _tell(found)
     if found.billed:
-        print(f"written   the times, into bom.csv and assembly.md of {bundle}")
+        print(f"written   the times, into bom.csv and assembly.md of {escaped(str(bundle))}")
     if write_masses is not None:
-        print(f"written   {write_masses}: try jumpcad build DESIGN --workshop {write_masses}")
+        name = escaped(str(write_masses))
+        print(f"written   {name}: try jumpcad build DESIGN --workshop {name}")
 
 
 def _facts(bundle: Path, found: "SlicedBundle") -> dict[str, Any]:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
 from jumpcad.cli.searching import PlotsOption, require_plots
 from jumpcad.errors import JumpcadError
 
@@ -82,7 +82,8 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
 
 def _print_one(summary: dict[str, Any]) -> None:
     identity = summary["identity"]
-    print(f"{summary['study']}: {identity['method']} on the {identity['model']['name']} robot, {identity['objective']}")
+    about = f"{identity['method']} on the {identity['model']['name']} robot, {identity['objective']}"
+    print(f"{escaped(summary['study'])}: {about}")
     print(
         f"{summary['evaluations']} of {summary['planned']} designs, and {summary['other_evaluations']} around the best"
     )

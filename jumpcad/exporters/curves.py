@@ -15,6 +15,8 @@ from jumpcad.transforms import Array
 
 ON_CIRCLE_MM = 2e-3
 """How far corners may be from their circle: outlines are cut and grown on a grid of about a tenth of that."""
+SAME_MM = 1e-6
+"""Corners nearer than this are one: CAD kernels have no edge that short (1e-7 mm in Open CASCADE)."""
 LEAST_SIDES = 6
 """Fewer sides are taken for corners."""
 WIDEST_SIDE_RAD = math.radians(12.0)
@@ -61,6 +63,7 @@ def curves_of(polygon: npt.ArrayLike) -> list[Curve]:
     it was drawn for.
     """
     points = np.asarray(polygon, dtype=float)
+    points = points[np.hypot(*(np.roll(points, -1, axis=0) - points).T) > SAME_MM]
     count = len(points)
     if circle := _circle(points):
         return [circle]

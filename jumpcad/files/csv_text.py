@@ -5,7 +5,7 @@ import io
 import re
 from collections.abc import Iterable, Sequence
 
-from jumpcad.files.names import without_controls
+from jumpcad.errors import without_controls
 
 FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet compute a cell (OWASP, CSV injection), in the full width of East Asian scripts too."""

@@ -7,12 +7,12 @@ from typing import Annotated
 from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
 
+from jumpcad.errors import CONTROL
+
 NAME = re.compile(r"\w[\w .,()+-]{0,49}")
 """What a name is: it begins no formula and no hidden file, and holds no separator of paths and no markup."""
 NAME_RULE = "a name has 1 to 50 letters, digits, blanks and . , + - _ ( ), and begins with a letter, a digit or _"
 LONGEST_TEXT = 1000
-CONTROL = ("Cc", "Cf", "Cs", "Zl", "Zp")
-"""Unicode categories: control and format characters, halves of surrogate pairs, separators of lines."""
 
 
 def control_character(text: str) -> str:
@@ -20,16 +20,6 @@ def control_character(text: str) -> str:
     if text.isprintable():  # at once for nearly every text
         return ""
     return next((f"U+{ord(letter):04X}" for letter in text if unicodedata.category(letter) in CONTROL), "")
-
-
-def without_controls(text: str) -> str:
-    """Return a text with the escapes of Python in place of its control characters."""
-    if text.isprintable():
-        return text
-    return "".join(
-        letter.encode("unicode_escape").decode() if unicodedata.category(letter) in CONTROL else letter
-        for letter in text
-    )
 
 
 def _name(value: str) -> str:

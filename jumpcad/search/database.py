@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from jumpcad.errors import JumpcadError
-from jumpcad.files.names import without_controls
+from jumpcad.errors import JumpcadError, without_controls
 
 PATIENCE_S = 5.0
 """How long a reader or writer waits for another one (s)."""

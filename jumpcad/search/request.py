@@ -85,6 +85,9 @@ class Request:
                 raise JumpcadError(f"{name} = {value:g} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {value} must be at most {most}")
+        if self.batch > 1 and not any(METHODS[name].learns for name in SEQUENCES.get(self.method, (self.method,))):
+            learning = ", ".join(name for name, method in METHODS.items() if method.learns)
+            raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
 
     def __repr__(self) -> str:
         return f"<Request {self.title}: {self.evaluations} evaluations, {self.space.dimension} parameters free>"

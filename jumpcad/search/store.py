@@ -16,9 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.design import PARAMETERS
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
-from jumpcad.files.names import without_controls
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
 from jumpcad.search.stored import (
     require_remembered,

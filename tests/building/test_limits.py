@@ -38,7 +38,7 @@ def changed(table: str, **values: Any) -> Workshop:
         ("safety", "gear_efficiency", 0.8, "train", {"pair_efficiency"}),
         ("safety", "strength_factor", 5.0, "train", {"stress_mpa"}),
         ("fits", "backlash_circumferential_mm", 0.3, "train", {"backlash_circumferential_mm"}),
-        ("fits", "press_mm", 0.15, "train", {"cam_gear_root_min_mm"}),
+        ("fits", "press_mm", 0.15, "train", {"cam_gear_root_min_mm", "shaft_wall_mm"}),
         ("fits", "wall_min_mm", 0.9, "cam", {"core_radius_mm"}),
         ("fits", "sliding_mm", 0.4, "spring", {"mandrel_min_mm", "pin_radius_min_mm"}),
         ("process", "line_width_mm", 0.6, "train", {"tip_min_mm"}),

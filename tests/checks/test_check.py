@@ -1,19 +1,14 @@
-"""All checks together, the cheap ones among them, the drive's, and the command."""
+"""All checks together, the cheap ones among them, and those of the drive."""
 
-import json
-from dataclasses import fields, replace
-from pathlib import Path
+from dataclasses import fields
 
 import pytest
-from typer.testing import CliRunner
 
 import jumpcad
 from jumpcad import checks
 from jumpcad.checks import constraint_findings
-from jumpcad.cli.commands import app
 from jumpcad.design import load_design
-from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding, at_most, errors, limit
+from jumpcad.findings import at_most, limit
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
@@ -58,24 +53,6 @@ def test_what_a_check_makes_grow_is_a_factor_of_growth(strongest: Robot) -> None
     assert named["toe_landing"] == "toe"
 
 
-def test_drive_reports_what_its_synthesis_found(kenan: Robot) -> None:
-    assert kenan.layout is not None
-    slipping = Finding("motor_torque", "info", -0.01, "N·m", "too little torque", "a stronger motor")
-    train = replace(kenan.layout.drive.train, findings=(slipping,))
-    robot = replace(kenan, layout=replace(kenan.layout, drive=replace(kenan.layout.drive, train=train)))
-    (error,) = errors(constraint_findings(robot))
-    assert (error.name, error.margin) == ("motor_torque", -0.01)
-    names = {finding.name for finding in constraint_findings(kenan)}
-    assert {
-        "spring_stress",
-        "cam_pressure_angle",
-        "cam_undercut",
-        "cam_drop",
-        "gear_strength_1",
-        "motor_torque",
-    } < names
-
-
 def test_a_mechanism_without_parts_has_only_the_gates_findings() -> None:
     robot = capsule_robot(load_design("kenan-2.0"))
     assert {finding.name for finding in jumpcad.check(robot)} == {"loop", "below_ground", "tips", "too_weak"}
@@ -85,32 +62,3 @@ def test_a_limit_is_violated_below_zero_alone() -> None:
     assert limit("a", 0.0, "mm", "", "").severity == "info"
     assert limit("a", -0.1, "mm", "", "").severity == "error"
     assert limit("a", -0.1, "mm", "", "", "warning").severity == "warning"
-
-
-def test_command_finds_nothing_wrong_with_kenan() -> None:
-    result = CliRunner().invoke(app, ["check", "kenan-2.0"])
-    assert result.exit_code == 0
-    assert "0 errors, 0 warnings" in result.output
-
-
-@pytest.mark.parametrize("as_json", [False, True])
-def test_command_fails_where_an_axle_is_too_weak(tmp_path: Path, as_json: bool) -> None:
-    soft = tmp_path / "soft.toml"
-    soft.write_text("[safety]\nsteel_yield_mpa = 20.0\n", encoding="utf-8")
-    arguments = ["check", "kenan-2.0", "--workshop", str(soft), *(["--json"] if as_json else [])]
-    result = CliRunner().invoke(app, arguments)
-    assert result.exit_code == 1
-    if as_json:
-        first = json.loads(result.output)["findings"][0]
-        assert (first["name"], first["severity"], first["unit"]) == ("leg_axle_strength", "error", "MPa")
-    else:
-        assert result.output.index("leg_axle_strength") < result.output.index("bed_fit")
-        assert "0 errors" not in result.output
-
-
-def test_command_says_which_part_does_not_fit_the_bed(tmp_path: Path) -> None:
-    small = tmp_path / "small.toml"
-    small.write_text('[printer]\nname = "tiny"\nbed_mm = [100.0, 100.0, 100.0]\nnozzle_mm = 0.4\n', encoding="utf-8")
-    result = CliRunner().invoke(app, ["check", "kenan-2.0", "--workshop", str(small)])
-    assert isinstance(result.exception, CannotBuildError)
-    assert "part foot of" in str(result.exception)

@@ -15,7 +15,6 @@ from support.places import TESTS
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
-from jumpcad.checks.drive import drive_findings
 from jumpcad.checks.printability import bed_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.drive import CamLimits, synthesise
@@ -99,23 +98,6 @@ def test_spring_stress() -> None:
     (finding,) = spring.findings
     assert finding.name == "spring_stress"
     assert finding.margin == pytest.approx(USUAL.spring.stress_share * spring.tensile_mpa - spring.stress_mpa)
-
-
-@pytest.mark.parametrize("name", sorted({finding.name for finding in DRIVE.findings}))
-def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
-    assert kenan.layout is not None
-    drive = kenan.layout.drive
-    findings = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.train.findings)
-    spring = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.spring.findings)
-    cam = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.cam.findings)
-    violated = replace(
-        drive,
-        spring=replace(drive.spring, findings=spring),
-        cam=replace(drive.cam, findings=cam),
-        train=replace(drive.train, findings=findings),
-    )
-    robot = replace(kenan, layout=replace(kenan.layout, drive=violated))
-    assert [finding.name for finding in errors(drive_findings(robot))] == [name]
 
 
 def test_toe_joint() -> None:

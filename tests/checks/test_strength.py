@@ -3,36 +3,16 @@
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
+from support.strengths import changed, margins
 
 from jumpcad.building import build
-from jumpcad.catalogue import load_catalogue
-from jumpcad.checks.load_case import LoadCase, leg_axle_moment_nmm
+from jumpcad.checks.load_case import LoadCase
 from jumpcad.checks.strength import strength_findings
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import Robot
-from jumpcad.strength.bearings import bearing_load_n
-
-
-def changed(robot: Robot, role: str, **figures: float) -> Robot:
-    """Return a robot whose workshop has other figures, in a role's material or in a section."""
-    workshop = robot.workshop
-    assert workshop is not None
-    if role in ("links", "body", "gears"):
-        name = workshop.material_name(role)  # type: ignore[arg-type]
-        material = workshop.materials[name].model_copy(update=figures)
-        return replace(
-            robot, workshop=workshop.model_copy(update={"materials": {**workshop.materials, name: material}})
-        )
-    section = getattr(workshop, role).model_copy(update=figures)
-    return replace(robot, workshop=workshop.model_copy(update={role: section}))
-
-
-def margins(robot: Robot) -> dict[str, float]:
-    return {finding.name: finding.margin for finding in strength_findings(robot)}
 
 
 def test_silent_on_what_was_sized_for_it(kenan: Robot, strongest: Robot) -> None:
@@ -70,17 +50,6 @@ def test_each_fires_in_a_workshop_that_cannot_bear_it(
         assert len(broken) < len(margins(kenan))
 
 
-def test_hub_bearings_warn_when_the_springs_overload_them(strongest: Robot) -> None:
-    weak = changed(strongest, "bought", leg_bearing="MR63")
-    (finding,) = [found for found in strength_findings(build(weak.design, weak.workshop)) if "bearing" in found.name]
-    assert (finding.name, finding.severity, finding.unit) == ("hub_bearing_load", "warning", "N")
-    # an arm's force is torque over its radius; the roller's middle is 6.5 mm from the leg's, the bearings 5.5 mm apart
-    assert weak.layout is not None
-    arms = 1000.0 * weak.design.peak_spring_torque_nm / weak.layout.leg_pin_mm
-    cam = weak.layout.drive.cam.peak_contact_n
-    assert finding.margin == pytest.approx(75.0 / 0.5 - (arms / 2.0 + cam * (0.5 + 6.5 / 5.5)), rel=0.05)
-
-
 def test_the_hub_gets_the_lightest_bearings_that_bear_it(kenan: Robot, strongest: Robot) -> None:
     names = [robot.layout.hub_bearing.name for robot in (kenan, strongest) if robot.layout and robot.layout.hub_bearing]
     assert names == ["MR63", "683"]
@@ -107,28 +76,6 @@ def test_bearings_that_do_not_go_on_the_axle_are_refused(kenan: Robot) -> None:
         build(thick.design, thick.workshop)
 
 
-def test_the_nearer_bearing_bears_more_than_the_cam_pushes() -> None:
-    """A lever beyond its two supports: F·(a + b)/a (Shigley, table A-9, overhanging load)."""
-    bearing = load_catalogue().bearings["MR63"]
-    push = (np.zeros(2), np.array([0.0, 10.0]))
-    apart, beside = 8.0 - 2.5, 4.0 + 0.5 + 2.0
-    assert bearing_load_n(push, 8.0, 4.0, bearing) == pytest.approx(10.0 * (apart / 2.0 + beside) / apart)
-    assert bearing_load_n(push[::-1], 8.0, 4.0, bearing) == pytest.approx(5.0)
-
-
-def test_what_lasts_too_few_jumps_warns(kenan: Robot, strongest: Robot) -> None:
-    lasting = changed(kenan, "safety", jumps=1e6)
-    (finding,) = [found for found in strength_findings(lasting) if found.severity == "warning"]
-    assert finding.name == "spring_fatigue"
-    assert "of 960 MPa for 1e+06 jumps; it lasts about 6" in finding.message  # half of 1920 MPa (EN 10270-1, 1.2 mm)
-    soft = changed(changed(strongest, "safety", jumps=1e6), "safety", steel_yield_mpa=900.0)
-    assert {"axle_fatigue"} <= {found.name for found in strength_findings(soft) if found.severity == "warning"}
-    built_for_it = build(lasting.design, lasting.workshop)
-    assert margins(built_for_it)["spring_fatigue"] > 0.0
-    assert built_for_it.layout is not None
-    assert built_for_it.layout.drive.spring.mass_g > kenan.layout.drive.spring.mass_g  # type: ignore[union-attr]
-
-
 def test_sideways_stress_by_hand(kenan: Robot) -> None:
     """A solid leg that stands upright is a plain cantilever on its thin side, 6·M/(h·b²); worst where it is lowest."""
     assert kenan.layout is not None
@@ -149,17 +96,6 @@ def test_leg_stress_by_hand(kenan: Robot) -> None:
     bending = 1000.0 * kenan.design.peak_spring_torque_nm * 4.0 / second
     stress = 15.0 - margins(kenan)["leg_strength"]
     assert bending < stress < bending + 0.3
-
-
-def test_leg_axle_is_a_simple_beam() -> None:
-    # without springs: M = F·L/4 (Shigley, table A-9); arms that pull in one line only shear the axle beside the leg
-    none = np.zeros(2)
-    assert leg_axle_moment_nmm((none, none), np.array([0.0, 80.0]), 40.0, 8.0) == pytest.approx(80.0 * 40.0 / 4.0)
-    up = np.array([0.0, 50.0])
-    assert leg_axle_moment_nmm((up, -up), none, 40.0, 8.0) == pytest.approx(50.0 * 40.0 / 4.0)
-    # both arms push the coil the same way: the leg's half goes straight back into the axle, 8 mm beside it
-    sideways = leg_axle_moment_nmm((up, none), none, 40.0, 8.0)
-    assert sideways == pytest.approx(25.0 * 8.0)
 
 
 def test_twice_the_spring_torque_bends_twice_as_much(kenan: Robot) -> None:

@@ -1,9 +1,10 @@
-"""The command line as a function."""
+"""The command line as a function, and a bundle."""
 
 from pathlib import Path
 
 import pytest
 from support.commands import Run, exit_code_of
+from support.places import ROOT
 
 
 @pytest.fixture
@@ -11,9 +12,25 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     """Run `jumpcad ARGUMENTS` in an empty folder; return exit code, standard output and standard error."""
     monkeypatch.chdir(tmp_path)
 
-    def call(*arguments: str) -> tuple[int, str, str]:
-        code = exit_code_of(*arguments)
+    def call(*arguments: object) -> tuple[int, str, str]:
+        code = exit_code_of(*map(str, arguments))
         captured = capsys.readouterr()
         return code, captured.out, captured.err
 
     return call
+
+
+@pytest.fixture(scope="session")
+def bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The bundle of Kenan 2.0 without pictures; a test that changes it takes a copy."""
+    folder = tmp_path_factory.mktemp("exports") / "kenan-2.0"
+    assert exit_code_of("build", "kenan-2.0", "-o", str(folder), "--no-pictures") == 0
+    return folder
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The current folder, which is empty."""
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path

@@ -96,3 +96,11 @@ def _swept(curve: Curve) -> float:
     half = sum(2.0 * math.asin(min(1.0, math.dist(*pair) / 2.0 / size))
                for pair in ((start, curve.middle), (curve.middle, end)))  # fmt: skip
     return triangle + side * size**2 / 2.0 * (half - math.sin(half))
+
+
+def test_corners_that_are_one_make_no_edge() -> None:
+    """Offsets of chamfers leave corners 1e-8 mm apart, between which no CAD program has an edge."""
+    square = [(0.0, 0.0), (4.0, 0.0), (4.0, 1.5e-8), (4.0, 4.0), (0.0, 4.0)]
+    curves = curves_of(square)
+    assert len(curves) == 4
+    assert min(float(np.hypot(*(curve.end - curve.start))) for curve in curves if isinstance(curve, Line)) > 3.999

@@ -1,8 +1,5 @@
 """A bundle has the files of every exporter in the registry, optional ones where they are asked for."""
 
-import subprocess
-import sys
-
 import pytest
 
 from jumpcad.bundle.export import contents
@@ -38,10 +35,3 @@ def test_an_optional_exporter_is_asked_for_and_says_what_it_lacks(monkeypatch: p
 def test_paths_of_exporters_do_not_meet(small_robot: Robot) -> None:
     paths = [path for exporter in chosen() for path, _ in exporter.files(small_robot)]
     assert len(set(paths)) == len(paths)
-
-
-def test_a_simulation_loads_no_format_but_its_own() -> None:
-    others = {"ezdxf", "jumpcad.robot", "jumpcad.scene.visuals"}
-    code = f"import sys, jumpcad.exporters.mjcf; print({others} & set(sys.modules))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "set()\n"

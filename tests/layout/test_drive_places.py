@@ -8,7 +8,6 @@ from support.built import built, geared
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
-    motor_half_mm,
     require_gear_room,
     spring_arm,
     spring_pin_place,
@@ -54,13 +53,6 @@ def test_a_cam_gear_must_clear_the_hub() -> None:
     require_gear_room([axle], HUB + np.array([0.0, 30.0]), 26.0, (0.0, 5.0))
     with pytest.raises(CannotBuildError, match=r"cam gear's tip radius of 27\.0 mm is 1\.0 mm too large"):
         require_gear_room([axle], HUB + np.array([0.0, 30.0]), 27.0, (0.0, 5.0))
-
-
-def test_the_socket_has_walls_around_the_motor_and_ears_across() -> None:
-    """A motor of 10 x 12 mm, 0.3 mm of play and a wall of 1.6 mm on every side, ears of 5.6 mm."""
-    motor = built("kenan-2.0").layout.drive.train.motor
-    assert (motor.width_mm, motor.height_mm) == (10.0, 12.0)
-    assert motor_half_mm(motor) == pytest.approx((5.0 + 1.9, 6.0 + 1.9 + 5.6))
 
 
 @pytest.mark.parametrize("stages", [1, 2])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from jumpcad.catalogue import load_catalogue
+from jumpcad.dimensions import STRAP_EDGE_MM, TRAY_LENGTH_MIN_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
 from jumpcad.layout.room import EVERYWHERE, disc
@@ -16,10 +17,15 @@ INSIDE = (-20.0, 20.0)
 
 
 def test_sizes_are_those_of_what_lies_on_the_trays() -> None:
-    """The longest of battery and both boards in a row 1 mm apart, and 1 mm at each end; trays of 1.6 mm."""
+    """The longest of battery and both boards in a row 1 mm apart, and 1 mm at each end; trays of 1.6 mm.
+
+    Across lies the battery between two straps of 2 mm, each in the middle of 3 mm, with an edge beyond.
+    """
     battery, boards = CARRIED.battery, (CARRIED.controller, CARRIED.driver)
-    assert CARRIED.length_mm == max(battery.length_mm, boards[0].width_mm + boards[1].width_mm + 1.0) + 2.0
-    assert CARRIED.width_mm == max(battery.width_mm, *(board.length_mm for board in boards)) + 2.0
+    across = boards[0].width_mm + boards[1].width_mm + 1.0
+    assert CARRIED.length_mm == max(battery.length_mm + 2.0, across + 2.0, TRAY_LENGTH_MIN_MM)
+    strap = 2.0 * (3.0 + STRAP_EDGE_MM)
+    assert CARRIED.width_mm == max(battery.width_mm + strap, *(board.length_mm + 2.0 for board in boards))
     height = 1.6 + battery.height_mm + 1.0 + 1.6 + max(board.height_mm for board in boards)
     assert CARRIED.height_mm == pytest.approx(height)
     long = CARRIED.battery.model_copy(update={"length_mm": 90.0})

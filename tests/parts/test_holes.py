@@ -7,25 +7,15 @@ import pytest
 import shapely
 import shapely.ops
 from support.built import LONG_TOES, built, cut, geared, hole_centres, inscribed_diameter, part, placed
+from support.fits import AXLE, MR63_OUTER, N20_FLAT, N20_SHAFT, PRESS, PRESSED, RUNNING, TOLERANCE_MM, measured
 
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
-
-PRESS, SLIDING, LOOSE = 0.10, 0.20, 0.30
-"""Per side, in the default workshop."""
-TOLERANCE_MM = 0.003
-AXLE, MR63_OUTER, N20_SHAFT, N20_FLAT = 3.0, 6.0, 3.0, 2.5
-
-RUNNING, PRESSED = AXLE + 2 * SLIDING, AXLE + 2 * PRESS
 
 
 @pytest.fixture(scope="module")
 def kenan() -> Robot:
     return built("kenan-2.0")
-
-
-def measured(robot: Robot, name: str, y: float, centre: np.ndarray, copy: int = 0) -> float:
-    return inscribed_diameter(cut(placed(robot, name, copy), y), centre)
 
 
 def test_main_leg(kenan: Robot) -> None:
@@ -56,35 +46,6 @@ def test_foot_holds_its_pins(kenan: Robot, side: float) -> None:
     y = side * (kenan.layout.lateral.lug_left[0] + 2.0)
     for x in (0.0, kenan.design.l4_mm):
         assert measured(kenan, "foot", y, np.array([x, 0.0])) == pytest.approx(PRESSED, abs=TOLERANCE_MM)
-
-
-@pytest.mark.parametrize("name", ["body_plate_left", "body_plate_right"])
-def test_plates(kenan: Robot, name: str) -> None:
-    layout = kenan.layout
-    y = sum(layout.lateral.left_plate if name.endswith("left") else layout.lateral.right_plate) / 2.0
-    expected = [(place, RUNNING) for place in layout.axles.values()]
-    expected += [(place, 3.4) for place in layout.standoffs_mm]
-    expected.append((layout.spring_pin_mm, PRESSED))
-    if name.endswith("left"):
-        expected.append((layout.motor_mm, N20_SHAFT + 2 * LOOSE))
-    for place, diameter in expected:
-        assert measured(kenan, name, y, place) == pytest.approx(diameter, abs=TOLERANCE_MM)
-
-
-def test_motor_seat(kenan: Robot) -> None:
-    """The N20's gearbox is 10 by 12 mm; it slides into its socket, and M2 screws cut their thread beside it."""
-    layout = kenan.layout
-    segments = cut(placed(kenan, "body_plate_right"), layout.lateral.motor[1] - 2.0)
-    assert inscribed_diameter(segments, layout.motor_mm) == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)
-    across = np.array([-math.sin(layout.motor_angle_rad), math.cos(layout.motor_angle_rad)])
-    inner = inscribed_diameter(segments, layout.motor_mm + 1.0 * across)
-    assert inner == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)  # 1 mm along the long side: no corner yet
-    ears = [centre for centre, width in hole_centres(segments).items() if width < 5.0]
-    assert len(ears) == 2
-    cap = cut(placed(kenan, "motor_cap"), layout.lateral.motor_cap[0] + 0.4)
-    for ear in ears:
-        assert inscribed_diameter(segments, np.array(ear)) == pytest.approx(1.6, abs=TOLERANCE_MM)
-        assert inscribed_diameter(cap, np.array(ear)) == pytest.approx(2.4, abs=TOLERANCE_MM)
 
 
 def test_cam_and_gears(kenan: Robot) -> None:
@@ -119,31 +80,6 @@ def test_pinion_fits_the_d_shaft(which: str) -> None:
     assert np.ptp(offsets) == pytest.approx(N20_FLAT + 2 * PRESS, abs=0.005)
     across = np.array(bore) @ np.array([-along[1], along[0]])
     assert np.ptp(across) == pytest.approx(N20_SHAFT + 2 * PRESS, abs=0.005)
-
-
-@pytest.mark.parametrize("side", ["left", "right"])
-def test_bushings_turn_on_the_axle_and_fill_the_wound_spring(kenan: Robot, side: str) -> None:
-    lateral, spring = kenan.layout.lateral, kenan.layout.drive.spring
-    coil = lateral.spring_left if side == "left" else lateral.spring_right
-    segments = cut(placed(kenan, f"spring_bushing_{side}"), sum(coil) / 2.0)
-    centred = segments.reshape(-1, 2) - kenan.layout.hub_mm
-    assert inscribed_diameter(segments, kenan.layout.hub_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
-    outside = 2.0 * np.hypot(*centred.T).max()
-    mean = spring.outer_diameter_mm - spring.wire_mm
-    turns_wound = kenan.design.compression_rad / (2 * math.pi)
-    inside_wound = mean * spring.turns / (spring.turns + turns_wound) - spring.wire_mm  # Shigley 10-12
-    assert outside < inside_wound
-    assert outside == pytest.approx(inside_wound - 0.3, abs=0.01)
-
-
-def test_spacers_and_collars(kenan: Robot) -> None:
-    for name in ("front_spacer_left", "front_spacer_right", "cam_spacer_right"):
-        mesh = part(kenan, name).mesh
-        segments = cut(mesh.copy().apply_transform([[1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]), 1.03)
-        assert inscribed_diameter(segments, np.zeros(2)) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
-    outside = kenan.layout.lateral.left_plate[1] + 2.0
-    assert part(kenan, "collar").quantity == 2 * len(kenan.layout.axles)
-    assert measured(kenan, "collar", outside, kenan.layout.hub_mm) == pytest.approx(PRESSED, abs=TOLERANCE_MM)
 
 
 def test_idler_turns_on_its_axle() -> None:

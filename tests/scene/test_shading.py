@@ -30,6 +30,17 @@ def test_a_needle_without_area_is_left_out():
     assert len(faces) == 1
 
 
+def test_a_box_is_drawn_with_sharp_edges_and_a_cylinder_round() -> None:
+    vertices, normals, _ = creased(trimesh.creation.box((1.0, 2.0, 3.0)))
+    assert len(vertices) == 24
+    assert np.array_equal(np.abs(normals).max(axis=1), np.ones(24))
+    vertices, normals, faces = creased(trimesh.creation.cylinder(5.0, 8.0, sections=64))
+    side = np.abs(normals[:, 2]) < 0.5
+    assert side.sum() == (~side & (np.hypot(*vertices[:, :2].T) > 1.0)).sum() == 2 * 64
+    assert np.allclose(normals[side, :2], vertices[side, :2] / 5.0, atol=0.03)
+    assert np.allclose(trimesh.Trimesh(vertices, faces).area, trimesh.creation.cylinder(5.0, 8.0, sections=64).area)
+
+
 @pytest.mark.parametrize(("sides", "faceted"), [(6, True), (8, True), (24, False), (48, False)])
 def test_a_nut_has_edges_and_a_rod_has_none(sides: int, faceted: bool) -> None:
     """The sides of a prism of n sides meet at 360°/n: a hexagon nut shows its flats, a rod drawn with 24 is round."""

@@ -1,39 +1,36 @@
-"""How far the neighbours of a proposal lie from it."""
+"""Proposals that keep off an edge."""
+
+from dataclasses import dataclass
 
 import numpy as np
-import pytest
+from support.hills import SMALL, Hill
 
-from jumpcad.design import SEARCH_BOUNDS
-from jumpcad.search.margin import STEEPNESS, _missed
-from jumpcad.search.space import Space
-from jumpcad.transforms import Array
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.robust import rank_candidates
 
 
-class Level:
-    """A surrogate that finds everything feasible with the same probability, and keeps what it was asked."""
+@dataclass(frozen=True)
+class Cliff(Hill):
+    """Fitness grows with the compression ratio up to 0.7, above which designs are refused (`loop`)."""
 
-    def __init__(self, probability: float) -> None:
-        self.probability = probability
-
-    def log_feasible(self, points: Array, spread: Array) -> Array:
-        self.spread = spread
-        return np.full(len(points), np.log(self.probability))
-
-
-def test_neighbours_scatter_by_a_share_of_each_parameter() -> None:
-    """1 % of 150 mm is 1.5 mm, of 0.4 it is 0.004: each over the width of its range."""
-    space, level = Space.default(), Level(0.9)
-    points = np.random.default_rng(0).random((5, 8))
-    _missed(space, level, 0.95, 0.01)(points)  # type: ignore[arg-type]
-    for point, spread in zip(points, level.spread, strict=True):
-        values = space.to_design(point).to_vector()
-        widths = [bounds.upper - bounds.lower for bounds in SEARCH_BOUNDS.values()]
-        assert spread == pytest.approx([0.01 * value / width for value, width in zip(values, widths, strict=True)])
+    def __call__(self, design):
+        evaluation = super().__call__(design)
+        fitness = 10.0 * design.compression_ratio + 0.01 * design.stiffness_nmm_per_deg
+        return (
+            evaluation
+            if evaluation.verdict != "jump"
+            else Evaluation("jump", {"fitness": fitness}, evaluation.findings)
+        )
 
 
-def test_only_what_misses_its_confidence_costs() -> None:
-    point = np.full((1, 8), 0.5)
-    sure = _missed(Space.default(), Level(0.96), 0.95, 0.01)  # type: ignore[arg-type]
-    unsure = _missed(Space.default(), Level(0.90), 0.95, 0.01)  # type: ignore[arg-type]
-    assert sure(point) == pytest.approx([0.0])
-    assert unsure(point) == pytest.approx([STEEPNESS * np.log(0.95 / 0.90)])
+def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
+    one = evaluator(model=Cliff())
+    points = SMALL.spread(30, np.random.default_rng(1))
+    points[:12, 0] = 0.599 / 0.7  # a compression ratio of 0.699
+    one.evaluate([SMALL.to_design(point) for point in points], "bo", 0)
+    best, *_ = ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)
+    assert best.trial.phase == "margin"
+    # 1 % above it is still feasible, and it gives away no more than twice what that costs.
+    assert 0.98 * 0.7 < best.trial.design.compression_ratio < 0.7 / 1.008
+    assert best.rejections.get("loop", 0) <= 1
+    assert all(other.robust_score < 5.0 for other in ranked if other.trial.design.compression_ratio > 0.699)

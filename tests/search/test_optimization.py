@@ -89,7 +89,7 @@ def test_where_nothing_jumps_the_trials_are_kept_and_the_design_is_asked_for_in_
         ({"choices": {"c_coef": []}}, "no values to choose from"),
         ({"fixed": {"c_coef": 1}, "bounds": {"c_coef": (0.9, 1.1)}}, "given twice"),
         ({"workers": 1, "dask": "tcp://x"}, "exclude each other"),
-        ({"engine": "ode"}, "not an engine of a search"),
+        ({"engine": "ode"}, "is not an engine; there are"),
         ({"study": "none/s.db"}, "none/s.db"),
     ],
 )

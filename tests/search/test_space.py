@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.parameter import physical_limits
 from jumpcad.search.space import Space
 
 
@@ -80,10 +79,6 @@ def test_spread_points_fill_the_cube_evenly():
     points = Space.default().spread(256, np.random.default_rng(0))
     counts = np.array([np.histogram(column, bins=16, range=(0, 1))[0] for column in points.T])
     assert (counts == 16).all()  # a scrambled Sobol net puts the same number into each sixteenth of each axis
-
-
-def test_physical_limits_are_those_of_a_design():
-    assert physical_limits("rest_angle_deg") == (5.0, 90.0)
 
 
 @pytest.mark.parametrize(

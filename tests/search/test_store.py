@@ -7,45 +7,14 @@ import sqlite3
 import subprocess
 import sys
 import textwrap
-from pathlib import Path
 
-import numpy as np
 import pytest
-from support.hills import Hill
+from support.places import TESTS
+from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.trial import Trial
-
-TESTS = [str(Path(__file__).parent), str(Path(__file__).parents[1])]
-IDENTITY = {
-    "model": {"name": "hill"},
-    "objective": "fitness",
-    "method": "ga",
-    "seed": 1,
-    "space": Space.parse(fix=["c_coef=1"]).describe(),
-}
-
-
-def trials(count, phase="ga", step=0):
-    points = Space.default().spread(count, np.random.default_rng(step))
-    designs = [Space.default().to_design(point) for point in points]
-    evaluations = [Hill()(design) for design in designs]
-    return [
-        Trial(
-            phase,
-            step,
-            place,
-            design,
-            evaluation,
-            evaluation.metrics.get("fitness"),
-            "m",
-            0.1,
-            {"theta": {"a": [0.1] * 9}},
-        )
-        for place, (design, evaluation) in enumerate(zip(designs, evaluations, strict=True))
-    ]
 
 
 def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
@@ -89,37 +58,12 @@ def test_another_study_is_not_overwritten(tmp_path):
     assert (tmp_path / "s.db").read_bytes() == before
 
 
-def test_one_writer_at_a_time(tmp_path):
-    with StudyStore.write(tmp_path / "s.db", IDENTITY):
-        code = textwrap.dedent(f"""
-            from pathlib import Path
-            from jumpcad.search.store import StudyStore
-            StudyStore.write(Path({str(tmp_path / "s.db")!r}), {IDENTITY})
-        """)
-        other = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-        assert "being written by another run" in other.stderr
-    StudyStore.write(tmp_path / "s.db", IDENTITY).close()
-
-
-def test_locked_by_another_program(tmp_path, monkeypatch):
-    StudyStore.write(tmp_path / "s.db", IDENTITY).close()
-    monkeypatch.setattr("jumpcad.search.database.PATIENCE_S", 0.1)
-    other = sqlite3.connect(tmp_path / "s.db", isolation_level=None)
-    other.execute("BEGIN EXCLUSIVE")
-    with (
-        pytest.raises(JumpcadError, match="locked by another program"),
-        StudyStore.write(tmp_path / "s.db", IDENTITY) as it,
-    ):
-        it.append(trials(1))
-    other.close()
-
-
 def test_killed_writer_leaves_whole_batches(tmp_path):
     code = textwrap.dedent(f"""
         import os, signal, sys
-        sys.path[:0] = {TESTS}
+        sys.path.insert(0, {str(TESTS)!r})
         from pathlib import Path
-        from test_store import trials, IDENTITY
+        from support.studies import trials, IDENTITY
         from jumpcad.search.store import StudyStore
         store = StudyStore.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
         store.append(trials(7))
@@ -136,9 +80,9 @@ def test_killed_writer_leaves_whole_batches(tmp_path):
 def test_full_disk_is_one_line_and_keeps_what_was_there(tmp_path):
     code = textwrap.dedent(f"""
         import resource, signal, sys
-        sys.path[:0] = {TESTS}
+        sys.path.insert(0, {str(TESTS)!r})
         from pathlib import Path
-        from test_store import trials, IDENTITY
+        from support.studies import trials, IDENTITY
         from jumpcad.errors import JumpcadError
         from jumpcad.search.store import StudyStore
         store = StudyStore.write(Path({str(tmp_path / "s.db")!r}), IDENTITY)
@@ -316,14 +260,3 @@ def test_a_study_in_a_folder_that_may_not_be_written_to(tmp_path):
             place.chmod(mode)
         tmp_path.chmod(0o755)
     assert os.listdir(tmp_path) == ["s.db"]
-
-
-@pytest.mark.parametrize("name", ["pipe.db", "zero.db", "folder.db"])
-def test_what_is_no_file_is_no_study(tmp_path, name):
-    os.mkfifo(tmp_path / "pipe.db")
-    (tmp_path / "zero.db").symlink_to("/dev/zero")
-    (tmp_path / "folder.db").mkdir()
-    with pytest.raises(JumpcadError, match="is a folder, a pipe or a device"):
-        StudyStore.read(tmp_path / name)
-    with pytest.raises(JumpcadError, match=r"is a pipe or a device|cannot be written"):
-        StudyStore.write(tmp_path / name, IDENTITY)

@@ -15,7 +15,7 @@ from support.places import TESTS
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.pool import local_pool
-from jumpcad.search.request import Request, plan_stages
+from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
@@ -157,21 +157,6 @@ def test_a_prior_study_of_another_program_is_said_to_be_one(tmp_path):
     for _ in range(2):
         (note,) = run(request, tmp_path / "new.db").notes
         assert "old.db was made by another program" in note
-
-
-@pytest.mark.parametrize(
-    ("method", "evaluations", "split"),
-    [
-        ("ga+bo", 250, [200, 50]),
-        ("ga+bo", 60, [30, 30]),
-        ("ga+bo", 1000, [900, 100]),
-        ("ga", 7, [7]),
-        ("ga+bo", 1, [1, 0]),
-    ],
-)
-def test_split_of_the_budget(method, evaluations, split):
-    stages = plan_stages(replace(REQUEST, method=method, evaluations=evaluations))
-    assert [stage.evaluations for stage in stages] == split
 
 
 @pytest.mark.parametrize(

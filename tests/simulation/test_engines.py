@@ -1,4 +1,4 @@
-"""Both engines hold the robot that they were given, and move it as mechanics says."""
+"""Both engines move a robot as mechanics says; how an engine is named and found."""
 
 import sys
 from dataclasses import replace
@@ -8,43 +8,15 @@ import pytest
 from support.flights import Flight
 
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, engines, simulate
-from jumpcad.simulation.bullet import LINKS
 from jumpcad.simulation.engines import EngineEntry, default_engine, engine_named
 from jumpcad.simulation.mechanics import Mechanics
 
 ENGINES = ["pybullet", "mujoco"]
 FINE = Settings(dt_s=1 / 16000, solver_iterations=200)
 """Both engines are of first order in the step: conservation holds to that order."""
-
-
-def test_pybullet_has_the_robots_inertia(lopsided: Robot) -> None:
-    """Masses, centres and tensors read back from PyBullet (createMultiBody alone takes them from the colliders)."""
-    bullet = pytest.importorskip("pybullet")
-    with engine_named("pybullet").world(lopsided, Settings()) as world:
-        for link, name in enumerate((BODY, *LINKS), start=-1):
-            info = bullet.getDynamicsInfo(world.robot_id, link, physicsClientId=world._client)
-            axes = np.array(bullet.getMatrixFromQuaternion(info[4])).reshape(3, 3)
-            body = lopsided.bodies[name]
-            assert info[0] == pytest.approx(body.mass_kg, rel=1e-12)
-            np.testing.assert_allclose(info[3], body.com_m, rtol=1e-9)
-            np.testing.assert_allclose(axes @ np.diag(info[2]) @ axes.T, body.inertia_kg_m2, rtol=1e-9, atol=1e-15)
-
-
-def test_mujoco_has_the_robots_inertia(lopsided: Robot) -> None:
-    mujoco = pytest.importorskip("mujoco")
-    model = mujoco.MjModel.from_xml_string(write_mjcf(lopsided))
-    for name in BODY_NAMES:
-        compiled, body, axes = model.body(name), lopsided.bodies[name], np.zeros(9)
-        mujoco.mju_quat2Mat(axes, compiled.iquat)
-        tensor = axes.reshape(3, 3) @ np.diag(compiled.inertia) @ axes.reshape(3, 3).T
-        assert compiled.mass[0] == pytest.approx(body.mass_kg, rel=1e-12)
-        np.testing.assert_allclose(compiled.ipos, body.com_m, rtol=1e-12)
-        np.testing.assert_allclose(tensor, body.inertia_kg_m2, rtol=1e-9, atol=1e-15)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -124,13 +96,6 @@ def test_froude_similarity(kenan: Robot, engine: str) -> None:
         for robot, dt in ((kenan, 1 / 8000), (large, 2 / 8000))
     )
     assert large_jump.fitness == pytest.approx(small_jump.fitness, rel=2e-3)
-
-
-@pytest.mark.parametrize("key", ["restitution", "drag_per_s"])
-def test_mujoco_refuses_what_it_does_not_have(kenan: Robot, key: str) -> None:
-    pytest.importorskip("mujoco")
-    with pytest.raises(JumpcadError, match=f"{key} = 0.5.*pybullet"):
-        simulate(kenan, Settings(**{key: 0.5}), "mujoco")
 
 
 def test_an_engine_of_the_registry_simulates_and_is_named_to_users(

@@ -1,10 +1,6 @@
-"""The planar engine against the table of converged flights, both general engines, and its own uncompiled self."""
+"""The planar engine against the table of converged flights and both general engines."""
 
-import importlib.util
 import json
-import os
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -21,21 +17,10 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld
-from jumpcad.simulation.planar_compile import compiled
 from jumpcad.simulation.planar_model import Effects
 from jumpcad.simulation.planar_state import Motion
 
 FINE = load_settings("fine")
-WITHOUT_NUMBA = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
-PROGRAM = """
-import json
-from jumpcad import Settings, capsule_robot, load_design, simulate
-for name in ("kenan-2.0", "best-bo"):
-    for friction in (0.3, 1.5):
-        jump = simulate(capsule_robot(load_design(name)), Settings(ground_friction=friction), "planar").to_dict()
-        print(json.dumps([jump["verdict"], jump["ballistic_range_m"], jump["com_rise_m"], jump["takeoff_time_s"],
-                          *jump["energy"].values()]))
-"""
 
 
 def test_verdicts(flights: list[Flight]) -> None:
@@ -89,15 +74,6 @@ def test_slipping(kenan: Robot, friction: float) -> None:
     assert planar.ballistic_range_m == pytest.approx(last_contact_range_m(kenan, settings, "pybullet"), rel=0.002)
 
 
-def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
-    pairs = [
-        Settings(ground_friction=ground, foot_friction=foot) for ground, foot in ((0.3, 1.0), (0.6, 0.5), (0.6, 1.0))
-    ]
-    ranges = [simulate(kenan, settings, "planar").ballistic_range_m for settings in pairs]
-    assert ranges[0] == ranges[1]
-    assert ranges[2] > 1.5 * ranges[0]
-
-
 def test_dry_friction_in_the_joints_costs_energy(kenan: Robot) -> None:
     """Three joints with dry friction take its torque times the angles that they turn, about δ each."""
     torque = 0.005
@@ -121,28 +97,6 @@ def test_a_hop_with_wound_springs_is_no_takeoff(kenan: Robot) -> None:
     found = world.push_off()
     assert not found.flown
     assert found.steps * FINE.dt_s > 0.02
-
-
-@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason="numba is not installed")
-def test_compiled_and_plain_give_the_same_numbers() -> None:
-    said = [
-        subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=True, env=environment)
-        for environment in (None, WITHOUT_NUMBA)
-    ]
-    compiled, plain = ([json.loads(line) for line in run.stdout.splitlines()] for run in said)
-    assert len(compiled) == 4
-    for one, other in zip(compiled, plain, strict=True):
-        assert one[0] == other[0] == "jump"
-        assert one[1:] == pytest.approx(other[1:], rel=1e-9, abs=1e-12)
-
-
-def test_a_missing_compiler_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "numba", None)
-
-    def twice(number: float) -> float:
-        return 2.0 * number
-
-    assert compiled(twice) is twice
 
 
 def test_the_same_bits_again(kenan: Robot, jumping: list[Flight]) -> None:
@@ -210,18 +164,6 @@ def test_a_body_that_comes_down_is_said(flights: list[Flight]) -> None:
 def test_what_the_plane_does_not_have_is_refused(kenan: Robot, key: str, value: float) -> None:
     with pytest.raises(JumpcadError, match=f"{key} = {value}.*pybullet"):
         simulate(kenan, Settings(**{key: value}), "planar")
-
-
-def test_left_and_right_do_not_count(lopsided: Robot) -> None:
-    """What is moved aside or turned about x or z changes nothing."""
-    bodies = {
-        name: replace(body, com_m=body.com_m * [1.0, 3.0, 1.0], inertia_kg_m2=np.diag(np.diag(body.inertia_kg_m2)))
-        for name, body in lopsided.bodies.items()
-    }
-    ranges = [
-        simulate(robot, engine="planar").ballistic_range_m for robot in (lopsided, replace(lopsided, bodies=bodies))
-    ]
-    assert ranges[0] == ranges[1]
 
 
 def test_a_dead_point_in_flight_is_said(jumping: list[Flight]) -> None:

@@ -79,3 +79,12 @@ def test_the_first_guess_passes_over_bearings_of_too_small_a_rating_only() -> No
     safer = workshop.model_copy(update={"safety": workshop.safety.model_copy(update={"bearing_factor": 20.0})})
     assert first_guess(bearings, design, safer) == len(bearings) - 1
     assert allowed_n(BEARING, safer) == pytest.approx(BEARING.static_load_n / 20.0)
+
+
+def test_the_nearer_bearing_bears_more_than_the_cam_pushes() -> None:
+    """A lever beyond its two supports: F·(a + b)/a (Shigley, table A-9, overhanging load)."""
+    bearing = load_catalogue().bearings["MR63"]
+    push = (np.zeros(2), np.array([0.0, 10.0]))
+    apart, beside = 8.0 - 2.5, 4.0 + 0.5 + 2.0
+    assert bearing_load_n(push, 8.0, 4.0, bearing) == pytest.approx(10.0 * (apart / 2.0 + beside) / apart)
+    assert bearing_load_n(push[::-1], 8.0, 4.0, bearing) == pytest.approx(5.0)

@@ -14,7 +14,8 @@ from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
 
 TOP = {"rest_angle_deg": 55.0, "compression_ratio": 0.6, "stiffness_nmm_per_deg": 20.0}
-SMALL = Space.parse(fix=[f"{name}={limits.lower}" for name, limits in SEARCH_BOUNDS.items() if name not in TOP])
+FIXED = [f"{name}={limits.lower}" for name, limits in SEARCH_BOUNDS.items() if name not in TOP]
+SMALL = Space.parse(fix=FIXED)
 """The three parameters on which the hill depends."""
 
 

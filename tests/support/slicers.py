@@ -1,4 +1,13 @@
-"""Programs that pretend to be PrusaSlicer."""
+"""Programs that pretend to be PrusaSlicer, and a robot to slice."""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
 
 OBEDIENT = """
 import sys
@@ -14,3 +23,18 @@ with open(value("--output"), "w") as gcode:
     gcode.writelines(f"; {key} = {value}\\n" for key, value in settings.items())
 """
 """Takes every setting over; what replaces `TAMPER` may change them."""
+
+
+def pretend_slicer(program: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put a Python program in the slicer's place; it is written to a folder."""
+    programs = folder / "programs"
+    programs.mkdir()
+    (programs / "prusa-slicer").write_text(f"#!{sys.executable}\n{program}")
+    (programs / "prusa-slicer").chmod(0o755)
+    monkeypatch.setenv("PATH", str(programs))
+
+
+def three_parts(robot: Robot) -> Robot:
+    """Return a robot of a link of PETG, four collars of PETG and a plate of PLA."""
+    parts = tuple(part for part in robot.parts if part.name in ("body_plate_left", "front_link", "collar"))
+    return replace(robot, parts=parts, workshop=load_workshop("default"))

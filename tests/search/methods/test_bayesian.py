@@ -1,51 +1,15 @@
-"""Bayesian optimisation: acquisition, batches, resumption."""
+"""Bayesian optimisation: few evaluations, batches, resumption."""
 
-import numpy as np
 import pytest
-from support.hills import SMALL, TOP, Hill
+from support.hills import FIXED, SMALL, TOP, Hill
 
-from jumpcad.search.acquisition import propose
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import default_initial, incumbent, run_bayesian
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import Posterior, Surrogate
-
-FIXED = [f"{p.name}={p.lower}" for p in SMALL.parameters if not p.free]
 
 
 def best(trials):
     return max(trial.score or 0.0 for trial in trials)
-
-
-def fitted_to(function, count=40):
-    """Return the posterior of a function (n, 3) to (n,) of the unit cube."""
-    x = SMALL.spread(count, np.random.default_rng(0))
-    return Posterior(Surrogate(x, function(x)), {})
-
-
-def test_bounds_become_active_where_the_top_is_beyond_them():
-    proposal = propose(
-        SMALL,
-        fitted_to(lambda x: x[:, 0] - x[:, 2]),
-        4.0,
-        np.empty((0, 3)),
-        lambda design: True,
-        np.random.default_rng(1),
-    )
-    assert proposal.unit[[0, 2]].tolist() == [1.0, 0.0]
-    assert proposal.design.compression_ratio == SMALL.free[0].upper
-
-
-def test_choices_and_refusals_are_respected():
-    space = Space.parse(fix=FIXED, choose=["stiffness_nmm_per_deg=8,19,30"])
-    posterior = fitted_to(lambda x: -((x - 0.4) ** 2).sum(axis=1))
-    proposal = propose(space, posterior, 0.0, np.empty((0, 3)), lambda design: True, np.random.default_rng(1))
-    assert proposal.design.stiffness_nmm_per_deg == 19.0
-    other = propose(
-        space, posterior, 0.0, np.empty((0, 3)), lambda d: d.stiffness_nmm_per_deg != 19.0, np.random.default_rng(1)
-    )
-    assert other.design.stiffness_nmm_per_deg == 8.0
-    assert propose(space, posterior, 0.0, np.empty((0, 3)), lambda d: False, np.random.default_rng(1)) is None
 
 
 def test_the_top_is_found_in_few_evaluations(evaluator):

@@ -1,0 +1,89 @@
+"""Bill of materials: every thing on the robot, once; prices; what a manifest keeps of it."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+from support.built import built
+
+from jumpcad.building import build
+from jumpcad.bundle.bom import bill_of_facts, bill_of_materials, mass_facts, write_bom
+from jumpcad.bundle.guide import write_guide
+from jumpcad.design import load_design
+from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
+
+
+@pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return built(request.param)
+
+
+def rows(robot: Robot) -> list[dict[str, str]]:
+    lines = table(write_bom(bill_of_materials(robot)))
+    assert lines[-1]["kind"] == "total"
+    return lines[:-1]
+
+
+def table(bom: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(bom)))
+
+
+def test_the_bill_weighs_what_the_robot_weighs(robot: Robot) -> None:
+    grams = sum(float(row["grams"]) for row in rows(robot))
+    assert grams == pytest.approx(1000.0 * robot.mass_kg, abs=0.0005 * len(rows(robot)))
+    total = table(write_bom(bill_of_materials(robot)))[-1]
+    assert float(total["grams"]) == pytest.approx(1000.0 * robot.mass_kg, abs=0.001)
+
+
+def test_the_bill_counts_every_piece(robot: Robot) -> None:
+    """A roller needs one nut and one washer, two plates two screws a standoff, two springs one of each hand."""
+    quantity = {row["item"]: int(row["quantity"]) for row in rows(robot)}
+    assert quantity["nut M3 ISO 4032"] == 1
+    standoffs = sum(count for item, count in quantity.items() if item.startswith("standoff"))
+    assert quantity["screw M3 x 10 ISO 7380-1"] == 2 * standoffs
+    assert sum(count for item, count in quantity.items() if item.startswith("torsion spring")) == 2
+    assert sum(count for item, count in quantity.items() if item.startswith("gear motor")) == 1
+    axles = 3 if robot.layout is None or robot.layout.idler_mm is None else 4
+    assert quantity["collar"] == 2 * axles
+
+
+def test_nothing_costs_anything_unless_the_workshop_says_so(robot: Robot) -> None:
+    lines = table(write_bom(bill_of_materials(robot)))
+    assert {line["eur_each"] + line["eur"] + line["print_time_s"] for line in lines} == {""}
+    assert lines[-1]["item"] == f"prices known of 0 of {len(lines) - 1} lines"
+    assert "€" not in write_guide(robot)
+
+
+def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
+    """1 kg of filament at 25 €; a screw of 10 mm is dearer than the others; two bearings."""
+    file = tmp_path / "mine.toml"
+    file.write_text("""
+        [materials.PETG]
+        price_eur_per_kg = 25.0
+        [prices_eur]
+        "screw M3" = 0.05
+        "screw M3 x 10" = 0.08
+        "ball bearing MR63" = 1.5
+    """)
+    robot = build(load_design("kenan-2.0"), load_workshop(file))
+    lines = table(write_bom(bill_of_materials(robot)))
+    line = {line["item"]: line for line in lines}
+    assert float(line["main_leg"]["eur"]) == pytest.approx(0.025 * float(line["main_leg"]["grams"]), abs=0.006)
+    assert line["body_plate_left"]["eur"] == ""  # PLA
+    assert line["screw M3 x 16 ISO 7380-1"]["eur_each"] == "0.050"
+    screws = line["screw M3 x 10 ISO 7380-1"]
+    assert float(screws["eur"]) == pytest.approx(0.08 * int(screws["quantity"]))
+    assert line["ball bearing MR63"]["eur"] == "3.00"
+    known = [line for line in lines[:-1] if line["eur"]]
+    assert lines[-1]["item"] == f"prices known of {len(known)} of {len(lines) - 1} lines"
+    assert float(lines[-1]["eur"]) == pytest.approx(sum(float(line["eur"]) for line in known), abs=0.005 * len(known))
+    assert f"{lines[-1]['eur']} € together" in write_guide(robot)
+
+
+def test_a_manifest_keeps_the_whole_bill(robot: Robot) -> None:
+    bill = bill_of_materials(robot)
+    assert robot.workshop is not None
+    assert bill_of_facts(json.loads(json.dumps(mass_facts(bill))), robot.workshop) == bill

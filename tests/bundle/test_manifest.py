@@ -1,0 +1,119 @@
+"""A manifest is ours and reads as such, or it is none; no path of it leads out of its folder."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from jumpcad.bundle.folder import write_folder
+from jumpcad.bundle.manifest import open_bundle, unlisted, verify
+from jumpcad.errors import JumpcadError
+
+SHA = "0" * 64
+GOOD = {"format": 1, "name": "frog", "versions": {"jumpcad": "0.1.0"}, "files": {"a/b.txt": SHA}}
+LINE = {"kind": "printed", "name": "foot", "quantity": 1, "material": "PLA", "mass_kg": 0.1, "source": "printed"}
+
+
+def refused(folder: Path, text: str | bytes) -> str:
+    """Return the one line in which a manifest is refused."""
+    (folder / "manifest.json").write_bytes(text.encode() if isinstance(text, str) else text)
+    with pytest.raises(JumpcadError, match=r"manifest\.json") as error:
+        open_bundle(folder)
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def test_a_manifest_of_ours_is_read_and_may_say_more(tmp_path: Path) -> None:
+    (tmp_path / "manifest.json").write_text(json.dumps(GOOD | {"masses": [LINE], "drive": {"springs": []}}))
+    assert open_bundle(tmp_path).files == ("a/b.txt",)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "[]", "{}", "null", "3", '"x"', "{", b"\xff\xfe", "[" * 100_000, '{"format": ' + "9" * 6000 + "}",
+        json.dumps(GOOD).replace("1,", "NaN,", 1), " " * 17_000_000,
+    ],
+    ids=lambda text: repr(text[:20]),
+)  # fmt: skip
+def test_what_is_no_manifest_is_refused_in_one_line(tmp_path: Path, text: str | bytes) -> None:
+    refused(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"format": True}, {"format": "1"}, {"format": 1.0}, {"name": ""}, {"name": 3}, {"name": "../up"},
+        {"name": ".."}, {"name": "a/b"}, {"name": "a\nb"}, {"versions": None}, {"versions": {"numpy": 2}},
+        {"files": []}, {"files": {"a": "sha"}}, {"files": {"a": SHA.upper() + "g"}}, {"files": {"a": None}},
+        {"masses": 3}, {"masses": [{}]}, {"masses": [LINE | {"mass_kg": -1.0}]}, {"masses": [LINE | {"quantity": 0}]},
+        {"masses": [LINE | {"name": None}]},
+    ],
+    ids=str,
+)  # fmt: skip
+def test_a_value_that_cannot_be_makes_it_none(tmp_path: Path, change: dict[str, Any]) -> None:
+    refused(tmp_path, json.dumps(GOOD | change))
+
+
+def test_another_format_is_named(tmp_path: Path) -> None:
+    assert "format 2; this version reads 1" in refused(tmp_path, json.dumps(GOOD | {"format": 2}))
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "", "/etc/passwd", "..", "../a", "a/../../b", "a/..", ".", "./a", "a//b", "a/", "a\\..\\b", "C:a",
+        "a\nb", "a\x1b[2Jb", "a\x00b", "a\ud800", "manifest.json", "a/b.txt/c",
+    ],
+    ids=repr,
+)  # fmt: skip
+def test_a_path_that_leads_out_makes_it_none(tmp_path: Path, path: str) -> None:
+    refused(tmp_path, json.dumps(GOOD | {"files": GOOD["files"] | {path: SHA}}))
+
+
+def test_what_is_no_plain_file_is_not_opened(tmp_path: Path) -> None:
+    manifest = tmp_path / "manifest.json"
+    for make in (os.mkfifo, Path.mkdir, lambda path: path.symlink_to("/dev/zero"), lambda path: path.symlink_to(path)):
+        make(manifest)
+        with pytest.raises(JumpcadError, match="a bundle has one"):
+            open_bundle(tmp_path)
+        (Path.rmdir if manifest.is_dir() else Path.unlink)(manifest)
+    with pytest.raises(JumpcadError, match=r"nowhere/manifest\.json: missing; a bundle has one"):
+        open_bundle(tmp_path / "nowhere")
+
+
+def test_files_that_are_not_plain_are_named_and_not_opened(tmp_path: Path) -> None:
+    names = ["deep/file", "fifo", "folder", "good", "link", "zero"]
+    bundle = write_folder(tmp_path / "b", "frog", {}, ((name, "x") for name in names))
+    (tmp_path / "outside").mkdir()
+    for name in ("file", "link"):
+        (tmp_path / "outside" / name).write_text("x")
+    for name in ("fifo", "folder", "link", "zero", "deep/file"):
+        (bundle.folder / name).unlink()
+    os.mkfifo(bundle.folder / "fifo")
+    (bundle.folder / "folder").mkdir()
+    (bundle.folder / "link").symlink_to("../outside/link")
+    (bundle.folder / "zero").symlink_to("/dev/zero")
+    (bundle.folder / "deep").rmdir()
+    (bundle.folder / "deep").symlink_to("../outside")
+    wrong = {
+        "deep/file": "behind a link", "fifo": "not a plain file", "folder": "not a plain file", "link": "a link",
+        "zero": "a link",
+    }  # fmt: skip
+    assert verify(bundle.folder) == [f"{path}: {reason}" for path, reason in wrong.items()]
+    for path, reason in {**wrong, "other": "not in the manifest"}.items():
+        with pytest.raises(JumpcadError, match=f"b: {path}: {reason}; jumpcad build"):
+            bundle.file(path)
+    assert bundle.file("good").read_text() == "x"
+
+
+def test_what_was_added_is_named_apart_and_printable(tmp_path: Path) -> None:
+    folder = write_folder(tmp_path / "b", "frog", {}, [("deep/a.txt", "x")]).folder
+    (folder / "deep" / "notes.txt").write_text("mine")
+    (folder / "album" / "empty").mkdir(parents=True)
+    (folder / "\x1b[2J").write_text("mine")
+    (folder / "link").symlink_to("/")
+    assert verify(folder) == []
+    assert unlisted(folder) == ["\\x1b[2J", "album/empty", "deep/notes.txt", "link"]

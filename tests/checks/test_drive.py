@@ -1,0 +1,46 @@
+"""The drive's findings: those of its synthesis, an error where a limit is violated."""
+
+from dataclasses import replace
+
+import pytest
+from support.built import built
+
+from jumpcad.checks import constraint_findings
+from jumpcad.checks.drive import drive_findings
+from jumpcad.findings import Finding, errors
+from jumpcad.robot import Robot
+
+
+def test_drive_reports_what_its_synthesis_found(kenan: Robot) -> None:
+    assert kenan.layout is not None
+    slipping = Finding("motor_torque", "info", -0.01, "N·m", "too little torque", "a stronger motor")
+    train = replace(kenan.layout.drive.train, findings=(slipping,))
+    robot = replace(kenan, layout=replace(kenan.layout, drive=replace(kenan.layout.drive, train=train)))
+    (error,) = errors(constraint_findings(robot))
+    assert (error.name, error.margin) == ("motor_torque", -0.01)
+    names = {finding.name for finding in constraint_findings(kenan)}
+    assert {
+        "spring_stress",
+        "cam_pressure_angle",
+        "cam_undercut",
+        "cam_drop",
+        "gear_strength_1",
+        "motor_torque",
+    } < names
+
+
+@pytest.mark.parametrize("name", sorted({finding.name for finding in built("kenan-2.0").layout.drive.findings}))
+def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
+    assert kenan.layout is not None
+    drive = kenan.layout.drive
+    findings = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.train.findings)
+    spring = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.spring.findings)
+    cam = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.cam.findings)
+    violated = replace(
+        drive,
+        spring=replace(drive.spring, findings=spring),
+        cam=replace(drive.cam, findings=cam),
+        train=replace(drive.train, findings=findings),
+    )
+    robot = replace(kenan, layout=replace(kenan.layout, drive=violated))
+    assert [finding.name for finding in errors(drive_findings(robot))] == [name]

@@ -1,0 +1,169 @@
+"""`jumpcad build`, `render` and `verify`, and `simulate` of what was built."""
+
+import json
+import os
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from support.commands import Run
+
+from jumpcad.mechanism.model import BODY_NAMES
+
+
+def test_a_bundle_has_what_the_contract_says(bundle: Path) -> None:
+    files = {str(path.relative_to(bundle)) for path in bundle.rglob("*") if path.is_file()}
+    name = "kenan-2.0"
+    assert {
+        "design.toml", "workshop.toml", "manifest.json", f"urdf/{name}.urdf", f"urdf/{name}.loop.json",
+        f"mjcf/{name}.xml", f"sdf/{name}.sdf", f"{name}.glb", "bom.csv", "assembly.md", "stl/main_leg.stl",
+        "urdf/meshes/motor.stl", "dxf/body_plate_left.dxf",
+    } <= files  # fmt: skip
+    assert any(file.startswith("print/") and file.endswith(".3mf") for file in files)
+
+
+def test_build_says_how_far_it_jumps_and_what_it_weighs(run: Run, tmp_path: Path) -> None:
+    code, out, _ = run("build", "kenan-2.0", "-o", tmp_path / "b", "--no-pictures", "--json")
+    facts = json.loads(out)
+    assert code == 0
+    assert facts["jump"]["verdict"] == facts["capsule_jump"]["verdict"] == "jump"
+    assert sum(line["quantity"] * line["mass_kg"] for line in facts["masses"]) == pytest.approx(facts["mass_kg"])
+    assert facts["winding"]["efficiency"] == pytest.approx(facts["spring_energy_j"] / facts["winding"]["electrical_j"])
+    code, out, _ = run("build", "kenan-2.0", "-o", tmp_path / "b", "--no-pictures")
+    assert code == 0
+    assert f"{1000 * facts['jump']['ballistic_range_m']:.0f} mm far" in out
+    assert "main_leg" in out
+
+
+def test_simulating_the_bundle_gives_the_range_of_the_build(run: Run, bundle: Path) -> None:
+    ranges = []
+    for subject in ("kenan-2.0", bundle, bundle / "urdf" / "kenan-2.0.urdf"):
+        code, out, _ = run("simulate", subject, "--json")
+        assert code == 0
+        ranges.append(json.loads(out)["ballistic_range_m"])
+    assert ranges[1:] == pytest.approx([ranges[0]] * 2, rel=1e-9)
+
+
+def test_a_bundle_builds_itself_again_from_the_inputs_that_it_keeps(run: Run, bundle: Path, tmp_path: Path) -> None:
+    assert run("build", bundle, "-o", tmp_path / "again", "--no-pictures")[0] == 0
+    assert (tmp_path / "again" / "manifest.json").read_bytes() == (bundle / "manifest.json").read_bytes()
+
+
+def test_verify_finds_what_was_changed(run: Run, tmp_path: Path) -> None:
+    run("build", "kenan-2.0", "-o", tmp_path / "b", "--no-pictures")
+    assert run("verify", tmp_path / "b")[0] == 0
+    (tmp_path / "b" / "design.toml").write_text("")
+    (tmp_path / "b" / "notes.txt").write_text("mine")
+    code, out, _ = run("verify", tmp_path / "b")
+    assert (code, out) == (1, "design.toml: changed\nnotes.txt: added, not in the manifest\n")
+    run("build", "kenan-2.0", "-o", tmp_path / "b", "--no-pictures", "--force")
+    code, out, _ = run("verify", tmp_path / "b", "--json")
+    assert code == 0
+    assert json.loads(out) == {"bundle": str(tmp_path / "b"), "differences": [], "added": ["notes.txt"]}
+
+
+def test_render_draws_stills_and_the_jump_of_a_bundle(
+    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 3)
+    code, out, _ = run("render", bundle, "-o", tmp_path / "p", "--json")
+    assert code == 0
+    assert json.loads(out)["files"] == ["compressed.png", "exploded.png", "jump.gif", "rest.png"]
+    assert sorted(path.name for path in (tmp_path / "p").iterdir()) == json.loads(out)["files"]
+
+
+def test_a_folder_in_the_way_is_refused_in_one_line(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / "notes.txt").write_text("mine")
+    code, out, err = run("build", "kenan-2.0", "-o", "b", "--no-pictures")
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    assert "not a bundle" in err
+    assert [path.name for path in (tmp_path / "b").iterdir()] == ["notes.txt"]
+
+
+def test_pictures_belong_to_the_bundle_that_they_are_drawn_into(
+    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 2)
+    own = Path(shutil.copytree(bundle, tmp_path / "own"))
+    (own / "pictures").mkdir()
+    (own / "pictures" / "rest.png").write_bytes(b"mine")
+    code, out, err = run("render", own)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "pictures/rest.png: edited or added" in err
+    assert (own / "pictures" / "rest.png").read_bytes() == b"mine"
+    (own / "pictures" / "rest.png").rename(own / "pictures" / "my own.png")
+    for _ in range(2):
+        assert run("render", own)[0] == 0
+    code, out, _ = run("verify", own, "--json")
+    assert json.loads(out)["added"] == ["pictures/my own.png"]
+    assert code == 0
+
+
+def test_pictures_elsewhere_replace_nothing(run: Run, bundle: Path, tmp_path: Path) -> None:
+    (tmp_path / "p").mkdir()
+    (tmp_path / "p" / "rest.png").write_bytes(b"mine")
+    code, out, err = run("render", bundle, "-o", tmp_path / "p")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "rest.png: exists already" in err
+    linked = Path(shutil.copytree(bundle, tmp_path / "linked"))
+    (linked / "pictures").symlink_to("../p")
+    assert "pictures: is no folder" in run("render", linked, "--force")[2]
+    assert [path.name for path in (tmp_path / "p").iterdir()] == ["rest.png"]
+    assert (tmp_path / "p" / "rest.png").read_bytes() == b"mine"
+
+
+def test_another_web_site_is_no_bundle(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    site = tmp_path / "site"
+    (site / "src").mkdir(parents=True)
+    (site / "manifest.json").write_text('{"name":"PWA"}')
+    (site / "src" / "thesis.md").write_text("x")
+    for here, folder in ((site, "."), (tmp_path, "site")):
+        monkeypatch.chdir(here)
+        for command in (["build", "kenan-2.0", "--no-pictures"], ["coupon"], ["build", "kenan-2.0", "--force"]):
+            code, out, err = run(*command, "-o", folder)
+            assert (code, out, err.count("\n")) == (2, "", 1)
+    assert (site / "src" / "thesis.md").read_text() == "x"
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["manifest.json", "site", "src", "thesis.md"]
+
+
+def test_a_design_is_edited_and_built_again_but_not_over_another_of_its_name(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    one, other = Path("one/robot.toml"), Path("other/robot.toml")
+    for file, length in ((one, 100.0), (other, 104.0)):
+        file.parent.mkdir()
+        run("new", file)
+        edit(file, length)
+    assert run("build", one, "--no-pictures")[0] == 0
+    bundle = Path("exports/robot")
+    before = (bundle / "manifest.json").read_bytes()
+    code, out, err = run("build", other, "--no-pictures")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "exports/robot: holds another design, built after other/robot.toml was last changed" in err
+    assert (bundle / "manifest.json").read_bytes() == before
+    edit(one, 102.0)
+    assert run("build", one, "--no-pictures")[0] == 0
+    assert "carrying_link_mm = 102.0" in (bundle / "design.toml").read_text()
+    assert run("build", other, "--no-pictures", "--force")[0] == 0
+    assert "carrying_link_mm = 104.0" in (bundle / "design.toml").read_text()
+
+
+def edit(file: Path, length_mm: float) -> None:
+    """Change a design file, a while after everything else was written."""
+    file.write_text(re.sub(r"carrying_link_mm = .*", f"carrying_link_mm = {length_mm}", file.read_text()))
+    if Path("exports/robot/design.toml").exists():
+        later = Path("exports/robot/design.toml").stat().st_mtime_ns + 1
+        os.utime(file, ns=(later, later))
+
+
+def test_the_bodies_of_the_manifest_are_the_robots(bundle: Path) -> None:
+    manifest = json.loads((bundle / "manifest.json").read_text())
+    assert tuple(manifest["bodies"]) == BODY_NAMES
+    for body in manifest["bodies"].values():
+        tensor = body["inertia_kg_m2"]
+        moments = sorted(tensor[i][i] for i in range(3))
+        assert moments[2] <= moments[0] + moments[1], "no rigid body breaks the triangle rule"

@@ -1,0 +1,77 @@
+"""`jumpcad coupon`: from the coupon through its readings to a workshop that robots are built in."""
+
+import json
+from pathlib import Path
+
+import pytest
+from support.commands import Run
+
+from jumpcad.building import build
+from jumpcad.bundle.manifest import verify
+from jumpcad.design import load_design
+from jumpcad.workshop import load_workshop
+
+
+def test_a_coupon_is_printed_tried_and_built_with(run: Run, tmp_path: Path) -> None:
+    code, out, err = run("coupon", "--json")
+    assert (code, err) == (0, "")
+    folder = tmp_path / "exports" / "coupon"
+    files = json.loads(out)["files"]
+    assert {"stl/gauge_PETG.stl", "stl/gauge_PLA.stl", "stl/gear_wheel.stl", "print/plate-1-PETG.3mf"} <= set(files)
+    assert verify(folder) == []
+    assert load_workshop(folder / "workshop.toml") == load_workshop("default")
+
+    guide, template = (folder / "coupon.md").read_text(), (folder / "readings.toml").read_text()
+    keys = {line.split()[1] for line in template.splitlines() if line.startswith("# ") and " = " in line}
+    assert keys == {key for key in keys if f"`{key}`" in guide}
+    assert "{" not in guide
+
+    filled = template.replace("# axle_press_mm = 0.10", "axle_press_mm = 0.15").replace(
+        "# turns_freely", "turns_freely"
+    )
+    (tmp_path / "readings.toml").write_text(filled)
+    code, out, err = run("coupon", "--measured", "readings.toml", "--json")
+    assert (code, err) == (0, "")
+    assert json.loads(out)["fits"]["press_mm"] == {"before": 0.1, "after": 0.15}
+    workshop = load_workshop(tmp_path / "my-workshop.toml")
+    collar = next(part for part in build(load_design("kenan-2.0"), workshop).parts if part.name == "collar")
+    bore = min((x**2 + y**2) ** 0.5 for x, y, _ in collar.mesh.vertices - collar.mesh.bounding_box.centroid)
+    assert 2.0 * bore == pytest.approx(3.0 + 2.0 * 0.15, abs=0.01)
+
+
+def test_what_is_told(run: Run) -> None:
+    code, out, _ = run("coupon", "-o", "gauges")
+    assert code == 0
+    assert "read gauges/coupon.md next" in out
+    Path("r.toml").write_text("[gauge.PLA]\naxle_sliding_mm = 0.25")
+    code, out, _ = run("coupon", "--measured", "r.toml", "--workshop", "gauges/workshop.toml", "-o", "w.toml")
+    assert code == 0
+    assert out.splitlines() == [
+        "sliding_mm                   0.200 -> 0.250",
+        "w.toml: gauges/workshop.toml with these fits",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "exit_code", "complaint"),
+    [
+        (["--measured", "none.toml"], 2, "none.toml: no such file"),
+        (["--measured", "r.toml", "-o", "r.toml"], 2, "r.toml: exists already"),
+        (["--measured", "r.toml", "-o", "w.json"], 2, "w.json: must end in .toml"),
+        (["--measured", "r.toml", "--workshop", "kitchen"], 2, "'kitchen' is neither a TOML file nor"),
+        (["-o", "thesis"], 2, "thesis: holds files but no manifest.json"),
+        (["--workshop", "tiny.toml"], 1, "part gauge_PETG of"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_a_wrong_request_is_one_line(run: Run, arguments: list[str], exit_code: int, complaint: str) -> None:
+    Path("r.toml").write_text("[gears]\nturns_freely_mm = 0.2")
+    Path("tiny.toml").write_text("[printer]\nbed_mm = [60, 60, 60]")
+    Path("thesis").mkdir()
+    Path("thesis/chapter.md").write_text("years of work")
+    before = sorted(Path().rglob("*"))
+    code, out, err = run("coupon", *arguments)
+    assert (code, out) == (exit_code, "")
+    assert complaint in err
+    assert err.count("\n") == 1
+    assert sorted(Path().rglob("*")) == before

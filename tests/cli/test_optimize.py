@@ -1,0 +1,83 @@
+"""`jumpcad optimize`, with the capsule robot."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from support.searches import QUICK, data, run
+from typer.testing import CliRunner
+
+from jumpcad.cli.commands import app
+from jumpcad.design import PARAMETERS, load_design
+
+JUMPCAD = [sys.executable, "-m", "jumpcad"]
+
+
+def test_optimize_finds_a_jumper_and_writes_it(folder):
+    found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
+    assert found["evaluations"] == 60
+    assert found["best"]["fitness"] == found["best"]["score"] > 5.0
+    assert set(found["best"]["design"]) == set(PARAMETERS)
+    winner = load_design("best.toml")
+    assert winner.model_dump() == found["winner"]["design"] == found["candidates"][0]["design"]
+    robust = [candidate["robust_score"] for candidate in found["candidates"]]
+    assert robust == sorted(robust, reverse=True)
+    assert found["active_bounds"]
+    shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
+    assert "next: jumpcad build best.toml" in shown
+    summary = data("study", "s.db")
+    assert summary["evaluations"] == summary["planned"] == 60
+    assert summary["best"]["score"] == found["best"]["score"]
+    assert f"{found['best']['score']:.4f}" in run("study", "s.db")
+
+
+def test_what_optimize_finds_jumps_like_that(folder):
+    found = data("optimize", "bo", *QUICK, "--evaluations", 30, "-o", "best.toml")
+    jump = data("simulate", "best.toml", "--capsule", "--settings", "screening")
+    assert json.dumps(found["winner"]["score"]) in json.dumps(jump)
+
+
+def test_pareto_reports_its_front(folder):
+    found = data("optimize", "pareto", *QUICK, "--evaluations", 40, "--study", "p.db", "--plots", "pics")
+    energies = [trial["metrics"]["spring_energy_j"] for trial in found["front"]]
+    ranges = [trial["metrics"]["ballistic_range_m"] for trial in found["front"]]
+    assert energies == sorted(energies)
+    assert ranges == sorted(ranges)
+    assert found["hypervolume"] > 0.0
+    assert {Path(picture).name for picture in found["pictures"]} >= {"pareto.svg", "history.svg", "slices.svg"}
+
+
+def test_nothing_jumps_is_exit_code_1(folder):
+    weak = ["--fix", "stiffness_nmm_per_deg=5", "--fix", "compression_ratio=0.1"]
+    assert data("optimize", "ga", *QUICK, *weak, "--evaluations", 20, code=1)["best"] is None
+    assert "no design jumps" in run("optimize", "ga", *QUICK, *weak, "--evaluations", 20, code=1)
+
+
+def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):
+    command = [*JUMPCAD, "optimize", "ga", "--model", "capsule", "--evaluations", "400", "--study", "s.db", "--json",
+               "--settings", "fine"]  # fmt: skip
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline:
+        time.sleep(0.2)
+        if Path("s.db").exists() and data_or_none("s.db"):
+            break
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does it: to the workers too
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert out == ""
+    assert err.strip() == "jumpcad: interrupted"
+    kept = data("study", "s.db")["evaluations"]
+    assert 0 < kept < 400
+
+
+def data_or_none(path):
+    """Return how many trials a study has, 0 while it has none."""
+    result = CliRunner().invoke(app, ["study", path, "--json"])
+    return json.loads(result.stdout)["evaluations"] if result.exit_code == 0 and not result.exception else 0

@@ -1,0 +1,11 @@
+"""`jumpcad reproduce`: the published figures beside the simulated ones."""
+
+from support.commands import Run
+
+
+def test_reproduce_shows_both_worlds(run: Run) -> None:
+    code, out, err = run("reproduce")
+    assert (code, err) == (0, "")
+    for shown in ("Kenan 1.0", "best GA", "best BO", "Kenan 2.0", "0.2571", "0.3212", "0.9047", "1.5", "1.3"):
+        assert shown in out  # published figures to the digits of the reference table, and the measured energies
+    assert all(len(line) <= 80 for line in out.splitlines())

@@ -1,0 +1,94 @@
+"""Options that all searches share, with the capsule robot."""
+
+import os
+
+import pytest
+from support.searches import QUICK, data, refusal, run
+
+from jumpcad.design import load_design
+
+
+def test_without_a_study_file_each_request_has_its_own(folder):
+    first = data("optimize", "ga", *QUICK, "--evaluations", 20)["study"]
+    assert data("optimize", "ga", *QUICK, "--evaluations", 20)["study"] == first
+    assert data("optimize", "ga", *QUICK, "--evaluations", 20, "--seed", 1)["study"] != first
+
+
+def test_options_of_the_space_arrive(folder):
+    found = data(
+        "optimize", "ga", *QUICK, "--evaluations", 20, "--fix", "stiffness_nmm_per_deg=9.2",
+        "--fix", "rest_angle_deg=88.2", "--bound", "carrying_link_mm=90:110", "--choose", "d_coef=0.7,0.8",
+    )  # fmt: skip
+    space = data("study", found["study"])["identity"]["space"]
+    assert space["stiffness_nmm_per_deg"] == {"fixed": 9.2}
+    assert space["carrying_link_mm"] == {"lower": 90.0, "upper": 110.0}
+    assert space["d_coef"] == {"choices": [0.7, 0.8]}
+    near = data("optimize", "bo", *QUICK, "--evaluations", 10, "--around", "best-bo", "--within", 5)
+    assert near["best"]["score"] > 8.0
+    only = data("optimize", "bo", *QUICK, "--evaluations", 6, "--around", "best-bo", "--only", "rest_angle_deg")
+    assert only["best"]["design"]["e_coef"] == load_design("best-bo").e_coef
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["optimize", "--evaluations", "0"], "evaluations = 0 must be at least 1"),
+        (["optimize", "gaa"], "did you mean ga"),
+        (["optimize", "--model", "capsul"], "did you mean capsule"),
+        (["optimize", "--fix", "stifness_nmm_per_deg=9"], "did you mean stiffness_nmm_per_deg"),
+        (["optimize", "--bound", "c_coef=1.2:0.8"], "empty range"),
+        (["optimize", "--workers", "-1"], "workers = -1"),
+        (["optimize", "--workers", "1", "--dask", "tcp://x"], "exclude each other"),
+        (["optimize", "--engine", "ode"], "'ode' is not an engine; there are pybullet"),
+        (["optimize", "--settings", "defalt"], "default"),
+        (["optimize", "--around", "nobody"], "neither a TOML file nor one of"),
+        (["optimize", "--from-study", "none.db"], "no such study file"),
+        (["optimize", "-o", "mine.toml"], "exists already; choose another name, or replace it with --force"),
+        (["optimize", "--study", "mine.toml"], "a study file must end in .db"),
+        (["optimize", "--study", ":memory:"], "a study file must end in .db"),
+        (["optimize", "--study", "."], "is a directory"),
+        (["explore", "sweep", "--study", "mine.toml"], "a study file must end in .db"),
+        (["optimize", "--study", "nowhere/s.db"], "there is no folder nowhere"),
+        (["optimize", "--study", "folder.db"], "is a directory"),
+        (["optimize", "--study", "dangling.db", "-o", "aim.toml"], "is no file"),
+        (["optimize", "-o", "nowhere/best.toml"], "there is no folder nowhere"),
+        (["optimize", "-o", "best.db"], "must end in .toml"),
+        (["optimize", "--study", "hard.db", "-o", "mine.toml"], "is the study file itself"),
+        (["optimize", "--study", "soft.db", "-o", "mine.toml"], "is the study file itself"),
+        (["optimize", "--study", "s.db", "--from-study", "./folder.db/../s.db"], "is the study file itself"),
+        (["optimize", "--plots", "mine.toml"], "'mine.toml' is a file"),
+        (["optimize", "--plots", "pictures"], "pictures/history.svg: exists already"),
+        (["explore", "sweep", "--plots", "pictures"], "pictures/sweeps.svg: exists already"),
+        (["study", "none.db"], "no such study file"),
+    ],
+)
+def test_wrong_requests_are_one_line_and_leave_no_study(folder, arguments, message):
+    (folder / "mine.toml").write_text("# my own\n" * 100)
+    os.link("mine.toml", "hard.db")
+    os.symlink("mine.toml", "soft.db")
+    os.symlink("aim.toml", "dangling.db")
+    (folder / "folder.db").mkdir()
+    (folder / "pictures").mkdir()
+    (folder / "pictures" / ("history.svg" if arguments[0] == "optimize" else "sweeps.svg")).write_text("mine")
+    before = sorted(folder.rglob("*"))
+    if arguments[0] == "optimize" and "--model" not in arguments:
+        arguments = [*arguments, "--model", "capsule", *(["-o", "other.toml"] if "-o" not in arguments else [])]
+    assert message in refusal(*arguments)
+    assert (folder / "mine.toml").read_text() == "# my own\n" * 100
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_a_winner_that_somebody_edited_is_kept(folder):
+    search = ["optimize", "ga", *QUICK, "--evaluations", 10, "--study", "s.db", "-o", "best.toml", "--plots", "pics"]
+    run(*search)
+    run(*search[:-2], "--plots", "pics", "--evaluations", 12)  # what jumpcad wrote itself is written again
+    winner = (folder / "best.toml").read_text()
+    mine = winner.replace("c_coef = ", "c_coef = 1.0 # my own; it was ")
+    (folder / "best.toml").write_text(mine)
+    assert "best.toml: exists already" in refusal(*search[:-2], "--evaluations", 12)
+    assert (folder / "best.toml").read_text() == mine
+    run(*search[:-2], "--evaluations", 12, "--force")
+    assert (folder / "best.toml").read_text() == winner
+    (folder / "pics" / "history.svg").write_text("<svg/>")
+    assert "history.svg: exists already" in refusal("study", "s.db", "--plots", "pics")
+    assert (folder / "pics" / "history.svg").read_text() == "<svg/>"

@@ -1,0 +1,119 @@
+"""`jumpcad simulate`: documents, exit codes, one-line errors, trajectories."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from support.commands import Run
+
+from jumpcad.design import Design, load_design
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.simulation import Settings, simulate
+
+
+@pytest.fixture
+def command(run: Run) -> Run:
+    """`jumpcad simulate` as a function."""
+    return lambda *arguments: run("simulate", *arguments)
+
+
+def test_one_document_with_what_python_says(command: Run) -> None:
+    code, out, err = command("kenan-2.0", "--capsule", "--json")
+    document = json.loads(out)
+    jump = simulate(capsule_robot(load_design("kenan-2.0")))
+    assert (code, err) == (0, "")
+    assert (document["model"], document["verdict"], document["engine"]) == ("capsule", "jump", "pybullet")
+    assert document["ballistic_range_m"] == jump.ballistic_range_m
+    assert document["energy"]["joint_damping_j"] == jump.energy.joint_damping_j
+
+
+def test_both_engines_and_their_difference(command: Run) -> None:
+    pytest.importorskip("mujoco")
+    code, out, _ = command("kenan-2.0", "--capsule", "--engine", "both", "--settings", "fine", "--json")
+    document = json.loads(out)
+    ranges = [document["engines"][engine]["ballistic_range_m"] for engine in ("pybullet", "mujoco")]
+    assert code == 0
+    assert document["range_difference_percent"] == pytest.approx(100 * (ranges[1] - ranges[0]) / ranges[0])
+    assert abs(document["range_difference_percent"]) < 0.5
+    code, out, _ = command("kenan-2.0", "--capsule", "--engine", "both")
+    assert code == 0
+    assert "% of the range of pybullet" in out.splitlines()[-1]
+
+
+def test_refused_design_says_why_and_what_to_change(command: Run, tmp_path: Path) -> None:
+    path = tmp_path / "loop.toml"
+    path.write_text(Design.from_vector([100, 1.1596, 0.6455, 0.6, 0.8, 70, 30, 10]).to_toml())
+    code, out, err = command(path, "--capsule")
+    assert (code, err) == (1, "")
+    assert "pybullet: loop" in out
+    assert "lower compression_ratio" in out
+    code, out, _ = command(path, "--capsule", "--json")
+    assert code == 1
+    assert json.loads(out)["verdict"] == "loop"
+    assert json.loads(out)["ballistic_range_m"] is None
+
+
+@pytest.mark.parametrize("suffix", ["csv", "json"])
+def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"path.{suffix}"
+    code, _, _ = command("kenan-2.0", "--capsule", "--flight", "--trajectory", path)
+    assert code == 0
+    expected = simulate(capsule_robot(load_design("kenan-2.0")), Settings(flight="simulated", trajectory=True))
+    assert expected.trajectory is not None
+    if suffix == "csv":
+        with path.open() as stream:
+            columns = list(zip(*csv.reader(stream), strict=True))
+        read = {name: [float(value) for value in values] for name, *values in columns}
+    else:
+        read = json.loads(path.read_text())
+    assert read == {name: values.tolist() for name, values in expected.trajectory.columns().items()}
+
+
+def test_a_trajectory_replaces_nothing_unasked(command: Run, tmp_path: Path) -> None:
+    path = tmp_path / "path.csv"
+    path.write_text("mine")
+    code, out, err = command("kenan-2.0", "--capsule", "--trajectory", path)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "path.csv: exists already; choose another name, or replace it with --force" in err
+    assert path.read_text() == "mine"
+    assert command("kenan-2.0", "--capsule", "--trajectory", path, "--force")[0] == 0
+    assert path.read_text().startswith("time_s,")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["kenan-2.0", "--capsule", "--engine", "bulet"], "'bulet' is not an engine"),
+        (["kenan-2.0", "--capsule", "--published"], "exclude each other"),
+        (["kenan-2.0", "--published", "--engine", "mujoco"], "exists in pybullet alone"),
+        (["kenan-2.0", "--capsule", "--trajectory", "path.txt"], "must end in .csv or .json"),
+        (["kenan-2.0", "--capsule", "--trajectory", "nowhere/path.csv"], "there is no folder nowhere"),
+        (["kenan-2.0", "--capsule", "--trajectory", "a.csv", "--engine", "both"], "records one engine"),
+        (["kenan-2.0", "--published", "--trajectory", "a.csv"], "cannot apply to --published"),
+        (["kenan-2.0", "--capsule", "--workshop", "fine"], "--workshop fine: cannot apply"),
+        (["kenan-2.0", "--capsule", "--settings", "quick"], "'quick' is neither a TOML file nor"),
+        (["kenan-3.0", "--capsule"], "did you mean kenan-2.0"),
+    ],
+)
+def test_wrong_requests(command: Run, arguments: list[str], message: str) -> None:
+    code, out, err = command(*arguments)
+    assert (code, out) == (2, "")
+    assert message in err
+    assert len(err.splitlines()) == 1
+
+
+def test_published_is_named_so(command: Run) -> None:
+    code, out, _ = command("kenan-1.0", "--published")
+    assert code == 0
+    assert "0.257138" in out
+    assert "published distance" in out
+
+
+def test_the_other_engine_steps_in_with_one_line(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("mujoco")
+    monkeypatch.setitem(__import__("sys").modules, "pybullet", None)
+    code, out, err = command("kenan-2.0", "--capsule", "--json")
+    assert code == 0
+    assert json.loads(out)["engine"] == "mujoco"
+    assert err == "jumpcad: pybullet is not installed; simulated with mujoco\n"

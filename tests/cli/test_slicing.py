@@ -1,0 +1,267 @@
+"""`jumpcad slice`: with PrusaSlicer itself, and with programs that pretend to be it and misbehave."""
+
+import csv
+import hashlib
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from support.commands import Run
+from support.slicers import OBEDIENT, pretend_slicer, three_parts
+
+from jumpcad.bundle.export import export
+from jumpcad.bundle.manifest import open_bundle, verify
+from jumpcad.printing.prusaslicer import slicer_program
+from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
+
+needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer is not installed (prusa-slicer)")
+
+
+@pytest.fixture(scope="module")
+def built(small_robot: Robot, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A bundle of three kinds of parts."""
+    return export(three_parts(small_robot), tmp_path_factory.mktemp("bundles") / "frog", pictures=False).folder
+
+
+@pytest.fixture
+def bundle(built: Path, tmp_path: Path) -> Path:
+    """A copy, since slicing writes times into it."""
+    return Path(shutil.copytree(built, tmp_path / "frog"))
+
+
+@pytest.fixture
+def pretend(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
+    """Put a Python program in the slicer's place."""
+    return lambda program: pretend_slicer(program, tmp_path, monkeypatch)
+
+
+@needs_slicer
+def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(run: Run, bundle: Path, tmp_path: Path) -> None:
+    code, out, err = run("slice", str(bundle), "--write-masses", "weighed.toml", "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    assert found["ignored"] == {}
+    parts = {part["name"]: part for part in found["parts"]}
+    assert set(parts) == {"body_plate_left", "front_link", "collar"}
+    assert all(abs(part["difference"]) < 0.06 for part in parts.values())
+    for plate in found["plates"]:  # sliced as a whole: the same plastic; small parts need not cool while others print
+        on_it = [part for part in parts.values() if part["material"] == plate["material"]]
+        assert plate["grams"] == pytest.approx(sum(part["quantity"] * part["grams"] for part in on_it), rel=0.005)
+        assert plate["time_s"] > 0.95 * max(part["time_s"] for part in on_it)
+        assert plate["time_s"] < 1.05 * sum(part["quantity"] * part["time_s"] for part in on_it)
+    assert [plate["material"] for plate in found["plates"]] == ["PETG", "PLA"]
+
+    before, after = load_workshop(bundle / "workshop.toml"), load_workshop(tmp_path / "weighed.toml")
+    assert after.mass.weighed_g == {name: pytest.approx(part["grams"], abs=6e-4) for name, part in parts.items()}
+    assert after.model_copy(update={"mass": before.mass}) == before
+
+
+def test_grams_and_times_are_told_in_tables(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    code, out, err = run("slice", str(bundle))
+    assert (code, err) == (0, "")
+    # 100 mm of filament of 1.75 mm are 0.24053 cm³
+    petg, pla = (f"{0.24053 * density:.2f}" for density in (1.27, 1.24))
+    rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line}
+    assert rows["collar"][:3] == ["4", "PETG", petg]
+    assert rows["collar"][-2:] == ["1:02", "h"]
+    assert rows["plate-1-PLA"] == ["PLA", pla, "1:02", "h"]
+    assert rows["all"] == ["0.60", "2:05", "h"]
+    assert rows["slicer"] == ["PrusaSlicer", "2.9.1"]
+    assert rows["settings"] == ["all", "taken", "over"]
+
+
+def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    code, out, err = run("slice", "frog")
+    assert (code, err) == (0, "")
+    assert "written   the times, into bom.csv and assembly.md of frog" in out
+    lines = {line["item"]: line for line in csv.DictReader((bundle / "bom.csv").open())}
+    assert lines["collar"]["print_time_s"] == lines["plate-1-PLA"]["print_time_s"] == "3750"
+    assert {line["print_time_s"] for line in lines.values() if line["kind"] == "bought"} == {""}
+    assert [line["print_time_s"] for line in lines.values() if line["kind"] == "total"] == ["7500"]
+    assert "| collar | 4 | PETG | 0.12 | 1:02 h |" in (bundle / "assembly.md").read_text()
+    assert verify(bundle) == []
+    before, after = (open_bundle(folder).manifest for folder in (built, bundle))
+    changed = {path for path in after["files"] if after["files"][path] != before["files"][path]}
+    assert changed == {"bom.csv", "assembly.md"}
+    assert after["versions"] == before["versions"] | {"PrusaSlicer": "2.9.1"}
+
+
+def test_settings_that_were_not_taken_over_are_named(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", "del settings['infill_extrusion_width']; settings['perimeters'] = '2'"))
+    code, out, _ = run("slice", str(bundle))
+    assert code == 0
+    assert "ignored   perimeters = 3: the slicer used 2" in out
+    assert "ignored   infill_extrusion_width = 0.45: the slicer used nothing" in out
+    assert "all taken over" not in out
+
+
+def test_another_workshop_prints_the_same_parts(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", "assert settings['fill_density'] == '5%', settings"))
+    Path("thin.toml").write_text("[process]\ninfill = 0.05\n")
+    bill = (bundle / "bom.csv").read_bytes()
+    code, out, err = run("slice", str(bundle), "--workshop", "thin.toml")
+    assert (code, err) == (0, "")
+    assert "written" not in out
+    assert (bundle / "bom.csv").read_bytes() == bill
+    code, _, err = run("slice", str(bundle), "--workshop", "light")
+    assert (code, err) == (
+        2,
+        "jumpcad: the bundle has parts of PETG, but the workshop only PLA: build it with that\n",
+    )
+
+
+@pytest.mark.parametrize(
+    ("program", "exit_code", "complaint"),
+    [
+        (None, 2, "prusa-slicer is not installed: install PrusaSlicer"),
+        ("print('PrusaSlicer-1.42.0 based on Slic3r')", 2, "prusa-slicer is of version 1.42.0, whose settings"),
+        ("print('PrusaSlicer-3.0.0-alpha1')", 2, "prusa-slicer is of version 3.0.0-alpha1, whose settings"),
+        ("print('Cura 5')", 2, "prusa-slicer does not say that it is PrusaSlicer"),
+        (
+            OBEDIENT.replace("TAMPER", "import os; os.abort()"),
+            2,
+            "prusa-slicer crashed on body_plate_left.stl with exit code -6: it said nothing",
+        ),
+        (
+            OBEDIENT.replace("TAMPER", "sys.exit(print('out of memory') or 137)"),
+            2,
+            "prusa-slicer crashed on body_plate_left.stl with exit code 137: out of memory",
+        ),
+        (
+            OBEDIENT.replace("TAMPER", "sys.exit('Object too large')"),
+            1,
+            "prusa-slicer refused body_plate_left.stl: Object too large",
+        ),
+        (OBEDIENT.replace("TAMPER", "sys.exit()"), 2, "crashed on body_plate_left.stl with exit code 0"),
+        (OBEDIENT.replace("TAMPER", "settings.clear()"), 2, "wrote G-code without its usual remarks"),
+        (
+            OBEDIENT.replace("TAMPER", "").replace("E100", ""),
+            1,
+            "body_plate_left.stl: the slicer found nothing to print",
+        ),
+    ],
+    ids=["missing", "older", "newer", "other", "abort", "killed", "refused", "silent", "remarks", "nothing"],
+)
+def test_a_slicer_that_fails_is_one_line(
+    run: Run,
+    bundle: Path,
+    pretend: Callable[[str], None],
+    monkeypatch: pytest.MonkeyPatch,
+    program: str | None,
+    exit_code: int,
+    complaint: str,
+) -> None:
+    if program is None:
+        monkeypatch.setenv("PATH", "")
+    else:
+        pretend(program)
+    code, out, err = run("slice", str(bundle), "--write-masses", "weighed.toml")
+    assert (code, out) == (exit_code, "")
+    assert err.startswith("jumpcad: ")
+    assert complaint in err
+    assert err.count("\n") == 1
+    assert not Path("weighed.toml").exists()
+
+
+def test_a_program_that_cannot_be_run_is_one_line(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend("")
+    program = Path(slicer_program() or "")
+    program.write_bytes(b"\x7fELF is not all it takes")
+    code, _, err = run("slice", str(bundle))
+    assert code == 2
+    assert "cannot be run: Exec format error" in err
+    assert err.count("\n") == 1
+
+
+def test_changed_and_missing_files_are_named(run: Run, bundle: Path, tmp_path: Path) -> None:
+    broken = tmp_path / "broken"
+    shutil.copytree(bundle, broken)
+    (broken / "stl" / "collar.stl").unlink()
+    (broken / "workshop.toml").write_text("")
+    code, out, err = run("slice", "broken")
+    assert (code, out) == (2, "")
+    assert "stl/collar.stl: missing" in err
+    assert "workshop.toml: changed" in err
+    assert err.count("\n") == 1
+
+
+def test_many_changed_files_are_few_words(run: Run, bundle: Path) -> None:
+    for file in bundle.glob("urdf/meshes/*.stl"):
+        file.unlink()
+    code, _, err = run("slice", str(bundle))
+    assert code == 2
+    assert " more; jumpcad build makes it anew" in err
+    assert err.count(": missing") == 3
+
+
+def test_notes_in_a_bundle_are_in_nobodys_way(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    (bundle / "notes.txt").write_text("mine")
+    assert run("slice", "frog")[0] == 0
+    assert (bundle / "notes.txt").read_text() == "mine"
+
+
+def test_nothing_is_written_or_read_outside_of_a_bundle(
+    run: Run, bundle: Path, pretend: Callable[[str], None], tmp_path: Path
+) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    home = tmp_path / "home"
+    home.mkdir()
+    (home / ".bashrc").write_text("precious")
+    (bundle / "lnk").symlink_to(bundle / "stl")
+    good = (bundle / "manifest.json").read_text()
+    manifest = json.loads(good)
+    manifest["files"]["lnk/../../home/.bashrc"] = hashlib.sha256(b"precious").hexdigest()
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+    code, out, err = run("slice", "frog")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "is not the manifest of a bundle" in err
+
+    (bundle / "manifest.json").write_text(good)
+    (bundle / "bom.csv").rename(home / "bom.csv")
+    (bundle / "bom.csv").symlink_to(home / "bom.csv")
+    before = (home / "bom.csv").read_bytes()
+    code, out, err = run("slice", "frog")
+    assert (code, out) == (2, "")
+    assert "bom.csv: a link" in err
+    assert (home / "bom.csv").read_bytes() == before
+    assert (home / ".bashrc").read_text() == "precious"
+
+
+def test_a_plate_of_an_unknown_material_is_one_line(run: Run, bundle: Path, pretend: Callable[[str], None]) -> None:
+    pretend(OBEDIENT.replace("TAMPER", ""))
+    manifest = json.loads((bundle / "manifest.json").read_text())
+    (bundle / "print" / "plate-1-GOLD.3mf").write_bytes(b"x")
+    manifest["files"]["print/plate-1-GOLD.3mf"] = hashlib.sha256(b"x").hexdigest()
+    (bundle / "manifest.json").write_text(json.dumps(manifest))
+    code, _, err = run("slice", "frog")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "parts of GOLD" in err
+
+
+def test_what_is_no_bundle_of_parts_is_refused(run: Run, bundle: Path, tmp_path: Path) -> None:
+    shutil.copytree(bundle, tmp_path / "bare")
+    manifest = json.loads((bundle / "manifest.json").read_text())
+    manifest["masses"] = [line for line in manifest["masses"] if line["kind"] != "printed"]
+    (tmp_path / "bare" / "manifest.json").write_text(json.dumps(manifest))
+    assert run("slice", "bare") == (2, "", "jumpcad: bare: has no printed parts to slice\n")
+    code, _, err = run("slice", "nowhere")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "nowhere/manifest.json: missing; a bundle has one" in err
+
+
+@pytest.mark.parametrize(
+    ("file", "complaint"),
+    [("mine.toml", "exists already"), ("mine.txt", "must end in .toml"), ("no/mine.toml", "there is no folder no")],
+)
+def test_masses_replace_nothing(run: Run, bundle: Path, file: str, complaint: str) -> None:
+    Path("mine.toml").write_text("years of weighing")
+    code, out, err = run("slice", str(bundle), "--write-masses", file)
+    assert (code, out) == (2, "")
+    assert complaint in err
+    assert Path("mine.toml").read_text() == "years of weighing"

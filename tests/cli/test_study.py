@@ -1,0 +1,13 @@
+"""`jumpcad study`, with the capsule robot."""
+
+from support.searches import QUICK, data, refusal, run
+
+
+def test_studies_compare_and_export(folder):
+    for seed in (0, 1):
+        run("optimize", "ga", *QUICK, "--evaluations", 20, "--seed", seed, "--study", f"{seed}.db")
+    assert len(run("study", "0.db", "1.db").strip().splitlines()) == 2
+    assert [one["identity"]["seed"] for one in data("study", "0.db", "1.db")["studies"]] == [0, 1]
+    run("study", "0.db", "--export", "t.csv")
+    assert (folder / "t.csv").read_text().count("\n") > 20
+    assert "one study" in refusal("study", "0.db", "1.db", "--export", "u.csv")

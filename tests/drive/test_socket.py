@@ -1,0 +1,20 @@
+"""The room that a motor takes in the body."""
+
+import pytest
+from support.built import built
+
+from jumpcad.drive.socket import front_length_mm, socket_half_mm
+
+
+def test_the_socket_has_walls_around_the_motor_and_ears_across() -> None:
+    """A motor of 10 x 12 mm, 0.3 mm of play and a wall of 1.6 mm on every side, ears of 5.6 mm."""
+    motor = built("kenan-2.0").layout.drive.train.motor
+    assert (motor.width_mm, motor.height_mm) == (10.0, 12.0)
+    assert socket_half_mm(motor) == pytest.approx((5.0 + 1.9, 6.0 + 1.9 + 5.6))
+
+
+def test_a_boss_that_is_longer_than_the_cap_reaches_further() -> None:
+    motor = built("kenan-2.0").layout.drive.train.motor
+    capped = front_length_mm(motor.model_copy(update={"boss_length_mm": 0.0}))
+    assert capped == front_length_mm(motor)
+    assert front_length_mm(motor.model_copy(update={"boss_length_mm": capped + 3.0})) == capped + 3.0

@@ -1,0 +1,39 @@
+"""GLB read back by trimesh: what is where, in which colour."""
+
+import io
+
+import numpy as np
+import pytest
+import trimesh
+from support.built import built
+
+from jumpcad.exporters.glb import write_glb
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot import Robot
+from jumpcad.scene.visuals import visuals
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return built("kenan-2.0")
+
+
+def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(robot: Robot) -> None:
+    glb = write_glb(robot)
+    scene = trimesh.load_scene(io.BytesIO(glb), file_type="glb")
+    things = visuals(robot)
+    parents = scene.graph.transforms.parents
+    assert {thing.name: parents[thing.name] for thing in things} == {
+        thing.name: f"{thing.body}_frame" for thing in things
+    }
+    poses, points = body_poses(robot), []
+    for thing in things:
+        pose = poses[thing.body] @ thing.T_body_mesh
+        points.append(thing.mesh.vertices / 1000.0 @ pose[:3, :3].T + pose[:3, 3])
+        x, y, z = pose[:3, 3]
+        assert np.allclose(scene.graph.get(thing.name)[0][:3, 3], [x, z, -y], atol=1e-6)
+        colour = scene.geometry[thing.mesh_name].visual.material.baseColorFactor[:3] / 255.0
+        assert np.allclose(colour, thing.colour, atol=0.5 / 255)
+    low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
+    assert np.allclose(scene.bounds, [[low[0], low[2], -high[1]], [high[0], high[2], -low[1]]], atol=1e-6)
+    assert glb == write_glb(robot)

@@ -1,0 +1,81 @@
+"""What is wrong with a value is named by file, line, key, value and limit."""
+
+import os
+import re
+from pathlib import Path
+
+import pytest
+from support.tables import Printer
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import (
+    did_you_mean,
+)
+
+
+def test_hint_only_where_something_is_near() -> None:
+    assert did_you_mean("kenan2", ["kenan-2.0", "best-bo"]) == " (did you mean kenan-2.0?)"
+    assert did_you_mean("zzz", ["kenan-2.0", "best-bo"]) == ""
+
+
+def complaint(tmp_path: Path, text: str) -> str:
+    """The error of a file without the folder."""
+    file = tmp_path / "p.toml"
+    file.write_text(text)
+    with pytest.raises(JumpcadError) as caught:
+        Printer.from_toml(file)
+    assert "\n" not in str(caught.value)
+    return str(caught.value).replace(f"{tmp_path}{os.sep}", "")
+
+
+def test_value_out_of_range_is_named_with_its_line(tmp_path: Path) -> None:
+    text = 'name = "MK4"\n# a comment\nnozzle_mm = 3.5\n[bed]\nwidth_mm = 250\n'
+    assert complaint(tmp_path, text) == "p.toml:3: nozzle_mm = 3.5: must be less than 2"
+
+
+def test_nested_value_is_named_with_its_section_and_line(tmp_path: Path) -> None:
+    text = 'name = "MK4"\n\n[bed]\nwidth_mm = 9000\n'
+    assert complaint(tmp_path, text) == "p.toml:4: bed.width_mm = 9000: must be at most 400"
+
+
+def test_misspelt_key_is_recognised(tmp_path: Path) -> None:
+    text = 'name = "MK4"\nnozle_mm = 0.4\n[bed]\nwidth_mm = 250\nwidht_mm = 2\n'
+    assert complaint(tmp_path, text) == (
+        "p.toml:5: bed.widht_mm: unknown key (did you mean width_mm?); "
+        "p.toml:2: nozle_mm: unknown key (did you mean nozzle_mm?)"
+    )
+
+
+def test_all_bad_keys_at_once(tmp_path: Path) -> None:
+    text = "name = 3\nnozzle_mm = nan\n"
+    assert complaint(tmp_path, text) == (
+        "p.toml:1: name = 3: must be a valid string; p.toml:2: nozzle_mm = nan: must be a finite number; "
+        "p.toml: bed: missing"
+    )
+
+
+def test_long_values_are_shortened(tmp_path: Path) -> None:
+    assert len(complaint(tmp_path, f'name = "MK4"\nnozzle_mm = "{"x" * 5000}"\n')) < 200
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("nozzle_mm = 0x" + "f" * 6000, "p.toml:1: nozzle_mm = a value too long to show"),
+        ("self = 1", "p.toml:1: self: unknown key"),
+        ('"a\\nb\\u001b" = 1', r"'a\\nb\\x1b': unknown key"),
+        ("bed = 3", r"p.toml:1: bed = 3: must be a table: \[bed\] with width_mm"),
+    ],
+    ids=["hexadecimal", "self", "control", "table"],
+)
+def test_any_key_and_value_is_one_short_line(tmp_path: Path, text: str, reason: str) -> None:
+    told = complaint(tmp_path, text)
+    assert re.search(reason, told), told
+    assert told.isprintable()
+    assert len(told) < 500
+
+
+def test_of_twenty_thousand_unknown_keys_ten_are_named(tmp_path: Path) -> None:
+    told = complaint(tmp_path, 'name = "x"\n' + "".join(f"k{number} = 1\n" for number in range(20_000)))
+    assert told.count("unknown key") + told.count("missing") == 10
+    assert told.endswith("and 19991 more")  # the missing bed is one of them

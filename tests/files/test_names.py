@@ -1,0 +1,50 @@
+"""Names and free text of strangers: any script, but nothing that steers a terminal or leads to another file."""
+
+import pytest
+from pydantic import TypeAdapter, ValidationError
+
+from jumpcad.errors import without_controls
+from jumpcad.files.names import NAME_RULE, Name, OptionalName, Text, control_character
+
+
+def refused(kind: object, value: str) -> str:
+    """Return the reason for which a value is refused."""
+    with pytest.raises(ValidationError) as caught:
+        TypeAdapter(kind).validate_python(value)
+    return str(caught.value.errors()[0]["msg"])
+
+
+@pytest.mark.parametrize("name", ["PLA", "PETG (grey)", "机器人", "Ähnlich-1.75", "_x", "a" * 50])
+def test_a_name_is_of_any_script(name: str) -> None:
+    assert TypeAdapter(Name).validate_python(name) == name
+
+
+@pytest.mark.parametrize(
+    "name", ["", " a", ".hidden", "../up", "a/b", "a\\b", "=1", "+1", "-1", "@x", "a\nb", "a" * 51]
+)
+def test_a_name_begins_no_formula_and_leads_nowhere(name: str) -> None:
+    assert refused(Name, name) == NAME_RULE
+
+
+def test_an_optional_name_may_be_empty() -> None:
+    assert TypeAdapter(OptionalName).validate_python("") == ""
+    assert refused(OptionalName, "a/b") == NAME_RULE
+
+
+def test_free_text_is_one_line_of_moderate_length() -> None:
+    assert TypeAdapter(Text).validate_python("ISO 15: 3 × 10 × 4 mm, 机器人") == "ISO 15: 3 × 10 × 4 mm, 机器人"
+    assert refused(Text, "a\x07") == "holds the control character U+0007: leave it out"
+    assert refused(Text, "a" * 1001) == "has 1001 characters, more than 1000: shorten it"
+
+
+@pytest.mark.parametrize(
+    ("letter", "code"),
+    [("\x1b", "U+001B"), ("\n", "U+000A"), ("\u2028", "U+2028"), ("\u202e", "U+202E"), ("\ud800", "U+D800")],
+    ids=["escape", "end of line", "line separator", "right to left", "half of a character"],
+)
+def test_control_characters_are_found_and_shown_as_escapes(letter: str, code: str) -> None:
+    assert control_character(f"a{letter}b") == code
+    shown = without_controls(f"a{letter}b")
+    assert shown.isprintable()
+    assert shown.encode().decode("unicode_escape") == f"a{letter}b"
+    assert (control_character("Käfer µ"), without_controls("Käfer µ")) == ("", "Käfer µ")

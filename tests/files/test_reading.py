@@ -1,0 +1,95 @@
+"""Files that cannot be read, or are no TOML or JSON, are refused in one line."""
+
+import os
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import (
+    read_json,
+    read_toml,
+    to_toml,
+)
+
+
+def test_file_that_is_not_text(tmp_path: Path) -> None:
+    file = tmp_path / "p.toml"
+    file.write_bytes(b"name = '\xff\xfe'")
+    with pytest.raises(JumpcadError, match="not a text file in UTF-8"):
+        read_toml(file)
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("none.toml", "no such file"),
+        (".", "is a folder"),
+        ("file.toml/inside.toml", "Not a directory"),
+        ("x" * 300 + ".toml", "too long"),
+    ],
+    ids=["missing", "folder", "file as folder", "too long a name"],
+)
+def test_files_that_cannot_be_read(tmp_path: Path, name: str, reason: str) -> None:
+    (tmp_path / "file.toml").write_text("")
+    with pytest.raises(JumpcadError, match=reason):
+        read_toml(tmp_path / name)
+
+
+def test_toml_reads_back() -> None:
+    data = {"a": 0.1 + 0.2, "b": {"c": [1, 2], "d": 'quote " and\nline'}}
+    assert tomllib.loads(to_toml(data)) == data
+
+
+def test_pipes_and_devices_are_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.toml")
+    (tmp_path / "zero.toml").symlink_to("/dev/zero")
+    for name in ("pipe.toml", "zero.toml"):
+        with pytest.raises(JumpcadError, match="is a pipe or a device, not a TOML file"):
+            read_toml(tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ('{"a": NaN}', "NaN is no number"),
+        ("[-Infinity]", "-Infinity is no number"),
+        ("[" * 5000 + "]" * 5000, "nested deeper"),
+        ("[" * 21 + "]" * 21, "nested deeper"),
+        ("9" * 6000, "not valid JSON"),
+        ("{", "not valid JSON"),
+    ],
+)
+def test_json_that_is_none(tmp_path: Path, text: str, reason: str) -> None:
+    (tmp_path / "a.json").write_text(text)
+    with pytest.raises(JumpcadError, match=reason):
+        read_json(tmp_path / "a.json")
+
+
+def test_broken_toml_is_named_with_its_place(tmp_path: Path) -> None:
+    (tmp_path / "p.toml").write_text('name = "MK4"\nnozzle_mm = \n')
+    with pytest.raises(JumpcadError, match=r"p\.toml: not valid TOML: Invalid value \(at line 2"):
+        read_toml(tmp_path / "p.toml")
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("a = " + "[" * 5000 + "]" * 5000, "nested deeper than 20 levels"),
+        ("a = " + "{a = " * 5000 + "1" + "}" * 5000, "nested deeper than 20 levels"),
+        (".".join("a" * 60) + " = 1", "nested deeper than 20 levels"),
+        ("[" + ".".join("a" * 20_000) + "]", "line 1 has more than 200 dots"),
+        ("a = " + "1" * 6000, "an integer of more digits than can be read"),
+        ("# " + "x" * (1 << 20), "is larger than 1 MiB"),
+        ("[" + " " * 200_000, "not valid TOML"),
+    ],
+    ids=["lists", "tables", "keys", "long key", "digits", "size", "blanks"],
+)
+def test_nonsense_from_strangers_is_one_short_line(tmp_path: Path, text: str, reason: str) -> None:
+    (tmp_path / "p.toml").write_text(text)
+    with pytest.raises(JumpcadError, match=reason) as caught:
+        read_toml(tmp_path / "p.toml")
+    told = str(caught.value).replace(str(tmp_path), "")
+    assert told.isprintable()
+    assert len(told) < 500

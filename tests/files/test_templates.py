@@ -1,0 +1,32 @@
+"""What a name or a path on the command line stands for."""
+
+from pathlib import Path
+
+import pytest
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import (
+    find_template,
+    template_names,
+    templates_folder,
+)
+
+
+def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path) -> None:
+    assert {"best-bo", "best-ga", "kenan-1.0", "kenan-2.0"} <= set(template_names("robots"))
+    assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
+    assert find_template("robots", tmp_path / "mine.toml") == tmp_path / "mine.toml"
+    for wrong in ("kenan-3.0", "x" * 300):
+        with pytest.raises(JumpcadError, match="neither a TOML file nor one of the robots best-bo"):
+            find_template("robots", wrong)
+
+
+def test_a_bare_name_is_the_template_whatever_lies_in_the_current_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("kenan-2.0", "mine"):
+        (tmp_path / name).write_text("")
+    assert find_template("robots", "kenan-2.0") == templates_folder() / "robots/kenan-2.0.toml"
+    assert find_template("robots", "./kenan-2.0") == Path("kenan-2.0")
+    assert find_template("robots", "mine") == Path("mine")

@@ -1,0 +1,83 @@
+"""Body plates, measured on their meshes: bores, the motor's seat, and a name where there is material for all of it."""
+
+import math
+
+import numpy as np
+import pytest
+from support.built import built, cut, hole_centres, inscribed_diameter, placed
+from support.fits import LOOSE, N20_SHAFT, PRESSED, RUNNING, SLIDING, TOLERANCE_MM, measured
+
+from jumpcad.building import build
+from jumpcad.design import load_design
+from jumpcad.parts.body_plate import ENGRAVING_MM, TEXT_HEIGHTS_MM
+from jumpcad.robot import Robot
+from jumpcad.solids.text import engravable, text
+
+
+def engraved_mm2(name: str, label: str) -> dict[str, float]:
+    """Return what a label takes from each plate's section, just above its chamfer."""
+    plain, named = (build(load_design(name), name=label) for label in ("", label))
+
+    def areas(robot: Robot) -> dict[str, float]:
+        height = np.array([0.98 * ENGRAVING_MM])
+        plates = [part for part in robot.parts if "plate" in part.name]
+        return {part.name: part.drawing.shape.regions_at(height)[0].area() for part in plates}
+
+    return {part: area - areas(named)[part] for part, area in areas(plain).items()}
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
+def test_the_whole_label_is_cut_from_the_plate(name: str) -> None:
+    """What is lost is the letters' area: no letter hangs over a hole or an edge."""
+    for part, lost in engraved_mm2(name, name).items():
+        areas = [text(f"{name} {part.split('_')[-1][0].upper()}", height).area() for height in TEXT_HEIGHTS_MM]
+        assert min(abs(lost / area - 1.0) for area in areas) < 1e-6
+
+
+def test_a_label_that_finds_no_room_is_its_last_letter() -> None:
+    lost = engraved_mm2("kenan-2.0", "a name that is far too long for any plate of a robot as small as this one")
+    for part, letter in (("body_plate_left", "L"), ("body_plate_right", "R")):
+        assert lost[part] == pytest.approx(text(letter, TEXT_HEIGHTS_MM[0]).area(), rel=1e-6)
+
+
+@pytest.mark.parametrize(("name", "shown"), [("Käfer-机器人", "Käfer-"), ("🐸\t", "")])
+def test_letters_that_the_font_lacks_are_left_out(name: str, shown: str) -> None:
+    """The engraving's font has Latin letters, but neither Chinese nor emoji nor control characters."""
+    assert engravable(name) == shown
+    for part, lost in engraved_mm2("kenan-2.0", name).items():
+        areas = [text(f"{shown} {part.split('_')[-1][0].upper()}".strip(), height).area() for height in TEXT_HEIGHTS_MM]
+        assert min(abs(lost / area - 1.0) for area in areas) < 1e-6
+
+
+@pytest.fixture(scope="module")
+def kenan() -> Robot:
+    return built("kenan-2.0")
+
+
+@pytest.mark.parametrize("name", ["body_plate_left", "body_plate_right"])
+def test_plates(kenan: Robot, name: str) -> None:
+    layout = kenan.layout
+    y = sum(layout.lateral.left_plate if name.endswith("left") else layout.lateral.right_plate) / 2.0
+    expected = [(place, RUNNING) for place in layout.axles.values()]
+    expected += [(place, 3.4) for place in layout.standoffs_mm]
+    expected.append((layout.spring_pin_mm, PRESSED))
+    if name.endswith("left"):
+        expected.append((layout.motor_mm, N20_SHAFT + 2 * LOOSE))
+    for place, diameter in expected:
+        assert measured(kenan, name, y, place) == pytest.approx(diameter, abs=TOLERANCE_MM)
+
+
+def test_motor_seat(kenan: Robot) -> None:
+    """The N20's gearbox is 10 by 12 mm; it slides into its socket, and M2 screws cut their thread beside it."""
+    layout = kenan.layout
+    segments = cut(placed(kenan, "body_plate_right"), layout.lateral.motor[1] - 2.0)
+    assert inscribed_diameter(segments, layout.motor_mm) == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)
+    across = np.array([-math.sin(layout.motor_angle_rad), math.cos(layout.motor_angle_rad)])
+    inner = inscribed_diameter(segments, layout.motor_mm + 1.0 * across)
+    assert inner == pytest.approx(10.0 + 2 * SLIDING, abs=TOLERANCE_MM)  # 1 mm along the long side: no corner yet
+    ears = [centre for centre, width in hole_centres(segments).items() if width < 5.0]
+    assert len(ears) == 2
+    cap = cut(placed(kenan, "motor_cap"), layout.lateral.motor_cap[0] + 0.4)
+    for ear in ears:
+        assert inscribed_diameter(segments, np.array(ear)) == pytest.approx(1.6, abs=TOLERANCE_MM)
+        assert inscribed_diameter(cap, np.array(ear)) == pytest.approx(2.4, abs=TOLERANCE_MM)

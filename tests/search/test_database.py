@@ -1,0 +1,49 @@
+"""The SQLite file of a study: one writer, locks of other programs, what is no file."""
+
+import os
+import sqlite3
+import subprocess
+import sys
+import textwrap
+
+import pytest
+from support.studies import IDENTITY, trials
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search.store import StudyStore
+
+
+def test_one_writer_at_a_time(tmp_path):
+    with StudyStore.write(tmp_path / "s.db", IDENTITY):
+        code = textwrap.dedent(f"""
+            from pathlib import Path
+            from jumpcad.search.store import StudyStore
+            StudyStore.write(Path({str(tmp_path / "s.db")!r}), {IDENTITY})
+        """)
+        other = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        assert "being written by another run" in other.stderr
+    StudyStore.write(tmp_path / "s.db", IDENTITY).close()
+
+
+def test_locked_by_another_program(tmp_path, monkeypatch):
+    StudyStore.write(tmp_path / "s.db", IDENTITY).close()
+    monkeypatch.setattr("jumpcad.search.database.PATIENCE_S", 0.1)
+    other = sqlite3.connect(tmp_path / "s.db", isolation_level=None)
+    other.execute("BEGIN EXCLUSIVE")
+    with (
+        pytest.raises(JumpcadError, match="locked by another program"),
+        StudyStore.write(tmp_path / "s.db", IDENTITY) as it,
+    ):
+        it.append(trials(1))
+    other.close()
+
+
+@pytest.mark.parametrize("name", ["pipe.db", "zero.db", "folder.db"])
+def test_what_is_no_file_is_no_study(tmp_path, name):
+    os.mkfifo(tmp_path / "pipe.db")
+    (tmp_path / "zero.db").symlink_to("/dev/zero")
+    (tmp_path / "folder.db").mkdir()
+    with pytest.raises(JumpcadError, match="is a folder, a pipe or a device"):
+        StudyStore.read(tmp_path / name)
+    with pytest.raises(JumpcadError, match=r"is a pipe or a device|cannot be written"):
+        StudyStore.write(tmp_path / name, IDENTITY)

@@ -1,0 +1,48 @@
+"""Trials in order, the best of them, and what rejected the others."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.hills import SMALL, Hill
+
+from jumpcad.findings import Finding
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.trial import Trial, best_trial, count_rejections, feasible_trials, searched
+
+
+@pytest.fixture
+def trial() -> Trial:
+    design = SMALL.to_design(np.full(3, 0.5))
+    return Trial("ga", 0, 0, design, Hill()(design), 4.0, "m", 0.1)
+
+
+def test_the_best_is_the_first_of_equals_and_none_where_all_are_rejected(trial: Trial) -> None:
+    scores = [1.0, None, 3.0, -2.0, 3.0]
+    trials = [replace(trial, place=place, score=score) for place, score in enumerate(scores)]
+    assert [found.place for found in feasible_trials(trials)] == [2, 4, 0, 3]
+    assert best_trial(trials) is trials[2]
+    assert best_trial([trials[1]]) is None
+
+
+def test_trials_stand_in_the_order_of_phases_steps_and_places(trial: Trial) -> None:
+    order = [("ga", 0, 1), ("ga", 1, 0), ("bo", 0, 0), ("margin", 0, 0), ("robust", 0, 0)]
+    trials = [replace(trial, phase=phase, step=step, place=place) for phase, step, place in order]
+    backwards = trials[::-1]
+    assert sorted(backwards, key=lambda one: one.position) == trials
+    assert searched(trials) == trials[:3]
+
+
+def test_every_reason_of_a_rejection_is_counted_most_frequent_first(trial: Trial) -> None:
+    broken = Evaluation(
+        "jump", {"fitness": 1.0}, tuple(Finding(name, "error", -1.0, "mm", "", "") for name in ("bed_fit", "leg_flex"))
+    )
+    rejected = [replace(trial, evaluation=one, score=None) for one in (Evaluation("loop"), broken, broken)]
+    assert count_rejections([trial, *rejected]) == {"bed_fit": 2, "leg_flex": 2, "loop": 1}
+    assert list(count_rejections([trial, *rejected]))[-1] == "loop"
+
+
+def test_a_rejected_design_has_no_fitness_in_its_record(trial: Trial) -> None:
+    assert trial.to_dict()["fitness"] == trial.evaluation.metrics["fitness"] > 0.0
+    rejected = replace(trial, evaluation=Evaluation("loop"), score=None).to_dict()
+    assert (rejected["fitness"], rejected["score"], rejected["verdict"]) == (0.0, None, "loop")

@@ -1,0 +1,37 @@
+"""The PyBullet back end: it holds the robot that it was given."""
+
+import numpy as np
+import pytest
+
+from jumpcad.mechanism.model import BODY
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.bullet import LINKS
+from jumpcad.simulation.engines import engine_named
+
+pytest.importorskip("pybullet")
+
+
+def test_pybullet_has_the_robots_inertia(lopsided: Robot) -> None:
+    """Masses, centres and tensors read back from PyBullet (createMultiBody alone takes them from the colliders)."""
+    bullet = pytest.importorskip("pybullet")
+    with engine_named("pybullet").world(lopsided, Settings()) as world:
+        for link, name in enumerate((BODY, *LINKS), start=-1):
+            info = bullet.getDynamicsInfo(world.robot_id, link, physicsClientId=world._client)
+            axes = np.array(bullet.getMatrixFromQuaternion(info[4])).reshape(3, 3)
+            body = lopsided.bodies[name]
+            assert info[0] == pytest.approx(body.mass_kg, rel=1e-12)
+            np.testing.assert_allclose(info[3], body.com_m, rtol=1e-9)
+            np.testing.assert_allclose(axes @ np.diag(info[2]) @ axes.T, body.inertia_kg_m2, rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_run_that_blows_up_is_rejected_and_leaves_no_trace(kenan: Robot) -> None:
+    before = simulate(kenan)
+    jump = simulate(
+        kenan, Settings.model_construct(**vars(Settings()) | {"joint_damping_nms_per_rad": 1e300, "trajectory": True})
+    )
+    assert (jump.verdict, jump.ballistic_range_m) == ("audit_energy", None)
+    assert jump.trajectory is not None
+    assert np.isfinite(jump.trajectory.position_m).all()
+    assert simulate(kenan).ballistic_range_m == before.ballistic_range_m

@@ -1,0 +1,42 @@
+"""The result of a simulation as plain data and as a table."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.jump import Jump, Trajectory
+
+
+@pytest.fixture(scope="module")
+def jump(kenan: Robot) -> Jump:
+    return simulate(kenan, Settings(trajectory=True), "planar")
+
+
+def test_plain_data_is_json_with_energy_and_findings_but_without_the_trajectory(jump: Jump) -> None:
+    data = json.loads(json.dumps(jump.to_dict()))
+    assert data["ballistic_range_m"] == jump.ballistic_range_m
+    assert data["energy"] == vars(jump.energy)
+    assert [finding["name"] for finding in data["findings"]] == [finding.name for finding in jump.findings]
+    assert "trajectory" not in data
+
+
+def test_a_jump_is_told_in_one_line(jump: Jump) -> None:
+    assert repr(jump).startswith(f"<Jump jump, range {jump.ballistic_range_m:.3f} m, rise {jump.com_rise_m:.3f} m")
+    refused = replace(jump, verdict="loop", ballistic_range_m=None, com_rise_m=None, fitness=0.0)
+    assert repr(refused).startswith("<Jump loop, fitness 0.000")
+
+
+def test_rows_of_a_trajectory_are_its_moments() -> None:
+    """Two bodies at two moments; every number is another one."""
+    place, turn = np.arange(12.0).reshape(2, 2, 3), 100.0 + np.arange(16.0).reshape(2, 2, 4)
+    path = Trajectory(("body", "foot"), np.array([0.0, 0.5]), place, turn, np.zeros(2), np.ones(2), np.full(2, 2.0))
+    first, second = path.rows()
+    assert (second["time_s"], second["kinetic_j"], second["potential_j"], second["spring_j"]) == (0.5, 0.0, 1.0, 2.0)
+    assert [second[f"foot_{axis}_m"] for axis in "xyz"] == [9.0, 10.0, 11.0]
+    assert [second[f"foot_q{axis}"] for axis in "xyzw"] == [112.0, 113.0, 114.0, 115.0]
+    assert [first[f"body_{axis}_m"] for axis in "xyz"] == [0.0, 1.0, 2.0]
+    assert len(first) == 1 + 2 * 7 + 3

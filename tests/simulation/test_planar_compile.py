@@ -1,0 +1,44 @@
+"""Compiled or not, the planar engine says the same."""
+
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from jumpcad.simulation.planar_compile import compiled
+
+WITHOUT_NUMBA = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+PROGRAM = """
+import json
+from jumpcad import Settings, capsule_robot, load_design, simulate
+for name in ("kenan-2.0", "best-bo"):
+    for friction in (0.3, 1.5):
+        jump = simulate(capsule_robot(load_design(name)), Settings(ground_friction=friction), "planar").to_dict()
+        print(json.dumps([jump["verdict"], jump["ballistic_range_m"], jump["com_rise_m"], jump["takeoff_time_s"],
+                          *jump["energy"].values()]))
+"""
+
+
+@pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason="numba is not installed")
+def test_compiled_and_plain_give_the_same_numbers() -> None:
+    said = [
+        subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=True, env=environment)
+        for environment in (None, WITHOUT_NUMBA)
+    ]
+    compiled, plain = ([json.loads(line) for line in run.stdout.splitlines()] for run in said)
+    assert len(compiled) == 4
+    for one, other in zip(compiled, plain, strict=True):
+        assert one[0] == other[0] == "jump"
+        assert one[1:] == pytest.approx(other[1:], rel=1e-9, abs=1e-12)
+
+
+def test_a_missing_compiler_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "numba", None)
+
+    def twice(number: float) -> float:
+        return 2.0 * number
+
+    assert compiled(twice) is twice

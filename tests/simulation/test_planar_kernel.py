@@ -1,0 +1,283 @@
+"""The planar mechanism against rigid bodies that pins hold together, and against the laws of motion."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings
+from jumpcad.simulation import planar_kernel as kernel
+from jumpcad.simulation.mechanics import Mechanics, State
+from jumpcad.simulation.planar import PlanarWorld
+from jumpcad.simulation.planar_model import Effects, Model, planar_model
+from jumpcad.simulation.planar_state import Contact, Ground, Losses, Moment, Motion
+from jumpcad.transforms import Array
+
+NO_CONTACT = Contact(-1, -1, kernel.SEPARATE, 0.0, 0.0, 0.0)
+NO_LOSSES = Losses(0.0, 0.0, 0.0, 0.0, 0.0)
+FINE = Settings(dt_s=1 / 16000)
+PINS = ((BODY, MAIN_LEG), (BODY, FRONT_LINK), (MAIN_LEG, FOOT), (FRONT_LINK, FOOT))
+"""The bodies of the pins leg, front, ankle and eye."""
+
+
+def moving(model: Model, leg_rad: float, height_m: float = 0.5) -> Moment:
+    """Return a moment in the air in which everything moves."""
+    speed = Motion(0.4 + 1.3j, 2.1, 9.0)
+    return Moment(0.02 + 1j * height_m, 0.3, leg_rad, speed, NO_CONTACT, 0.0, NO_LOSSES, math.inf, True)
+
+
+def world_at(robot: Robot, moment: Moment, settings: Settings = FINE, effects: Effects | None = None) -> PlanarWorld:
+    """Return a planar world at a moment of its own."""
+    world = PlanarWorld(robot, settings, effects or Effects())
+    world.go_to(moment)
+    return world
+
+
+def model_of(robot: Robot, settings: Settings = FINE, effects: Effects | None = None) -> Model:
+    return planar_model(robot, settings, effects or Effects())
+
+
+def turn_of(moment: Moment) -> complex:
+    return complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
+
+
+@pytest.mark.parametrize("leg_deg", [-40.0, -20.0, 0.0, 8.0])
+def test_the_loop_is_that_of_the_linkage(lopsided: Robot, leg_deg: float) -> None:
+    """Joint rates by the velocity analysis of `Linkage`, places by its poses."""
+    leg_rad, linkage = math.radians(leg_deg), Linkage(lopsided.design)
+    links, pose = kernel.links_at(model_of(lopsided), leg_rad), linkage.pose(leg_rad)
+    assert links.closed
+    assert np.angle(links.pitch) == pytest.approx(pose.foot_rad[0], abs=1e-12)
+    assert links.turn1[0] == pytest.approx(-linkage.jacobian(leg_rad)[0, 2], rel=1e-9)
+    step = 1e-6
+    near = linkage.pose([leg_rad - step, leg_rad + step])
+    for rate, angle in zip(links.pin1, (near.leg_rad, near.front_rad, near.ankle_rad), strict=False):
+        assert rate == pytest.approx((angle[1] - angle[0]) / (2 * step), rel=1e-7)
+    assert links.pin1[3] == pytest.approx(links.pin1[1] - links.pin1[0] - links.pin1[2])
+
+
+def test_derivatives_are_those_of_the_places(lopsided: Robot) -> None:
+    model, step = model_of(lopsided), 1e-5
+    low, here, high = (kernel.links_at(model, -0.4 + shift) for shift in (-step, 0.0, step))
+    for one, two in (("place", "place1"), ("place1", "place2"), ("turn1", "turn2")):
+        slope = (np.array(getattr(high, one)) - np.array(getattr(low, one))) / (2 * step)
+        np.testing.assert_allclose(getattr(here, two), slope, rtol=1e-7, atol=1e-9)
+
+
+def test_state_and_energy_are_those_of_the_robot(lopsided: Robot) -> None:
+    """Energies summed body by body in space; a loop without gap; velocities that are the change of the places."""
+    moment, settings = moving(model_of(lopsided), -0.35), replace_damping(FINE)
+    world = world_at(lopsided, moment, settings)
+    mechanics, state = Mechanics(lopsided, 9.81), world.state()
+    assert mechanics.energies(state).total_j == pytest.approx(kernel.energy(world.model, moment), rel=1e-12)
+    assert mechanics.loop_gap_m(state) < 1e-15
+    later = world_at(lopsided, kernel.advance(world.model, moment, 1e-6, 1), settings).state()
+    np.testing.assert_allclose((later.com_m - state.com_m) / 1e-6, state.velocity_m_s, atol=2e-3)
+    turned = later.rotation @ state.rotation.transpose(0, 2, 1)
+    np.testing.assert_allclose(turned[:, 0, 2] / 1e-6, state.angular_rad_s[:, 1], atol=2e-3)
+
+
+def replace_damping(settings: Settings, damping: float = 0.0) -> Settings:
+    return settings.model_copy(update={"joint_damping_nms_per_rad": damping})
+
+
+def pinned_bodies(robot: Robot, state: State, settings: Settings) -> tuple[Array, Array]:
+    """Return accelerations (4, 3: x, z, turn) of four free bodies and forces (4, 2) of the pins that join them.
+
+    Newton's and Euler's equations of each body and the pins' conditions in one linear system (Lagrange multipliers).
+    """
+    joints = {(joint.parent, joint.child): joint for joint in robot.joints}
+    matrix, right = np.zeros((20, 20)), np.zeros(20)
+    for index, name in enumerate(BODY_NAMES):
+        body = robot.bodies[name]
+        rows = slice(3 * index, 3 * index + 3)
+        matrix[rows, rows] = np.diag([body.mass_kg, body.mass_kg, body.inertia_kg_m2[1, 1]])
+        right[3 * index + 1] = -settings.gravity_m_s2 * body.mass_kg
+    for pin, (first, second) in enumerate(PINS):
+        joint = joints.get((first, second))
+        points = (joint.origin_m, np.zeros(3)) if joint else (robot.loop.point_a_m, robot.loop.point_b_m)
+        rows = slice(12 + 2 * pin, 14 + 2 * pin)
+        for sign, name, point in ((1.0, first, points[0]), (-1.0, second, points[1])):
+            index = BODY_NAMES.index(name)
+            arm = (state.rotation[index] @ (point - robot.bodies[name].com_m))[[0, 2]]
+            columns = slice(3 * index, 3 * index + 3)
+            condition = sign * np.array([[1.0, 0.0, arm[1]], [0.0, 1.0, -arm[0]]])
+            matrix[rows, columns], matrix[columns, rows] = condition, condition.T
+            right[rows] += sign * state.angular_rad_s[index, 1] ** 2 * arm
+        if joint:
+            one, two = 3 * BODY_NAMES.index(first) + 2, 3 * BODY_NAMES.index(second) + 2
+            rate = state.angular_rad_s[two // 3, 1] - state.angular_rad_s[one // 3, 1]
+            torque = -settings.joint_damping_nms_per_rad * rate
+            if joint.name == robot.spring.joint:
+                torque -= robot.spring.stiffness_nm_per_rad * state.leg_rad
+            right[one] -= torque
+            right[two] += torque
+    solution = np.linalg.solve(matrix, right)
+    return solution[:12].reshape(4, 3), solution[12:].reshape(4, 2)
+
+
+@pytest.mark.parametrize("leg_rad", [-0.6, -0.2, 0.1])
+def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(lopsided: Robot, leg_rad: float) -> None:
+    settings = Settings()
+    moment = moving(model_of(lopsided), leg_rad)
+    accelerations, pin_n = pinned_bodies(lopsided, world_at(lopsided, moment).state(), settings)
+    model, turn, speed = model_of(lopsided, settings), turn_of(moment), moment.speed
+    links = kernel.links_at(model, leg_rad)
+    inertia = kernel.inertia_at(model, links, turn)
+    change = kernel.response(inertia, *kernel.forces(model, links, inertia, turn, leg_rad, speed))
+    foot, body = accelerations[BODY_NAMES.index(FOOT)], accelerations[0]
+    assert change.foot == pytest.approx(foot[2], rel=1e-9)
+    pitch_rate2 = links.turn2[0] * speed.leg**2
+    assert change.foot + links.turn1[0] * change.leg + pitch_rate2 == pytest.approx(body[2], rel=1e-9)
+    for pin in range(4):
+        radii = [0.0] * 4
+        radii[pin] = 0.0015
+        rubbed = model_of(lopsided, settings, Effects(pin_friction=0.2, pin_radius_m=tuple(radii)))
+        dt = 1e-4
+        ground, gained = Ground(moment.ankle_m, turn, dt / 2), Motion(*(dt * part for part in change))
+        torque = kernel.pin_torque(rubbed, links, ground, speed, gained, NO_CONTACT)
+        expected = 0.2 * 0.0015 * np.linalg.norm(pin_n[pin]) * abs(links.pin1[pin])
+        assert torque == pytest.approx(expected, rel=1e-9)
+
+
+def test_flight_keeps_momenta_and_energy(lopsided: Robot) -> None:
+    """Springs and inertia at work inside: a parabola, a constant spin about the centre of mass, no energy lost."""
+    world = world_at(lopsided, moving(model_of(lopsided), -0.5), replace_damping(FINE))
+    mechanics, before = Mechanics(lopsided, 9.81), world.state()
+    seconds = 0.03
+    world.advance(round(seconds / FINE.dt_s))
+    after = world.state()
+    change = mechanics.velocity_m_s(after) - mechanics.velocity_m_s(before)
+    np.testing.assert_allclose(change, [0.0, 0.0, -9.81 * seconds], atol=1e-5)
+    travel = mechanics.centre_of_mass_m(after) - mechanics.centre_of_mass_m(before)
+    start = mechanics.velocity_m_s(before)
+    np.testing.assert_allclose(travel[[0, 2]], [start[0] * seconds, start[2] * seconds - 4.905 * seconds**2], atol=1e-6)
+    assert spin(mechanics, after) == pytest.approx(spin(mechanics, before), rel=1e-5)
+    energies = [mechanics.energies(state).total_j for state in (before, after)]
+    assert energies[1] == pytest.approx(energies[0], rel=1e-5)
+    assert abs(after.leg_rad - before.leg_rad) > 0.3
+
+
+def spin(mechanics: Mechanics, state: State) -> float:
+    """Return the angular momentum about y through the centre of mass."""
+    arm = state.com_m - mechanics.centre_of_mass_m(state)
+    swung = mechanics.mass_kg @ np.cross(arm, state.velocity_m_s)[:, 1]
+    return float(swung + mechanics.inertia_kg_m2[:, 1, 1] @ state.angular_rad_s[:, 1])
+
+
+def test_energy_error_falls_with_the_square_of_the_step(lopsided: Robot) -> None:
+    errors = []
+    for rate in (1000, 2000, 4000):
+        settings = replace_damping(Settings(dt_s=1 / rate))
+        world = world_at(lopsided, moving(model_of(lopsided), -0.5), settings)
+        start = kernel.energy(world.model, world.moment)
+        world.advance(rate // 40)
+        errors.append(abs(kernel.energy(world.model, world.moment) - start))
+    assert errors[0] / errors[1] > 3.0
+    assert errors[1] / errors[2] > 3.0
+
+
+def test_without_friction_or_damping_only_the_ground_takes_nothing(kenan: Robot) -> None:
+    """On ice: no forward push, and all of the springs' energy is still there."""
+    ice = replace_damping(FINE.model_copy(update={"ground_friction": 0.0}))
+    world = PlanarWorld(kenan, ice, Effects())
+    start = kernel.energy(world.model, world.moment)
+    found = world.push_off()
+    world.go_to(found.moment)
+    velocity = Mechanics(kenan, 9.81).velocity_m_s(world.state())
+    assert found.flown
+    assert abs(velocity[0]) < 1e-6 < 0.5 < velocity[2]
+    assert kernel.energy(world.model, found.moment) == pytest.approx(start, rel=1e-5)
+
+
+@pytest.mark.parametrize("friction", [0.3, 1.5])
+def test_what_is_lost_is_accounted_for(kenan: Robot, friction: float) -> None:
+    """Energy falls by the work of damping, pins, slip and impact, and by nothing else."""
+    effects = Effects(pin_friction=0.25, pin_radius_m=(0.0015,) * 4)
+    world = PlanarWorld(kenan, FINE.model_copy(update={"ground_friction": friction}), effects)
+    found = world.push_off()
+    lost = kernel.energy(world.model, world.moment) - kernel.energy(world.model, found.moment)
+    losses = found.moment.losses
+    assert sum(losses) == pytest.approx(lost, rel=2e-4)
+    assert losses.damping_j > 0.1 * kenan.spring.energy_j
+    assert min(losses) > -1e-5 * kenan.spring.energy_j
+    slips = losses.slip_j > 0.01 * kenan.spring.energy_j
+    assert slips == (friction == 0.3)
+
+
+def test_pin_friction_takes_what_a_separate_study_found(kenan: Robot) -> None:
+    """Friction 0.25 in pins of 3 mm takes about 2 % of the springs' energy (`loads` gives the same pin forces)."""
+    world = PlanarWorld(kenan, replace_damping(FINE), Effects(pin_friction=0.25, pin_radius_m=(0.0015,) * 4))
+    found = world.push_off()
+    assert 0.012 < found.moment.losses.friction_j / kenan.spring.energy_j < 0.028
+
+
+def test_a_one_sided_spring_does_not_pull_back(kenan: Robot) -> None:
+    """Same push-off; beyond rest the leg goes on without springs."""
+    both, one = (PlanarWorld(kenan, FINE, Effects(one_sided_spring=flag)) for flag in (False, True))
+    assert one.push_off().moment.speed.ankle == pytest.approx(both.push_off().moment.speed.ankle, rel=1e-12)
+    assert one.model.one_sided_spring
+    assert kernel.spring_torque(one.model, 0.1) == 0.0
+    assert kernel.spring_torque(one.model, -0.1) == kernel.spring_torque(both.model, -0.1) > 0.0
+    reach = []
+    for world in (both, one):
+        world.go_to(world.push_off().moment)
+        reach.append(max(world.advance(1) for _ in range(round(0.03 / FINE.dt_s))))
+    assert reach[1] > 1.2 * reach[0] > 0.0
+
+
+def test_a_stop_holds_the_leg_and_keeps_momentum(kenan: Robot) -> None:
+    """In the air: the leg stops at its stop; the blow takes energy, but no momentum and no spin of the robot."""
+    stop, seconds = math.radians(5.0), 0.02
+    effects = Effects(one_sided_spring=True, stop_rad=stop)
+    world = world_at(kenan, moving(model_of(kenan), -0.05), replace_damping(FINE), effects)
+    mechanics, before = Mechanics(kenan, 9.81), world.state()
+    energy = kernel.energy(world.model, world.moment)
+    leg = [world.advance(1) for _ in range(round(seconds / FINE.dt_s))]
+    after = world.state()
+    assert world.moment.speed.leg == pytest.approx(0.0, abs=1e-3)
+    assert max(leg) == pytest.approx(stop, abs=math.radians(0.05))
+    assert leg[-1] == pytest.approx(stop, abs=math.radians(0.05))
+    change = mechanics.velocity_m_s(after) - mechanics.velocity_m_s(before)
+    np.testing.assert_allclose(change, [0.0, 0.0, -9.81 * seconds], atol=5e-4)
+    assert spin(mechanics, after) == pytest.approx(spin(mechanics, before), rel=1e-3)
+    lost = energy - kernel.energy(world.model, world.moment)
+    assert world.moment.losses.stop_j == pytest.approx(lost, rel=0.01)
+    assert lost > 0.001
+
+
+def test_a_stop_met_on_the_ground_lifts_the_robot(kenan: Robot) -> None:
+    """Undamped, the robot stands until its leg is past rest; a stop at rest takes it off the ground there."""
+    stopped, free = (
+        PlanarWorld(kenan, replace_damping(FINE), Effects(stop_rad=stop)).push_off() for stop in (0.0, math.inf)
+    )
+    assert free.moment.leg_rad > math.radians(0.3)
+    assert stopped.moment.leg_rad == pytest.approx(0.0, abs=math.radians(0.1))
+    assert stopped.flown
+    assert stopped.moment.losses.stop_j > 0.01 * kenan.spring.energy_j
+
+
+def test_a_turning_leg_at_release_brings_its_energy(kenan: Robot) -> None:
+    plain, turning = (PlanarWorld(kenan, replace_damping(FINE), Effects(release_rad_s=rate)) for rate in (0.0, 3.0))
+    more = kernel.energy(turning.model, turning.moment) - kernel.energy(plain.model, plain.moment)
+    assert more == pytest.approx(Mechanics(kenan, 9.81).energies(turning.state()).kinetic_j)
+    assert more > 0.005 * kenan.spring.energy_j
+    speeds = [abs(world.push_off().moment.speed.ankle) for world in (plain, turning)]
+    assert speeds[1] > speeds[0]
+
+
+def test_a_robot_that_stands_weighs_its_weight(kenan: Robot) -> None:
+    """Held by thick oil in its joints: the ground's two forces are the weight, under the centre of mass."""
+    dt = 1e-6
+    model = model_of(kenan, replace_damping(FINE, 5.0))
+    upright = kernel.released(model, 0.0, 0.0, complex(0.0, kenan.foot_depth_m))
+    contact = kernel.advance(model, upright, dt, 200).contact
+    assert contact.mode == kernel.STICK
+    assert (contact.first_ns + contact.second_ns) / dt == pytest.approx(9.81 * kenan.mass_kg, rel=1e-4)
+    arms = [model.sole_m[index].real for index in (contact.first, contact.second)]
+    borne = (arms[0] * contact.first_ns + arms[1] * contact.second_ns) / (contact.first_ns + contact.second_ns)
+    centre = Mechanics(kenan, 9.81).centre_of_mass_m(world_at(kenan, upright).state())[0]
+    assert borne == pytest.approx(centre, abs=1e-4)

@@ -1,0 +1,38 @@
+"""The planar model: what the plane takes of a robot, and what may be added to it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from jumpcad.errors import JumpcadError
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.planar_model import Effects
+
+
+@pytest.mark.parametrize("name", ["pin_friction", "stop_rad", "release_rad_s"])
+def test_effects_out_of_range(name: str) -> None:
+    with pytest.raises(JumpcadError, match=f"{name} = -0.1: must be at least 0"):
+        Effects(**{name: -0.1})
+
+
+def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
+    pairs = [
+        Settings(ground_friction=ground, foot_friction=foot) for ground, foot in ((0.3, 1.0), (0.6, 0.5), (0.6, 1.0))
+    ]
+    ranges = [simulate(kenan, settings, "planar").ballistic_range_m for settings in pairs]
+    assert ranges[0] == ranges[1]
+    assert ranges[2] > 1.5 * ranges[0]
+
+
+def test_left_and_right_do_not_count(lopsided: Robot) -> None:
+    """What is moved aside or turned about x or z changes nothing."""
+    bodies = {
+        name: replace(body, com_m=body.com_m * [1.0, 3.0, 1.0], inertia_kg_m2=np.diag(np.diag(body.inertia_kg_m2)))
+        for name, body in lopsided.bodies.items()
+    }
+    ranges = [
+        simulate(robot, engine="planar").ballistic_range_m for robot in (lopsided, replace(lopsided, bodies=bodies))
+    ]
+    assert ranges[0] == ranges[1]

@@ -1,0 +1,45 @@
+"""The gate and the verdict of a simulated jump."""
+
+import pytest
+
+from jumpcad.design import Design
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, simulate
+
+pytest.importorskip("pybullet")
+
+
+@pytest.mark.parametrize(
+    ("vector", "verdict"),
+    [
+        ([100, 1.1596, 0.6455, 0.6, 0.8, 70, 30, 10], "loop"),
+        ([144.04, 1.18, 0.7, 0.94, 0.53, 69.75, 28.72, 42.2], "below_ground"),
+        ([100, 1.0, 0.833, 0.2, 0.755, 70, 29.5, 40], "tips"),
+        ([100, 1.0, 0.833, 0.934, 0.2, 70, 5, 40], "too_weak"),
+    ],
+)
+def test_refused_designs_are_not_simulated(vector: list[float], verdict: str) -> None:
+    jump = simulate(capsule_robot(Design.from_vector(vector)))
+    assert jump.verdict == verdict
+    assert jump.fitness == 0.0
+    assert jump.ballistic_range_m is jump.com_rise_m is jump.takeoff_energy_ratio is jump.touchdown_distance_m is None
+    refusal = next(finding for finding in jump.findings if finding.name == verdict)
+    assert refusal.severity == "error"
+    assert refusal.margin < 0
+    assert refusal.remedy
+
+
+def test_a_robot_that_only_stands_up_does_not_take_off() -> None:
+    """1.4 times the work of standing up passes the gate, and is lost before the feet leave the ground."""
+    design = Design.from_vector([171.289, 1.139, 0.66, 1.043, 0.436, 67.926, 12.932, 38.146])
+    jump = simulate(capsule_robot(design))
+    assert jump.verdict == "no_takeoff"
+    assert jump.fitness == 0.0
+    assert jump.ballistic_range_m is None
+
+
+def test_heavier_gravity_makes_it_too_weak(kenan: Robot) -> None:
+    """At 9.81 m/s² the springs hold 6.8 times the work of standing up."""
+    assert simulate(kenan, Settings(gravity_m_s2=9.81 * 4)).verdict != "too_weak"
+    assert simulate(kenan, Settings(gravity_m_s2=9.81 * 6)).verdict == "too_weak"

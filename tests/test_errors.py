@@ -1,0 +1,16 @@
+"""An error is one line, whatever it quotes."""
+
+import pickle
+
+from jumpcad.errors import CannotBuildError, JumpcadError
+
+
+def test_an_error_is_one_line_whatever_it_quotes() -> None:
+    told = str(JumpcadError("a\nb\x1b[31m\0\u2028\ud800: no such file"))
+    assert told == r"a\nb\x1b[31m\x00\u2028\ud800: no such file"
+
+
+def test_errors_pass_from_worker_to_worker() -> None:
+    for kind in (JumpcadError, CannotBuildError):
+        again = pickle.loads(pickle.dumps(kind("too\tlong")))
+        assert (type(again), str(again), again.exit_code) == (kind, r"too\tlong", kind.exit_code)

@@ -1,0 +1,52 @@
+"""What `jumpcad` and `jumpcad.search` show: their public names, nothing else, and at no cost until they are used."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+from support.places import ROOT
+
+import jumpcad
+from jumpcad import search
+
+SHOW = """
+import sys
+import {package} as package
+heavy = {{"numpy", "scipy", "pydantic", "trimesh", "typer", "matplotlib", "sklearn"}} & set(sys.modules)
+import jumpcad.building, jumpcad.cli.commands, jumpcad.search.plots, jumpcad.simulation
+print(sorted(heavy), dir(package) == sorted(package.__all__), *dir(package))
+"""
+
+
+@pytest.mark.parametrize("package", [jumpcad, search])
+def test_only_public_names_are_shown_and_nothing_loads_before_its_use(package):
+    done = subprocess.run(
+        [sys.executable, "-c", SHOW.format(package=package.__name__)], capture_output=True, text=True, cwd=ROOT
+    )
+    assert done.stdout.startswith("[] True "), done.stdout + done.stderr
+    shown = done.stdout.split()[2:]
+    assert shown == sorted(package.__all__)
+    assert {"optimize"} <= set(shown)
+    assert not {"simulation", "cli", "face", "TYPE_CHECKING"} & set(shown)
+
+
+@pytest.mark.parametrize("package", [jumpcad, search])
+def test_every_public_name_is_there_and_others_are_not(package):
+    for name in package.__all__:
+        assert getattr(package, name) is not None
+    with pytest.raises(AttributeError, match=f"module '{package.__name__}' has no attribute 'robots'"):
+        _ = package.robots
+
+
+@pytest.mark.parametrize("package", [jumpcad, search])
+def test_types_are_declared_for_every_public_name(package):
+    text = (ROOT / package.__name__.replace(".", "/") / "__init__.py").read_text()
+    declared = set(re.findall(r"^    from .* import \w+ as (\w+)$", text, re.M))
+    assert declared == set(package.__all__) - {"__version__"}
+
+
+def test_examples_import_the_public_names_only():
+    for path in (ROOT / "examples").glob("*.py"):
+        imported = set(re.findall(r"^(?:from|import) (jumpcad[\w.]*)", path.read_text(), re.M))
+        assert imported <= {"jumpcad", "jumpcad.search"}, path.name

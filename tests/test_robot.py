@@ -1,0 +1,41 @@
+"""A printed robot is a mechanism whose bodies are made of its parts."""
+
+import pytest
+from support.built import LONG_TOES, built, geared
+
+import jumpcad
+from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.robot import Robot
+
+ROBOTS = {"kenan-2.0": lambda: built("kenan-2.0"), LONG_TOES: lambda: built(LONG_TOES), "two pairs of gears": geared}
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_robot_weighs_what_its_parts_weigh(name: str) -> None:
+    robot = ROBOTS[name]()
+    assert isinstance(robot, Mechanism)
+    pieces = [part.mass_kg for part in robot.parts for _ in range(part.quantity)]
+    pieces += [thing.mass_kg for thing in robot.hardware]
+    assert robot.mass_kg == pytest.approx(sum(pieces), rel=1e-9)
+
+
+def test_every_part_belongs_to_a_body() -> None:
+    robot = built("kenan-2.0")
+    on_bodies = {place.body for part in robot.parts for place in part.placements}
+    assert on_bodies == {*robot.bodies}
+
+
+def test_a_robot_cannot_be_without_parts() -> None:
+    capsules = capsule_robot(built("kenan-2.0").design)
+    with pytest.raises(TypeError, match="'parts', 'hardware', 'workshop', and 'layout'"):
+        Robot(**vars(capsules))
+
+
+@pytest.mark.parametrize("name", ["/", "..", "a/b", "a\nb", "\x1b[31m", "a.", "x" * 5000, "\ud800", " frog"])
+def test_what_cannot_name_files_is_refused_at_once_in_one_line(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("jumpcad.building.growth.assembled", None)  # not reached
+    with pytest.raises(JumpcadError, match="names files") as caught:
+        jumpcad.build(jumpcad.load_design("kenan-2.0"), name=name)
+    assert str(caught.value).isprintable()

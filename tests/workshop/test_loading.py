@@ -1,0 +1,112 @@
+"""Reading workshops: what a file may leave out, what it builds on, and what it may not name."""
+
+import re
+
+import pytest
+
+from jumpcad.errors import JumpcadError
+from jumpcad.files import template_names, to_toml
+from jumpcad.workshop import Workshop, load_workshop
+
+
+@pytest.mark.parametrize("name", template_names("printers"))
+def test_every_shipped_printer_can_be_chosen(name, written):
+    fine = 'base = "fine"\n' if name.endswith("0.25") else ""
+    assert load_workshop(written(f'{fine}printer = "{name}"')).printer.bed_mm[0] >= 180.0
+
+
+def test_published_sizes_of_beds_and_densities():
+    assert load_workshop("default").printer.bed_mm == (250.0, 210.0, 220.0)
+    assert load_workshop("default").material("links").density_g_cm3 == 1.27
+    assert load_workshop("default").material("body").density_g_cm3 == 1.24
+    assert load_workshop("fine").printer.bed_mm == (180.0, 180.0, 180.0)
+
+
+def test_a_file_overrides_any_subset(written):
+    base = load_workshop("default")
+    workshop = load_workshop(written("[fits]\nloose_mm = 0.35\n[materials.PETG]\ndensity_g_cm3 = 1.23\n"))
+    assert workshop.fits == base.fits.model_copy(update={"loose_mm": 0.35})
+    assert workshop.material("links") == base.material("links").model_copy(update={"density_g_cm3": 1.23})
+    assert workshop.process == base.process
+
+
+def test_files_build_on_each_other_by_relative_path(written):
+    written("[fits]\nloose_mm = 0.4\n", "below.toml")
+    assert load_workshop(written('base = "below.toml"\n[fits]\nsliding_mm = 0.25\n')).fits.loose_mm == 0.4
+
+
+def test_a_printer_may_be_changed_in_part(written):
+    printer = load_workshop(written("[printer]\nbed_mm = [100, 100, 100]\n")).printer
+    assert (printer.bed_mm, printer.nozzle_mm) == ((100.0, 100.0, 100.0), 0.4)
+
+
+def test_materials_of_ones_own_and_weighed_parts(written):
+    text = """
+    [roles]
+    links = "ABS"
+    [materials.ABS]
+    density_g_cm3 = 1.04
+    strength_in_plane_mpa = 35.0
+    strength_interlayer_mpa = 15.0
+    modulus_mpa = 1900.0
+    [mass.weighed_g]
+    foot = 11.2
+    """
+    workshop = load_workshop(written(text))
+    assert sorted(workshop.materials) == ["ABS", "PETG", "PLA"]
+    assert (workshop.material_name("links"), workshop.mass.weighed_g) == ("ABS", {"foot": 11.2})
+
+
+@pytest.mark.parametrize("name", ["PLA", "PA12 CF15", "PETG (grey)", "机器人", "Ähnlich-1.75", "_x"])
+def test_names_of_materials_are_of_any_script(name, written):
+    text = f'[roles]\nlinks = "{name}"\n[materials."{name}"]\n' + to_toml(
+        load_workshop("default").material("links").model_dump(exclude_none=True)
+    )
+    assert load_workshop(written(text)).material_name("links") == name
+
+
+@pytest.mark.parametrize("section", Workshop.model_fields)
+def test_a_section_that_is_no_table_is_told_in_words(section, written):
+    if section == "printer":  # alone it names a printer
+        return
+    with pytest.raises(JumpcadError, match=rf"my.toml:1: {section} = 'PLA': must be a table: \[{section}\]"):
+        load_workshop(written(f'{section} = "PLA"'))
+    with pytest.raises(JumpcadError, match=r"roles = 'PLA': must be a table: \[roles\] with links, body, gears$"):
+        load_workshop(written('roles = "PLA"'))
+
+
+def test_a_chain_of_workshops_has_an_end(written):
+    for number in range(1500):
+        written(f'base = "{number + 1}.toml"\n', f"{number}.toml")
+    with pytest.raises(JumpcadError, match="more than 20 workshops build on each other"):
+        load_workshop(written("", "0.toml").with_name("1.toml"))
+    assert load_workshop(written("", "1499.toml").with_name("1490.toml")) == load_workshop("default")
+
+
+def test_links_that_lead_round_in_a_circle(written):
+    path = written('base = "loop.toml"\n')
+    path.with_name("loop.toml").symlink_to("loop.toml")
+    with pytest.raises(JumpcadError, match="loop"):
+        load_workshop(path)
+
+
+def test_an_unknown_workshop_is_refused_with_the_known_ones():
+    with pytest.raises(JumpcadError, match="one of the workshops default, fine, light"):
+        load_workshop("kitchen")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            '[roles]\nlinks = "pettg"',
+            r"'pettg' is neither a table under \[materials\] nor one of .*did you mean petg\?",
+        ),
+        ("[materials.PTEG]\nmodulus_mpa = 1.0", r"materials.PTEG: no role uses it.*did you mean PETG\?"),
+        ('printer = "mk5"', r"'mk5' is neither a TOML file nor one of the printers .*did you mean mk4\?"),
+        ('base = "my.toml"', r"leads back to a file that builds on it"),
+        ("base = 3", r"base = 3: must be the name of a workshop or a path"),
+    ],
+)
+def test_a_base_printer_or_material_that_is_not_there_is_one_line(text, message, refusal):
+    assert re.search(message, refusal(text))

@@ -1,0 +1,61 @@
+"""Limits of every value of a workshop, of its names and of its free text."""
+
+import json
+import re
+
+import pytest
+
+from jumpcad.errors import JumpcadError
+from jumpcad.workshop import load_workshop
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["x/../../../report", "x\\y", ".hidden", "=HYPERLINK(1)", "+1", "-1", "@x", "a\u0001", "[/x]", "a\nb", "", " a",
+     "a|b", "a<b", "P" * 51, "\u202ex"],
+)  # fmt: skip
+def test_names_that_could_become_paths_formulas_or_markup_are_refused(name, written):
+    quoted = json.dumps(name)  # TOML writes such texts as JSON does
+    for text in (
+        f"[roles]\nlinks = {quoted}\n[materials.{quoted}]\ndensity_g_cm3 = 1.2\n",
+        f"[mass.weighed_g]\n{quoted} = 1.0\n",
+        f"[prices_eur]\n{quoted} = 1.0\n",
+        f"[bought]\nmotors = [{quoted}]\n",
+        f"[bought]\nroller = {quoted}\n",
+    ):
+        with pytest.raises(JumpcadError, match="a name has 1 to 50 letters, digits, blanks") as caught:
+            load_workshop(written(text))
+        assert str(caught.value).isprintable()
+
+
+@pytest.mark.parametrize("text", ["a\x07", "a\x1b[31m", "a\nb", "a\u2028b", "a\u202eb", "a" * 1001])
+def test_free_text_is_one_line_that_steers_no_terminal(text, written):
+    for key in ("printer.name", "printer.source", "materials.PETG.source"):
+        with pytest.raises(JumpcadError, match=f"{key} = .*: (holds the control character U|has 1001 characters)"):
+            load_workshop(written(f"{key} = {json.dumps(text)}"))
+
+
+def test_fits_that_no_printer_needs_are_refused(written):
+    fits = ("press_mm", "sliding_mm", "loose_mm", "hole_allowance_diameter_mm")
+    with pytest.raises(JumpcadError) as caught:
+        load_workshop(written("[fits]\n" + "".join(f"{key} = -0.5\n" for key in fits)))
+    assert all(f"fits.{key} = -0.5: must be at least" in str(caught.value) for key in fits)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[printer]\nnozzle_mm = 0", r"my.toml:2: printer.nozzle_mm = 0: must be at least 0.1"),
+        ("[process]\ninfill = nan", r"process.infill = nan: must be a finite number"),
+        ("[fits]\npress_mm = -0.6", r"fits.press_mm = -0.6: must be at least -0.2"),
+        ("[fits]\nlose_mm = 0.4", r"fits.lose_mm: unknown key \(did you mean loose_mm\?\)"),
+        ('[roles]\nlinks = "PA12"', r"materials.PA12.strength_in_plane_mpa: missing"),
+        ("process = 3", r"process = 3: must be"),
+        ("[mass.weighed_g]\nfoot = -1", r"weighed_g.foot = -1: must be more than 0"),
+        ("[prices_eur]\nnut = 0", r"prices_eur.nut = 0: must be more than 0"),
+        ("[materials.PETG]\nprice_eur_per_kg = -20.0", r"PETG.price_eur_per_kg = -20.0: must be more than 0"),
+        ('[mass]\nmodel = "guess"', r"mass.model = 'guess': must be 'printed' or 'solid'"),
+    ],
+)
+def test_values_beyond_their_limits_are_one_line(text, message, refusal):
+    assert re.search(message, refusal(text))

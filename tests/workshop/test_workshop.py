@@ -1,0 +1,58 @@
+"""The workshop as a whole: it reads back as written, its values go together, and it cannot be changed."""
+
+import re
+from dataclasses import FrozenInstanceError
+
+import pytest
+from pydantic import ValidationError
+
+import jumpcad
+from jumpcad.catalogue import load_catalogue
+from jumpcad.errors import JumpcadError
+from jumpcad.files import template_names
+from jumpcad.workshop import Workshop, load_workshop
+
+
+@pytest.mark.parametrize("name", template_names("workshops"))
+def test_a_written_workshop_reads_back_the_same(name, written):
+    workshop = load_workshop(name)
+    path = written(workshop.to_toml())
+    assert load_workshop(path) == workshop
+    assert load_workshop(path).to_toml() == workshop.to_toml()
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "[process]\nlayer_height_mm = 0.35",
+            r"my.toml:2: process.layer_height_mm = 0.35: must be at most 0.32",
+        ),
+        ("[process]\nline_width_mm = 0.2", r"nozzle of 0.4 mm lays lines of 0.32…0.8 mm"),
+        ("[fits]\nwall_mm = 0.85", r"fits.wall_mm = 0.85: must be at least 0.9, two lines"),
+        ("[fits]\nsliding_mm = 0.05", r"fits.sliding_mm = 0.05: must be at least fits.press_mm = 0.1"),
+        (
+            "[fits]\nm3_tap_mm = 3.1\nm3_clearance_mm = 3",
+            r"fits.m3_clearance_mm = 3.0: must be at least fits.m3_tap_mm = 3.1",
+        ),
+        ("[fits]\nfirst_layer_chamfer_mm = 0.7", r"leaves nothing of a wall of 1.2: must be less than 0.6"),
+    ],
+)
+def test_values_that_do_not_go_together_are_one_line(text, message, refusal):
+    assert re.search(message, refusal(text))
+
+
+def test_a_workshop_cannot_be_changed():
+    workshop = jumpcad.load_workshop()
+    assert isinstance(workshop, Workshop)
+    with pytest.raises((ValidationError, FrozenInstanceError)):
+        workshop.fits.loose_mm = 1.0
+
+
+def test_own_parts_are_checked_in_python_too() -> None:
+    data = load_workshop().model_dump()
+    n20 = load_catalogue().motors["n20-298"]
+    workshop = Workshop(**data | {"motors": {"mine": n20.model_copy(update={"name": "mine", "mass_g": 9.0})}})
+    assert workshop.catalogue.motors["mine"].mass_g == 9.0
+    with pytest.raises(JumpcadError, match=r"motors\.mine\.name = 'n20-298': a part has its table's name"):
+        Workshop(**data | {"motors": {"mine": n20}})
