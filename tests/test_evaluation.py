@@ -134,3 +134,10 @@ def test_the_same_document_in_another_process() -> None:
         env={**os.environ, "PYTHONHASHSEED": "7"},
     ).stdout  # fmt: skip
     assert json.loads(there) == json.loads(json.dumps(evaluate(load_design("best-bo")).to_dict()))
+
+
+def test_electricity_is_voltage_times_mean_current_times_time() -> None:
+    result = evaluate(load_design("kenan-2.0"))
+    train = result.robot.layout.drive.train
+    power = train.motor.voltage_v * train.mean_current_a
+    assert result.metrics["electrical_energy_j"] == pytest.approx(power * result.metrics["winding_time_s"], rel=1e-9)

@@ -1,0 +1,97 @@
+"""The SDF's hinges: where they stop, and the spring on one of them, against the linkage and the URDF."""
+
+import math
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from jumpcad.design import load_design
+from jumpcad.exporters.sdf import write_sdf
+from jumpcad.exporters.urdf import write_urdf
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import FOOT, FRONT_LINK, Mechanism
+from jumpcad.settings import Settings
+
+
+@pytest.fixture(scope="module", params=["kenan-1.0", "best-bo"])
+def mechanism(request: pytest.FixtureRequest) -> Mechanism:
+    return capsule_robot(load_design(request.param))
+
+
+def number(node: ET.Element, path: str) -> float:
+    text = node.findtext(path)
+    assert text is not None
+    return float(text)
+
+
+def hinges(mechanism: Mechanism) -> dict[str, ET.Element]:
+    """Return the revolute joints of the SDF by name."""
+    root = ET.fromstring(write_sdf(mechanism))
+    return {str(joint.get("name")): joint for joint in root.iter("joint") if joint.get("type") == "revolute"}
+
+
+def test_the_travel_lies_within_the_limits_and_a_quarter_turn_beyond(mechanism: Mechanism) -> None:
+    """The loop, solved at 200 leg angles, says how far every joint turns; a leg that swings on meets no stop."""
+    pose = Linkage(mechanism.design).pose(np.linspace(-mechanism.design.compression_rad, 0.0, 200))
+    for name, turn in (("leg", pose.leg_rad), ("front", pose.front_rad), ("ankle", pose.ankle_rad)):
+        limit = hinges(mechanism)[name].find("axis/limit")
+        assert limit is not None
+        assert number(limit, "lower") == pytest.approx(turn.min() - math.pi / 2, abs=2e-3), name
+        assert number(limit, "upper") == pytest.approx(turn.max() + math.pi / 2, abs=2e-3), name
+
+
+def test_urdf_and_sdf_stop_at_the_same_angles(mechanism: Mechanism) -> None:
+    root = ET.fromstring(write_urdf(mechanism))
+    for joint in root.iter("joint"):
+        twin, limit = hinges(mechanism)[str(joint.get("name"))], joint.find("limit")
+        assert limit is not None
+        for ours, key in (("lower", "lower"), ("upper", "upper"), ("effort", "effort"), ("velocity", "velocity")):
+            assert number(twin, f"axis/limit/{ours}") == pytest.approx(float(limit.attrib[key]), rel=1e-9)
+
+
+def test_the_spring_holds_the_designs_energy(mechanism: Mechanism) -> None:
+    """Stiffness on the leg's hinge alone, at rest where the angle is 0: half of it times the loading squared."""
+    springs = {
+        name: joint.find("axis/dynamics/spring_stiffness") is not None for name, joint in hinges(mechanism).items()
+    }
+    assert [name for name, there in springs.items() if there] == ["leg"]
+    leg = hinges(mechanism)["leg"]
+    assert number(leg, "axis/dynamics/spring_reference") == 0.0
+    energy = 0.5 * number(leg, "axis/dynamics/spring_stiffness") * mechanism.design.compression_rad**2
+    assert energy == pytest.approx(mechanism.design.spring_energy_j, rel=1e-9)
+
+
+def test_friction_is_the_grounds_times_the_surfaces(mechanism: Mechanism) -> None:
+    root = ET.fromstring(
+        write_sdf(mechanism, settings=Settings(ground_friction=0.8, foot_friction=0.9, body_friction=0.3))
+    )
+    for link in root.iter("link"):
+        expected = 0.8 * (0.9 if link.get("name") == FOOT else 0.3)
+        for key in ("mu", "mu2"):
+            for found in link.iter(key):
+                assert float(str(found.text)) == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_loop_is_one_point_of_two_links_and_masses_lie_where_they_do(mechanism: Mechanism) -> None:
+    """Read from the file alone: poses of links, the joint's point in its child, and the other link's eye."""
+    root = ET.fromstring(write_sdf(mechanism))
+
+    def pose(node: ET.Element) -> tuple[np.ndarray, np.ndarray]:
+        numbers = [float(value) for value in str(node.findtext("pose")).split()]
+        return Rotation.from_euler("xyz", numbers[3:]).as_matrix(), np.array(numbers[:3])
+
+    links = {str(link.get("name")): link for link in root.iter("link")}
+    (loop,) = (joint for joint in root.iter("joint") if joint.get("type") == "ball")
+    rotation, origin = pose(links[str(loop.findtext("child"))])
+    point = origin + rotation @ pose(loop)[1]
+    assert {loop.findtext("parent"), loop.findtext("child")} == {FRONT_LINK, FOOT}
+    for name, length in ((FRONT_LINK, mechanism.design.l3_mm), (FOOT, mechanism.design.l4_mm)):
+        rotation, origin = pose(links[name])
+        np.testing.assert_allclose(point, origin + rotation @ [length / 1000.0, 0.0, 0.0], atol=1e-6)
+    for name, link in links.items():
+        inertial = link.find("inertial")
+        assert inertial is not None
+        np.testing.assert_allclose(pose(inertial)[1], mechanism.bodies[name].com_m, atol=1e-9)
