@@ -12,7 +12,7 @@ from jumpcad.bundle.manifest import open_bundle, unlisted, verify
 from jumpcad.errors import JumpcadError
 
 SHA = "0" * 64
-GOOD = {"format": 1, "name": "frog", "versions": {"jumpcad": "0.1.0"}, "files": {"a/b.txt": SHA}}
+GOOD = {"format": 1, "name": "frog", "versions": {"jumpcad": "0.1.0"}, "files": {"a/b.md": SHA}}
 LINE = {"kind": "printed", "name": "foot", "quantity": 1, "material": "PLA", "mass_kg": 0.1, "source": "printed"}
 
 
@@ -27,7 +27,7 @@ def refused(folder: Path, text: str | bytes) -> str:
 
 def test_a_manifest_of_ours_is_read_and_may_say_more(tmp_path: Path) -> None:
     (tmp_path / "manifest.json").write_text(json.dumps(GOOD | {"masses": [LINE], "drive": {"springs": []}}))
-    assert open_bundle(tmp_path).files == ("a/b.txt",)
+    assert open_bundle(tmp_path).files == ("a/b.md",)
 
 
 @pytest.mark.parametrize(
@@ -47,7 +47,7 @@ def test_what_is_no_manifest_is_refused_in_one_line(tmp_path: Path, text: str | 
     [
         {"format": True}, {"format": "1"}, {"format": 1.0}, {"name": ""}, {"name": 3}, {"name": "../up"},
         {"name": ".."}, {"name": "a/b"}, {"name": "a\nb"}, {"versions": None}, {"versions": {"numpy": 2}},
-        {"files": []}, {"files": {"a": "sha"}}, {"files": {"a": SHA.upper() + "g"}}, {"files": {"a": None}},
+        {"files": []}, {"files": {"a.md": "sha"}}, {"files": {"a.md": SHA.upper() + "g"}}, {"files": {"a.md": None}},
         {"masses": 3}, {"masses": [{}]}, {"masses": [LINE | {"mass_kg": -1.0}]}, {"masses": [LINE | {"quantity": 0}]},
         {"masses": [LINE | {"name": None}]},
     ],
@@ -64,8 +64,8 @@ def test_another_format_is_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "path",
     [
-        "", "/etc/passwd", "..", "../a", "a/../../b", "a/..", ".", "./a", "a//b", "a/", "a\\..\\b", "C:a",
-        "a\nb", "a\x1b[2Jb", "a\x00b", "a\ud800", "manifest.json", "a/b.txt/c",
+        "", "/etc/a.md", "..", "../a.md", "a/../../b.md", "a/..", ".", "./a.md", "a//b.md", "a/", "a\\..\\b.md", "C:a.md",
+        "a\nb.md", "a\x1b[2Jb.md", "a\x00b.md", "a\ud800.md", "manifest.json", "a/b.md/c.md", ".git/HEAD", "a/.b.md", "a",
     ],
     ids=repr,
 )  # fmt: skip
@@ -85,32 +85,32 @@ def test_what_is_no_plain_file_is_not_opened(tmp_path: Path) -> None:
 
 
 def test_files_that_are_not_plain_are_named_and_not_opened(tmp_path: Path) -> None:
-    names = ["deep/file", "fifo", "folder", "good", "link", "zero"]
+    names = ["deep/file.md", "fifo.md", "folder.md", "good.md", "link.md", "zero.md"]
     bundle = write_folder(tmp_path / "b", "frog", {}, ((name, "x") for name in names))
     (tmp_path / "outside").mkdir()
-    for name in ("file", "link"):
+    for name in ("file.md", "link.md"):
         (tmp_path / "outside" / name).write_text("x")
-    for name in ("fifo", "folder", "link", "zero", "deep/file"):
+    for name in ("fifo.md", "folder.md", "link.md", "zero.md", "deep/file.md"):
         (bundle.folder / name).unlink()
-    os.mkfifo(bundle.folder / "fifo")
-    (bundle.folder / "folder").mkdir()
-    (bundle.folder / "link").symlink_to("../outside/link")
-    (bundle.folder / "zero").symlink_to("/dev/zero")
+    os.mkfifo(bundle.folder / "fifo.md")
+    (bundle.folder / "folder.md").mkdir()
+    (bundle.folder / "link.md").symlink_to("../outside/link.md")
+    (bundle.folder / "zero.md").symlink_to("/dev/zero")
     (bundle.folder / "deep").rmdir()
     (bundle.folder / "deep").symlink_to("../outside")
     wrong = {
-        "deep/file": "behind a link", "fifo": "not a plain file", "folder": "not a plain file", "link": "a link",
-        "zero": "a link",
+        "deep/file.md": "behind a link", "fifo.md": "not a plain file", "folder.md": "not a plain file", "link.md": "a link",
+        "zero.md": "a link",
     }  # fmt: skip
     assert verify(bundle.folder) == [f"{path}: {reason}" for path, reason in wrong.items()]
     for path, reason in {**wrong, "other": "not in the manifest"}.items():
         with pytest.raises(JumpcadError, match=f"b: {path}: {reason}; jumpcad build"):
             bundle.file(path)
-    assert bundle.file("good").read_text() == "x"
+    assert bundle.file("good.md").read_text() == "x"
 
 
 def test_what_was_added_is_named_apart_and_printable(tmp_path: Path) -> None:
-    folder = write_folder(tmp_path / "b", "frog", {}, [("deep/a.txt", "x")]).folder
+    folder = write_folder(tmp_path / "b", "frog", {}, [("deep/a.md", "x")]).folder
     (folder / "deep" / "notes.txt").write_text("mine")
     (folder / "album" / "empty").mkdir(parents=True)
     (folder / "\x1b[2J").write_text("mine")
