@@ -64,8 +64,10 @@ def test_another_format_is_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "path",
     [
-        "", "/etc/a.md", "..", "../a.md", "a/../../b.md", "a/..", ".", "./a.md", "a//b.md", "a/", "a\\..\\b.md", "C:a.md",
-        "a\nb.md", "a\x1b[2Jb.md", "a\x00b.md", "a\ud800.md", "manifest.json", "a/b.md/c.md", ".git/HEAD", "a/.b.md", "a",
+        "", "/etc/a.md", "..", "../a.md", "a/../../b.md", "a/..", ".", "./a.md", "a//b.md", "a/",
+        "a\\..\\b.md", "C:a.md",
+        "a\nb.md", "a\x1b[2Jb.md", "a\x00b.md", "a\ud800.md", "manifest.json", "a/b.md/c.md",
+        ".git/HEAD", "a/.b.md", "a",
     ],
     ids=repr,
 )  # fmt: skip
@@ -99,7 +101,8 @@ def test_files_that_are_not_plain_are_named_and_not_opened(tmp_path: Path) -> No
     (bundle.folder / "deep").rmdir()
     (bundle.folder / "deep").symlink_to("../outside")
     wrong = {
-        "deep/file.md": "behind a link", "fifo.md": "not a plain file", "folder.md": "not a plain file", "link.md": "a link",
+        "deep/file.md": "behind a link", "fifo.md": "not a plain file", "folder.md": "not a plain file",
+        "link.md": "a link",
         "zero.md": "a link",
     }  # fmt: skip
     assert verify(bundle.folder) == [f"{path}: {reason}" for path, reason in wrong.items()]
