@@ -98,7 +98,7 @@ def test_a_full_disk_leaves_no_drawing(sandbox: Sandbox) -> None:
         sandbox.run("render", "robot", "-o", "drawn", exits=(2,))
 
 
-@pytest.mark.parametrize("command", ["new", "build over", "readings", "table"])
+@pytest.mark.parametrize("command", ["new", "build over", "coupon", "readings", "trajectory", "table"])
 def test_a_failing_rename_leaves_all_as_it_was(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
     def fail(*_: object, **__: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
@@ -155,7 +155,7 @@ def raising(error: BaseException) -> Callable[..., Any]:
     return fail
 
 
-@pytest.mark.parametrize("place", ["json.dumps", "hashlib.sha256"])
+@pytest.mark.parametrize("place", ["jumpcad.design.load_design", "json.dumps", "os.fsync", "hashlib.sha256"])
 @pytest.mark.parametrize("command", ["new", "build over"])
 def test_an_interrupt_leaves_nothing_half(
     sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, place: str, command: str
@@ -274,8 +274,8 @@ def test_a_reader_that_has_left_is_no_error(sandbox: Sandbox) -> None:
     os.close(writing)
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
-@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("check", "机器人.toml")])
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252"])
+@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("check", "机器人.toml"), ("reproduce",)])
 def test_a_terminal_of_another_encoding_is_borne(sandbox: Sandbox, command: tuple[str, ...], encoding: str) -> None:
     sandbox.run(*command, exits=(0, 2), encoding=encoding)
 

@@ -199,8 +199,8 @@ def test_what_a_user_has_is_kept(sandbox: Sandbox, originals: Originals, case: s
 
 
 @pytest.mark.parametrize("number", range(len(FOREIGN)))
-def test_a_manifest_of_another_kind_makes_no_bundle(sandbox: Sandbox, number: int) -> None:
-    command = (BUILD, COUPON)[number % 2]
+@pytest.mark.parametrize("command", [BUILD, COUPON], ids=lambda words: words[0])
+def test_a_manifest_of_another_kind_makes_no_bundle(sandbox: Sandbox, command: tuple[str, ...], number: int) -> None:
     sandbox.write("site/manifest.json", json.dumps(FOREIGN[number]))
     sandbox.write("site/src/thesis.md", "x")
     sandbox.run(*command, "site", exits=(2,))

@@ -61,7 +61,7 @@ def ask(sandbox: Sandbox, kind: str, exits: tuple[int, ...] = ANY) -> None:
     sandbox.run(*commands[kind], "--json", exits=exits, writes=["w.toml"])
 
 
-@pytest.mark.parametrize("number", range(32))
+@pytest.mark.parametrize("number", range(48))
 def test_a_strange_number_in_a_design_is_refused(sandbox: Sandbox, number: int) -> None:
     key, value = PARAMETERS[number % 8], list(VALUES)[(number // 8 + number) % len(VALUES)]
     sandbox.case = f"{key} = {value}"
