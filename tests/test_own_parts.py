@@ -107,7 +107,7 @@ FITS = {
 REFUSED = {
     "short shaft": (
         motor(shaft_length_mm=5.0),
-        r"^the shaft of motor own is 5 mm long; 5\.9 mm reach through its cap and 3 mm into its pinion: allow a motor "
+        r"^the shaft of motor own is 5 mm long; it needs 5\.9 mm to pass its cap and reach 3 mm into its pinion: allow a motor "
         "with a longer shaft$",
     ),
     "gear motor of 60 mm": (
@@ -124,12 +124,12 @@ REFUSED = {
     ),
     "bearing 625 for the roller": (
         bearing("roller", 5.0, 16.0, 5.0),
-        r'^bought\.roller = "own": its bore of 5 mm does not sit on the M3 screw that holds it: choose a '
+        r'^bought\.roller = "own": its bore of 5 mm does not fit the M3 screw that holds it: choose a '
         "bearing with a bore of 3 mm$",
     ),
     "large bearing in the hub": (
         bearing("leg_bearing", 3.0, 30.0, 8.0),
-        r"^the leg's bearing own is 30 mm outside; 1\d\.\d mm fit beside the roller's screw and the cam's axle: "
+        r"^the leg's bearing own has 30 mm diameter; 1\d\.\d mm fit beside the roller's screw and the cam's axle: "
         r"choose a smaller bought\.leg_bearing$",
     ),
     "wide bearing in the hub": (

@@ -60,7 +60,7 @@ def test_what_cannot_be_driven_is_refused_with_a_parameter_to_change():
     with pytest.raises(CannotBuildError, match=r"(compression_ratio|stiffness_nmm_per_deg)"):
         synthesise(design, LIMITS)
     flat = load_design("kenan-2.0").model_copy(update={"c_coef": 0.3, "d_coef": 0.6, "rest_angle_deg": 40.0})
-    with pytest.raises(CannotBuildError, match=r"wound by -3\.9\d°, less than 0\.5°: raise compression_ratio"):
+    with pytest.raises(CannotBuildError, match=r"loaded by -3\.9\d°, less than 0\.5°: raise compression_ratio"):
         synthesise(flat, LIMITS)
     with pytest.raises(CannotBuildError, match=r"no lever from 56\.\d mm .* to 45 mm"):
         synthesise(

@@ -97,7 +97,7 @@ def test_a_jump_costs_electricity_of_the_order_that_was_measured():
 
 def test_a_motor_that_turns_the_cam_at_no_ratio_is_refused():
     weak = [load_catalogue().motors["n20-30"]]
-    with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it takes 164 mN·m.*stronger motor"):
+    with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it needs 164 mN·m.*stronger motor"):
         synthesise_train(law_of("best-bo"), weak, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0))
     with pytest.raises(CannotBuildError, match="no motor is allowed"):
         synthesise_train(law_of("best-bo"), [], LIMITS)

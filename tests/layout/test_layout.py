@@ -132,7 +132,7 @@ def test_what_moves_passes_what_stands() -> None:
             for body, (ends, radius) in bars.items():
                 bar = shapely.LineString(in_body(layout, body, wind, np.array(ends)))
                 for name, thing in things.items():
-                    where = f"{plan_name}: {body} meets {name}, wound by {math.degrees(wind):.0f}°"
+                    where = f"{plan_name}: {body} meets {name}, loaded by {math.degrees(wind):.0f}°"
                     assert bar.distance(thing) >= radius, where
 
 

@@ -51,7 +51,7 @@ def test_a_link_stays_inside_its_sweep_all_the_way(name: str, link: str) -> None
     room = area(swept(robot)[link]).buffer(BETWEEN_MM[link])
     for wind in windings(robot):
         bar = shapely.LineString(in_body(robot, body, wind, np.array(ends))).buffer(radius)
-        assert room.contains(bar), f"{link} wound by {np.degrees(wind):.1f}°"
+        assert room.contains(bar), f"{link} loaded by {np.degrees(wind):.1f}°"
 
 
 def test_the_lever_leads_the_leg_by_its_angle_and_swings_on_past_rest() -> None:
