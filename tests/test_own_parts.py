@@ -107,7 +107,8 @@ FITS = {
 REFUSED = {
     "short shaft": (
         motor(shaft_length_mm=5.0),
-        r"^the shaft of motor own is 5 mm long; it needs 5\.9 mm to pass its cap and reach 3 mm into its pinion: allow a motor "
+        r"^the shaft of motor own is 5 mm long; it needs 5\.9 mm to pass its cap and reach 3 mm into "
+        r"its pinion: allow a motor "
         "with a longer shaft$",
     ),
     "gear motor of 60 mm": (
@@ -180,7 +181,7 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Robot:
     return build(KENAN, load_workshop(path))
 
 
-def test_the_example_of_the_readme_passes_every_check_and_its_parts_are_billed(example: Robot) -> None:
+def test_the_example_of_the_readme_passes_every_check_and_its_parts_are_listed(example: Robot) -> None:
     assert not errors(check(example))
     lines = {line.name: line for line in bill_of_materials(example).items}
     assert lines["gear motor square-16"].mass_kg == pytest.approx(0.032)

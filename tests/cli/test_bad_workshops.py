@@ -16,7 +16,7 @@ WRONG = {
     "axle without bearing": ("[bought]\naxle_mm = 4", r"bought.axle_mm = 4: change one of them, or run the hub on its"),
     "axle without spacer": (
         '[bought]\naxle_mm = 5\nleg_bearing = ""',
-        r"bought.axle_mm = 5 is more than 4.4, the most with which spacers of 6.4 mm keep a wall .*: use a thinner axle",
+        r"bought.axle_mm = 5 is more than 4.4, the most with which spacers of 6.4 mm keep a .*: use a thinner axle",
     ),
 }
 HOPELESS = {

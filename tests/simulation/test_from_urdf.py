@@ -1,4 +1,4 @@
-"""URDF and loop files from strangers: read as they were written, or refused in one line."""
+"""URDF and loop files from unknown sources: read as they were written, or rejected in one line."""
 
 import json
 import os

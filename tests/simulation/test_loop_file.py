@@ -1,4 +1,4 @@
-"""The file beside a URDF: what is written is read, and what no robot has is refused."""
+"""The file beside a URDF: what is written is read, and what no robot has is rejected."""
 
 import json
 from typing import Any

@@ -1,4 +1,4 @@
-"""Built robots, and rulers for their meshes: sections by trimesh and shapely, without the package's own geometry."""
+"""Built robots, and measurements of their meshes by trimesh and shapely, without the package's own geometry."""
 
 from functools import lru_cache
 
