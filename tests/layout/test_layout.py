@@ -23,7 +23,7 @@ from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop
 
 LARGE_CAM = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 28.683, 36.353])
-"""A robot without room for a motor: its cam reaches up to 87 mm."""
+"""A robot with no room above it: its cam reaches up to 87 mm."""
 NARROW = Design.from_vector([192.41447, 0.913403, 0.683251, 0.737175, 0.743193, 64.881978, 28.74928, 25.276114])
 """A robot whose spring pin has a place of a few degrees, between main leg and cam gear."""
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", LONG_TOES]
