@@ -75,7 +75,7 @@ def printability_findings(robot: Robot) -> list[Finding]:
         _narrowest("holes", "hole", flat, _narrow_hole, hole_min, f"{finer}, or drill it"),
         _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, finer),
         _largest("overhangs", "overhang", reaches, 2.0 * process.line_width_mm, "turn the part over, or use support"),
-        _largest("bridges", "bridge", spans, fits.bridge_mm, "use support, or raise fits.bridge_mm if it may"),
+        _largest("bridges", "bridge", spans, fits.bridge_mm, "use support, or raise fits.bridge_mm if possible"),
         *_solid_findings(drawings),
     ]
 
@@ -103,8 +103,8 @@ def _narrowest(
 def _largest(name: str, what: str, sizes: Sequence[tuple[float, str]], most_mm: float, remedy: str) -> Finding:
     """Return the finding of the largest of named sizes."""
     worst, where = max(sizes, default=(0.0, ""))
-    found = f"the longest {what} is {worst:.2f} mm, in {where}" if where else f"no part has an {what}"
-    return at_most(name, worst, most_mm, "mm", f"{found}; {most_mm:g} mm hold without support", remedy)
+    found = f"the longest {what} is {worst:.2f} mm, in {where}" if where else f"no part has any {what}"
+    return at_most(name, worst, most_mm, "mm", f"{found}; {most_mm:g} mm print without support", remedy)
 
 
 def _tall_regions(drawing: Drawing, least_mm: float) -> Iterator[tuple[float, Region]]:
