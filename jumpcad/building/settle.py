@@ -41,9 +41,9 @@ class Settled:
 
 
 def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
-    """Return linkage, sections, holes and drive with the lightest hub bearing that carries its load.
+    """Return linkage, sections, holes and drive with the lightest hub bearing that bears its load.
 
-    If none does, it is the strongest one, and `jumpcad.checks` warns of it.
+    Where none does, it is the strongest one, of which `jumpcad.checks` then warns.
 
     Raises
     ------

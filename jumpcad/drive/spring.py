@@ -14,7 +14,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, at_most
 
 TURNS_MIN, INDEX_MIN, INDEX_MAX = 2.0, 4.0, 16.0
-"""Least turns, and least and largest diameter of coil over wire; judgement: what spring makers offer."""
+"""Least turns, and least and largest diameter of coil over wire; judgement: what makers of springs offer."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class SpringLimits:
     mandrel_min_mm
         The smallest bushing that can carry a coil.
     pin_radius_min_mm
-        Least distance from the axle to the pins that hold the arms: the body's pin crosses the main leg's plane.
+        From the axle to the pins that hold the arms, at least: the body's pin crosses the plane of the main leg.
     stress_share
         Allowable bending stress over tensile strength.
     mandrel_clearance_mm
@@ -36,7 +36,7 @@ class SpringLimits:
         The lengths are tried in this order: a long, thin spring widens the robot, a short one is
         larger around the leg's axle. Judgement: the room beside the cam, and between leg and gears.
     arm_reach_mm
-        Distance from the outside of the coil to the pins; judgement: pin, its eye and a gap.
+        From the outside of the coil to the pins; judgement: pin, its eye and a gap.
     """
 
     mandrel_min_mm: float
@@ -55,19 +55,19 @@ class TorsionSpring:
     Attributes
     ----------
     turns
-        Turns of the body at rest, as manufactured; not rounded, so that the stiffness is the design's exactly.
+        Turns of the body at rest, which its maker winds; real-valued, so that the stiffness is the design's exactly.
     body_length_mm
         Length of the close-coiled body when loaded.
     mandrel_mm
         Largest bushing that clears the loaded coil.
     arm_length_mm
-        Length of each arm, from the coil to its pin.
+        Of each arm, from the coil to its pin.
     stiffness_nm_per_rad
-        Stiffness of this one spring.
+        Of this one spring.
     stress_mpa, allowable_mpa
         Bending stress when loaded, at the inner fibre, and its limit.
     tensile_mpa
-        Minimum tensile strength of the wire.
+        Tensile strength of the wire, at least.
     """
 
     wire_mm: float
@@ -87,12 +87,12 @@ class TorsionSpring:
 
     @property
     def pin_radius_mm(self) -> float:
-        """Distance from the axle to the pins that hold the arms, which are tangents of the coil (mm)."""
+        """From the axle to the pins that hold the arms, which are tangents of the coil (mm)."""
         return math.hypot((self.inside_diameter_mm + self.wire_mm) / 2, self.arm_length_mm)
 
     @property
     def free_arm_angle_rad(self) -> float:
-        """Angle between the two arms at rest: the fractional turn of the body (rad)."""
+        """Angle between the two arms at rest, as the body's part of a turn (rad)."""
         return 2 * math.pi * (self.turns % 1.0)
 
 
@@ -104,7 +104,7 @@ def synthesise_spring(
     Parameters
     ----------
     stiffness_nm_per_rad, compression_rad
-        Stiffness of both springs together, and their angle from rest; without preload.
+        Of both springs together, and how far they are turned from rest without preload.
 
     Raises
     ------

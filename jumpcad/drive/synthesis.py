@@ -32,7 +32,7 @@ class DriveLimits:
     Attributes
     ----------
     motors
-        Names in the catalogue; all motors if empty.
+        Names in the catalogue; none stands for every one.
     gap_mm
         Gap between things that pass each other.
     axle_radius_mm

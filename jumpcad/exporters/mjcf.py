@@ -1,8 +1,8 @@
 """MJCF: the robot above a floor for MuJoCo, loop and spring included, ready to be released.
 
-Load key frame `wound` and step: that is the whole jump. The cam is not modelled: it releases at once. MuJoCo's
+Loading key frame `wound` and stepping is the whole jump. The cam is not modelled: it lets go at once. MuJoCo's
 constraints are springs; here contacts and the loop are as stiff as the time step allows, and the time step is a
-fraction of that in the settings. The project's own MuJoCo engine runs this same model.
+fraction of that in the settings. The project's own MuJoCo engine runs this very model.
 """
 
 import xml.etree.ElementTree as ET

@@ -1,6 +1,6 @@
 """URDF: the tree of the mechanism, and a JSON file beside it with what URDF cannot express: loop, spring, release.
 
-Link frames are the body frames of `Robot`. Inertial frames lie along the principal axes, because PyBullet converts any
+Link frames are the body frames of `Robot`. Inertial frames lie along the principal axes, because PyBullet turns any
 other tensor to them with an error of 1e-5. What is seen are the parts' meshes (`meshes/NAME.stl`, in mm, scaled to
 metres); what touches the ground are spheres.
 """
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from jumpcad.scene.visuals import Visual
 
 SWING_RAD = math.pi / 2
-"""Added to the travel on either side: simulators treat joint limits as stops, and legs swing past rest."""
+"""Limits leave this much on either side of the travel: simulators make stops of them, and legs swing past rest."""
 
 
 def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":

@@ -18,13 +18,13 @@ from jumpcad.layout.room import Obstacle, bar, box_obstacle, clearance, disc
 from jumpcad.transforms import Array
 
 PIN_RADIUS_MM = 1.5
-"""Radius of the pin that holds the springs' body arms: half of a 3 mm rod."""
+"""Of the pin that holds the springs' body arms: half of a 3 mm rod."""
 PIN_FROM_DEG, PIN_UP_TO_DEG, PIN_WANTED_DEG = 20.0, 131.0, 40.0
 """Directions of that pin from the hub, counter-clockwise from forward; judgement: between leg and cam."""
 PIN_STEPS_DEG = (5.0, 1.0)
-"""Steps between the directions tried, the second where the first finds no room; judgement."""
+"""Between the directions tried, the second where the first finds no room; judgement."""
 ARM_RADIUS_MM = 1.5
-"""Radius of a spring's arm: half of the catalogue's thickest wire, 2.5 mm, rounded up."""
+"""Of a spring's arm: half of the catalogue's thickest wire, 2.5 mm, rounded up."""
 ARM_BEYOND_MM = 2.0
 """How far a spring's arm reaches beyond its pin; judgement."""
 MOTOR_WANTED_MM = np.array([0.0, 14.0])

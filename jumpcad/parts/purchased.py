@@ -51,7 +51,7 @@ class BoughtPart:
 
     @cached_property
     def look(self) -> "trimesh.Trimesh":
-        """The mesh of the envelope in its own frame, without detail too small to see (mm)."""
+        """The mesh of the envelope in its own frame, without detail that eyes miss (mm)."""
         return _look(self.shape)
 
 

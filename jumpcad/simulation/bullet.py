@@ -107,7 +107,7 @@ class BulletWorld:
         self._close_loop(mechanism)
 
     def advance(self, steps: int) -> float:
-        """Advance by a number of time steps, with the springs' torque at the beginning of each."""
+        """Go on by a number of time steps with the springs' torque of each step's beginning."""
         bullet, mechanism, client, stiffness = self._bullet, self.robot_id, self._client, self._stiffness
         joint_states, set_motor, torque = bullet.getJointStates, bullet.setJointMotorControl2, bullet.TORQUE_CONTROL
         step = bullet.stepSimulation

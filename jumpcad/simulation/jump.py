@@ -73,9 +73,9 @@ class PublishedQuantities:
 class Jump:
     """The result of one simulation.
 
-    `verdict` is `jump`, `no_takeoff`, the failed feasibility check (`loop`, `below_ground`, `tips`, `too_weak`), or
-    the failed audit (`audit_energy`, `audit_loop`). Values that only a jump has are else None; `fitness`
-    (ballistic range over the longest link) is then 0. `findings` holds the margins of feasibility and audit.
+    `verdict` is `jump`, `no_takeoff`, the reason of the gate's refusal (`loop`, `below_ground`, `tips`, `too_weak`), or
+    that of the audit's (`audit_energy`, `audit_loop`). What only a jump has is None under any other verdict; `fitness`
+    (ballistic range over the longest link) is then 0. `findings` holds the gate's and the audit's margins.
     """
 
     verdict: str

@@ -26,7 +26,7 @@ class State:
 
 @dataclass(frozen=True)
 class Energies:
-    """Mechanical energy (J); the potential energy is zero at z = 0."""
+    """Mechanical energy (J): potential is that of height above z = 0."""
 
     kinetic_j: float
     potential_j: float

@@ -61,7 +61,7 @@ class MujocoWorld:
         self._place(release_pose(mechanism))
 
     def advance(self, steps: int) -> float:
-        """Advance by a number of time steps; MuJoCo's own joint spring acts in each."""
+        """Go on by a number of time steps; MuJoCo's own joint spring acts in each."""
         squares = 0.0
         for _ in range(steps):
             leg_rad = float(self.data.qpos[self._leg])
@@ -93,7 +93,7 @@ class MujocoWorld:
         )
 
     def _carried(self) -> bool:
-        """Tell whether the ground pushed during MuJoCo's last own step."""
+        """Say whether the ground pushed during MuJoCo's last own step."""
         for index in range(self.data.ncon):
             self._mujoco.mj_contactForce(self.model, self.data, index, self._force)
             if self._force[0] > 0.0:

@@ -1,7 +1,7 @@
 """The planar engine: the push-off in x-z by a compiled loop, about fifty times as fast as in a general engine.
 
-The mechanism has no left and right here. Contacts of the body's spheres before take-off are neglected (with a warning
-where they occur). All rules of a run are those of `Run`, except for take-off: here it is the last contact before the
+It holds the mechanism without its left and right, and neglects what the body's spheres touch before take-off (and says
+so where they do). What a run decides is decided in `Run`, but for the take-off: here it is the last contact before the
 robot flies.
 """
 

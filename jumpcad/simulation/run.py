@@ -34,7 +34,7 @@ class World(Protocol):
     """One robot on the ground in an engine, released at time 0."""
 
     joint_damping_j: float
-    """Energy lost in the joints' damping so far (J)."""
+    """What the joints' damping has taken so far (J)."""
 
     def advance(self, steps: int) -> float:
         """Advance by a number of time steps, the springs acting in each.
@@ -139,7 +139,7 @@ class Run:
         )
 
     def _push_off(self) -> Takeoff | None:
-        """Advance until the robot has taken off; return None if it does not."""
+        """Go on until the robot has taken off; return None if it does not."""
         world, settings = self.world, self.settings
         half_wound = -self.mechanism.spring.wind_rad / 2
         hold = max(1, round(AIRBORNE_S / settings.dt_s))
@@ -211,7 +211,7 @@ class Run:
             self._records.append((self.time_s, state))
 
     def _takeoff(self, time_s: float, state: State, joint_damping_j: float) -> Takeoff:
-        """Return the take-off of a robot that left the ground in a given state."""
+        """Return what the state in which the robot left the ground leads to."""
         mechanics, mass = self.mechanics, self.mechanics.total_mass_kg
         energies = mechanics.energies(state)
         start, here = mechanics.centre_of_mass_m(self.start), mechanics.centre_of_mass_m(state)

@@ -64,7 +64,7 @@ def roller_bearing(workshop: Workshop) -> Bearing:
 
 
 def first_guess(bearings: list[Bearing | None], design: Design, workshop: Workshop) -> int:
-    """Return the index of the bearing to try first; those before it are hardly ever strong enough."""
+    """Return the number of the bearing to try first; those before it are hardly ever strong enough."""
     load = 1000.0 * design.peak_spring_torque_nm / LONGEST_ARM_MM
     enough = (bearing is None or load <= allowed_n(bearing, workshop) for bearing in bearings[:-1])
     return next((number for number, good in enumerate(enough) if good), len(bearings) - 1)

@@ -150,7 +150,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
 def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float) -> float:
     """Return the energy that bends the leg at release as a share of the springs'.
 
-    The moment is assumed to fall linearly from hub to ankle: an upper bound, since the springs' arms press on the
+    The moment is taken to fall evenly from the hub to the ankle: an upper bound, since the springs' arms press on the
     leg a little beyond the hub.
     """
     energy = tapered_energy_nmm(leg, 1000.0 * design.peak_spring_torque_nm, design.l2_mm, modulus_mpa)

@@ -74,7 +74,7 @@ def _lies_in(name: str, places: Collection[str]) -> bool:
 
 
 def file_faults(path: Path) -> Iterator[str]:
-    """Yield why a file cannot be read as its suffix says, or would run code in its reader."""
+    """Yield why a file cannot be read as what its name says, or would run in its reader."""
     try:
         if path.suffix == ".3mf":
             with zipfile.ZipFile(path) as package:
