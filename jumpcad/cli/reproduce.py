@@ -43,7 +43,7 @@ def reproduce(as_json: JsonFlag = False) -> None:
 
 def _results(rows: "list[Reproduction]") -> "Table":
     table = _table(
-        "Published results", "robot", "quantity", ">published", ">again", ">measured", ">evaluator", "of what"
+        "Published results", "robot", "quantity", ">published", ">again", ">measured", ">evaluator", "meaning"
     )
     for row in rows:
         there, here, jump = row.published.simulated, row.again, row.jump
@@ -55,7 +55,7 @@ def _results(rows: "list[Reproduction]") -> "Table":
         table.add_row(row.published.title, *length, _shown(jump.ballistic_range_m), "ballistic")
         table.add_row("", "", "", "", "", _shown(jump.touchdown_distance_m), "touchdown")
         table.add_row("", *height, _shown(jump.com_rise_m), "rise")
-        table.add_row("", *energy, _shown(jump.takeoff_energy_ratio), "of energy", end_section=True)
+        table.add_row("", *energy, _shown(jump.takeoff_energy_ratio), "share", end_section=True)
     return table
 
 
