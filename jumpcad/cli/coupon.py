@@ -46,7 +46,7 @@ def coupon(
 
 
 def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
-    """Write the coupon and return what to say of it."""
+    """Write the coupon; return its folder, files and mass."""
     from jumpcad.coupon.export import export_coupon
     from jumpcad.workshop import load_workshop
 

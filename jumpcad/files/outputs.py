@@ -1,7 +1,7 @@
 """Files that are written where a user says: whole or not at all, and never over what is the user's own.
 
 One rule holds for every command: what is there already is replaced only if jumpcad wrote it and nobody has changed it
-since, or with `--force`. A bundle knows its files by its manifest; a text file that is rewritten often ends with
+since, or with `--force`. A bundle's manifest lists its files; a text file that is rewritten often ends with
 a seal, the checksum of its lines; any other file counts as the user's own.
 """
 

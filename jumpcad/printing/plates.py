@@ -16,7 +16,7 @@ STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend 
 
 
 class Printable(Protocol):
-    """What packing needs to know of a printed part; the mesh is in mm and lies as it is printed."""
+    """What packing needs to know of a printed part; the mesh is in mm, in printing orientation."""
 
     @property
     def name(self) -> str:

@@ -1,4 +1,4 @@
-"""STL: one mesh a file, binary, in millimetres; a printed part lies as it is printed."""
+"""STL: one mesh a file, binary, in millimetres, in printing orientation."""
 
 import numpy as np
 import trimesh
