@@ -23,7 +23,7 @@ from jumpcad.building import build
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.paper.reproduction import PRINTED, Printed
+from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
@@ -33,7 +33,7 @@ from jumpcad.workshop import load_workshop
 
 HERE = Path(__file__).parent
 ROBOTS = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
-PROTOTYPES = tuple(row for row in PRINTED if row.measured is not None)
+PROTOTYPES = tuple(row for row in PUBLISHED_RESULTS if row.measured is not None)
 SEARCH = ("optimize", "--evaluations", "240", "--seed", "0")
 PUBLISHED_MS = 40.0
 """CPU time of one published simulation on the machine that all CPU times are scaled to."""
@@ -114,7 +114,7 @@ def of_prototypes() -> dict[str, str]:
     }
 
 
-def _prototype(row: Printed) -> dict[str, tuple[str, str]]:
+def _prototype(row: PublishedResult) -> dict[str, tuple[str, str]]:
     """Return distance and height of a prototype, by where they come from."""
     assert row.measured is not None
     again, (_, jump, capsules) = published.simulate(load_design(row.template)), built(row.template)
@@ -126,7 +126,7 @@ def _prototype(row: Printed) -> dict[str, tuple[str, str]]:
     }
 
 
-def _least_energy_share(row: Printed) -> float:
+def _least_energy_share(row: PublishedResult) -> float:
     """Return the energy of a flight of the measured distance and height over that of the springs.
 
     A flight of distance R and height h takes m·g·(h + R²/16h); if a part of h is gained before take-off, more.

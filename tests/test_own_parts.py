@@ -135,7 +135,7 @@ REFUSED = {
     ),
     "wide bearing in the hub": (
         bearing("leg_bearing", 3.0, 8.0, 15.0),
-        r"^no M3 screw of \d+\.\d mm; the longest kept is 30 mm: choose a narrower bought\.leg_bearing or "
+        r"^no M3 screw of \d+\.\d mm; the longest in stock is 30 mm: choose a narrower bought\.leg_bearing or "
         r"bought\.roller$",
     ),
 }  # fmt: skip
@@ -274,7 +274,7 @@ WRONG = {
     ),
     "wire thicker than its coil": (SPRING.replace("wire_mm = 1.0", "wire_mm = 8.0"), r"my.toml:3: springs.stock.wire"),
     "a path for a name": ('[motors."../x"]\nlike = "n20-298"\nsource = "x"', "a name has 1 to 50 letters, digits"),
-    "an escape in a source": ('[boards.a]\nlike = "drv8833"\nsource = "a\\u001b[31m"', r"holds the control character"),
+    "an escape in a source": ('[boards.a]\nlike = "drv8833"\nsource = "a\\u001b[31m"', "contains the control char"),
     "an escape in a name": ('[boards."\\u001b[31m"]\nlike = "x"', "a name has 1 to 50 letters, digits"),
 }  # fmt: skip
 

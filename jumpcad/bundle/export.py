@@ -1,4 +1,4 @@
-"""The bundle: one folder with everything that a robot is made, printed and simulated from.
+"""The bundle: one folder with everything to print, buy, assemble and simulate a robot.
 
 The same robot gives the same bytes.
 """

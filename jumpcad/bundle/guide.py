@@ -1,4 +1,4 @@
-"""assembly.md: what to print, what to buy, which springs to order, and how it goes together."""
+"""assembly.md: what to print, what to buy, which springs to order, and how to assemble it."""
 
 import math
 import re

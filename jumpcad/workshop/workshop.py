@@ -41,11 +41,11 @@ from jumpcad.workshop.tables import (
 Role = Literal["links", "body", "gears"]
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
 OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs")
-"""Tables of the user's own parts; `springs` are kept for reference, since the generator winds its own."""
+"""Tables of the user's own parts; `springs` are kept for reference, since springs are computed."""
 
 
 class Workshop(Record):
-    """Everything that a robot depends on beside its eight numbers.
+    """Everything that a robot depends on besides its eight numbers.
 
     `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials. `motors`,
     `bearings`, `batteries`, `boards` and `springs` are the user's own parts alone.

@@ -107,7 +107,7 @@ def test_files_that_are_not_plain_are_named_and_not_opened(tmp_path: Path) -> No
     }  # fmt: skip
     assert verify(bundle.folder) == [f"{path}: {reason}" for path, reason in wrong.items()]
     for path, reason in {**wrong, "other": "not in the manifest"}.items():
-        with pytest.raises(JumpcadError, match=f"b: {path}: {reason}; jumpcad build"):
+        with pytest.raises(JumpcadError, match=f"b: {path}: {reason}; build the bundle again"):
             bundle.file(path)
     assert bundle.file("good.md").read_text() == "x"
 
