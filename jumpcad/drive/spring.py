@@ -56,7 +56,8 @@ class SpringLimits:
         Of the loaded coil. The lengths are tried in this order: a long, thin spring widens the robot, a short one is
         larger around the leg's axle. Judgement: the room beside the cam, and between leg and gears.
     arm_reach_mm
-        From the outside of the coil to the pins; judgement: pin, its eye and a gap.
+        From the outside of the coil to the pins; judgement: the longer the arms, the smaller their forces, which bend
+        the leg's axle; with 5 mm the axle of the strongest templates yields, with 12 mm coils have to be longer.
     """
 
     mandrel_min_mm: float
@@ -67,7 +68,7 @@ class SpringLimits:
     mandrel_clearance_mm: float = 0.3
     outer_max_mm: float = 18.0
     body_lengths_max_mm: tuple[float, ...] = (10.0, 13.0)
-    arm_reach_mm: float = 5.0
+    arm_reach_mm: float = 8.0
 
     def pin_radius_mm(self, outer_mm: float) -> float:
         """Return the least distance of the pins from the hub beside a coil of an outer diameter."""

@@ -28,7 +28,7 @@ def tube(points_mm: Array, diameter_mm: float) -> "trimesh.Trimesh":
     Each section stands square to the line. The sections' first directions follow one another without a twist, by
     projection from point to point.
     """
-    from jumpcad.solids.finish import as_trimesh
+    import trimesh
 
     along = np.gradient(points_mm, axis=0)
     along /= np.sqrt((along**2).sum(axis=1))[:, None]
@@ -51,4 +51,4 @@ def tube(points_mm: Array, diameter_mm: float) -> "trimesh.Trimesh":
     fan = np.stack([np.zeros(SIDES - 2, dtype=int), corner[1:-1], corner[2:]], axis=-1)
     ends = [fan[:, ::-1], fan + SIDES * (len(points_mm) - 1)]
     faces = np.concatenate([wall.reshape(-1, 3) for wall in walls] + ends)
-    return as_trimesh(np.round(vertices, 6), faces)
+    return trimesh.Trimesh(np.round(vertices, 6), faces, process=False)
