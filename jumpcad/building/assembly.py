@@ -8,8 +8,8 @@ import numpy as np
 from jumpcad.building.settle import settle
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
-from jumpcad.errors import JumpcadError
 from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.layout.electronics import Electronics

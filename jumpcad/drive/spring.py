@@ -58,6 +58,9 @@ class SpringLimits:
     arm_reach_mm
         From the outside of the coil to the pins; judgement: the longer the arms, the smaller their forces, which bend
         the leg's axle; with 5 mm the axle of the strongest templates yields, with 12 mm coils have to be longer.
+    lever_max_mm
+        Of a stock spring's arms, from the coil to where they touch their pins; judgement: longer ones bend more than
+        the coil's rate says, and their pins leave the body.
     """
 
     mandrel_min_mm: float
@@ -69,6 +72,7 @@ class SpringLimits:
     outer_max_mm: float = 18.0
     body_lengths_max_mm: tuple[float, ...] = (10.0, 13.0)
     arm_reach_mm: float = 8.0
+    lever_max_mm: float = 35.0
 
     def pin_radius_mm(self, outer_mm: float) -> float:
         """Return the least distance of the pins from the hub beside a coil of an outer diameter."""

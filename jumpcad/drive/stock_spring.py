@@ -24,8 +24,8 @@ def rate_finding(design: Design, stock: StockSpring) -> Finding:
     asked, have = design.stiffness_nmm_per_deg, 2.0 * stock.rate_nmm_per_deg
     return Finding(
         "spring_rate", "info", have - asked, "N·mm/°",
-        f"two springs {stock.name} have {have:.2f} N·mm/°, with which the robot is built and simulated; the design asks "
-        f"for {asked:.2f}",
+        f"two springs {stock.name} have {have:.2f} N·mm/°, with which the robot is built and simulated; the design "
+        f"asks for {asked:.2f}",
         'bought.spring = "" has springs of the design\'s stiffness made to order', value=have,
     )  # fmt: skip
 
@@ -42,32 +42,38 @@ def fitted_spring(
         number that misses.
     """
     d, mean, turns = stock.wire_mm, stock.inside_diameter_mm + stock.wire_mm, stock.wound_turns
-    beside, least = beside_mm(mean, d, limits.pin_mm), limits.pin_radius_mm(mean + d)
-    shortest = math.acos(min(1.0, beside / least))
-    longest = math.atan2(max(stock.arm_length_mm - ARM_BEYOND_MM, 0.0), beside)
+    beside, (shortest, longest) = beside_mm(mean, d, limits.pin_mm), _arm_turns_rad(stock, limits)
+    found: list[tuple[Arms, float]] = []
     for plate_pin in limits.plate_pins_rad:
         between = between_pins_rad(plate_pin, leg_pin_rad)
         arm_turn = ((between - on_leg.preload_rad - FULL_TURN_RAD * turns) % FULL_TURN_RAD) / 2.0
-        if not shortest <= arm_turn <= longest:
-            continue
-        arms = Arms(mean, d, limits.pin_mm, beside * math.tan(arm_turn))
-        tensile = wire.tensile_mpa(d)
-        spring = torsion_spring(arms, turns, on_leg, tensile, wire, limits, (plate_pin, leg_pin_rad), stock.name)
-        if spring.mandrel_mm < limits.mandrel_min_mm:
-            raise CannotBuildError(
-                f"bought.spring = {stock.name!r}: wound, its coil leaves a bushing of {spring.mandrel_mm:.2f} mm; "
-                f"{limits.mandrel_min_mm:.2f} mm go around the axle: choose one with a larger inside diameter, or "
-                "lower compression_ratio"
-            )
-        return spring
-    raise CannotBuildError(_no_pins(stock, on_leg, leg_pin_rad, limits, (shortest, longest)))
+        if shortest <= arm_turn <= longest:
+            found.append((Arms(mean, d, limits.pin_mm, beside * math.tan(arm_turn)), plate_pin))
+    if not found:
+        raise CannotBuildError(_no_pins(stock, on_leg, leg_pin_rad, limits))
+    arms, plate_pin = min(found, key=lambda pair: pair[0].lever_mm)
+    tensile = wire.tensile_mpa(d)
+    spring = torsion_spring(arms, turns, on_leg, tensile, wire, limits, (plate_pin, leg_pin_rad), stock.name)
+    if spring.mandrel_mm < limits.mandrel_min_mm:
+        raise CannotBuildError(
+            f"bought.spring = {stock.name!r}: wound, its coil leaves a bushing of {spring.mandrel_mm:.2f} mm; "
+            f"{limits.mandrel_min_mm:.2f} mm go around the axle: choose one with a larger inside diameter, or lower "
+            "compression_ratio"
+        )
+    return spring
 
 
-def _no_pins(
-    stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: SpringLimits, arm_turns_rad: tuple[float, float]
-) -> str:
+def _arm_turns_rad(stock: StockSpring, limits: SpringLimits) -> tuple[float, float]:
+    """Return the least and the largest angle at the hub between an arm's tangent point and its pin."""
+    mean = stock.inside_diameter_mm + stock.wire_mm
+    beside, least = beside_mm(mean, stock.wire_mm, limits.pin_mm), limits.pin_radius_mm(mean + stock.wire_mm)
+    lever = min(stock.arm_length_mm - ARM_BEYOND_MM, limits.lever_max_mm)
+    return math.acos(min(1.0, beside / least)), math.atan2(lever, beside)
+
+
+def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: SpringLimits) -> str:
     """Say which directions of the plate's pin a stock spring's arms reach, and which there are."""
-    shortest, longest = arm_turns_rad
+    shortest, longest = _arm_turns_rad(stock, limits)
     if longest < shortest:
         needed = math.tan(shortest) * beside_mm(stock.inside_diameter_mm + stock.wire_mm, stock.wire_mm, limits.pin_mm)
         return (

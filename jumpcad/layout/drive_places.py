@@ -71,9 +71,13 @@ def spring_pin_place(obstacles: list[Obstacle], hub: Array, spring: TorsionSprin
     return np.asarray(place)
 
 
-def spring_arm(hub: Array, spring: TorsionSpring, inside: Interval) -> Obstacle:
-    """Return the springs' body arm, from its coil to a little beyond its pin."""
-    return Obstacle("spring arm", bar(*arm_line(hub, spring, "plate")), spring.wire_mm / 2.0 + CLEAR_MM, inside)
+def spring_obstacles(hub: Array, pin: Array, spring: TorsionSpring, inside: Interval) -> list[Obstacle]:
+    """Return the springs' body arms, from their coils to a little beyond their pin, and the pin."""
+    arm = bar(*arm_line(hub, spring, "plate"))
+    return [
+        Obstacle("spring arm", arm, spring.wire_mm / 2.0 + CLEAR_MM, inside),
+        disc("spring pin", pin, spring.arms.pin_mm / 2.0 + CLEAR_MM, inside),
+    ]
 
 
 def arm_line(hub: Array, spring: TorsionSpring, pin: Literal["plate", "leg"]) -> tuple[Array, Array]:

@@ -58,9 +58,7 @@ class PushOff:
     residual_n: Array
 
 
-def push_off(
-    linkage: Linkage, mass: MovingMass, foot_depth_mm: float, springs: Spring | None = None
-) -> PushOff:
+def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float, springs: Spring | None = None) -> PushOff:
     """Return the forces of a push-off from a flat foot that does not slip.
 
     With compression δ, mass m, centre of mass c(q), turn t(q), radius of gyration k and J = |c'|² + k² t'², energy
