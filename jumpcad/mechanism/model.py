@@ -9,7 +9,7 @@ Loading the springs flattens the legs: negative angles of the `leg` joint.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
@@ -81,16 +81,70 @@ class Loop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Both torsion springs together on one joint; torque -stiffness·q, loaded by q = -wind_rad before release."""
+    """Both torsion springs together on one joint, loaded by q = -wind_rad before release.
+
+    Attributes
+    ----------
+    joint
+        Name of the joint on which they act.
+    stiffness_nm_per_rad
+        Of both springs together.
+    wind_rad
+        From the rest pose (q = 0) to the loaded one.
+    preload_rad
+        How far the springs are still loaded in the rest pose: their arms are free at q = preload_rad.
+    one_sided
+        The arms only push: beyond the angle at which they are free there is no torque.
+    """
 
     joint: str
     stiffness_nm_per_rad: float
     wind_rad: float
+    preload_rad: float = 0.0
+    one_sided: bool = False
 
     @property
     def energy_j(self) -> float:
-        """Energy of the loaded springs, ½·k·δ² (J)."""
-        return 0.5 * self.stiffness_nm_per_rad * self.wind_rad**2
+        """Energy that the springs give from the loaded to the rest pose, ½·k·((δ + p)² - p²) (J)."""
+        return 0.5 * self.stiffness_nm_per_rad * self.wind_rad * (self.wind_rad + 2.0 * self.preload_rad)
+
+    @property
+    def peak_torque_nm(self) -> float:
+        """Torque in the loaded pose, k·(δ + p) (N·m)."""
+        return self.stiffness_nm_per_rad * (self.wind_rad + self.preload_rad)
+
+    def torque_nm(self, joint_rad: float) -> float:
+        """Return the torque on the joint at a coordinate of it (N·m)."""
+        torque = self.stiffness_nm_per_rad * (self.preload_rad - joint_rad)
+        return max(torque, 0.0) if self.one_sided else torque
+
+    def stored_j(self, joint_rad: float) -> float:
+        """Return the energy in the springs at a coordinate of the joint, less that at rest (J)."""
+        deflection = self.preload_rad - joint_rad
+        if self.one_sided:
+            deflection = max(deflection, 0.0)
+        return 0.5 * self.stiffness_nm_per_rad * (deflection**2 - self.preload_rad**2)
+
+
+@dataclass(frozen=True)
+class Stop:
+    """What holds a joint at q = angle_rad beyond rest: a pad, elastic until the joint stands still, without rebound."""
+
+    joint: str
+    angle_rad: float
+    stiffness_nm_per_rad: float
+
+
+@dataclass(frozen=True)
+class RollerOff:
+    """The state in which the roller has left the cam, where the jump begins: coordinate and rate of the leg joint.
+
+    `energy_ratio` is what the springs still hold there, with the leg's motion, over the energy that was loaded.
+    """
+
+    leg_rad: float
+    leg_rad_s: float
+    energy_ratio: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -98,6 +152,7 @@ class Mechanism:
     """The planar five-bar of one jumping robot: four rigid bodies, three joints, one loop, the springs.
 
     `foot_depth_m` is the distance from the line through ankle and front eye down to the ground on a flat foot.
+    A printed robot has a `stop` and starts with `roller_off`; the capsules of the study have neither.
     """
 
     name: str
@@ -107,6 +162,8 @@ class Mechanism:
     loop: Loop
     spring: Spring
     foot_depth_m: float
+    stop: Stop | None = field(default=None, kw_only=True)
+    roller_off: RollerOff | None = field(default=None, kw_only=True)
 
     @property
     def mass_kg(self) -> float:

@@ -85,6 +85,8 @@ class BoughtParts(TomlTable):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
     `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none.
+    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
+    springs of the design's stiffness are made to order.
     """
 
     motors: Annotated[tuple[Name, ...], Field(strict=False)]
@@ -93,6 +95,7 @@ class BoughtParts(TomlTable):
     battery: Name
     controller: Name
     driver: Name
+    spring: OptionalName
     axle_mm: Positive
 
 
@@ -100,6 +103,12 @@ class BodyPlates(TomlTable):
     """The two plates of the body."""
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
+
+
+class SpringTable(TomlTable):
+    """How the springs sit: loaded by `preload_deg` already in the rest pose."""
+
+    preload_deg: Annotated[float, Field(ge=0, le=45)]
 
 
 class Safety(TomlTable):
@@ -110,6 +119,7 @@ class Safety(TomlTable):
     motor_torque_max_nm: Positive
     gear_efficiency: Share
     spring_stress_share: Share
+    spring_rate_scatter: Annotated[float, Field(ge=0, le=0.5)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Positive
     leg_flex_share: Share
