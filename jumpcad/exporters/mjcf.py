@@ -114,6 +114,8 @@ def _hinge(node: ET.Element, joint: Joint, mechanism: Mechanism, settings: Setti
             if spring.preload_rad:
                 more["springref"] = spring.preload_rad
         more |= _limit(joint, mechanism)
+    if friction:
+        more |= {"solreffriction": _stiff(settings)["solref"], "solimpfriction": IMPEDANCE}
     add(
         node,
         "joint",

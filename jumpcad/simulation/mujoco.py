@@ -63,6 +63,7 @@ class MujocoWorld:
         self._loaded = True
         self.model = mujoco.MjModel.from_xml_string(write_mjcf(mechanism, settings=settings))
         self.data = mujoco.MjData(self.model)
+        self._rows = int(self.model.pair_dim[0])
         self._bodies = [self.model.body(name).id for name in BODY_NAMES]
         self._joints = [int(self.model.joint(joint.name).dofadr[0]) for joint in mechanism.joints]
         self._leg = int(self.model.joint(mechanism.spring.joint).qposadr[0])
@@ -103,15 +104,15 @@ class MujocoWorld:
     def _touch(self) -> None:
         """Take up what the ground did in MuJoCo's last own step: whether it pushed, and the work of its friction.
 
-        An elliptic contact has a row of forces and velocities for its normal and for each direction of sliding.
+        Contacts are MuJoCo's last constraints; each has a row for its normal and one for every direction of sliding.
         """
         data = self.data
-        for contact in data.contact:
-            row = contact.efc_address
-            if row >= 0 and data.efc_force[row] > 0.0:
-                self._loaded = True
-                sliding = slice(row + 1, row + contact.dim)
-                self.slip_j -= self._dt_s * float(data.efc_force[sliding] @ data.efc_vel[sliding])
+        first = data.ne + data.nf + data.nl
+        if data.nefc > first:
+            forces = data.efc_force[first:].reshape(-1, self._rows)
+            self._loaded = self._loaded or bool((forces[:, 0] > 0.0).any())
+            speeds = data.efc_vel[first:].reshape(-1, self._rows)
+            self.slip_j -= self._dt_s * float((forces[:, 1:] * speeds[:, 1:]).sum())
 
     def _place(self, release: Release) -> None:
         """Put the body's frame and every joint where they are at release, moving as they do there."""
