@@ -130,9 +130,7 @@ def cpu_ms(call: Callable[[], object]) -> float:
 def speeds(rounds: int) -> dict[str, dict[str, float]]:
     """Return CPU times on the table's jumps, medians over designs and rounds, and how much faster than the study's."""
     robots = [robot for robot, known, _ in of_table() if known == "jump"]
-    fine, default = (
-        {robot.design: PlanarWorld(robot, settings) for robot in robots} for settings in (FINE, DEFAULT)
-    )
+    fine, default = ({robot.design: PlanarWorld(robot, settings) for robot in robots} for settings in (FINE, DEFAULT))
     calls: dict[str, Callable[[Robot], object]] = {
         "published": lambda robot: published.simulate(robot.design),
         "pybullet": lambda robot: simulate(robot, DEFAULT),

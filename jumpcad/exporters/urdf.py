@@ -8,9 +8,9 @@ metres); what touches the ground are spheres.
 """
 
 import json
-from dataclasses import asdict
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESH_FOLDER

@@ -254,9 +254,7 @@ class BulletWorld:
         """Let the base move as the roller leaves it; Bullet wants the velocity of its centre of mass."""
         spin = np.array([0.0, release.body_rad_s, 0.0])
         velocity = release.body_m_s + np.cross(spin, rotation_about_y(release.body_pitch_rad) @ base.com_m)
-        self._bullet.resetBaseVelocity(
-            self.robot_id, velocity.tolist(), spin.tolist(), physicsClientId=self._client
-        )
+        self._bullet.resetBaseVelocity(self.robot_id, velocity.tolist(), spin.tolist(), physicsClientId=self._client)
 
     def _set_dynamics(self, settings: Settings, rubs: Coefficients, bodies: list[Body]) -> None:
         """Set inertia and friction of every link, then what Bullet would apply to the base if set with these."""

@@ -17,7 +17,6 @@ from jumpcad.simulation.run import Run
 from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import quaternion_about_y
 
-
 CARRIED_SHARE = 0.02
 """Of the weight: with less than this the robot has left the ground. MuJoCo's contacts are soft where they begin, and a
 foot that leaves trails some force for 1 ms; with this share it leaves when PyBullet's does (within 0.2 ms)."""

@@ -5,7 +5,6 @@ import numpy as np
 from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.strength.loads import MovingMass, push_off
 
-
 TILTING = 1.1
 """Of the friction of pins under a foot that may tilt and links with mass over that of `push_off`: the planar engine's
 median of 45 printed robots; 0.95 to 1.43, which is at most 0.4 % of the springs' energy."""

@@ -253,9 +253,7 @@ def test_a_stop_holds_the_leg_and_keeps_momentum(kenan: Robot) -> None:
 
 def test_a_stop_met_on_the_ground_lifts_the_robot(kenan: Robot) -> None:
     """Undamped, the robot stands until its leg is past rest; a stop at rest takes it off the ground there."""
-    held, free = (
-        PlanarWorld(robot, replace_damping(FINE)).push_off() for robot in (stopped(kenan, 0.0, 1e5), kenan)
-    )
+    held, free = (PlanarWorld(robot, replace_damping(FINE)).push_off() for robot in (stopped(kenan, 0.0, 1e5), kenan))
     assert free.moment.leg_rad > math.radians(0.3)
     assert held.moment.leg_rad == pytest.approx(0.0, abs=math.radians(0.1))
     assert held.flown

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 
