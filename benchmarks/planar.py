@@ -28,7 +28,6 @@ from jumpcad.mechanism.feasibility import statics_findings
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation.planar import PlanarWorld
-from jumpcad.simulation.planar_model import Effects
 
 TESTS = Path(__file__).parents[1] / "tests"
 sys.path.insert(0, str(TESTS))
@@ -112,7 +111,7 @@ def slipping_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
     ]
     coarse = {"dt_s": DEFAULT.dt_s}
     planar = [simulate(robot, settings.model_copy(update=coarse), "planar") for robot, settings in cases]
-    slides = [jump.energy is not None and jump.energy.contact_j > SLIDES * jump.spring_energy_j for jump in planar]
+    slides = [jump.energy is not None and jump.energy.slip_j > SLIDES * jump.spring_energy_j for jump in planar]
     result = {}
     for rival in RIVALS:
         ranges = [sliding_range_m(robot, settings, rival) for robot, settings in cases]
@@ -131,9 +130,7 @@ def cpu_ms(call: Callable[[], object]) -> float:
 def speeds(rounds: int) -> dict[str, dict[str, float]]:
     """Return CPU times on the table's jumps, medians over designs and rounds, and how much faster than the study's."""
     robots = [robot for robot, known, _ in of_table() if known == "jump"]
-    fine, default = (
-        {robot.design: PlanarWorld(robot, settings, Effects()) for robot in robots} for settings in (FINE, DEFAULT)
-    )
+    fine, default = ({robot.design: PlanarWorld(robot, settings) for robot in robots} for settings in (FINE, DEFAULT))
     calls: dict[str, Callable[[Robot], object]] = {
         "published": lambda robot: published.simulate(robot.design),
         "pybullet": lambda robot: simulate(robot, DEFAULT),

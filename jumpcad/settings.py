@@ -1,5 +1,6 @@
 """Settings of a simulation: time step, friction, damping, and what is recorded."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -7,7 +8,7 @@ from pydantic import Field
 
 from jumpcad.arguments import typed
 from jumpcad.files import Record, find_template
-from jumpcad.mechanism.model import Body
+from jumpcad.mechanism.model import Mechanism, Surface
 
 Coefficient = Annotated[float, Field(ge=0, le=100)]
 
@@ -15,8 +16,8 @@ Coefficient = Annotated[float, Field(ge=0, le=100)]
 class Settings(Record):
     """Settings of a simulated jump; the defaults are those of `templates/settings/default.toml`.
 
-    The friction of a contact is the ground's coefficient times that of what touches it: 1.5 for the foot and 0.75 for
-    the body by default. Rolling and spinning friction are multiplied by the ground's coefficient in the same way.
+    The friction of a contact is the ground's coefficient times that of what touches it. Rolling and spinning friction
+    are multiplied by the ground's coefficient in the same way. What is None follows the robot, see `coefficients`.
     """
 
     dt_s: Annotated[float, Field(ge=1e-6, le=1 / 240, description="time step")] = 1 / 2000
@@ -25,13 +26,16 @@ class Settings(Record):
         float, Field(ge=0, le=1e-2, description="PyBullet stops iterating when no constraint is off by more")
     ] = 1e-5
     gravity_m_s2: Annotated[float, Field(ge=0.1, le=100)] = 9.81
-    ground_friction: Coefficient = 1.5
+    ground_friction: Coefficient | None = None
     foot_friction: Coefficient = 1.0
-    body_friction: Coefficient = 0.5
+    body_friction: Coefficient | None = None
     rolling_friction_m: Coefficient = 0.0
     spinning_friction_m: Coefficient = 0.0
     restitution: Annotated[float, Field(ge=0, le=1)] = 0.0
-    joint_damping_nms_per_rad: Coefficient = 0.001
+    joint_damping_nms_per_rad: Coefficient | None = None
+    pin_friction: Annotated[float, Field(ge=0, le=2, description="coefficient of dry friction in the pins")] | None = (
+        None
+    )
     joint_friction_nm: Annotated[float, Field(ge=0, le=100, description="dry friction of each joint (its motor)")] = 0.0
     drag_per_s: Annotated[float, Field(ge=0, le=1e3, description="rate at which drag reduces velocity")] = 0.0
     flight: Annotated[
@@ -53,10 +57,48 @@ class Settings(Record):
         return f"<Settings: {(changed or 'all default')[:180]}>"
 
 
-def surface_friction(body: Body, settings: Settings) -> float:
-    """Return the friction of a body's contacts, without the ground's factor."""
-    on_foot = any(contact.surface == "foot" for contact in body.contacts)
-    return settings.foot_friction if on_foot else settings.body_friction
+@dataclass(frozen=True)
+class Coefficients:
+    """Friction and damping of one robot under given settings; that of a contact is `ground` times its surface's."""
+
+    ground: float
+    foot: float
+    body: float
+    pin: float
+    joint_damping_nms_per_rad: float
+
+    def of(self, surface: Surface) -> float:
+        """Return the coefficient of a surface, without the ground's factor."""
+        return self.foot if surface == "foot" else self.body
+
+    def contact(self, surface: Surface) -> float:
+        """Return the coefficient of a surface on the ground."""
+        return self.ground * self.of(surface)
+
+
+STUDY = Coefficients(ground=1.5, foot=1.0, body=0.5, pin=0.0, joint_damping_nms_per_rad=0.001)
+"""Of the capsule robot: what the published study's results were made with."""
+
+
+def coefficients(mechanism: Mechanism, settings: Settings) -> Coefficients:
+    """Return what rubs: what the settings say, and where they say nothing, the printed robot's own, else the study's.
+
+    A printed robot's pins are dry: they have no viscous damping.
+    """
+    own, friction = STUDY, mechanism.friction
+    if friction is not None:
+        own = Coefficients(friction.foot, STUDY.foot, friction.body / friction.foot, friction.pin, 0.0)
+
+    def chosen(asked: float | None, otherwise: float) -> float:
+        return otherwise if asked is None else asked
+
+    return Coefficients(
+        chosen(settings.ground_friction, own.ground),
+        settings.foot_friction,
+        chosen(settings.body_friction, own.body),
+        chosen(settings.pin_friction, own.pin),
+        chosen(settings.joint_damping_nms_per_rad, own.joint_damping_nms_per_rad),
+    )
 
 
 @typed

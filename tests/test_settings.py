@@ -3,13 +3,13 @@
 from pathlib import Path
 
 import pytest
+from support.machines import rubbing
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY, FOOT
-from jumpcad.settings import surface_friction
+from jumpcad.settings import coefficients
 from jumpcad.simulation import Settings, load_settings
 
 
@@ -20,8 +20,12 @@ def test_default_file_says_what_the_program_does() -> None:
 def test_default_file_lists_every_key() -> None:
     from jumpcad.files import find_template, read_toml
 
-    data, _ = read_toml(find_template("settings", "default"))
-    assert set(data) == set(Settings.model_fields)
+    path = find_template("settings", "default")
+    data, text = read_toml(path)
+    follow = {name for name, value in Settings() if value is None}
+    assert set(data) == set(Settings.model_fields) - follow
+    assert follow == {"ground_friction", "body_friction", "pin_friction", "joint_damping_nms_per_rad"}
+    assert all(f"# {name} " in text for name in follow)
 
 
 def test_presets_load() -> None:
@@ -40,9 +44,20 @@ def test_published_table_is_the_papers() -> None:
 
 def test_friction_of_the_contacts_is_that_of_the_reference_flights() -> None:
     kenan = capsule_robot(load_design("kenan-2.0"))
-    settings = Settings()
-    assert settings.ground_friction * surface_friction(kenan.bodies[FOOT], settings) == 1.5
-    assert settings.ground_friction * surface_friction(kenan.bodies[BODY], settings) == 0.75
+    rubs = coefficients(kenan, Settings())
+    assert (rubs.contact("foot"), rubs.contact("body")) == (1.5, 0.75)
+    assert (rubs.pin, rubs.joint_damping_nms_per_rad) == (0.0, 0.001)
+
+
+def test_a_printed_robot_rubs_as_its_workshop_says_and_a_file_overrides_each() -> None:
+    kenan = rubbing(capsule_robot(load_design("kenan-2.0")), foot=0.8, pin=0.25)
+    own = coefficients(kenan, Settings())
+    assert (own.contact("foot"), own.contact("body")) == pytest.approx((0.8, 0.35))
+    assert (own.pin, own.joint_damping_nms_per_rad) == (0.25, 0.0)
+    asked = coefficients(kenan, Settings(ground_friction=0.5, pin_friction=0.1, joint_damping_nms_per_rad=0.002))
+    assert asked.contact("foot") == 0.5
+    assert (asked.pin, asked.joint_damping_nms_per_rad) == (0.1, 0.002)
+    assert coefficients(kenan, load_settings("published-table")).contact("foot") == 1.5 * 0.8
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Surface, five_bar
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface, five_bar
 from jumpcad.parts import body_plate, foot, links, shopping, small, toes, train
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Part
@@ -52,11 +52,20 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
         loop=loop,
         spring=spring,
         foot_depth_m=layout.sections.foot_depth_mm / 1000.0,
+        friction=_friction(layout, workshop),
         parts=parts,
         hardware=hardware,
         workshop=workshop,
         layout=layout,
     )
+
+
+def _friction(layout: Layout, workshop: Workshop) -> Friction:
+    """Return what rubs: feet and body on the workshop's ground, pins of its axles' diameter."""
+    ground, radius_m = workshop.ground, layout.axle_mm / 2000.0
+    hub_m = 0.0 if layout.hub_bearing else radius_m
+    pins = (hub_m, radius_m, radius_m, radius_m)
+    return Friction(ground.foot_friction, ground.bare_friction, workshop.pins.friction, pins)
 
 
 def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> tuple[Layout, HoleSizes]:

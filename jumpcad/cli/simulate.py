@@ -28,11 +28,22 @@ LINES = (
     ("take-off speed", "takeoff_speed_m_s", "{:.3f} m/s"),
     ("take-off angle", "takeoff_angle_deg", "{:.1f}°"),
     ("take-off after", "takeoff_time_s", "{:.4f} s"),
+    ("energy after release / spring energy", "release_energy_ratio", "{:.4f}"),
     ("energy at take-off / spring energy", "takeoff_energy_ratio", "{:.4f}"),
     ("spring energy", "spring_energy_j", "{:.4f} J"),
     ("mass", "mass_kg", "{:.4f} kg"),
     ("fitness (range / longest link)", "fitness", "{:.3f}"),
 )
+ACCOUNT = {
+    "useful": "useful: flight and lift",
+    "internal": "internal motion",
+    "springs": "left in the springs",
+    "release": "lost at the release",
+    "pins": "lost in joints and pins",
+    "slip": "lost by slipping",
+    "contact": "lost in contact (and numerics)",
+}
+"""What people read for the entries of `Jump.energy_account_j`."""
 
 
 def register(app: typer.Typer) -> None:
@@ -154,10 +165,10 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None
             value = getattr(jump, name)
             if value is not None:
                 print(f"  {label:<36}{form.format(value)}")
-        if jump.energy:
+        if jump.energy_account_j:
             print("  where the spring energy is at take-off (J):")
-            for name, value in asdict(jump.energy).items():
-                print(f"    {name.removesuffix('_j').replace('_', ' '):<34}{value:.4f}")
+            for name, value in jump.energy_account_j.items():
+                print(f"    {ACCOUNT[name]:<34}{value:.4f}")
         if jump.published:
             for name, quantity in asdict(jump.published).items():
                 shown = "none" if quantity is None else f"{quantity:.4f} m"

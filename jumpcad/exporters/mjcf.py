@@ -1,19 +1,28 @@
 """MJCF: the robot above a floor for MuJoCo, loop and spring included, ready to be released.
 
-Loading key frame `wound` and stepping is the whole jump. The cam is not modelled: it lets go at once. MuJoCo's
-constraints are springs; here contacts and the loop are as stiff as the time step allows, and the time step is a
-fraction of that in the settings. The project's own MuJoCo engine runs this very model.
+Loading a key frame and stepping is the whole jump: from `wound` the cam lets go at once; `released`, which only robots
+with a cam have, is the moment when the roller has left it, with all velocities. MuJoCo's constraints are springs; here
+contacts and the loop are as stiff as the time step allows, and the time step is a fraction of that in the settings. The
+project's own MuJoCo engine runs this very model.
+
+Springs that only push are a tendon along the leg joint whose length may be anything beyond the angle where they are
+free. The stop is the leg joint's limit, with the stiffness of its pad and critical damping for the inertia that the leg
+has in flight. Pin friction is one dry torque at the leg joint.
 """
 
+import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESHES_FROM_BESIDE
-from jumpcad.exporters.xml import add, document, wxyz
-from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism
-from jumpcad.mechanism.poses import body_poses, standing
-from jumpcad.settings import Settings, surface_friction
+from jumpcad.exporters.limits import limits_rad
+from jumpcad.exporters.xml import Value, add, document, written, wxyz
+from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
+from jumpcad.mechanism.model import BODY, Body, Joint, Mechanism, Spring
+from jumpcad.mechanism.poses import Release, body_poses, release_pose, standing
+from jumpcad.settings import Coefficients, Settings, coefficients
+from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import rotation_about_y
 
 if TYPE_CHECKING:
@@ -26,6 +35,13 @@ SOFTNESS_STEPS = 2.0
 """Time constant of the constraints over MuJoCo's own step: the least that MuJoCo keeps stable."""
 IMPEDANCE = [0.99, 0.9999, 0.0001, 0.5, 2.0]
 """Share of a constraint that is enforced, and how it grows with penetration (MuJoCo's `solimp`)."""
+FREE_RAD = 10.0
+"""How far springs that only push let the leg go on: more than any leg turns."""
+CONTACT_IMPEDANCE = [0.0, 0.95, 0.0001, 0.5, 1.0]
+"""The same of contacts: growing from nothing over 0.1 mm, or a sliding foot chatters and gains energy (ranges of
+slipping jumps 5 to 9 % long; with it within 1 % of rigid contacts)."""
+FRICTION_STIFFNESS = 100.0
+"""Of friction over normal force (MuJoCo's `impratio`): at 1 a foot that sticks creeps by 1 % of the range."""
 LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100
 """Solver iterations: fewer do not reach the tolerance; and MuJoCo's default."""
 
@@ -40,6 +56,7 @@ def mjcf_files(robot: "Robot") -> Iterator[tuple[str, str]]:
 def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:
     """Return the MJCF document of a robot, with the settings' time step, friction and damping."""
     settings = settings or Settings()
+    rubs = coefficients(mechanism, settings)
     root = ET.Element("mujoco", model=mechanism.name)
     add(root, "compiler", angle="radian", meshdir=MESHES_FROM_BESIDE, inertiafromgeom="false")
     iterations = max(settings.solver_iterations, LEAST_ITERATIONS)
@@ -50,7 +67,7 @@ def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
         gravity=(0.0, 0.0, -settings.gravity_m_s2),
         integrator="implicitfast",
         cone="elliptic",
-        impratio=10.0,
+        impratio=FRICTION_STIFFNESS,
         tolerance=1e-12,
         **({} if iterations == MUJOCO_ITERATIONS else {"iterations": str(iterations)}),
     )
@@ -65,9 +82,14 @@ def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
     add(base, "freejoint", name="free")
     _fill(base, mechanism.bodies[BODY], visible)
     order = _children(base, mechanism, BODY, settings, visible)
-    _contacts(root, mechanism, settings)
+    _contacts(root, mechanism, settings, rubs)
+    if mechanism.spring.one_sided:
+        _pushing_spring(root, mechanism.spring)
     _loop(root, mechanism, settings)
-    _wound(root, mechanism, order)
+    keys = add(root, "keyframe")
+    _key(keys, "wound", standing(mechanism, 1.0), order)
+    if mechanism.roller_off:
+        _key(keys, "released", release_pose(mechanism), order)
     return document(root)
 
 
@@ -87,17 +109,52 @@ def _children(
 
 
 def _hinge(node: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> None:
-    spring = {"stiffness": mechanism.spring.stiffness_nm_per_rad} if joint.name == mechanism.spring.joint else {}
+    spring, rubs = mechanism.spring, coefficients(mechanism, settings)
+    more: dict[str, Value] = {}
+    friction = settings.joint_friction_nm
+    if joint.name == spring.joint:
+        friction += pin_torque_nm(mechanism, rubs.pin)
+        if not spring.one_sided:
+            more["stiffness"] = spring.stiffness_nm_per_rad
+            if spring.preload_rad:
+                more["springref"] = spring.preload_rad
+        more |= _limit(joint, mechanism)
+    if friction:
+        more |= {"solreffriction": _stiff(settings)["solref"], "solimpfriction": IMPEDANCE}
     add(
         node,
         "joint",
         name=joint.name,
         type="hinge",
         axis="0 1 0",
-        damping=settings.joint_damping_nms_per_rad,
-        frictionloss=settings.joint_friction_nm,
-        **spring,
+        damping=rubs.joint_damping_nms_per_rad,
+        frictionloss=friction,
+        **more,
     )
+
+
+def _limit(joint: Joint, mechanism: Mechanism) -> dict[str, Value]:
+    """Return the attributes of the leg joint's stop, if there is one.
+
+    MuJoCo's time constant T and damping ratio 1 mean the stiffness I/T² with the joint's inertia I.
+    """
+    stop = mechanism.stop
+    if stop is None:
+        return {}
+    inertia = leg_inertia_kg_m2(mechanism, stop.angle_rad)
+    return {
+        "limited": "true",
+        "range": limits_rad(joint, mechanism),
+        "solreflimit": (math.sqrt(inertia / stop.stiffness_nm_per_rad), 1.0),
+        "solimplimit": IMPEDANCE,
+    }
+
+
+def _pushing_spring(root: ET.Element, spring: Spring) -> None:
+    """Tie a tendon along the leg joint that pushes below the angle where the springs are free, and rests beyond."""
+    tendon = add(add(root, "tendon"), "fixed", name="springs", stiffness=spring.stiffness_nm_per_rad,
+                 springlength=(spring.preload_rad, spring.preload_rad + FREE_RAD))  # fmt: skip
+    add(tendon, "joint", joint=spring.joint, coef=1.0)
 
 
 def _fill(node: ET.Element, body: Body, visible: "Sequence[Visual]") -> None:
@@ -134,13 +191,13 @@ def _fill(node: ET.Element, body: Body, visible: "Sequence[Visual]") -> None:
         )
 
 
-def _contacts(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
+def _contacts(root: ET.Element, mechanism: Mechanism, settings: Settings, rubs: Coefficients) -> None:
     """Pair every contact sphere with the ground alone."""
     node = add(root, "contact")
-    spin = settings.ground_friction * settings.spinning_friction_m
-    roll = settings.ground_friction * settings.rolling_friction_m
+    spin = rubs.ground * settings.spinning_friction_m
+    roll = rubs.ground * settings.rolling_friction_m
     for body in mechanism.bodies.values():
-        slide = settings.ground_friction * surface_friction(body, settings)
+        slide = rubs.contact(body.surface)
         for contact in body.contacts:
             add(
                 node,
@@ -149,7 +206,7 @@ def _contacts(root: ET.Element, mechanism: Mechanism, settings: Settings) -> Non
                 geom2=f"{body.name}_{contact.name}_contact",
                 condim="6" if spin or roll else "3",
                 friction=(slide, slide, spin, roll, roll),
-                **_stiff(settings),
+                **_stiff(settings) | {"solimp": CONTACT_IMPEDANCE},
             )
 
 
@@ -163,11 +220,13 @@ def _loop(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
     add(add(root, "equality"), "connect", name="loop", **sites, **_stiff(settings))
 
 
-def _wound(root: ET.Element, mechanism: Mechanism, order: list[str]) -> None:
-    release = standing(mechanism, 1.0)
+def _key(keys: ET.Element, name: str, release: Release, order: list[str]) -> None:
     attitude = wxyz(rotation_about_y(release.body_pitch_rad))
     angles = [release.joint_rad[name] for name in order]
-    add(add(root, "keyframe"), "key", name="wound", qpos=(*release.body_position_m, *attitude, *angles))
+    key = add(keys, "key", name=name, qpos=(*release.body_position_m, *attitude, *angles))
+    if release.joint_rad_s[order[0]]:
+        rates = [release.joint_rad_s[joint] for joint in order]
+        key.set("qvel", written((*release.body_m_s, 0.0, release.body_rad_s, 0.0, *rates)))
 
 
 def _stiff(settings: Settings) -> dict[str, Sequence[float]]:

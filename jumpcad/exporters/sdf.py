@@ -1,19 +1,24 @@
 """SDF 1.9: the robot for Gazebo, the loop as a joint of its own, the spring on its hinge.
 
-The model stands with springs at rest. Links' frames are the body frames of `Robot`.
+The model stands with springs at rest. Links' frames are the body frames of `Robot`. The leg's limit is the stop, with
+the stiffness of its pad and critical damping. SDF has no spring that only pushes: beyond rest, in flight, the hinge's
+pulls the leg back. Pin friction is one dry torque at the leg joint.
 """
 
+import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 
 from jumpcad.dimensions import MESHES_FROM_BESIDE
-from jumpcad.exporters.urdf import SWING_RAD
+from jumpcad.exporters.limits import limits_rad
 from jumpcad.exporters.xml import add, document, rpy
+from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
-from jumpcad.settings import Settings, surface_friction
+from jumpcad.settings import Coefficients, Settings, coefficients
+from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import Array
 
 
@@ -25,12 +30,13 @@ def sdf_files(robot: Robot) -> Iterator[tuple[str, str]]:
 def write_sdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
     """Return the SDF document of a robot, with the settings' friction and damping."""
     settings = settings or Settings()
+    rubs = coefficients(mechanism, settings)
     root = ET.Element("sdf", version="1.9")
     model = add(root, "model", name=mechanism.name)
     for name, pose in body_poses(mechanism).items():
         link = add(model, "link", name=name)
         add(link, "pose", _six(pose))
-        _fill(link, mechanism.bodies[name], [shape for shape in visible if shape.body == name], settings)
+        _fill(link, mechanism.bodies[name], [shape for shape in visible if shape.body == name], rubs)
     for joint in mechanism.joints:
         _hinge(model, joint, mechanism, settings)
     loop = mechanism.loop
@@ -41,7 +47,7 @@ def write_sdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Se
     return document(root)
 
 
-def _fill(link: ET.Element, body: Body, visible: list[Visual], settings: Settings) -> None:
+def _fill(link: ET.Element, body: Body, visible: list[Visual], rubs: Coefficients) -> None:
     inertial = add(link, "inertial")
     add(inertial, "pose", (*body.com_m, 0.0, 0.0, 0.0))
     add(inertial, "mass", body.mass_kg)
@@ -63,7 +69,7 @@ def _fill(link: ET.Element, body: Body, visible: list[Visual], settings: Setting
         add(add(add(collision, "geometry"), "sphere"), "radius", contact.radius_m)
         ode = add(add(add(collision, "surface"), "friction"), "ode")
         for direction in ("mu", "mu2"):
-            add(ode, direction, settings.ground_friction * surface_friction(body, settings))
+            add(ode, direction, rubs.contact(body.surface))
 
 
 def _hinge(model: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> None:
@@ -72,17 +78,23 @@ def _hinge(model: ET.Element, joint: Joint, mechanism: Mechanism, settings: Sett
     add(node, "child", joint.child)
     axis = add(node, "axis")
     add(axis, "xyz", "0 1 0")
-    limit = add(axis, "limit")
-    add(limit, "lower", joint.lower_rad - SWING_RAD)
-    add(limit, "upper", joint.upper_rad + SWING_RAD)
+    rubs, spring = coefficients(mechanism, settings), mechanism.spring
+    limit, (lower, upper) = add(axis, "limit"), limits_rad(joint, mechanism)
+    add(limit, "lower", lower)
+    add(limit, "upper", upper)
     add(limit, "effort", joint.effort_nm)
     add(limit, "velocity", joint.velocity_rad_s)
+    if mechanism.stop and mechanism.stop.joint == joint.name:
+        add(limit, "stiffness", mechanism.stop.stiffness_nm_per_rad)
+        inertia = leg_inertia_kg_m2(mechanism, mechanism.stop.angle_rad)
+        add(limit, "dissipation", 2.0 * math.sqrt(mechanism.stop.stiffness_nm_per_rad * inertia))
     dynamics = add(axis, "dynamics")
-    add(dynamics, "damping", settings.joint_damping_nms_per_rad)
-    add(dynamics, "friction", settings.joint_friction_nm)
-    if joint.name == mechanism.spring.joint:
-        add(dynamics, "spring_reference", 0.0)
-        add(dynamics, "spring_stiffness", mechanism.spring.stiffness_nm_per_rad)
+    add(dynamics, "damping", rubs.joint_damping_nms_per_rad)
+    on_leg = joint.name == spring.joint
+    add(dynamics, "friction", settings.joint_friction_nm + (pin_torque_nm(mechanism, rubs.pin) if on_leg else 0.0))
+    if on_leg:
+        add(dynamics, "spring_reference", spring.preload_rad)
+        add(dynamics, "spring_stiffness", spring.stiffness_nm_per_rad)
 
 
 def _six(pose: Array) -> tuple[float, ...]:

@@ -1,29 +1,34 @@
 """URDF: the tree of the mechanism, and a JSON file beside it with what URDF cannot express: loop, spring, release.
 
+The leg's upper limit is the stop. Pin friction is one dry torque at the leg joint; the JSON file has its coefficient.
+
 Link frames are the body frames of `Robot`. Inertial frames lie along the principal axes, because PyBullet turns any
 other tensor to them with an error of 1e-5. What is seen are the parts' meshes (`meshes/NAME.stl`, in mm, scaled to
 metres); what touches the ground are spheres.
 """
 
 import json
-import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from jumpcad.dimensions import MESH_FOLDER
+from jumpcad.exporters.limits import limits_rad
 from jumpcad.exporters.xml import add, document, rpy
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import Body, Joint, Mechanism
 from jumpcad.mechanism.poses import release_pose
-from jumpcad.settings import Settings
+from jumpcad.settings import Settings, coefficients
+from jumpcad.strength.pin_friction import pin_torque_nm
 
 if TYPE_CHECKING:
     from jumpcad.robot import Robot
     from jumpcad.scene.visuals import Visual
 
-SWING_RAD = math.pi / 2
-"""Limits leave this much on either side of the travel: simulators make stops of them, and legs swing past rest."""
+
+OWN = "stop", "roller_off", "friction"
+"""What only printed robots have, by its name in `Mechanism` and in the file."""
 
 
 def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
@@ -51,7 +56,7 @@ def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
     for body in mechanism.bodies.values():
         _link(root, body, [shape for shape in visible if shape.body == body.name])
     for joint in mechanism.joints:
-        _joint(root, joint, settings)
+        _joint(root, joint, mechanism, settings)
     return document(root)
 
 
@@ -72,7 +77,10 @@ def write_loop(mechanism: Mechanism) -> str:
             "stiffness_nm_per_rad": spring.stiffness_nm_per_rad,
             "rest_rad": 0.0,
             "wind_rad": spring.wind_rad,
+            **({"preload_rad": spring.preload_rad} if spring.preload_rad else {}),
+            **({"one_sided": True} if spring.one_sided else {}),
         },
+        **{key: asdict(value) for key in OWN if (value := getattr(mechanism, key)) is not None},
         "travel_rad": {joint.name: [joint.lower_rad, joint.upper_rad] for joint in mechanism.joints},
         "release": {
             "joint_rad": release.joint_rad,
@@ -105,18 +113,20 @@ def _link(root: ET.Element, body: Body, visible: "list[Visual]") -> None:
         add(add(collision, "geometry"), "sphere", radius=contact.radius_m)
 
 
-def _joint(root: ET.Element, joint: Joint, settings: Settings) -> None:
+def _joint(root: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> None:
     node = add(root, "joint", name=joint.name, type="revolute")
     add(node, "origin", xyz=joint.origin_m, rpy=(0.0, joint.rest_angle_rad, 0.0))
     add(node, "parent", link=joint.parent)
     add(node, "child", link=joint.child)
     add(node, "axis", xyz="0 1 0")
+    rubs, (lower, upper) = coefficients(mechanism, settings), limits_rad(joint, mechanism)
+    pins = pin_torque_nm(mechanism, rubs.pin) if joint.name == mechanism.spring.joint else 0.0
     add(
         node,
         "limit",
-        lower=joint.lower_rad - SWING_RAD,
-        upper=joint.upper_rad + SWING_RAD,
+        lower=lower,
+        upper=upper,
         effort=joint.effort_nm,
         velocity=joint.velocity_rad_s,
     )
-    add(node, "dynamics", damping=settings.joint_damping_nms_per_rad, friction=settings.joint_friction_nm)
+    add(node, "dynamics", damping=rubs.joint_damping_nms_per_rad, friction=settings.joint_friction_nm + pins)

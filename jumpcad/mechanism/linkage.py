@@ -117,6 +117,16 @@ class Linkage:
         rates = np.linalg.solve(matrix, -ankle_rate[..., None])[..., 0]
         return np.column_stack([ankle_rate, rates[:, 0]])
 
+    def rates(self, leg_rad: float) -> tuple[float, float, complex]:
+        """Return d(foot angle, front joint, ankle)/d(leg angle), the ankle as x + iz (mm/rad); no linear algebra.
+
+        The closure of the loop, differentiated, times the vectors of front link and foot (Norton, ch. 6).
+        """
+        leg, foot = complex(self._ankle(leg_rad)), complex(self._foot(leg_rad))
+        front = leg + foot - self.l1
+        cross = (front.conjugate() * foot).imag
+        return -(front.conjugate() * leg).imag / cross, -(foot.conjugate() * leg).imag / cross, -1j * leg
+
     def transmission_angle_rad(self, leg_rad: npt.ArrayLike) -> Array:
         """Return the angle (n,) between foot and front link at the front eye, folded into 0…π/2."""
         pose = self.pose(leg_rad)

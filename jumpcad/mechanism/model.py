@@ -49,6 +49,11 @@ class Body:
     inertia_kg_m2: Array
     contacts: tuple[ContactSphere, ...] = ()
 
+    @property
+    def surface(self) -> Surface:
+        """What of it touches the ground: `foot` if any sphere is of the foot."""
+        return "foot" if any(contact.surface == "foot" for contact in self.contacts) else "body"
+
 
 @dataclass(frozen=True)
 class Joint:
@@ -147,12 +152,27 @@ class RollerOff:
     energy_ratio: float
 
 
+@dataclass(frozen=True)
+class Friction:
+    """Dry friction of a printed robot: coefficients of foot and body on the ground, and in the pins.
+
+    `pin_radius_m` are the radii of the pins of leg, front, ankle and eye, 0 for one that runs in ball bearings: their
+    friction, some 0.0015 of the bearing's load, is neglected.
+    """
+
+    foot: float
+    body: float
+    pin: float
+    pin_radius_m: tuple[float, float, float, float]
+
+
 @dataclass(frozen=True, repr=False)
 class Mechanism:
     """The planar five-bar of one jumping robot: four rigid bodies, three joints, one loop, the springs.
 
     `foot_depth_m` is the distance from the line through ankle and front eye down to the ground on a flat foot.
-    A printed robot has a `stop` and starts with `roller_off`; the capsules of the study have neither.
+    A printed robot has a `stop`, starts with `roller_off`, and rubs with its own `friction`; the capsules of the study
+    have none of them: the study's settings say what rubs.
     """
 
     name: str
@@ -164,6 +184,7 @@ class Mechanism:
     foot_depth_m: float
     stop: Stop | None = field(default=None, kw_only=True)
     roller_off: RollerOff | None = field(default=None, kw_only=True)
+    friction: Friction | None = field(default=None, kw_only=True)
 
     @property
     def mass_kg(self) -> float:

@@ -1,7 +1,8 @@
-"""Where the bodies of a standing robot are, at any load of its springs, and before release."""
+"""Where the bodies of a standing robot are, at any load of its springs, and how they move when the roller is off."""
 
+import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,31 +12,55 @@ from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
 
 @dataclass(frozen=True)
 class Release:
-    """The robot before release: loop exactly closed, foot flat on the ground, ankle above the world's origin.
+    """The robot at release: loop exactly closed, foot flat and still on the ground, ankle above the world's origin.
 
     `joint_rad` holds the coordinate of every joint by name; the frame of `body` lies at `body_position_m` (3,), turned
-    about the world's y axis by `body_pitch_rad`.
+    about the world's y axis by `body_pitch_rad`. `joint_rad_s`, `body_m_s` (3,) and `body_rad_s`, about y, are the
+    rates of these, zero where the springs let go at once.
     """
 
     joint_rad: dict[str, float]
     body_position_m: Array
     body_pitch_rad: float
+    joint_rad_s: dict[str, float] = field(default_factory=lambda: {"leg": 0.0, "front": 0.0, "ankle": 0.0})
+    body_m_s: Array = field(default_factory=lambda: np.zeros(3))
+    body_rad_s: float = 0.0
 
 
 def release_pose(mechanism: Mechanism) -> Release:
-    """Return the pose of a robot with loaded springs.
+    """Return pose and rates where the jump begins: where the roller has left the cam, or at rest with loaded springs.
 
     Raises
     ------
     CannotBuildError
         If the loop does not close there.
     """
-    return standing(mechanism, 1.0)
+    off = mechanism.roller_off
+    return standing(mechanism, 1.0) if off is None else _moving(mechanism, off.leg_rad, off.leg_rad_s)
 
 
 def standing(mechanism: Mechanism, loaded: float) -> Release:
     """Return the pose, foot flat on the ground, with the springs loaded by a share (0 at rest … 1)."""
-    pose = mechanism.linkage.pose([-loaded * mechanism.spring.wind_rad])
+    return _at(mechanism, -loaded * mechanism.spring.wind_rad)
+
+
+def _moving(mechanism: Mechanism, leg_rad: float, leg_rad_s: float) -> Release:
+    """Return pose and rates of a robot whose leg joint turns while its foot stands still.
+
+    In the world the ankle is fixed, so the body moves against the ankle's motion in the body's frame, and turns against
+    the foot's.
+    """
+    pose, (foot, front, ankle_mm) = _at(mechanism, leg_rad), mechanism.linkage.rates(leg_rad)
+    l1_m, l2_m = mechanism.linkage.l1 / 1000.0, mechanism.linkage.l2 / 1000.0
+    ankle_m = -l1_m / 2.0 + l2_m * cmath.exp(-1j * (mechanism.linkage.rest_rad + leg_rad))
+    across = -(ankle_mm / 1000.0 + 1j * foot * ankle_m) * cmath.exp(-1j * pose.body_pitch_rad) * leg_rad_s
+    rates = {"leg": leg_rad_s, "front": front * leg_rad_s, "ankle": (foot - 1.0) * leg_rad_s}
+    velocity = np.array([across.real, 0.0, across.imag])
+    return Release(pose.joint_rad, pose.body_position_m, pose.body_pitch_rad, rates, velocity, -foot * leg_rad_s)
+
+
+def _at(mechanism: Mechanism, leg_rad: float) -> Release:
+    pose = mechanism.linkage.pose([leg_rad])
     pitch = -float(pose.foot_rad[0])
     cos, sin = math.cos(pitch), math.sin(pitch)
     x, z = pose.ankle_mm[0] / 1000.0

@@ -13,14 +13,16 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import Release, release_pose
-from jumpcad.settings import Settings, surface_friction
+from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.simulation.engines import import_pybullet
 from jumpcad.simulation.mechanics import State
 from jumpcad.simulation.run import Run
-from jumpcad.transforms import quaternion_about_y
+from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.transforms import quaternion_about_y, rotation_about_y
 
 RESET_EVERY = 500
 UNCLAMPED_RAD_S = 1e6
@@ -52,7 +54,7 @@ class BulletEngine:
     def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["BulletWorld"]:
         """Put a robot on the ground, ready for release, and remove it afterwards."""
         with self._lock:
-            self._prepare(settings)
+            self._prepare(settings, coefficients(mechanism, settings).ground)
             world = BulletWorld(self._bullet, self._client, self._ground, mechanism, settings)
             try:
                 yield world
@@ -62,7 +64,7 @@ class BulletEngine:
                 else:
                     self._bullet.removeBody(world.robot_id, physicsClientId=self._client)
 
-    def _prepare(self, settings: Settings) -> None:
+    def _prepare(self, settings: Settings, ground_friction: float) -> None:
         bullet = self._bullet
         if not bullet.isConnected(self._client):
             self._client = bullet.connect(bullet.DIRECT)
@@ -83,7 +85,7 @@ class BulletEngine:
         )
         # Bullet multiplies the restitutions of both sides: with 1 for the ground, the robot's is that of the contact.
         bullet.changeDynamics(
-            self._ground, -1, lateralFriction=settings.ground_friction, restitution=1.0, physicsClientId=client
+            self._ground, -1, lateralFriction=ground_friction, restitution=1.0, physicsClientId=client
         )
 
 
@@ -92,33 +94,82 @@ class BulletWorld:
 
     def __init__(self, bullet: Any, client: int, ground: int, mechanism: Mechanism, settings: Settings) -> None:
         self._bullet, self._client, self._ground = bullet, client, ground
-        self._stiffness = mechanism.spring.stiffness_nm_per_rad
-        self._damping_dt = settings.joint_damping_nms_per_rad * settings.dt_s
-        self.joint_damping_j = 0.0
+        rubs = coefficients(mechanism, settings)
+        self._dt_s, self._spring, self._stop = settings.dt_s, mechanism.spring, mechanism.stop
+        self._stop_inertia = leg_inertia_kg_m2(mechanism, mechanism.stop.angle_rad) if mechanism.stop else 0.0
+        self._damping_dt = rubs.joint_damping_nms_per_rad * settings.dt_s
+        self._dry_nm = [settings.joint_friction_nm] * len(JOINTS)
+        self._dry_nm[LEG] += pin_torque_nm(mechanism, rubs.pin)
+        self._slides = mechanism.friction is not None
+        self.joint_damping_j = self.slip_j = 0.0
         bodies = [mechanism.bodies[name] for name in (BODY, *LINKS)]
         principal = [principal_axes(body.inertia_kg_m2) for body in bodies]
         self._moments, self._axes = (np.stack(arrays) for arrays in zip(*principal, strict=True))
         self._body_in_principal = self._axes[BODY_ORDER].transpose(0, 2, 1)
         release = release_pose(mechanism)
         self.robot_id = self._create(mechanism, bodies, release)
-        self._set_dynamics(settings, bodies)
+        self._set_dynamics(settings, rubs, bodies)
         for link, joint in enumerate(_joints(mechanism)):
-            bullet.resetJointState(self.robot_id, link, release.joint_rad[joint.name], physicsClientId=client)
+            bullet.resetJointState(
+                self.robot_id,
+                link,
+                release.joint_rad[joint.name],
+                release.joint_rad_s[joint.name],
+                physicsClientId=client,
+            )
+        if mechanism.roller_off:
+            self._set_off(bodies[0], release)
         self._close_loop(mechanism)
 
     def advance(self, steps: int) -> float:
         """Go on by a number of time steps with the springs' torque of each step's beginning."""
-        bullet, mechanism, client, stiffness = self._bullet, self.robot_id, self._client, self._stiffness
+        bullet, mechanism, client = self._bullet, self.robot_id, self._client
+        spring_nm, stop = self._spring.torque_nm, self._stop
         joint_states, set_motor, torque = bullet.getJointStates, bullet.setJointMotorControl2, bullet.TORQUE_CONTROL
         step = bullet.stepSimulation
-        squares = 0.0
+        dry_leg, dry_foot, dry_front = self._dry_nm
+        squares = rubbed = 0.0
         for _ in range(steps):
             leg, foot, front = joint_states(mechanism, JOINTS, client)
             squares += leg[1] * leg[1] + foot[1] * foot[1] + front[1] * front[1]
-            set_motor(mechanism, LEG, torque, force=-stiffness * leg[0], physicsClientId=client)
+            rubbed += dry_leg * abs(leg[1]) + dry_foot * abs(foot[1]) + dry_front * abs(front[1])
+            push = spring_nm(leg[0])
+            if stop and leg[0] > stop.angle_rad:
+                push -= self._stop_nm(leg[0] - stop.angle_rad, leg[1], push)
+            set_motor(mechanism, LEG, torque, force=push, physicsClientId=client)
             step(client)
-        self.joint_damping_j += self._damping_dt * squares
+            if self._slides:
+                self.slip_j += self._slip_work_j()
+        self.joint_damping_j += self._damping_dt * squares + self._dt_s * rubbed
         return float(leg[0])
+
+    def _stop_nm(self, beyond_rad: float, leg_rad_s: float, push_nm: float) -> float:
+        """Return the torque of the stop's pad: it pushes back, but no more than brings the leg to a standstill."""
+        assert self._stop
+        halting = self._stop_inertia * leg_rad_s / self._dt_s + push_nm
+        return max(min(self._stop.stiffness_nm_per_rad * beyond_rad, halting), 0.0)
+
+    def _slip_work_j(self) -> float:
+        """Return what friction on the ground took in the last time step."""
+        bullet, client = self._bullet, self._client
+        lost = 0.0
+        for contact in bullet.getContactPoints(self.robot_id, self._ground, physicsClientId=client):
+            if contact[9] > 0.0:
+                com, velocity, spin = self._motion(contact[3])
+                (ax, ay, az), (wx, wy, wz) = (p - c for p, c in zip(contact[5], com, strict=True)), spin
+                vx, vy = velocity[0] + wy * az - wz * ay, velocity[1] + wz * ax - wx * az
+                for force, along in ((contact[10], contact[11]), (contact[12], contact[13])):
+                    lost += abs(force * (along[0] * vx + along[1] * vy))
+        return lost * self._dt_s
+
+    def _motion(self, link: int) -> tuple[Any, Any, Any]:
+        """Return centre of mass, velocity and spin of a link; -1 is the base."""
+        bullet, client = self._bullet, self._client
+        if link < 0:
+            velocity, spin = bullet.getBaseVelocity(self.robot_id, client)
+            return bullet.getBasePositionAndOrientation(self.robot_id, client)[0], velocity, spin
+        state = bullet.getLinkState(self.robot_id, link, computeLinkVelocity=1, physicsClientId=client)
+        return state[0], state[6], state[7]
 
     def loaded(self) -> bool:
         """Tell whether the ground carries any of the robot (Bullet also lists contacts that are only near)."""
@@ -199,7 +250,13 @@ class BulletWorld:
             )
         )
 
-    def _set_dynamics(self, settings: Settings, bodies: list[Body]) -> None:
+    def _set_off(self, base: Body, release: Release) -> None:
+        """Let the base move as the roller leaves it; Bullet wants the velocity of its centre of mass."""
+        spin = np.array([0.0, release.body_rad_s, 0.0])
+        velocity = release.body_m_s + np.cross(spin, rotation_about_y(release.body_pitch_rad) @ base.com_m)
+        self._bullet.resetBaseVelocity(self.robot_id, velocity.tolist(), spin.tolist(), physicsClientId=self._client)
+
+    def _set_dynamics(self, settings: Settings, rubs: Coefficients, bodies: list[Body]) -> None:
         """Set inertia and friction of every link, then what Bullet would apply to the base if set with these."""
         bullet, mechanism, client = self._bullet, self.robot_id, self._client
         for link, (body, moments) in enumerate(zip(bodies, self._moments, strict=True), start=-1):
@@ -207,11 +264,11 @@ class BulletWorld:
                 mechanism,
                 link,
                 localInertiaDiagonal=moments.tolist(),
-                lateralFriction=surface_friction(body, settings),
+                lateralFriction=rubs.of(body.surface),
                 rollingFriction=settings.rolling_friction_m,
                 spinningFriction=settings.spinning_friction_m,
                 restitution=settings.restitution,
-                jointDamping=settings.joint_damping_nms_per_rad,
+                jointDamping=rubs.joint_damping_nms_per_rad,
                 physicsClientId=client,
             )
         bullet.changeDynamics(
@@ -223,7 +280,7 @@ class BulletWorld:
             mechanism,
             JOINTS,
             bullet.VELOCITY_CONTROL,
-            forces=[settings.joint_friction_nm] * len(JOINTS),
+            forces=self._dry_nm,
             physicsClientId=client,
         )
 

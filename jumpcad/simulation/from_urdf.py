@@ -19,7 +19,19 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import read_bytes, read_json
 from jumpcad.files.complaints import did_you_mean, shown
 from jumpcad.files.names import LONGEST_TEXT, control_character
-from jumpcad.mechanism.model import BODY_NAMES, Body, ContactSphere, Joint, Loop, Mechanism, Spring, five_bar
+from jumpcad.mechanism.model import (
+    BODY_NAMES,
+    Body,
+    ContactSphere,
+    Friction,
+    Joint,
+    Loop,
+    Mechanism,
+    RollerOff,
+    Spring,
+    Stop,
+    five_bar,
+)
 from jumpcad.simulation.loop_file import JointName, LoopFile
 from jumpcad.transforms import Array
 
@@ -67,8 +79,11 @@ def robot_from_urdf(path: Path) -> Mechanism:
             bodies={name: _body(links[name], extra.surfaces) for name in BODY_NAMES},
             joints=tuple(_joint(joints[name], extra.travel_rad[name]) for name in JOINTS),
             loop=Loop(loop.body_a, np.array(loop.point_a_m), loop.body_b, np.array(loop.point_b_m)),
-            spring=Spring(extra.spring.joint, extra.spring.stiffness_nm_per_rad, extra.spring.wind_rad),
+            spring=Spring(**extra.spring.model_dump(exclude={"rest_rad"})),
             foot_depth_m=extra.foot_depth_m,
+            stop=Stop(**extra.stop.model_dump()) if extra.stop else None,
+            roller_off=RollerOff(**extra.roller_off.model_dump()) if extra.roller_off else None,
+            friction=Friction(**extra.friction.model_dump()) if extra.friction else None,
         )
         _require_mechanism(mechanism)
     return mechanism

@@ -10,11 +10,12 @@ from jumpcad.transforms import Array
 
 @dataclass(frozen=True)
 class EnergyBudget:
-    """Where the springs' energy is at take-off (J).
+    """Where the energy that was loaded into the springs is at take-off (J); the sum of all is that energy.
 
     `forward_j` and `upward_j` are the kinetic energy of the centre of mass, which makes the jump; `internal_j` is
     that of the bodies about it; `lift_j` is the height already gained; `spring_j` is still in the springs;
-    `joint_damping_j` is lost in the joints and `contact_j` in sliding, impact and the engine's numerics.
+    `release_j` is lost between cam and roller, `joint_damping_j` in the joints by damping and dry friction, `slip_j`
+    by friction on the ground, and `contact_j` by impact on ground or stop and the engine's numerics.
     """
 
     forward_j: float
@@ -22,8 +23,23 @@ class EnergyBudget:
     internal_j: float
     lift_j: float
     spring_j: float
+    release_j: float
     joint_damping_j: float
+    slip_j: float
     contact_j: float
+
+    @property
+    def account_j(self) -> dict[str, float]:
+        """What makes the jump, what is left, and what is lost where; the values add up to the loaded energy."""
+        return {
+            "useful": self.forward_j + self.upward_j + self.lift_j,
+            "internal": self.internal_j,
+            "springs": self.spring_j,
+            "release": self.release_j,
+            "pins": self.joint_damping_j,
+            "slip": self.slip_j,
+            "contact": self.contact_j,
+        }
 
 
 @dataclass(frozen=True)
@@ -75,7 +91,9 @@ class Jump:
 
     `verdict` is `jump`, `no_takeoff`, the reason of the gate's refusal (`loop`, `below_ground`, `tips`, `too_weak`), or
     that of the audit's (`audit_energy`, `audit_loop`). What only a jump has is None under any other verdict; `fitness`
-    (ballistic range over the longest link) is then 0. `findings` holds the gate's and the audit's margins.
+    (ballistic range over the longest link) is then 0. `release_energy_ratio` is what the springs still hold, with the
+    motion of the robot, where the roller has left the cam, over what was loaded: 1 without a cam. Range, rise and
+    distances count from where the robot stood with loaded springs. `findings` holds the gate's and the audit's margins.
     """
 
     verdict: str
@@ -85,6 +103,7 @@ class Jump:
     fitness: float = 0.0
     ballistic_range_m: float | None = None
     com_rise_m: float | None = None
+    release_energy_ratio: float | None = None
     takeoff_energy_ratio: float | None = None
     takeoff_speed_m_s: float | None = None
     takeoff_angle_deg: float | None = None
@@ -100,10 +119,16 @@ class Jump:
         shown = "".join(f", {name} {value:.3f} m" for name, value in figures if value is not None)
         return f"<Jump {self.verdict}{shown}, fitness {self.fitness:.3f}, {1000.0 * self.mass_kg:.1f} g, {self.engine}>"
 
+    @property
+    def energy_account_j(self) -> dict[str, float] | None:
+        """The energy that was loaded: useful, internal, springs, release, pins, slip, contact; see `EnergyBudget`."""
+        return None if self.energy is None else self.energy.account_j
+
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON, without the trajectory."""
         data = {name: value for name, value in vars(self).items() if name not in ("trajectory", "findings")}
         data["energy"] = None if self.energy is None else asdict(self.energy)
+        data["energy_account_j"] = self.energy_account_j
         data["published"] = None if self.published is None else asdict(self.published)
         data["findings"] = [finding.to_dict() for finding in self.findings]
         return data

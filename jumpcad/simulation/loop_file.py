@@ -9,6 +9,7 @@ from jumpcad.files import Record, TomlTable
 
 Length = Annotated[float, Field(ge=-10, le=10)]
 Angle = Annotated[float, Field(ge=-20, le=20)]
+Radius = Annotated[float, Field(ge=0, le=0.1)]
 Point = Annotated[tuple[Length, Length, Length], Field(strict=False)]
 JointName = Literal["leg", "front", "ankle"]
 BodyName = Literal["body", "main_leg", "front_link", "foot"]
@@ -30,6 +31,33 @@ class SpringSection(TomlTable):
     stiffness_nm_per_rad: Annotated[float, Field(gt=0, le=1e3)]
     rest_rad: Annotated[float, Field(ge=0, le=0)]
     wind_rad: Annotated[float, Field(gt=0, le=3.1416)]
+    preload_rad: Annotated[float, Field(ge=0, le=3.1416)] = 0.0
+    one_sided: bool = False
+
+
+class StopSection(TomlTable):
+    """The stop beyond rest, see `jumpcad.robot.Stop`."""
+
+    joint: Literal["leg"]
+    angle_rad: Annotated[float, Field(ge=0, le=3.1416)]
+    stiffness_nm_per_rad: Annotated[float, Field(gt=0, le=1e6)]
+
+
+class RollerOffSection(TomlTable):
+    """Where the jump begins, see `jumpcad.robot.RollerOff`."""
+
+    leg_rad: Annotated[float, Field(ge=-3.1416, le=0)]
+    leg_rad_s: Annotated[float, Field(ge=0, le=1e4)]
+    energy_ratio: Annotated[float, Field(gt=0, le=1.01)]
+
+
+class FrictionSection(TomlTable):
+    """Friction on the ground and in the pins, see `jumpcad.robot.Friction`."""
+
+    foot: Annotated[float, Field(gt=0, le=2)]
+    body: Annotated[float, Field(gt=0, le=2)]
+    pin: Annotated[float, Field(ge=0, le=2)]
+    pin_radius_m: Annotated[tuple[Radius, Radius, Radius, Radius], Field(strict=False)]
 
 
 class ReleaseSection(TomlTable):
@@ -50,6 +78,9 @@ class LoopFile(Record):
         dict[JointName, Annotated[tuple[Angle, Angle], Field(strict=False)]], Field(min_length=3, max_length=3)
     ]
     release: ReleaseSection
+    stop: StopSection | None = None
+    roller_off: RollerOffSection | None = None
+    friction: FrictionSection | None = None
     foot_depth_m: Annotated[float, Field(gt=0, le=1)]
     surfaces: dict[str, Literal["foot", "body"]]
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.transforms import Array
 
 
@@ -24,9 +25,23 @@ class State:
     leg_rad: float
 
 
+def loaded_state(mechanism: Mechanism) -> State:
+    """Return the state of a robot that stands still with its springs loaded."""
+    poses = [body_poses(mechanism, 1.0)[name] for name in BODY_NAMES]
+    com = [mechanism.bodies[name].com_m for name in BODY_NAMES]
+    still = np.zeros((len(poses), 3))
+    return State(
+        np.stack([pose[:3, 3] + np.einsum("ij,j->i", pose[:3, :3], at) for pose, at in zip(poses, com, strict=True)]),
+        np.stack([pose[:3, :3] for pose in poses]),
+        still,
+        still,
+        -mechanism.spring.wind_rad,
+    )
+
+
 @dataclass(frozen=True)
 class Energies:
-    """Mechanical energy (J): potential is that of height above z = 0."""
+    """Mechanical energy (J): potential is that of height above z = 0, `spring_j` that above the springs' at rest."""
 
     kinetic_j: float
     potential_j: float
@@ -48,7 +63,7 @@ class Mechanics:
         self.weight_n = self.total_mass_kg * gravity_m_s2
         self.inertia_kg_m2 = np.stack([body.inertia_kg_m2 for body in bodies])
         self.com_in_body_m = np.stack([body.com_m for body in bodies])
-        self.stiffness_nm_per_rad = mechanism.spring.stiffness_nm_per_rad
+        self.spring = mechanism.spring
         loop = mechanism.loop
         self._ends = BODY_NAMES.index(loop.body_a), BODY_NAMES.index(loop.body_b)
         self._arms_m = np.stack([loop.point_a_m, loop.point_b_m]) - self.com_in_body_m[list(self._ends)]
@@ -70,7 +85,7 @@ class Mechanics:
         return Energies(
             0.5 * float(linear + angular),
             self.weight_n * height,
-            0.5 * self.stiffness_nm_per_rad * state.leg_rad**2,
+            self.spring.stored_j(state.leg_rad),
         )
 
     def loop_gap_m(self, state: State) -> float:

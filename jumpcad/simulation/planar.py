@@ -1,8 +1,7 @@
 """The planar engine: the push-off in x-z by a compiled loop, about fifty times as fast as in a general engine.
 
 It holds the mechanism without its left and right, and neglects what the body's spheres touch before take-off (and says
-so where they do). What a run decides is decided in `Run`, but for the take-off: here it is the last contact before the
-robot flies.
+so where they do). What a run decides is decided in `Run`; the take-off, by the same rule, in the compiled loop.
 """
 
 import math
@@ -15,10 +14,11 @@ from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding, limit
 from jumpcad.mechanism.linkage import Complex as ComplexArray
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
+from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import State
-from jumpcad.simulation.planar_model import Effects, planar_model
+from jumpcad.simulation.planar_model import planar_model
 from jumpcad.simulation.planar_state import Moment, PushOff
 from jumpcad.simulation.run import AIRBORNE_S, AUDIT_EVERY_S, TAKEOFF_WITHIN_S, Run, Takeoff
 from jumpcad.transforms import Array
@@ -30,19 +30,22 @@ LACKING = ("restitution", "rolling_friction_m", "drag_per_s", "published_quantit
 class PlanarWorld:
     """One robot in the plane; a `World` for `Run`."""
 
-    def __init__(self, mechanism: Mechanism, settings: Settings, effects: Effects) -> None:
-        self.model = planar_model(mechanism, settings, effects)
+    def __init__(self, mechanism: Mechanism, settings: Settings) -> None:
+        self.model = planar_model(mechanism, settings)
         self.settings = settings
         self._aside_m = [mechanism.bodies[name].com_m[1] for name in BODY_NAMES]
-        self.joint_damping_j = 0.0
+        self.joint_damping_j = self.slip_j = 0.0
+        release = release_pose(mechanism)
+        leg = mechanism.spring.joint
         self.moment = kernel.released(
-            self.model, -mechanism.spring.wind_rad, float(effects.release_rad_s), complex(0.0, mechanism.foot_depth_m)
+            self.model, release.joint_rad[leg], release.joint_rad_s[leg], complex(0.0, mechanism.foot_depth_m)
         )
 
     def go_to(self, moment: Moment) -> None:
         """Go to another moment of the same motion."""
         self.moment = moment
         self.joint_damping_j = moment.losses.damping_j + moment.losses.friction_j
+        self.slip_j = moment.losses.slip_j
 
     def push_off(self) -> PushOff:
         """Return how the push-off from this moment ends, staying where it is."""
@@ -124,16 +127,13 @@ class PlanarRun(Run):
         self.steps = found.steps
         if not (found.flown and self.sound):
             return None
-        return self._takeoff(self.time_s, world.state(), world.joint_damping_j)
+        return self._takeoff(self.time_s, world.state(), world.joint_damping_j, world.slip_j)
 
 
 class PlanarEngine:
-    """Makes planar worlds, with the effects that it was given."""
+    """Makes planar worlds."""
 
     run = PlanarRun
-
-    def __init__(self, effects: Effects | None = None) -> None:
-        self.effects = effects or Effects()
 
     @contextmanager
     def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["PlanarWorld"]:
@@ -149,7 +149,7 @@ class PlanarEngine:
                 raise JumpcadError(
                     f"{key} = {value}: the planar engine has none; leave it out or use --engine pybullet"
                 )
-        yield PlanarWorld(mechanism, settings, self.effects)
+        yield PlanarWorld(mechanism, settings)
 
 
 def _about_y(direction: ComplexArray) -> Array:

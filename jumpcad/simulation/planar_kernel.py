@@ -128,8 +128,9 @@ def centre_speed(inertia: Inertia, speed: Motion) -> complex:
 
 @compiled
 def spring_torque(model: Model, leg_rad: float) -> float:
-    """Return the springs' torque on the leg joint."""
-    return 0.0 if model.one_sided_spring and leg_rad > 0.0 else -model.stiffness_nm_per_rad * leg_rad
+    """Return the springs' torque on the leg joint, see `Spring.torque_nm`."""
+    torque = model.stiffness_nm_per_rad * (model.preload_rad - leg_rad)
+    return max(torque, 0.0) if model.one_sided_spring else torque
 
 
 @compiled
@@ -145,7 +146,7 @@ def energy(model: Model, moment: Moment) -> float:
         + inertia.leg * speed.leg * speed.leg
     )
     height = (moment.ankle_m + 1j * inertia.by_foot / inertia.mass).imag
-    spring = -0.5 * spring_torque(model, moment.leg_rad) * moment.leg_rad
+    spring = 0.5 * spring_torque(model, moment.leg_rad) * (model.preload_rad - moment.leg_rad)
     return kinetic + model.gravity_m_s2 * inertia.mass * height + spring
 
 
@@ -361,6 +362,19 @@ def settle_with_friction(
 
 
 @compiled
+def settle_at_stop(
+    model: Model, ground: Ground, inertia: Inertia, free: Motion, last: Contact, leg_rad: float
+) -> tuple[Motion, Contact, float]:
+    """Do as `settle` with the leg in the stop: the pad pushes back, but no more than brings the leg to a standstill."""
+    push = -2.0 * ground.half_s * model.stop_nm_per_rad * max(leg_rad - model.stop_rad, 0.0)
+    pushed = plus(free, response(inertia, 0j, 0.0, 1.0), push)
+    after, contact, _ = settle(model, ground, inertia, pushed, last, False)
+    if after.leg >= 0.0:
+        return after, contact, push
+    return settle(model, ground, inertia, free, last, True)
+
+
+@compiled
 def step(model: Model, moment: Moment, dt: float) -> Moment:
     """Return the moment a time step later."""
     before, half = moment.speed, 0.5 * dt
@@ -378,7 +392,7 @@ def step(model: Model, moment: Moment, dt: float) -> Moment:
         stop_ns = 0.0
         if after.leg > 0.0 and leg_rad + half * after.leg > model.stop_rad:
             rubbed = plus(free, response(inertia, 0j, 0.0, 1.0), friction_ns)
-            after, contact, stop_ns = settle(model, ground, inertia, rubbed, last, True)
+            after, contact, stop_ns = settle_at_stop(model, ground, inertia, rubbed, last, leg_rad)
         change = plus(after, before, -1.0)
         middle = plus(before, change, 0.5)
         pins = pin_torque(model, links, ground, middle, change, contact)

@@ -5,58 +5,22 @@ multiplication by exp(-i·angle).
 """
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
-from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
-from jumpcad.settings import Settings, surface_friction
+from jumpcad.settings import Settings, coefficients
 
 SAME_M = 1e-9
 """Contact spheres that differ by less than this in the plane are one: left and right toe."""
-
-
-@dataclass(frozen=True)
-class Effects:
-    """What the planar engine can add to a robot; the defaults add nothing.
-
-    Attributes
-    ----------
-    pin_friction
-        Coefficient of dry friction in the pins of leg, front, ankle and eye.
-    pin_radius_m
-        Radii of these four pins.
-    one_sided_spring
-        The springs push the leg towards rest and do not pull it back from beyond.
-    stop_rad
-        Leg angle beyond rest at which an inelastic stop holds the leg.
-    release_rad_s
-        Rate of the leg joint at release.
-
-    Raises
-    ------
-    JumpcadError
-        If a value is out of range.
-    """
-
-    pin_friction: float = 0.0
-    pin_radius_m: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
-    one_sided_spring: bool = False
-    stop_rad: float = math.inf
-    release_rad_s: float = 0.0
-
-    def __post_init__(self) -> None:
-        positive = {"pin_friction": self.pin_friction, "pin_radius_m": min(self.pin_radius_m)}
-        for name, value in (positive | {"stop_rad": self.stop_rad, "release_rad_s": self.release_rad_s}).items():
-            if not value >= 0:
-                raise JumpcadError(f"{name} = {value}: must be at least 0")
+NO_PINS_M = 0.0, 0.0, 0.0, 0.0
+"""Radii of the pins of a robot that has none: the capsules."""
 
 
 class Model(NamedTuple):
     """A robot in the plane, SI units; tuples of four follow `BODY_NAMES`, those of the pins leg, front, ankle, eye.
 
     `com_m` are the centres of mass in the bodies' frames; `sole_m` and `belly_m` are the centres of the spheres of
-    foot and body that may touch the ground, with their radii.
+    foot and body that may touch the ground, with their radii. Without a stop its angle is infinite.
     """
 
     l1_m: float
@@ -64,18 +28,19 @@ class Model(NamedTuple):
     l3_m: float
     l4_m: float
     rest_rad: float
-    wind_rad: float
     total_kg: float
     mass_kg: tuple[float, ...]
     com_m: tuple[complex, ...]
     inertia_kg_m2: tuple[float, ...]
     gravity_m_s2: float
     stiffness_nm_per_rad: float
+    preload_rad: float
     one_sided_spring: bool
     damping_nms_per_rad: float
     joint_friction_nm: float
     pin_friction_m: tuple[float, ...]
     stop_rad: float
+    stop_nm_per_rad: float
     friction: float
     sole_m: tuple[complex, ...]
     sole_radius_m: tuple[float, ...]
@@ -83,12 +48,14 @@ class Model(NamedTuple):
     belly_radius_m: tuple[float, ...]
 
 
-def planar_model(mechanism: Mechanism, settings: Settings, effects: Effects) -> Model:
+def planar_model(mechanism: Mechanism, settings: Settings) -> Model:
     """Return a robot's mechanism in the plane, left and right on top of each other.
 
     Every number is a float or a complex: a tuple with integers would be another type, compiled anew.
     """
-    design = mechanism.design
+    design, spring, stop = mechanism.design, mechanism.spring, mechanism.stop
+    rubs = coefficients(mechanism, settings)
+    pin_radius_m = mechanism.friction.pin_radius_m if mechanism.friction else NO_PINS_M
     bodies = [mechanism.bodies[name] for name in BODY_NAMES]
     foot, body = mechanism.bodies[FOOT], mechanism.bodies[BODY]
     sole, sole_radius = _spheres(foot)
@@ -99,19 +66,20 @@ def planar_model(mechanism: Mechanism, settings: Settings, effects: Effects) -> 
         l3_m=design.l3_mm / 1000.0,
         l4_m=design.l4_mm / 1000.0,
         rest_rad=math.radians(design.rest_angle_deg),
-        wind_rad=mechanism.spring.wind_rad,
         total_kg=mechanism.mass_kg,
         mass_kg=tuple(body.mass_kg for body in bodies),
         com_m=tuple(complex(body.com_m[0], body.com_m[2]) for body in bodies),
         inertia_kg_m2=tuple(float(body.inertia_kg_m2[1, 1]) for body in bodies),
         gravity_m_s2=settings.gravity_m_s2,
-        stiffness_nm_per_rad=mechanism.spring.stiffness_nm_per_rad,
-        one_sided_spring=effects.one_sided_spring,
-        damping_nms_per_rad=settings.joint_damping_nms_per_rad,
+        stiffness_nm_per_rad=spring.stiffness_nm_per_rad,
+        preload_rad=spring.preload_rad,
+        one_sided_spring=spring.one_sided,
+        damping_nms_per_rad=rubs.joint_damping_nms_per_rad,
         joint_friction_nm=settings.joint_friction_nm,
-        pin_friction_m=tuple(float(effects.pin_friction * radius) for radius in effects.pin_radius_m),
-        stop_rad=float(effects.stop_rad),
-        friction=settings.ground_friction * surface_friction(foot, settings),
+        pin_friction_m=tuple(float(rubs.pin * radius) for radius in pin_radius_m),
+        stop_rad=float(stop.angle_rad) if stop else math.inf,
+        stop_nm_per_rad=float(stop.stiffness_nm_per_rad) if stop else 0.0,
+        friction=rubs.contact(foot.surface),
         sole_m=sole,
         sole_radius_m=sole_radius,
         belly_m=belly,

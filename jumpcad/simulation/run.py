@@ -15,7 +15,7 @@ from jumpcad.findings import Finding, at_most, limit
 from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
-from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics
+from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics, loaded_state
 from jumpcad.transforms import Array
 
 AUDIT_EVERY_S = 0.008
@@ -34,7 +34,9 @@ class World(Protocol):
     """One robot on the ground in an engine, released at time 0."""
 
     joint_damping_j: float
-    """What the joints' damping has taken so far (J)."""
+    """What damping and dry friction of joints and pins have taken so far (J)."""
+    slip_j: float
+    """What friction on the ground has taken so far (J)."""
 
     def advance(self, steps: int) -> float:
         """Advance by a number of time steps, the springs acting in each.
@@ -60,7 +62,7 @@ class Engine(Protocol):
 
 @dataclass(frozen=True)
 class Takeoff:
-    """The first moment without normal force, and the flight that follows from it."""
+    """The moment after the last contact, and the flight that follows from it."""
 
     time_s: float
     flight: Ballistics
@@ -79,6 +81,7 @@ class Run:
         self.touchdown_distance_m: float | None = None
         self.published: PublishedQuantities | None = None
         self.start = world.state()
+        self.loaded = self.start if mechanism.roller_off is None else loaded_state(mechanism)
         self.start_energy_j = self.mechanics.energies(self.start).total_j
         self.worst_energy_ratio = 0.0
         self.worst_gap_m = 0.0
@@ -139,26 +142,32 @@ class Run:
         )
 
     def _push_off(self) -> Takeoff | None:
-        """Go on until the robot has taken off; return None if it does not."""
+        """Go on to the last contact before the robot flies; return None if it does not.
+
+        It flies once it has been in the air for `AIRBORNE_S`, rising, and the springs are spent: the leg joint has come
+        to rest, or opens no more. A hop before that is a part of the push-off.
+        """
         world, settings = self.world, self.settings
         half_wound = -self.mechanism.spring.wind_rad / 2
         hold = max(1, round(AIRBORNE_S / settings.dt_s))
         deadline = settings.max_time_s
         leg_rad = -math.inf
         airborne = 0
-        left: tuple[float, State, float] | None = None
-        while airborne < hold or self.mechanics.velocity_m_s(world.state())[2] <= 0:
+        left = 0.0, self.start, 0.0, 0.0
+        while True:
             # In the first half of the springs' travel nothing leaves the ground, so contacts are not looked up.
-            leg_rad = self._advance(hold if leg_rad < half_wound else 1)
+            before, leg_rad = leg_rad, self._advance(hold if leg_rad < half_wound else 1)
             if leg_rad >= half_wound:
                 airborne = 0 if world.loaded() else airborne + 1
                 if airborne == 1:
-                    left = self.time_s, world.state(), world.joint_damping_j
+                    left = self.time_s, world.state(), world.joint_damping_j, world.slip_j
             if leg_rad >= 0:
                 deadline = min(deadline, self.time_s + TAKEOFF_WITHIN_S)
             if self.time_s > deadline or not self.sound:
                 return None
-        return self._takeoff(*left) if left else None
+            spent = leg_rad >= 0 or leg_rad <= before
+            if spent and airborne >= hold and self.mechanics.velocity_m_s(world.state())[2] > 0:
+                return self._takeoff(*left)
 
     def _fly(self) -> None:
         """Advance to the first touchdown, and to the published study's last contact if asked for."""
@@ -171,7 +180,7 @@ class Run:
                 height = max(height, self._body_position_m(world.state())[2])
             if not world.loaded():
                 continue
-            here = float(self._body_position_m(world.state())[0] - self._body_position_m(self.start)[0])
+            here = float(self._body_position_m(world.state())[0] - self._body_position_m(self.loaded)[0])
             if self.touchdown_distance_m is None:
                 self.touchdown_distance_m = here
             if not settings.published_quantities:
@@ -210,25 +219,28 @@ class Run:
         if finite and record and (not self._records or self._records[-1][0] < self.time_s):
             self._records.append((self.time_s, state))
 
-    def _takeoff(self, time_s: float, state: State, joint_damping_j: float) -> Takeoff:
+    def _takeoff(self, time_s: float, state: State, joint_damping_j: float, slip_j: float) -> Takeoff:
         """Return what the state in which the robot left the ground leads to."""
         mechanics, mass = self.mechanics, self.mechanics.total_mass_kg
         energies = mechanics.energies(state)
-        start, here = mechanics.centre_of_mass_m(self.start), mechanics.centre_of_mass_m(state)
+        start, here = mechanics.centre_of_mass_m(self.loaded), mechanics.centre_of_mass_m(state)
         velocity = mechanics.velocity_m_s(state)
         forward, upward = 0.5 * mass * float(velocity[0]) ** 2, 0.5 * mass * float(velocity[2]) ** 2
-        left = energies.total_j - self.start_energy_j + self.mechanism.spring.energy_j
+        wound, loaded_j = self.mechanism.spring.energy_j, mechanics.energies(self.loaded).total_j
+        left, release_j = energies.total_j - loaded_j + wound, loaded_j - self.start_energy_j
         budget = EnergyBudget(
             forward_j=forward,
             upward_j=upward,
             internal_j=energies.kinetic_j - forward - upward,
             lift_j=mechanics.weight_n * float(here[2] - start[2]),
             spring_j=energies.spring_j,
+            release_j=release_j,
             joint_damping_j=joint_damping_j,
-            contact_j=self.mechanism.spring.energy_j - left - joint_damping_j,
+            slip_j=slip_j,
+            contact_j=wound - left - release_j - joint_damping_j - slip_j,
         )
         flight = ballistics(start, here, velocity, self.settings.gravity_m_s2)
-        return Takeoff(time_s, flight, budget, left / self.mechanism.spring.energy_j)
+        return Takeoff(time_s, flight, budget, left / wound)
 
     def _body_position_m(self, state: State) -> Array:
         position: Array = self.mechanics.frame_positions_m(state)[BODY_INDEX]

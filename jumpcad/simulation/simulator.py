@@ -18,7 +18,7 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
     mechanism
         Its bodies, joints, loop and spring are simulated.
     settings
-        Time step, friction and so on; the default settings if None.
+        Time step, friction and so on; what they leave open follows the robot, as all does if None.
     engine
         A name of `jumpcad.simulation.ENGINES`: `pybullet`, `mujoco` for an independent result to compare, or `planar`,
         the push-off in the plane in a fraction of their time.
@@ -72,6 +72,7 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
         fitness=flight.range_m / (mechanism.design.l_max_mm / 1000.0),
         ballistic_range_m=flight.range_m,
         com_rise_m=flight.rise_m,
+        release_energy_ratio=1.0 - takeoff.energy.release_j / mechanism.spring.energy_j,
         takeoff_energy_ratio=takeoff.energy_ratio,
         takeoff_speed_m_s=flight.speed_m_s,
         takeoff_angle_deg=flight.angle_deg,

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.flights import Flight
-from support.push_off import last_contact_range_m, softer_mujoco_range_m
+from support.machines import one_sided
 
 from jumpcad import cli
 from jumpcad.building import build
@@ -17,7 +17,6 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld
-from jumpcad.simulation.planar_model import Effects
 from jumpcad.simulation.planar_state import Motion
 
 FINE = load_settings("fine")
@@ -53,25 +52,26 @@ def test_range_converges(jumping: list[Flight]) -> None:
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-printable"])
 def test_printed_robots(name: str, engine: str) -> None:
+    """General engines have the friction of all pins as one constant torque."""
     pytest.importorskip(engine)
     robot = build(load_design(name))
     planar, other = simulate(robot, engine="planar"), simulate(robot, FINE, engine)
     assert planar.verdict == other.verdict == "jump"
-    assert planar.ballistic_range_m == pytest.approx(other.ballistic_range_m, rel=0.003)
-    assert planar.com_rise_m == pytest.approx(other.com_rise_m, rel=0.003)
+    assert planar.ballistic_range_m == pytest.approx(other.ballistic_range_m, rel=0.005)
+    assert planar.com_rise_m == pytest.approx(other.com_rise_m, rel=0.005)
 
 
 @pytest.mark.parametrize("friction", [0.3, 0.4, 0.5, 0.6])
 def test_slipping(kenan: Robot, friction: float) -> None:
-    """Against both engines' last contact; MuJoCo's contacts are springs, which its steps must resolve."""
+    """Against both engines: some contacts in each are lost before the last."""
     settings = FINE.model_copy(update={"ground_friction": friction})
     planar = simulate(kenan, settings, "planar")
     assert planar.energy is not None
-    assert planar.energy.contact_j > 0.005 * planar.spring_energy_j
+    assert planar.energy.slip_j > 0.005 * planar.spring_energy_j
     pytest.importorskip("mujoco")
-    assert planar.ballistic_range_m == pytest.approx(softer_mujoco_range_m(kenan, settings, 32.0), rel=0.01)
+    assert planar.ballistic_range_m == pytest.approx(simulate(kenan, settings, "mujoco").ballistic_range_m, rel=0.003)
     pytest.importorskip("pybullet")
-    assert planar.ballistic_range_m == pytest.approx(last_contact_range_m(kenan, settings, "pybullet"), rel=0.002)
+    assert planar.ballistic_range_m == pytest.approx(simulate(kenan, settings, "pybullet").ballistic_range_m, rel=0.002)
 
 
 def test_dry_friction_in_the_joints_costs_energy(kenan: Robot) -> None:
@@ -87,7 +87,7 @@ def test_dry_friction_in_the_joints_costs_energy(kenan: Robot) -> None:
 def test_a_hop_with_wound_springs_is_no_takeoff(kenan: Robot) -> None:
     """Thrown up by 0.3 mm with springs too weak for a jump: in the air for more than 4 ms, rising, and down again."""
     weak = replace(kenan, spring=replace(kenan.spring, stiffness_nm_per_rad=0.02))
-    world = PlanarWorld(weak, FINE, Effects())
+    world = PlanarWorld(weak, FINE)
     world.go_to(world.moment._replace(speed=Motion(0.08j, 0.0, 0.0)))
     thrown = world.moment
     world.advance(round(0.005 / FINE.dt_s))
@@ -169,7 +169,7 @@ def test_what_the_plane_does_not_have_is_refused(kenan: Robot, key: str, value: 
 def test_a_dead_point_in_flight_is_said(jumping: list[Flight]) -> None:
     """A leg that turns on to where foot and front link are in line, beyond which its angle does not tell the pose."""
     robot = next(flight.robot for flight in jumping if flight.name == "ga-c")
-    world = PlanarWorld(robot, Settings(), Effects(one_sided_spring=True))
+    world = PlanarWorld(one_sided(robot), Settings())
     speed = Motion(0j, 0.0, 60.0)
     world.go_to(world.moment._replace(ankle_m=1j, leg_rad=0.0, speed=speed))
     with pytest.raises(JumpcadError, match=r"into line in flight.*pybullet") as caught:

@@ -1,20 +1,11 @@
-"""The planar model: what the plane takes of a robot, and what may be added to it."""
+"""The planar model: what the plane takes of a robot."""
 
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
-from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.planar_model import Effects
-
-
-@pytest.mark.parametrize("name", ["pin_friction", "stop_rad", "release_rad_s"])
-def test_effects_out_of_range(name: str) -> None:
-    with pytest.raises(JumpcadError, match=f"{name} = -0.1: must be at least 0"):
-        Effects(**{name: -0.1})
 
 
 def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:

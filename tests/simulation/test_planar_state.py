@@ -7,7 +7,6 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.planar import PlanarWorld
-from jumpcad.simulation.planar_model import Effects
 
 
 def wrong(value: Any, kind: Any, path: str = "") -> Iterator[str]:
@@ -23,7 +22,7 @@ def wrong(value: Any, kind: Any, path: str = "") -> Iterator[str]:
 
 
 def test_what_the_kernel_returns_has_the_types_of_its_classes(kenan: Robot) -> None:
-    world = PlanarWorld(kenan, Settings(), Effects())
+    world = PlanarWorld(kenan, Settings())
     found = world.push_off()
     links = kernel.links_at(world.model, found.moment.leg_rad)
     inertia = kernel.inertia_at(world.model, links, 1 + 0j)

@@ -35,7 +35,7 @@ def test_audit_rejects_energy_from_nowhere(kenan: Robot, monkeypatch: pytest.Mon
 
     def stronger(world: BulletWorld, *arguments: object) -> None:
         born(world, *arguments)  # type: ignore[arg-type]
-        world._stiffness *= 2
+        world._spring = replace(world._spring, stiffness_nm_per_rad=2 * world._spring.stiffness_nm_per_rad)
 
     monkeypatch.setattr(BulletWorld, "__init__", stronger)
     jump = simulate(kenan)

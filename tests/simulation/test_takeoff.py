@@ -23,7 +23,7 @@ bounce, is 3 ms; a flight of 6 ms is more than that of any contact."""
 class Scripted:
     """A robot that stands with its springs at rest and is off the ground at given times."""
 
-    joint_damping_j = 0.0
+    joint_damping_j = slip_j = 0.0
 
     def __init__(self, start: State, flights_s: list[tuple[float, float]], speed_m_s: float) -> None:
         self.flights_s, self.steps, self.start = flights_s, 0, start

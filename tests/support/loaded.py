@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.settings import Settings
+from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.bullet import BODY_ORDER, BulletEngine, BulletWorld
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.simulation.run import Run
@@ -40,7 +40,7 @@ def loaded_range_m(urdf: Path) -> float:
     engine, settings, robot = BulletEngine(), Settings(), robot_from_urdf(urdf)
     world_class = type("World", (LoadedWorld,), {"urdf": urdf})
     with engine._lock:
-        engine._prepare(settings)
+        engine._prepare(settings, coefficients(robot, settings).ground)
         run = Run(world_class(engine._bullet, engine._client, engine._ground, robot, settings), robot, settings)
         run.go()
     assert run.takeoff is not None
