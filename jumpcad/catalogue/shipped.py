@@ -112,15 +112,15 @@ class PartsByName(Mapping[str, Entry], Generic[Entry]):
 class Catalogue:
     """All bought parts that a robot can be made of."""
 
-    motors: Shelf[Motor]
-    bearings: Shelf[Bearing]
-    batteries: Shelf[Battery]
-    boards: Shelf[Board]
-    springs: Shelf[StockSpring]
-    screws: Shelf[Screw]
-    nuts: Shelf[Nut]
-    washers: Shelf[Washer]
-    standoffs: Shelf[Standoff]
+    motors: PartsByName[Motor]
+    bearings: PartsByName[Bearing]
+    batteries: PartsByName[Battery]
+    boards: PartsByName[Board]
+    springs: PartsByName[StockSpring]
+    screws: PartsByName[Screw]
+    nuts: PartsByName[Nut]
+    washers: PartsByName[Washer]
+    standoffs: PartsByName[Standoff]
     wire: Wire
     rod_density_g_cm3: float
 
@@ -161,10 +161,10 @@ def load_catalogue() -> Catalogue:
         batteries=_articles("battery", Battery, electronics["batteries"] | {"source": electronics["source"]}),
         boards=_articles("board", Board, electronics["boards"] | {"source": electronics["source"]}),
         springs=_articles("spring", StockSpring, springs),
-        screws=_shelf("screw", Screw, fasteners["screws"]),
-        nuts=_shelf("nut", Nut, fasteners["nuts"]),
-        washers=_shelf("washer", Washer, fasteners["washers"]),
-        standoffs=_shelf("standoff", Standoff, fasteners["standoffs"]),
+        screws=_by_name("screw", Screw, fasteners["screws"]),
+        nuts=_by_name("nut", Nut, fasteners["nuts"]),
+        washers=_by_name("washer", Washer, fasteners["washers"]),
+        standoffs=_by_name("standoff", Standoff, fasteners["standoffs"]),
         wire=Wire.from_toml(folder / "wire.toml"),
         rod_density_g_cm3=fasteners["rods"]["density_g_cm3"],
     )
