@@ -87,7 +87,7 @@ def remembered() -> Iterator[dict[object, Any]]:
 
 
 @pytest.fixture(scope="session")
-def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> Originals:
+def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Originals]:
     """Make the good files with the command line itself."""
     folder = tmp_path_factory.mktemp("originals")
     made = Originals(folder / "bundle", folder / "coupon", folder / "study.db")
@@ -99,7 +99,8 @@ def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> O
         assert exit_code_of("optimize", "nsga2", *search) == 0
         assert exit_code_of("study", str(made.study), "--plots", str(folder / "plots"), "--json") == 0
     gc.freeze()  # collecting looks only at what comes after this
-    return made
+    yield made
+    gc.unfreeze()
 
 
 @pytest.fixture
