@@ -169,7 +169,7 @@ def of_assumptions() -> dict[str, str]:
     return {
         "assumptions": f"A friction of {settings.ground_friction * settings.foot_friction:g} and a joint damping of "
         f"{settings.joint_damping_nms_per_rad:g} N·m·s/rad",
-        "blind time": f"{published.BLIND_S:g} s",
+        "blind time": f"{published.IGNORED_S:g} s",
         "search in Python": f"`best = jumpcad.optimize({given})`",
         "search slack": percent([SEARCH_SLACK]),
         "scale": f"{PUBLISHED_MS:.0f} ms; they may be off by a factor of {SPEED_FACTOR:g}",
