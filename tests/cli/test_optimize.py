@@ -18,8 +18,8 @@ JUMPCAD = [sys.executable, "-m", "jumpcad"]
 
 
 def test_optimize_finds_a_jumper_and_writes_it(folder):
-    found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
-    assert found["evaluations"] == 60
+    found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 40, "-o", "best.toml")
+    assert found["evaluations"] == 40
     assert found["best"]["fitness"] == found["best"]["score"] > 5.0
     assert set(found["best"]["design"]) == set(PARAMETERS)
     winner = load_design("best.toml")
@@ -27,22 +27,22 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
     robust = [candidate["robust_score"] for candidate in found["candidates"]]
     assert robust == sorted(robust, reverse=True)
     assert found["active_bounds"]
-    shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
+    shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 40, "-o", "best.toml")
     assert "next: jumpcad build best.toml" in shown
     summary = data("study", "s.db")
-    assert summary["evaluations"] == summary["planned"] == 60
+    assert summary["evaluations"] == summary["planned"] == 40
     assert summary["best"]["score"] == found["best"]["score"]
     assert f"{found['best']['score']:.4f}" in run("study", "s.db")
 
 
 def test_what_optimize_finds_jumps_like_that(folder):
-    found = data("optimize", "bo", *QUICK, "--evaluations", 30, "-o", "best.toml")
+    found = data("optimize", "bo", *QUICK, "--evaluations", 16, "-o", "best.toml")
     jump = data("simulate", "best.toml", "--capsule", "--settings", "screening")
     assert json.dumps(found["winner"]["score"]) in json.dumps(jump)
 
 
 def test_pareto_reports_its_front(folder):
-    found = data("optimize", "pareto", *QUICK, "--evaluations", 40, "--study", "p.db", "--plots", "pics")
+    found = data("optimize", "pareto", *QUICK, "--evaluations", 24, "--study", "p.db", "--plots", "pics")
     energies = [trial["metrics"]["spring_energy_j"] for trial in found["front"]]
     ranges = [trial["metrics"]["ballistic_range_m"] for trial in found["front"]]
     assert energies == sorted(energies)
