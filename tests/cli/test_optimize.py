@@ -18,8 +18,8 @@ JUMPCAD = [sys.executable, "-m", "jumpcad"]
 
 
 def test_optimize_finds_a_jumper_and_writes_it(folder):
-    found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 40, "-o", "best.toml")
-    assert found["evaluations"] == 40
+    found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
+    assert found["evaluations"] == 60
     assert found["best"]["fitness"] == found["best"]["score"] > 5.0
     assert set(found["best"]["design"]) == set(PARAMETERS)
     winner = load_design("best.toml")
@@ -27,10 +27,10 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
     robust = [candidate["robust_score"] for candidate in found["candidates"]]
     assert robust == sorted(robust, reverse=True)
     assert found["active_bounds"]
-    shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 40, "-o", "best.toml")
+    shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
     assert "next: jumpcad build best.toml" in shown
     summary = data("study", "s.db")
-    assert summary["evaluations"] == summary["planned"] == 40
+    assert summary["evaluations"] == summary["planned"] == 60
     assert summary["best"]["score"] == found["best"]["score"]
     assert f"{found['best']['score']:.4f}" in run("study", "s.db")
 
