@@ -8,9 +8,9 @@ import sys
 from support.places import ROOT
 
 EXAMPLES = {
-    "paper_pipeline": ["--model", "capsule", "--evaluations", "40", "--points", "3", "--folder", "out"],
-    "one_spring": ["--model", "capsule", "--evaluations", "45"],
-    "pareto_front": ["--model", "capsule", "--evaluations", "40", "--folder", "out"],
+    "paper_pipeline": ["--model", "capsule", "--evaluations", "20", "--points", "3", "--folder", "out"],
+    "one_spring": ["--model", "capsule", "--evaluations", "30"],
+    "pareto_front": ["--model", "capsule", "--evaluations", "24", "--folder", "out"],
     "custom_printer": ["--folder", "out"],
 }
 
