@@ -66,7 +66,10 @@ class RobotModel:
 
     @property
     def tolerance_mm(self) -> float:
-        """By how much a printed link may come out wrong (mm): both its ends have the play of a sliding fit."""
+        """By how much a printed link may come out wrong (mm): both its ends have the play of a sliding fit.
+
+        A capsule or published robot is made in no workshop; its ends have the default's play.
+        """
         return 0.2 if self.workshop is None else 2.0 * self.workshop.fits.sliding_mm
 
     def admits(self, design: Design) -> bool:
