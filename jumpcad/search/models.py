@@ -68,7 +68,7 @@ class RobotModel:
     def tolerance_mm(self) -> float:
         """By how much a printed link may come out wrong (mm): both its ends have the play of a sliding fit.
 
-        A capsule or published robot is made in no workshop; its ends have the default's play.
+        A capsule or published robot is made in no workshop; for it this is 0.2 mm (judgement).
         """
         return 0.2 if self.workshop is None else 2.0 * self.workshop.fits.sliding_mm
 
