@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from jumpcad import evaluation, published
-from jumpcad.building import assembly
+from jumpcad.building import assembly, settle
 from jumpcad.building import growth as building
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import CannotBuildError
@@ -31,12 +31,12 @@ REFERENCE = Path(__file__).parents[1] / "tests" / "data" / "reference_flights.cs
 RANDOM = 12
 STAGES: dict[str, tuple[ModuleType, str]] = {
     "gate": (building, "geometry_findings"),
-    "sections": (assembly, "sections"),
-    "drive": (assembly, "synthesise"),
+    "sections": (settle, "sections"),
+    "drive": (settle, "synthesise"),
     "plan": (assembly, "make_layout"),
     "drawings": (assembly, "drawings"),
     "printed masses": (assembly, "mass_properties"),
-    "growth": (building, "strength_findings"),
+    "growth": (building, "constraint_findings"),
     "bought parts": (shopping, "bought_parts"),
     "simulation": (evaluation, "simulate"),
     "checks": (evaluation, "constraint_findings"),

@@ -1,7 +1,7 @@
 """The figures that the README shows, by name, each as the text that it should have; `readme.py` compares them.
 
-What follows from the templates alone takes some seconds: `of_robots`, `of_prototypes`, `of_best_printable`. The others
-take minutes: they run the search, PrusaSlicer and the benchmarks of this folder.
+What follows from the templates alone takes some seconds: `of_robots`, `of_prototypes`, `of_best_printable`,
+`of_assumptions`. The others take minutes: they run the search, PrusaSlicer and the benchmarks of this folder.
 """
 
 import json
@@ -37,6 +37,9 @@ PROTOTYPES = tuple(row for row in PUBLISHED_RESULTS if row.measured is not None)
 SEARCH = ("optimize", "--evaluations", "240", "--seed", "0")
 PUBLISHED_MS = 40.0
 """CPU time of one published simulation on the machine that all CPU times are scaled to."""
+SEARCH_SLACK = 0.01
+SPEED_FACTOR = 1.5
+"""How far apart, on two machines, the scores of a search (share) and CPU times (factor) may be."""
 GRAVITY_M_S2 = Settings().gravity_m_s2
 
 
@@ -156,6 +159,20 @@ def of_best_printable() -> dict[str, str]:
         "bounds": f"{len(bounds)} parameters: {', '.join(bounds)}",
         "neighbours": f"Of {len(neighbours)} neighbours, half with parameters ±1 %, half with lengths "
         f"±{length_mm:g} mm, {refused or 'none'} {'is' if refused < 2 else 'are'} rejected",
+    }
+
+
+def of_assumptions() -> dict[str, str]:
+    """Return what the README says of settings, of the search's call in Python, and of what may differ elsewhere."""
+    settings = Settings()
+    given = ", ".join(f"{option[2:]}={value}" for option, value in zip(SEARCH[1::2], SEARCH[2::2], strict=True))
+    return {
+        "assumptions": f"A friction of {settings.ground_friction * settings.foot_friction:g} and a joint damping of "
+        f"{settings.joint_damping_nms_per_rad:g} N·m·s/rad",
+        "blind time": f"{published.IGNORED_S:g} s",
+        "search in Python": f"`best = jumpcad.optimize({given})`",
+        "search slack": percent([SEARCH_SLACK]),
+        "scale": f"{PUBLISHED_MS:.0f} ms; they may be off by a factor of {SPEED_FACTOR:g}",
     }
 
 

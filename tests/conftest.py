@@ -1,8 +1,9 @@
-"""Fixtures for the tests of several packages, and the option `--all-installed`."""
+"""Fixtures for the tests of several packages, and the options `--all-installed` and `--costs`."""
 
 from typing import Any
 
 import pytest
+from support.costs import Costs
 from support.robots import make_small_robot
 
 from jumpcad.robot import Robot
@@ -15,8 +16,15 @@ def small_robot() -> Robot:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Offer a run that fails if a program or package is missing for which a test would be skipped."""
+    """Offer a run that fails if a program or package is missing for which a test would be skipped, and one of costs."""
     parser.addoption("--all-installed", action="store_true", help="what is not installed fails the run")
+    parser.addoption("--costs", type=int, metavar="N", help="print the N tests that need most CPU time, and packages")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Measure what tests cost, if asked."""
+    if config.getoption("--costs") is not None:
+        config.pluginmanager.register(Costs(config.getoption("--costs")))
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:

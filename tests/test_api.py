@@ -1,18 +1,9 @@
-"""Public functions that take a robot take a design too."""
+"""The public function that writes a bundle; that designs are taken for robots is in `test_arguments.py`."""
 
 from pathlib import Path
 
-import pytest
-
 import jumpcad
 from jumpcad.robot import Robot
-
-
-@pytest.mark.parametrize("name", ["simulate", "check"])
-def test_a_design_is_built_where_a_robot_is_taken(name):
-    design = jumpcad.load_design("kenan-2.0")
-    function = getattr(jumpcad, name)
-    assert repr(function(design)) == repr(function(jumpcad.build(design)))
 
 
 def test_a_bundle_has_pictures_and_no_step_files_unless_it_is_told_otherwise(

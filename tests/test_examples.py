@@ -5,13 +5,12 @@ import re
 import subprocess
 import sys
 
-import pytest
 from support.places import ROOT
 
 EXAMPLES = {
-    "paper_pipeline": ["--model", "capsule", "--evaluations", "40", "--points", "3", "--folder", "out"],
-    "one_spring": ["--model", "capsule", "--evaluations", "45"],
-    "pareto_front": ["--model", "capsule", "--evaluations", "40", "--folder", "out"],
+    "paper_pipeline": ["--model", "capsule", "--evaluations", "20", "--points", "3", "--folder", "out"],
+    "one_spring": ["--model", "capsule", "--evaluations", "30"],
+    "pareto_front": ["--model", "capsule", "--evaluations", "24", "--folder", "out"],
     "custom_printer": ["--folder", "out"],
 }
 
@@ -51,6 +50,7 @@ def test_pareto_front_rises(tmp_path):
     assert (tmp_path / "out" / "front.svg").is_file()
 
 
-@pytest.mark.parametrize("printer", ["a small printer in the corner", "Original Prusa"])
-def test_custom_printer(tmp_path, printer):
-    assert printer in run("custom_printer", tmp_path)
+def test_custom_printer(tmp_path):
+    shown = run("custom_printer", tmp_path)
+    assert "a small printer in the corner" in shown
+    assert "Original Prusa" in shown

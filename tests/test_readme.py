@@ -32,6 +32,26 @@ def test_figures_that_follow_from_the_templates(readme: ModuleType, capsys: pyte
     assert (code, capsys.readouterr().out) == (0, "every figure is what the program gives\n")
 
 
+def test_every_stage_that_is_timed_is_there(readme: ModuleType) -> None:
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    try:
+        stages = importlib.import_module("evaluate").STAGES
+    finally:
+        sys.path.pop(0)
+    assert [name for name, (module, function) in stages.items() if not hasattr(module, function)] == []
+
+
+def test_a_figure_that_nothing_computes_is_named(
+    readme: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(readme, "CHEAP", {readme.figures.of_assumptions: 0.0})
+    monkeypatch.setattr(readme, "COSTLY", {"masses": (lambda: {"mass model": "3.7 % of PrusaSlicer 2.5.0"}, 0.0)})
+    assert readme.main([]) == 1
+    said = capsys.readouterr().out
+    assert "README.md, speed: nothing computes it" in said
+    assert "mass model" not in said
+
+
 def test_wrong_figures_are_named_and_corrected(
     readme: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

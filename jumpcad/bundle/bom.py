@@ -151,14 +151,12 @@ def _seconds(time_s: float | None) -> str:
     return "" if time_s is None else f"{time_s:.0f}"
 
 
-def _priced(items: Sequence[BillLine], workshop: Workshop | None) -> Bill:
+def _priced(items: Sequence[BillLine], workshop: Workshop) -> Bill:
     """Return the bill of lines with a workshop's prices: of filament by mass, of articles by their names."""
     return Bill(tuple(replace(item, price_eur=_price_eur(item, workshop)) for item in items))
 
 
-def _price_eur(item: BillLine, workshop: Workshop | None) -> float | None:
-    if workshop is None:
-        return None
+def _price_eur(item: BillLine, workshop: Workshop) -> float | None:
     if item.kind == "printed":
         material = workshop.materials.get(item.material)
         if material is None or material.price_eur_per_kg is None:

@@ -4,6 +4,7 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
+from functools import cache
 
 import typer
 from pydantic import ValidationError
@@ -16,6 +17,8 @@ from jumpcad.errors import JumpcadError
 WRONG_REQUEST, BUG = 2, 3
 OUTPUT_CLOSED = 141
 """Exit code that a shell gives a program ended by SIGPIPE (128 + 13)."""
+
+_parser = cache(typer.main.get_command)
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 for module in (designs, bundle, check, slicing, coupon, simulate, reproduce, explore, optimize, study):
@@ -62,7 +65,7 @@ def _carry_out(arguments: list[str]) -> int:
         os.getcwd()
     except FileNotFoundError:
         raise JumpcadError("the current folder was deleted: change into another one") from None
-    command = typer.main.get_command(app)
+    command = _parser(app)
     try:
         with command.make_context("jumpcad", arguments) as context:
             command.invoke(context)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
-from jumpcad.cli.subjects import WorkshopOption, designed, tell_template, written_robot
+from jumpcad.cli.subjects import WorkshopOption, designed, refuse_workshop, tell_template, written_robot
 from jumpcad.errors import JumpcadError
 from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
 
@@ -76,8 +76,8 @@ def simulate(
 
     if capsule and published:
         raise JumpcadError("--capsule and --published exclude each other: choose one model")
-    if (capsule or published) and workshop is not None:
-        raise JumpcadError(f"--workshop {workshop}: cannot apply to a robot that is not printed; leave it out")
+    if capsule or published:
+        refuse_workshop(workshop, "cannot apply to a robot that is not printed; leave it out")
     if published and (flight or trajectory):
         raise JumpcadError("--flight and --trajectory cannot apply to --published; leave them out")
     if trajectory:

@@ -41,11 +41,11 @@ def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
     if _is_template(subject) or not os.path.isdir(subject):
         return None
     bundle = open_bundle(subject)
-    if workshop is not None:
-        raise JumpcadError(
-            f"--workshop {workshop}: {subject} is a bundle, built in a workshop of its own; "
-            f"give {Path(subject, 'design.toml')} to build it in another"
-        )
+    refuse_workshop(
+        workshop,
+        f"{subject} is a bundle, built in a workshop of its own; "
+        f"give {Path(subject, 'design.toml')} to build it in another",
+    )
     return bundle
 
 
@@ -78,9 +78,14 @@ def written_robot(subject: str, workshop: str | None) -> "Mechanism | None":
         return robot_from_urdf(bundle.urdf)
     if Path(subject).suffix != ".urdf":
         return None
-    if workshop is not None:
-        raise JumpcadError(f"--workshop {workshop}: {subject} is simulated as it is written; leave --workshop out")
+    refuse_workshop(workshop, f"{subject} is simulated as it is written; leave --workshop out")
     return robot_from_urdf(Path(subject))
+
+
+def refuse_workshop(workshop: str | None, reason: str) -> None:
+    """Refuse the option `--workshop`, if it is given, where it has nothing to build."""
+    if workshop is not None:
+        raise JumpcadError(f"--workshop {workshop}: {reason}")
 
 
 def _is_template(subject: str) -> bool:

@@ -35,18 +35,19 @@ def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -
     """
     holes = coupon_holes(workshop)
     made = pieces(holes, list(workshop.materials), workshop.material_name("gears"))
+    kg = [_mass_kg(piece, workshop) for piece in made]
     masses = [
         {
             "kind": "printed",
             "name": piece.name,
             "quantity": piece.quantity,
             "material": piece.material,
-            "mass_kg": _mass_kg(piece, workshop),
+            "mass_kg": mass_kg,
             "source": "printed",
         }
-        for piece in made
+        for piece, mass_kg in zip(made, kg, strict=True)
     ]
-    facts = {"mass_kg": sum(_mass_kg(piece, workshop) for piece in made), "masses": masses}
+    facts = {"mass_kg": sum(kg), "masses": masses}
     return write_folder(folder, "coupon", facts, _contents(workshop, holes, made), force)
 
 

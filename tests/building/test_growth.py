@@ -34,7 +34,6 @@ def test_what_was_sized_to_hold_does_not_grow(monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.parametrize(
     ("shop", "grown"),
     [
-        (workshop(landing_stop_mm=5.0), {"toe_root_mm", "front_mm"}),
         (workshop(figures={"strength_interlayer_mpa": 4.0}), {"lug_thickness_mm", "key_mm"}),
         (workshop(landing_stop_mm=2.0), {"toe_root_mm", "front_mm", "thickness_mm"}),
         (workshop("PLA", {"strength_in_plane_mpa": 35.0}), {"plate"}),

@@ -3,6 +3,7 @@
 from dataclasses import fields
 
 import pytest
+from support.built import checked
 
 import jumpcad
 from jumpcad import checks
@@ -14,15 +15,15 @@ from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
 
 
-def test_nothing_is_wrong_with_kenan(kenan: Robot) -> None:
-    findings = jumpcad.check(kenan)
+def test_nothing_is_wrong_with_kenan() -> None:
+    findings = checked("kenan-2.0")
     assert {finding.severity for finding in findings} == {"info"}
     assert all(finding.margin >= 0 and finding.message and finding.remedy for finding in findings)
     assert len({finding.name for finding in findings}) == len(findings)
 
 
 def test_constraints_are_among_all_checks_and_leave_the_gates_to_the_jump(kenan: Robot) -> None:
-    constraints, everything = constraint_findings(kenan), jumpcad.check(kenan)
+    constraints, everything = constraint_findings(kenan), checked("kenan-2.0")
     assert all(finding in everything for finding in constraints)
     assert {"loop", "below_ground", "tips", "too_weak"}.isdisjoint(finding.name for finding in constraints)
     assert {"loop", "below_ground", "tips", "too_weak"} < {finding.name for finding in everything}
@@ -37,8 +38,8 @@ def test_a_check_of_the_registry_is_run_by_all_that_is_cheap(kenan: Robot, monke
     assert checks.check(capsule_robot(kenan.design)) == []
 
 
-def test_margins_are_the_distance_from_value_to_limit(kenan: Robot, strongest: Robot) -> None:
-    findings = [finding for robot in (kenan, strongest) for finding in jumpcad.check(robot)]
+def test_margins_are_the_distance_from_value_to_limit() -> None:
+    findings = [finding for name in ("kenan-2.0", "best-bo") for finding in checked(name)]
     compared = [finding for finding in findings if finding.value is not None and finding.limit is not None]
     assert len(compared) > 0.7 * len(findings)
     for finding in compared:

@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.built import LONG_TOES, built
+from support.built import LONG_TOES, built, checked
 from support.limits import default_limits
 from support.places import TESTS
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.checks import check
 from jumpcad.checks.printability import bed_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.drive import CamLimits, synthesise
@@ -30,7 +29,7 @@ DRIVE = synthesise(built("kenan-2.0").design, USUAL)
 
 
 def test_every_name_stands_in_a_test() -> None:
-    names = {finding.name for robot in (built("kenan-2.0"), built(LONG_TOES)) for finding in check(robot)}
+    names = {finding.name for name in ("kenan-2.0", LONG_TOES) for finding in checked(name)}
     tests = TESTS
     texts = "\n".join(path.read_text() for path in (*tests.glob("*.py"), *tests.glob("checks/*.py")))
     assert len(names) > 45

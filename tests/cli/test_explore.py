@@ -9,13 +9,13 @@ from support.searches import QUICK, data, refusal, run
 def test_views_of_the_space(folder):
     views = {
         "sweep": ["--points", 3],
-        "pca": ["--samples", 200],
-        "importance": ["--samples", 200],
+        "pca": ["--samples", 80],
+        "importance": ["--samples", 80],
         "feasibility": ["--points", 4],
     }
     for view, options in views.items():
         found = data("explore", view, *QUICK, *options, "--plots", "pics")
         assert all(Path(picture).is_file() for picture in found["pictures"])
     assert re.search(r"feasible at \d of 3 values", run("explore", "sweep", *QUICK, "--points", 3))
-    assert "equal by construction" in run("explore", "pca", *QUICK, "--samples", 200)
+    assert "equal by construction" in run("explore", "pca", *QUICK, "--samples", 80)
     assert "did you mean sweep" in refusal("explore", "sweeps", *QUICK)

@@ -36,13 +36,13 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
 
 
 def test_what_optimize_finds_jumps_like_that(folder):
-    found = data("optimize", "bo", *QUICK, "--evaluations", 30, "-o", "best.toml")
+    found = data("optimize", "bo", *QUICK, "--evaluations", 16, "-o", "best.toml")
     jump = data("simulate", "best.toml", "--capsule", "--settings", "screening")
     assert json.dumps(found["winner"]["score"]) in json.dumps(jump)
 
 
 def test_pareto_reports_its_front(folder):
-    found = data("optimize", "pareto", *QUICK, "--evaluations", 40, "--study", "p.db", "--plots", "pics")
+    found = data("optimize", "pareto", *QUICK, "--evaluations", 24, "--study", "p.db", "--plots", "pics")
     energies = [trial["metrics"]["spring_energy_j"] for trial in found["front"]]
     ranges = [trial["metrics"]["ballistic_range_m"] for trial in found["front"]]
     assert energies == sorted(energies)

@@ -31,7 +31,7 @@ def called(*arguments: str, shell: str = "", folder: Path, **environment: str) -
 
 
 @needs_full
-@pytest.mark.parametrize("arguments", [LIGHT, ["check", "kenan-2.0", "--json"], ["--help"]], ids=" ".join)
+@pytest.mark.parametrize("arguments", [LIGHT, [*LIGHT, "--json"], ["--help"]], ids=" ".join)
 def test_a_full_disk_behind_standard_output_is_one_line(tmp_path: Path, arguments: list[str]) -> None:
     code, _, err = called(*arguments, shell=">/dev/full", folder=tmp_path)
     assert (code, err) == (2, "jumpcad: standard output cannot be written: No space left on device\n")
@@ -42,7 +42,7 @@ def test_an_error_that_nobody_can_read_keeps_its_exit_code(tmp_path: Path) -> No
     assert called("fly", shell="2>/dev/full", folder=tmp_path) == (2, "", "")
 
 
-@pytest.mark.parametrize("arguments", [LIGHT, ["check", "kenan-2.0", "--json"]], ids=" ".join)
+@pytest.mark.parametrize("arguments", [LIGHT, [*LIGHT, "--json"]], ids=" ".join)
 def test_a_reader_that_has_gone_is_no_error(tmp_path: Path, arguments: list[str]) -> None:
     reading, writing = os.pipe()
     os.close(reading)

@@ -47,7 +47,7 @@ def test_a_sheet_is_the_same_text_whatever_the_hashes_of_strings() -> None:
         "from jumpcad.exporters.dxf import write_dxf; from jumpcad.solids.outline import disc;"
         "print(write_dxf(disc(9.0), disc(2.0)))"
     )
-    seeds = [{**os.environ, "PYTHONHASHSEED": seed} for seed in "123456"]
+    seeds = [{**os.environ, "PYTHONHASHSEED": seed} for seed in "12"]
     texts = {subprocess.run([sys.executable, "-c", program], env=seed, capture_output=True).stdout for seed in seeds}
     assert len(texts) == 1
     assert b"LWPOLYLINE" in texts.pop()

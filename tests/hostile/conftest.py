@@ -1,5 +1,6 @@
 """What hostile inputs meet: a sandbox, good files to spoil, and a count of tries and failures at the end of a run."""
 
+import gc
 import importlib.util
 import json
 import os
@@ -17,7 +18,13 @@ from support.commands import exit_code_of
 from support.sandbox import Sandbox
 from support.slicers import OBEDIENT
 
+from jumpcad.bundle import export as bundle_export
+from jumpcad.bundle import renders
+from jumpcad.coupon import export as coupon_export
+from jumpcad.coupon.pieces import Piece
+from jumpcad.robot import Robot
 from jumpcad.simulation.engines import engine_named
+from jumpcad.workshop import Workshop
 
 ENGINES = tuple(name for name in ("pybullet", "mujoco") if importlib.util.find_spec(name))
 TRIES: Counter[str] = Counter()
@@ -46,8 +53,41 @@ class Originals:
         return json.loads((self.bundle / "manifest.json").read_text())
 
 
+@pytest.fixture(scope="session", autouse=True)
+def remembered() -> Iterator[dict[object, Any]]:
+    """Let the contents of a bundle, a coupon or pictures be made once: what is tried here is what becomes of them.
+
+    Yield what is remembered, for a test to clear; whatever differs in design, workshop or name is made anew.
+    """
+    made: dict[object, Any] = {}
+
+    def once(make: Callable[..., Any], key: Callable[..., object]) -> Callable[..., Any]:
+        def contents(*arguments: Any) -> Any:
+            case = (make.__name__, key(*arguments))
+            if case not in made:
+                done = make(*arguments)
+                made[case] = tuple(done) if isinstance(done, Iterator) else done
+            return made[case]
+
+        return contents
+
+    def robot_key(robot: Robot, *more: Any) -> object:
+        return robot.design.to_toml(), robot.workshop and robot.workshop.to_toml(), robot.name, str(more)
+
+    def mass_key(piece: Piece, workshop: Workshop) -> object:
+        return piece.name, workshop.to_toml()
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bundle_export, "contents", once(bundle_export.contents, robot_key))
+        patch.setattr(coupon_export, "_contents", once(coupon_export._contents, lambda shop, *_: shop.to_toml()))
+        patch.setattr(coupon_export, "_mass_kg", once(coupon_export._mass_kg, mass_key))
+        patch.setattr(renders, "renders", once(renders.renders, robot_key))
+        patch.setattr(renders, "jump_gif", once(renders.jump_gif, lambda robot, *_: robot_key(robot)))
+        yield made
+
+
 @pytest.fixture(scope="session")
-def originals(tmp_path_factory: pytest.TempPathFactory) -> Originals:
+def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Originals]:
     """Make the good files with the command line itself."""
     folder = tmp_path_factory.mktemp("originals")
     made = Originals(folder / "bundle", folder / "coupon", folder / "study.db")
@@ -58,7 +98,9 @@ def originals(tmp_path_factory: pytest.TempPathFactory) -> Originals:
         search = ("--model", "capsule", "--evaluations", "6", "--workers", "0", "--study", str(made.study), "--json")
         assert exit_code_of("optimize", "nsga2", *search) == 0
         assert exit_code_of("study", str(made.study), "--plots", str(folder / "plots"), "--json") == 0
-    return made
+    gc.freeze()  # collecting looks only at what comes after this
+    yield made
+    gc.unfreeze()
 
 
 @pytest.fixture
@@ -81,7 +123,7 @@ def slicer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Put a program that slices nothing in the slicer's place."""
     program = tmp_path / "programs" / "prusa-slicer"
     program.parent.mkdir()
-    program.write_text(f"#!{sys.executable}\n{OBEDIENT.replace('TAMPER', '')}")
+    program.write_text(f"#!{sys.executable} -IS\n{OBEDIENT.replace('TAMPER', '')}")
     program.chmod(0o755)
     monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
 

@@ -225,7 +225,10 @@ def test_new_files_are_as_open_as_the_user_wants(sandbox: Sandbox, umask: int) -
         assert stat.S_IMODE(path.stat().st_mode) == (0o777 if path.is_dir() else 0o666) & ~umask, path.name
 
 
-def test_the_same_command_twice_changes_nothing(sandbox: Sandbox, originals: Originals) -> None:
+def test_the_same_command_twice_changes_nothing(
+    sandbox: Sandbox, originals: Originals, remembered: dict[object, object]
+) -> None:
+    remembered.clear()
     bundle()(sandbox, originals)
     before = {path: path.read_bytes() for path in Path("there").rglob("*") if path.is_file()}
     sandbox.run(*BUILD, "there", exits=(0,), writes=["there"])

@@ -42,13 +42,13 @@ def start(path, method, evaluations, workers, pause):
 
 @pytest.mark.parametrize(("method", "batch"), [("ga+bo", 3), ("pareto", 3), ("nsga2", 1)])
 def test_same_rows_for_any_number_of_workers(tmp_path, method, batch):
-    request = replace(REQUEST, method=method, batch=batch, evaluations=26)
+    request = replace(REQUEST, method=method, batch=batch, evaluations=18)
     for workers in (0, 2):
         run(request, tmp_path / f"{workers}.db", workers)
     assert contents(tmp_path / "0.db") == contents(tmp_path / "2.db")
 
 
-@pytest.mark.parametrize(("method", "evaluations", "workers"), [("ga", 150, 2), ("ga+bo", 40, 1)])
+@pytest.mark.parametrize(("method", "evaluations", "workers"), [("ga", 150, 2), ("ga+bo", 28, 1)])
 def test_killed_at_random_moments_it_ends_with_the_rows_of_an_uninterrupted_run(tmp_path, method, evaluations, workers):
     moments = random.Random(11)
     killed = 0
@@ -81,14 +81,14 @@ def test_a_finished_study_is_not_computed_again(tmp_path):
 
 @pytest.mark.parametrize("method", ["ga", "bo", "ga+bo", "pareto"])
 def test_a_larger_budget_lengthens_a_study(tmp_path, method):
-    request = replace(REQUEST, method=method, evaluations=24)
+    request = replace(REQUEST, method=method, evaluations=16)
     run(request, tmp_path / "s.db")
     before = contents(tmp_path / "s.db")
-    result = run(replace(request, evaluations=32), tmp_path / "s.db")
-    assert len(result.trials) == 32
+    result = run(replace(request, evaluations=22), tmp_path / "s.db")
+    assert len(result.trials) == 22
     after = contents(tmp_path / "s.db")
     assert all(trial in after for trial in before)
-    with pytest.raises(JumpcadError, match="planned for 32 evaluations, not 24"):
+    with pytest.raises(JumpcadError, match="planned for 22 evaluations, not 16"):
         run(request, tmp_path / "s.db")
 
 

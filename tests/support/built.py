@@ -7,7 +7,9 @@ import shapely
 import trimesh
 
 from jumpcad.building import build
+from jumpcad.checks import check
 from jumpcad.design import Design, load_design
+from jumpcad.findings import Finding
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
@@ -24,6 +26,12 @@ def built(name: str, workshop: str = "default", mass_model: str = "printed", mot
     mass = shop.mass.model_copy(update={"model": mass_model})
     bought = shop.bought.model_copy(update={"motors": (motor,) if motor else ()})
     return build(design(name), shop.model_copy(update={"mass": mass, "bought": bought}), name)
+
+
+@lru_cache(maxsize=8)
+def checked(name: str) -> tuple[Finding, ...]:
+    """Return the findings of all checks of such a robot, computed once: the checks need solids of all parts (2 s)."""
+    return tuple(check(built(name)))
 
 
 def geared() -> Robot:

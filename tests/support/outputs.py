@@ -1,7 +1,7 @@
 """What a tree of files holds, what changed in it, and whether what was written can be read by others."""
 
 import csv
-import hashlib
+import io
 import json
 import os
 import re
@@ -9,6 +9,7 @@ import stat
 import zipfile
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -23,11 +24,11 @@ XMLS = (".sdf", ".urdf", ".xml")
 
 @dataclass(frozen=True)
 class State:
-    """What a path is: its kind, permissions, content (hash or target), and when it was changed (ns; files only)."""
+    """What a path is: its kind, permissions, content or target, and when it was changed (ns; files only)."""
 
     kind: str
     mode: int
-    content: str = ""
+    content: bytes | str = ""
     changed_ns: int = 0
 
 
@@ -51,8 +52,8 @@ def _state(path: str) -> State:
     if stat.S_ISLNK(status.st_mode):
         return State("link", mode, os.readlink(path))
     if stat.S_ISREG(status.st_mode):
-        digest = hashlib.sha256(Path(path).read_bytes()).hexdigest()
-        return State("file", mode, digest, status.st_mtime_ns)
+        with open(path, "rb") as file:
+            return State("file", mode, file.read(), status.st_mtime_ns)
     return State("folder" if stat.S_ISDIR(status.st_mode) else "device", mode)
 
 
@@ -73,24 +74,29 @@ def _lies_in(name: str, places: Collection[str]) -> bool:
     return any(name == place or name.startswith(f"{place}/") for place in places)
 
 
-def file_faults(path: Path) -> Iterator[str]:
-    """Yield why a file cannot be read as what its name says, or would run in its reader."""
+@cache
+def file_faults(suffix: str, content: bytes) -> list[str]:
+    """Return why a file cannot be read as what its name says, or would run in its reader; known contents are known."""
+    return list(_file_faults(suffix, content))
+
+
+def _file_faults(suffix: str, content: bytes) -> Iterator[str]:
     try:
-        if path.suffix == ".3mf":
-            with zipfile.ZipFile(path) as package:
+        if suffix == ".3mf":
+            with zipfile.ZipFile(io.BytesIO(content)) as package:
                 for name in package.namelist():
                     if name.endswith((".model", ".rels", ".xml")):
                         ElementTree.fromstring(package.read(name))
-        if path.suffix not in TEXTS:
+        if suffix not in TEXTS:
             return
-        text = path.read_text(encoding="utf-8")
+        text = content.decode("utf-8")
         if found := CONTROL.search(text):
             yield f"control character {found[0]!a}"
-        if path.suffix == ".json":
+        if suffix == ".json":
             strict_json(text)
-        elif path.suffix == ".csv":
+        elif suffix == ".csv":
             yield from formulas(text)
-        elif path.suffix in XMLS:
+        elif suffix in XMLS:
             ElementTree.fromstring(text)
     except (ValueError, SyntaxError, zipfile.BadZipFile, csv.Error) as error:
         yield f"{type(error).__name__}: {str(error)[:200]}"

@@ -158,6 +158,7 @@ class Sandbox:
 
         def start() -> None:
             resource.setrlimit(resource.RLIMIT_AS, (4 * MEMORY, 4 * MEMORY))
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # also where the tests run with & or nohup, which ignore it
             if prepare is not None:
                 prepare()
 
@@ -219,8 +220,8 @@ class Sandbox:
     def _fault_of_files(self, before: Snapshot, after: Snapshot, allowed: tuple[str, ...]) -> Iterator[str]:
         """Yield what is wrong with the contents of files that were written."""
         for name, state in after.items():
-            if allowed and state.kind == "file" and before.get(name) != state:
-                yield from (f"wrote {name!a}: {fault}" for fault in file_faults(self.root / name))
+            if allowed and isinstance(state.content, bytes) and before.get(name) != state:
+                yield from (f"wrote {name!a}: {fault}" for fault in file_faults(Path(name).suffix, state.content))
 
 
 def stream_faults(outcome: Outcome, exits: Collection[int], arguments: tuple[str, ...]) -> Iterator[str]:
