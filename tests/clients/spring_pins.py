@@ -65,7 +65,9 @@ def _beside_mm(spring: dict[str, Any]) -> float:
 
 def _lever_mm(spring: dict[str, Any]) -> float:
     """Return the tangent's length from the coil to the farther pin."""
-    return max(math.sqrt(np.hypot(*spring[pin]) ** 2 - _beside_mm(spring) ** 2) for pin in ("plate_pin_mm", "leg_pin_mm"))
+    return max(
+        math.sqrt(np.hypot(*spring[pin]) ** 2 - _beside_mm(spring) ** 2) for pin in ("plate_pin_mm", "leg_pin_mm")
+    )
 
 
 def _angle_error_deg(spring: dict[str, Any], sense: float) -> float:

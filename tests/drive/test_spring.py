@@ -84,15 +84,15 @@ def test_relaxed_arms_are_tangents_that_touch_the_sides_of_their_pins(name, plat
 
     out = np.exp(1j * (math.radians(plate_pin_deg) + spring.arms.turn_rad))
     beside_plate, along_plate = from_line(pins[0], mean / 2 * out, -1j * out)
-    assert -beside_plate == pytest.approx(beside, abs=1e-5)
+    assert -beside_plate == pytest.approx(beside, abs=1e-6)
     assert 0 < along_plate < spring.arm_length_mm
     # counter-clockwise by the relaxed turns, then closed by the preload
     out *= np.exp(1j * (2 * math.pi * spring.turns + math.radians(preload_deg)))
     beside_leg, along_leg = from_line(pins[1], mean / 2 * out, 1j * out)
-    assert beside_leg == pytest.approx(beside, abs=1e-5)
-    assert along_leg == pytest.approx(along_plate, abs=1e-5)
+    assert beside_leg == pytest.approx(beside, abs=2e-4)
+    assert along_leg == pytest.approx(along_plate, abs=2e-4)
     # the force square to the arm has the arm's length for a lever
-    assert spring.pin_force_n * along_leg == pytest.approx(500 * on_leg.peak_torque_nm, rel=1e-5)
+    assert spring.pin_force_n * along_leg == pytest.approx(500 * on_leg.peak_torque_nm, rel=1e-4)
 
 
 @pytest.mark.parametrize(("index", "q"), [(4.0, 1.252), (6.0, 1.156), (10.0, 1.089), (16.0, 1.054)])
@@ -131,8 +131,8 @@ def test_no_smaller_spring_does_the_work(name):
 
 
 def test_a_short_body_is_preferred_to_a_thin_one_where_it_fits():
-    _, short = spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(10.0, 13.0)))
-    _, thin = spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(5.0, 13.0)))
+    _, short = spring_of("kenan-1.0", replace(LIMITS, body_lengths_max_mm=(10.0, 13.0)))
+    _, thin = spring_of("kenan-1.0", replace(LIMITS, body_lengths_max_mm=(5.0, 13.0)))
     assert short.body_length_mm <= 10.0 + 1e-9 < thin.body_length_mm
     assert short.outer_diameter_mm > thin.outer_diameter_mm
 

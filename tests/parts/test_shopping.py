@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from manifold3d import Manifold, Mesh64
 from support.built import LONG_TOES, built
 
 from jumpcad.building.assembly import assembled
@@ -56,7 +57,7 @@ def test_screws_have_lengths_that_are_sold(robot: Robot) -> None:
 
 def test_the_two_springs_mirror_each_other(robot: Robot) -> None:
     left, right = (next(item for item in robot.hardware if item.name == f"spring_{side}") for side in ("left", "right"))
-    assert left.article.removesuffix("left hand") == right.article.removesuffix("right hand")
+    assert left.article.removesuffix("right hand") == right.article.removesuffix("left hand")
     assert left.mass.mass_kg == pytest.approx(right.mass.mass_kg)
     assert left.mass.com_m * [1.0, -1.0, 1.0] == pytest.approx(right.mass.com_m, abs=1e-6)
 
@@ -125,3 +126,15 @@ def test_standoff_screws_go_through_the_plate_into_the_standoff(assembled_robot:
             inner, outer = (inside[1], outside[1]) if sign > 0 else (inside[0], outside[0])
             assert sign * (inner - tip) >= 6.0 - 1e-6
             assert 1.0 < sign * (head - outer) < 3.0
+
+
+def test_springs_are_seen_as_wire_within_the_room_that_is_kept_for_them(assembled_robot: Robot) -> None:
+    """The room's round outlines are polygons, within which the wire is up to what their chords cut off."""
+    for thing in named(assembled_robot, "spring_left") + named(assembled_robot, "spring_right"):
+        seen = thing.look
+        assert seen.is_watertight
+        assert len(seen.faces) < 8000
+        wire = Manifold(Mesh64(np.asarray(seen.vertices), np.asarray(seen.faces).astype(np.uint64)))
+        assert (wire - thing.solid).volume() < 1e-3 * seen.volume
+        # an octagon has 0.90 of its circle's area
+        assert seen.volume == pytest.approx(0.9 * 1e6 * thing.mass_kg / 7.85, rel=0.02)
