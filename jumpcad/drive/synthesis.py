@@ -21,6 +21,8 @@ from jumpcad.findings import Finding
 
 LEAST_COMPRESSION_RAD = math.radians(0.5)
 """Below it the cam's lift is less than a printer can resolve; judgement."""
+LEG_SHARE = 0.5
+"""Of the main leg, up to which its pin for the springs may stand; judgement: the beam tapers towards the ankle."""
 
 
 @dataclass(frozen=True)
@@ -116,6 +118,13 @@ def _spring(design: Design, limits: DriveLimits, catalogue: Catalogue) -> Torsio
     if stock is None:
         return synthesise_spring(on_leg, leg_pin, catalogue.wire, limits.spring)
     spring = fitted_spring(stock, on_leg, leg_pin, catalogue.wire, limits.spring)
+    reach = LEG_SHARE * design.l2_mm
+    if spring.pin_radius_mm > reach:
+        raise CannotBuildError(
+            f"bought.spring = {stock.name!r}: its arms want the leg's pin {spring.pin_radius_mm:.1f} mm from the axle; "
+            f"a leg of {design.l2_mm:.1f} mm has room up to {reach:.1f} mm: choose a smaller spring, or raise "
+            "carrying_link_mm"
+        )
     return replace(spring, findings=(*spring.findings, rate_finding(design, stock)))
 
 

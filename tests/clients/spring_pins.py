@@ -94,7 +94,8 @@ def _mesh(folder: Path, urdf: ET.Element, name: str) -> trimesh.Trimesh:
     """Return a part's mesh in its link's frame (mm)."""
     visual = next(visual for visual in urdf.iter("visual") if visual.get("name") == name)
     geometry, origin = visual.find("geometry/mesh"), visual.find("origin")
-    assert geometry is not None and origin is not None
+    assert geometry is not None
+    assert origin is not None
     mesh = trimesh.load_mesh(folder / "urdf" / geometry.get("filename", ""))
     rpy = [float(word) for word in origin.get("rpy", "").split()]
     pose = trimesh.transformations.euler_matrix(*rpy)

@@ -85,6 +85,14 @@ def test_a_coil_that_grips_its_bushing_is_refused() -> None:
         fitted(thin, limits=wide)
 
 
+def test_a_leg_that_is_too_short_for_its_pin_is_refused() -> None:
+    short = KENAN.model_copy(update={"carrying_link_mm": 55.0})
+    with pytest.raises(
+        CannotBuildError, match=r"leg's pin [\d.]+ mm from the axle; a leg of 55\.0 mm has room up to 27"
+    ):
+        build(short, with_stock("9271K589"))
+
+
 def test_an_unknown_one_is_refused() -> None:
     with pytest.raises(JumpcadError, match=r"no spring '9271K588' in the catalogue .*did you mean 9271K589"):
         build(KENAN, with_stock("9271K588"))

@@ -42,7 +42,7 @@ def test_the_spring_pin_is_where_the_springs_want_it() -> None:
 
 def test_where_something_stands_other_directions_are_named_the_nearest_first() -> None:
     cam = disc("cam", HUB + 14.0 * np.array([math.cos(math.radians(40)), math.sin(math.radians(40))]), 6.0, EVERYWHERE)
-    with pytest.raises(NoPinRoomError, match="no room for the spring pin: .* beside the cam: lower stiff") as refused:
+    with pytest.raises(NoPinRoomError, match=r"no room for the spring pin: .* beside the cam: lower stiff") as refused:
         spring_pin_place([cam], HUB, spring_with(14.0), INSIDE)
     assert len(refused.value.free_rad) > 5
     off = [abs(math.degrees(angle) - 40.0) for angle in refused.value.free_rad]

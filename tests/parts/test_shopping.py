@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+import trimesh
 from manifold3d import Manifold, Mesh64
 from support.built import LONG_TOES, built
 
@@ -129,12 +130,26 @@ def test_standoff_screws_go_through_the_plate_into_the_standoff(assembled_robot:
 
 
 def test_springs_are_seen_as_wire_within_the_room_that_is_kept_for_them(assembled_robot: Robot) -> None:
-    """The room's round outlines are polygons, within which the wire is up to what their chords cut off."""
-    for thing in named(assembled_robot, "spring_left") + named(assembled_robot, "spring_right"):
-        seen = thing.look
-        assert seen.is_watertight
-        assert len(seen.faces) < 8000
-        wire = Manifold(Mesh64(np.asarray(seen.vertices), np.asarray(seen.faces).astype(np.uint64)))
-        assert (wire - thing.solid).volume() < 1e-3 * seen.volume
+    """The room's round outlines are polygons, within which the wire is up to what their chords cut off.
+
+    The leg's arm is seen with the coil's end that winding adds; that end stays within the coil's ring.
+    """
+    spring, lateral = assembled_robot.layout.drive.spring, assembled_robot.layout.lateral
+    for side, (low, high) in (("left", lateral.spring_left), ("right", lateral.spring_right)):
+        coil, arm = named(assembled_robot, f"spring_{side}")
+        for thing in (coil, arm):
+            assert thing.look.is_watertight
+            assert len(thing.look.faces) < 8000
+        whole = Manifold(Mesh64(np.asarray(coil.look.vertices), np.asarray(coil.look.faces).astype(np.uint64)))
+        assert (whole - coil.solid).volume() < 1e-3 * coil.look.volume
+        points = trimesh.transform_points(arm.look.vertices, arm.T_body_part)
+        assert low - 1e-6 <= points[:, 1].min()
+        assert points[:, 1].max() <= high + 1e-6
+        radius = np.hypot(points[:, 0], points[:, 2])
+        assert radius.min() >= spring.inside_diameter_mm / 2.0 - 1e-6
+        room = arm.shape.bounds_mm + [[-1e-6], [1e-6]]
+        straight = arm.look.vertices[radius > spring.outer_diameter_mm / 2.0 + 1e-3]
+        assert len(straight) >= 8
+        assert ((straight >= room[0]) & (straight <= room[1])).all()
         # an octagon has 0.90 of its circle's area
-        assert seen.volume == pytest.approx(0.9 * 1e6 * thing.mass_kg / 7.85, rel=0.02)
+        assert coil.look.volume == pytest.approx(0.9 * 1e6 * coil.mass_kg / 7.85, rel=0.02)
