@@ -147,7 +147,7 @@ def test_springs_are_seen_as_wire_within_the_room_that_is_kept_for_them(assemble
         assert points[:, 1].max() <= high + 1e-6
         radius = np.hypot(points[:, 0], points[:, 2])
         assert radius.min() >= spring.inside_diameter_mm / 2.0 - 1e-6
-        room = arm.shape.bounds_mm + [[-1e-6], [1e-6]]
+        room = arm.shape.bounds_mm + np.array([[-1e-6], [1e-6]])
         straight = arm.look.vertices[radius > spring.outer_diameter_mm / 2.0 + 1e-3]
         assert len(straight) >= 8
         assert ((straight >= room[0]) & (straight <= room[1])).all()
