@@ -12,7 +12,8 @@ from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.drive.gear_choice import least_tip_mm
-from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
+from jumpcad.drive.spring import SpringLimits, TorsionSpring
+from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import fitted_spring, rate_finding, springs_on_leg
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
 from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits

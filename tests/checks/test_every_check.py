@@ -20,7 +20,7 @@ from jumpcad.checks.strength import strength_findings
 from jumpcad.drive import CamLimits, synthesise
 from jumpcad.drive.cam_limits import LIMITS, ROWS, measure
 from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.drive.spring import synthesise_spring
+from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.drive.train import finished_train
 from jumpcad.findings import errors

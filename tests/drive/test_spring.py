@@ -9,7 +9,8 @@ from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
-from jumpcad.drive.spring import inner_fibre, synthesise_spring
+from jumpcad.drive.spring import inner_fibre
+from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import Spring
