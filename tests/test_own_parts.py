@@ -270,7 +270,7 @@ WRONG = {
         r"my.toml:2: motors.a.like = 'n20-299': is no shipped part of this kind .*did you mean n20-298\?",
     ),
     "like of another kind": ('[boards.a]\nlike = "n20-298"', r"my.toml:2: boards.a.like = 'n20-298': is no shipped"),
-    "like of a spring": ('[springs.a]\nlike = "b"', r"springs.a.like = 'b': is no shipped part .*\(there are none\)"),
+    "like of a spring": ('[springs.a]\nlike = "b"', r"springs.a.like = 'b': is no shipped part .*9271K619"),
     "like of a list": ("[motors.a]\nlike = [1]", r"motors.a.like = \[1\]: is no shipped part"),
     "negative": (motor(mass_g=-1.0), r"my.toml:6: motors.own.mass_g = -1.0: must be more than 0"),
     "not a number": (motor(shaft_mm=float("nan")), r"my.toml:6: motors.own.shaft_mm = nan: must be a finite number"),
@@ -289,6 +289,10 @@ WRONG = {
     "bore larger than the outside": (
         bearing("roller", 10.0, 9.0, 4.0),
         r"my.toml:7: bearings.own.outer_mm = 9.0: must be at least bore_mm \+ 2 = 12: rings and balls between",
+    ),
+    "arms that the turns do not have": (
+        SPRING.replace("arm_angle_deg = 90.0", "arm_angle_deg = 270.0"),
+        r"my.toml:6: springs.stock.arm_angle_deg = 270.0: 4.25 turns with tangent arms have 90° between them",
     ),
     "wire thicker than its coil": (SPRING.replace("wire_mm = 1.0", "wire_mm = 8.0"), r"my.toml:3: springs.stock.wire"),
     "a path for a name": ('[motors."../x"]\nlike = "n20-298"\nsource = "x"', "a name has 1 to 50 letters, digits"),

@@ -12,7 +12,8 @@ from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.drive.gear_choice import least_tip_mm
-from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
+from jumpcad.drive.spring import SpringLimits, TorsionSpring
+from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import fitted_spring, rate_finding, springs_on_leg
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
 from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
@@ -21,6 +22,8 @@ from jumpcad.findings import Finding
 
 LEAST_COMPRESSION_RAD = math.radians(0.5)
 """Below it the cam's lift is less than a printer can resolve; judgement."""
+LEG_SHARE = 0.5
+"""Of the main leg, up to which its pin for the springs may stand; judgement: the beam tapers towards the ankle."""
 
 
 @dataclass(frozen=True)
@@ -116,6 +119,13 @@ def _spring(design: Design, limits: DriveLimits, catalogue: Catalogue) -> Torsio
     if stock is None:
         return synthesise_spring(on_leg, leg_pin, catalogue.wire, limits.spring)
     spring = fitted_spring(stock, on_leg, leg_pin, catalogue.wire, limits.spring)
+    reach = LEG_SHARE * design.l2_mm
+    if spring.pin_radius_mm > reach:
+        raise CannotBuildError(
+            f"bought.spring = {stock.name!r}: its arms want the leg's pin {spring.pin_radius_mm:.1f} mm from the axle; "
+            f"a leg of {design.l2_mm:.1f} mm has room up to {reach:.1f} mm: choose a smaller spring, or raise "
+            "carrying_link_mm"
+        )
     return replace(spring, findings=(*spring.findings, rate_finding(design, stock)))
 
 

@@ -127,11 +127,12 @@ def _springs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
         inner, outer = lateral.spring_left if side == "left" else lateral.spring_right[::-1]
         order = spring_article(spring, hand)
         slabs = [(*_sorted(inner, outer), coil), (*_sorted(outer - sign * d, outer), body_arm)]
-        wire = coil_with_arm(layout.hub_mm, spring, (outer - sign * d / 2.0, inner + sign * d / 2.0))
+        middles = (outer - sign * d / 2.0, inner + sign * d / 2.0)
+        wire = coil_with_arm(layout.hub_mm, spring, middles)
         yield bought(f"spring_{side}", order, BODY, spring.mass_g - arm_mass, slabs).seen_as(wire)
-        wire = leg_arm_wire(spring, inner + sign * d / 2.0)
         leg_slabs = [(*_sorted(inner, inner + sign * d), leg_arm)]
-        yield bought(f"spring_{side}_leg_arm", order, MAIN_LEG, arm_mass, leg_slabs, units=0).seen_as(wire)
+        leg = bought(f"spring_{side}_leg_arm", order, MAIN_LEG, arm_mass, leg_slabs, units=0)
+        yield leg.seen_as(leg_arm_wire(spring, middles))
     yield _rod("spring_pin", BODY, layout.spring_pin_mm, lateral.outside, layout.axle_mm, catalogue)
 
 

@@ -44,6 +44,16 @@ def coil_with_arm(hub_mm: Array, spring: TorsionSpring, y_mm: tuple[float, float
     return Wire(np.vstack([[end[0], outer, end[1]], coil]), spring.wire_mm)
 
 
-def leg_arm_wire(spring: TorsionSpring, y_mm: float) -> Wire:
-    """Return the leg's arm in the leg's frame."""
-    return Wire(np.array([[x, y_mm, z] for x, z in arm_line(np.zeros(2), spring, "leg")]), spring.wire_mm)
+def leg_arm_wire(spring: TorsionSpring, y_mm: tuple[float, float]) -> Wire:
+    """Return the leg's arm in the leg's frame, with the coil's end that winding adds to the coil.
+
+    At rest that end lies in the coil; `y_mm` are those of `coil_with_arm`.
+    """
+    turn = spring.wound_rad - spring.preload_rad
+    share = np.linspace(0.0, 1.0, 1 + math.ceil(STEPS_A_TURN * turn / FULL_TURN_RAD))
+    angle = -spring.arms.turn_rad - turn * (1.0 - share)
+    radius, (outer, inner) = spring.arms.mean_mm / 2.0, y_mm
+    rise = (inner - outer) * turn / (FULL_TURN_RAD * spring.turns + spring.preload_rad)
+    coil = np.column_stack([radius * np.cos(angle), inner - rise * (1.0 - share), radius * np.sin(angle)])
+    _, end = arm_line(np.zeros(2), spring, "leg")
+    return Wire(np.vstack([coil, [[end[0], inner, end[1]]]]), spring.wire_mm)

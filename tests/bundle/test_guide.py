@@ -5,9 +5,12 @@ import re
 import pytest
 from support.built import built
 
+from jumpcad.building import build
 from jumpcad.bundle.bom import BilledPlate, bill_of_materials
 from jumpcad.bundle.guide import with_bill, write_guide
+from jumpcad.design import load_design
 from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
 
 
 @pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
@@ -37,7 +40,25 @@ def test_a_guide_takes_times_in_and_changes_nothing_else(robot: Robot) -> None:
 
 def test_the_springs_ordered_are_those_of_the_design(robot: Robot) -> None:
     """Two springs side by side have twice the rate of one."""
-    rate = re.search(r"- ([\d.]+) N·mm/° each; works from 0° to ([\d.]+)°", write_guide(robot))
+    guide = write_guide(robot)
+    rate = re.search(r"- rate ([\d.]+) N·mm/° each, ±10 %", guide)
+    loaded = re.search(r"- loaded from 0\.0° to ([\d.]+)°, closing, to (\d+) N·mm each", guide)
     assert rate is not None
+    assert loaded is not None
     assert 2 * float(rate[1]) == pytest.approx(robot.design.stiffness_nmm_per_deg, abs=0.011)
-    assert float(rate[2]) == pytest.approx(robot.design.compression_rad * 57.29578, abs=0.06)
+    assert float(loaded[1]) == pytest.approx(robot.design.compression_rad * 57.29578, abs=0.06)
+    assert float(loaded[2]) == pytest.approx(float(rate[1]) * float(loaded[1]), rel=0.01)
+    assert "the right-hand one goes on the robot's left" in guide
+
+
+def test_a_preload_and_stock_springs_are_in_the_order() -> None:
+    shop = load_workshop()
+    changed = {
+        "spring": shop.spring.model_copy(update={"preload_deg": 5.0}),
+        "bought": shop.bought.model_copy(update={"spring": "9271K589"}),
+    }
+    guide = write_guide(build(load_design("kenan-1.0"), shop.model_copy(update=changed)))
+    assert "Two torsion springs 9271K589, one of each hand, from stock" in guide
+    assert "- 26.36 N·mm/° each, ±10 %; the design asks for 4.60 N·mm/°" in guide
+    assert "- loaded from 5.0° to " in guide
+    assert "- the preload adds 132 N·mm to the wound torque of each" in guide  # 26.36 · 5

@@ -19,7 +19,8 @@ from jumpcad.checks.strength import strength_findings
 from jumpcad.drive import CamLimits, synthesise
 from jumpcad.drive.cam_limits import LIMITS, ROWS, measure
 from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.drive.spring import synthesise_spring
+from jumpcad.drive.spring_choice import synthesise_spring
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.drive.train import finished_train
 from jumpcad.findings import errors
 from jumpcad.robot import Robot
@@ -93,7 +94,7 @@ def test_gears_and_motor(name: str, tighter: dict[str, Any]) -> None:
 def test_spring_stress() -> None:
     """The margin is what a tighter limit than the spring's own stress takes away."""
     design, wire = built("kenan-2.0").design, load_catalogue().wire
-    spring = synthesise_spring(design.stiffness_nm_per_rad, design.compression_rad, wire, USUAL.spring)
+    spring = synthesise_spring(springs_on_leg(design), -1.5, wire, USUAL.spring)
     (finding,) = spring.findings
     assert finding.name == "spring_stress"
     assert finding.margin == pytest.approx(USUAL.spring.stress_share * spring.tensile_mpa - spring.stress_mpa)

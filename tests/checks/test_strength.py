@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from support.strengths import changed, margins
 
@@ -102,7 +101,8 @@ def test_leg_stress_by_hand(kenan: Robot) -> None:
 def test_twice_the_spring_torque_bends_twice_as_much(kenan: Robot) -> None:
     doubled = kenan.design.model_copy(update={"stiffness_nmm_per_deg": 2.0 * kenan.design.stiffness_nmm_per_deg})
     assert kenan.layout is not None
-    robot = replace(kenan, design=doubled, layout=replace(kenan.layout, linkage=Linkage(doubled)))
+    springs = replace(kenan.spring, stiffness_nm_per_rad=2.0 * kenan.spring.stiffness_nm_per_rad)
+    robot = replace(kenan, design=doubled, spring=springs, layout=replace(kenan.layout, linkage=Linkage(doubled)))
     before, after = 15.0 - margins(kenan)["hub_strength"], 15.0 - margins(robot)["hub_strength"]
     assert after == pytest.approx(2.0 * before)
     assert math.isfinite(after)
@@ -114,7 +114,7 @@ def test_the_plates_bear_the_push_of_the_cam_between_them(strongest: Robot) -> N
     (seat,) = (finding for finding in strength_findings(strongest) if finding.name == "plate_seat")
     plate = layout.lateral.left_plate[1] - layout.lateral.left_plate[0]
     borne = seat.value * 2.0 * layout.axle_mm * plate
-    arm = 1000.0 * strongest.design.peak_spring_torque_nm / layout.leg_pin_mm
+    arm = 1000.0 * strongest.design.peak_spring_torque_nm / layout.drive.spring.arms.lever_mm
     push = layout.drive.cam.peak_contact_n
     assert max(push, arm) <= borne + 1e-9 <= push + arm
 
@@ -137,9 +137,15 @@ def test_a_body_struck_beside_its_middle_turns_about_both_axes(kenan: Robot) -> 
 
 
 def test_the_springs_pin_is_a_beam_with_two_loads(kenan: Robot) -> None:
-    """Two equal forces at a distance a from either support bend a beam by F·a between them (Shigley, table A-9)."""
+    """Two equal forces at a distance a from either support bend a beam by F·a between them (Shigley, table A-9).
+
+    A force square to a tangent of the coil turns the hub with the tangent's length for a lever.
+    """
     layout, lateral = kenan.layout, kenan.layout.lateral
-    force = 1000.0 * kenan.design.peak_spring_torque_nm / 2.0 / np.linalg.norm(layout.spring_pin_mm - layout.hub_mm)
+    spring = layout.drive.spring
+    beside = (spring.inside_diameter_mm + 2.0 * spring.wire_mm + layout.axle_mm) / 2.0
+    lever = math.sqrt(((layout.spring_pin_mm - layout.hub_mm) ** 2).sum() - beside**2)
+    force = 1000.0 * kenan.design.peak_spring_torque_nm / 2.0 / lever
     support = sum(lateral.left_plate) / 2.0 - sum(lateral.right_plate) / 2.0
     stress = 32.0 * force * (support / 2.0 - lateral.spring_left[1]) / (math.pi * layout.axle_mm**3)
     assert LoadCase(kenan).steel_stresses_mpa["spring_pin"] == pytest.approx(stress, rel=1e-6)

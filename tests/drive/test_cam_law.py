@@ -20,6 +20,24 @@ def test_the_law_stores_the_springs_energy_at_constant_torque():
     assert torque[cam > a_law.ramp_rad] == pytest.approx(torque[-1])
 
 
+@pytest.mark.parametrize("preload_deg", [0.5, 3.0, 10.0])
+def test_a_preloaded_spring_takes_more_energy_at_constant_torque(preload_deg):
+    preload, wind = math.radians(preload_deg), math.radians(52.9)
+    a_law = CamLaw(wind, 1.69, LIFT_RAD, RAMP_RAD, preload)
+    cam = np.linspace(0, a_law.lift_rad, 20001)
+    torque = a_law.torque_nm(cam)
+    assert a_law.energy_j == pytest.approx(0.5 * 1.69 * ((wind + preload) ** 2 - preload**2))
+    assert np.trapezoid(torque, cam) == pytest.approx(a_law.energy_j, rel=1e-6)
+    loaded = preload + a_law.wind_rad(cam)
+    assert np.gradient(0.5 * 1.69 * loaded**2, cam)[1:-1] == pytest.approx(torque[1:-1], abs=2e-5)
+    assert a_law.wind_rad([0.0, LIFT_RAD]) == pytest.approx([0.0, wind])
+    at, step = np.concatenate([np.linspace(0.02, 0.5, 40), np.linspace(0.54, 5.4, 90)]), 1e-5
+    _, first, second = a_law.derivatives(at)
+    before, here, after = (a_law.wind_rad(at + shift) for shift in (-step, 0.0, step))
+    assert first == pytest.approx((after - before) / (2 * step), rel=1e-6)
+    assert second == pytest.approx((after - 2 * here + before) / step**2, abs=1e-3)
+
+
 def test_the_ramp_costs_little_torque():
     # Without a ramp, constant torque is energy over lift. The design note says 4.6 %, of a lift of 340°.
     a_law = CamLaw(math.radians(53), 1.0, math.radians(340), math.radians(30))

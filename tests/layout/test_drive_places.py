@@ -1,15 +1,20 @@
 """Places of spring pin, motor and idler, with nothing in the way and with something."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.built import built, geared
 
+from jumpcad.drive import TorsionSpring
+from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
+    NoPinRoomError,
+    arm_line,
     require_gear_room,
-    spring_arm,
+    spring_obstacles,
     spring_pin_place,
     train_obstacles,
     train_places,
@@ -23,29 +28,52 @@ def bearing_deg(place: np.ndarray, centre: np.ndarray) -> float:
     return math.degrees(math.atan2(place[1] - centre[1], place[0] - centre[0]))
 
 
-def test_the_spring_pin_is_in_front_of_the_hub_unless_something_is_there() -> None:
-    free = spring_pin_place([], HUB, 14.0, INSIDE)
-    assert bearing_deg(free, HUB) == pytest.approx(40.0, abs=1e-4)
+def spring_with(pin_radius_mm: float, plate_pin_deg: float = 40.0) -> TorsionSpring:
+    """Return a spring whose pins are at a distance from the hub."""
+    spring, arms = built("kenan-2.0").layout.drive.spring, Arms.to_pins(6.0, 1.2, 3.0, pin_radius_mm)
+    return replace(spring, arms=arms, plate_pin_rad=math.radians(plate_pin_deg))
+
+
+def test_the_spring_pin_is_where_the_springs_want_it() -> None:
+    place = spring_pin_place([], HUB, spring_with(14.0, 55.0), INSIDE)
+    assert bearing_deg(place, HUB) == pytest.approx(55.0, abs=1e-4)
+    assert math.dist(place, HUB) == pytest.approx(14.0, abs=1e-5)
+
+
+def test_where_something_stands_other_directions_are_named_the_nearest_first() -> None:
     cam = disc("cam", HUB + 14.0 * np.array([math.cos(math.radians(40)), math.sin(math.radians(40))]), 6.0, EVERYWHERE)
-    beside = spring_pin_place([cam], HUB, 14.0, INSIDE)
-    assert math.dist(beside, HUB) == pytest.approx(14.0, abs=1e-5)
-    assert math.dist(beside, cam.points_mm[0]) >= 6.0 + 1.5 - 1e-6
+    with pytest.raises(NoPinRoomError, match=r"no room for the spring pin: .* beside the cam: lower stiff") as refused:
+        spring_pin_place([cam], HUB, spring_with(14.0), INSIDE)
+    assert len(refused.value.free_rad) > 5
+    off = [abs(math.degrees(angle) - 40.0) for angle in refused.value.free_rad]
+    assert off == sorted(off)
+    for angle in refused.value.free_rad:
+        place = HUB + 14.0 * np.array([math.cos(angle), math.sin(angle)])
+        assert math.dist(place, cam.points_mm[0]) >= 6.0 + 1.5 - 1e-6
 
 
 def test_a_gap_of_a_few_degrees_is_enough_for_the_spring_pin() -> None:
     """Obstacles in all directions except 62.5°; places 5° apart would miss it."""
     angles = np.radians([*range(0, 57, 2), *range(69, 150, 2)])
     things = [disc("leg", HUB + 30.0 * np.array([math.cos(a), math.sin(a)]), 1.0, EVERYWHERE) for a in angles]
-    place = spring_pin_place(things, HUB, 30.0, INSIDE)
-    assert 60.0 < bearing_deg(place, HUB) < 65.0
-    with pytest.raises(CannotBuildError, match=r"no room for the spring pin: .* beside the ring: lower stiffness"):
-        spring_pin_place([disc("ring", HUB, 40.0, EVERYWHERE)], HUB, 30.0, INSIDE)
+    with pytest.raises(NoPinRoomError) as refused:
+        spring_pin_place(things, HUB, spring_with(30.0), INSIDE)
+    assert all(60.0 < math.degrees(angle) < 65.0 for angle in refused.value.free_rad)
+    assert refused.value.free_rad
+    with pytest.raises(NoPinRoomError, match=r"no room for the spring pin: .* beside the ring: lower stiff") as refused:
+        spring_pin_place([disc("ring", HUB, 40.0, EVERYWHERE)], HUB, spring_with(30.0), INSIDE)
+    assert refused.value.free_rad == ()
 
 
-def test_the_springs_arm_ends_a_little_beyond_its_pin() -> None:
-    pin = HUB + np.array([0.0, 14.0])
-    reach = spring_arm(HUB, pin, 14.0, INSIDE).points_mm[:, 1].max()
-    assert reach == pytest.approx(16.0)
+def test_the_springs_arm_is_a_tangent_that_ends_a_little_beyond_its_pin() -> None:
+    spring = spring_with(14.0, 90.0)
+    start, end = arm_line(HUB, spring, "plate")
+    assert math.dist(start, HUB) == pytest.approx(3.0, abs=1e-5)
+    assert np.dot(end - start, start - HUB) == pytest.approx(0.0, abs=1e-4)
+    assert math.dist(start, end) == pytest.approx(math.sqrt(14.0**2 - 5.1**2) + 2.0, abs=1e-4)
+    arm, pin = spring_obstacles(HUB, HUB + np.array([0.0, 14.0]), spring, INSIDE)
+    assert np.linalg.norm(arm.points_mm - pin.points_mm, axis=1).min() >= 2.1 - 1e-4
+    assert pin.radius_mm > 1.5
 
 
 def test_a_cam_gear_must_clear_the_hub() -> None:

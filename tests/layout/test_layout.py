@@ -14,6 +14,7 @@ from support.built import LONG_TOES, built, geared, in_body
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.dimensions import CLEAR_MM, TRAY_MM
+from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout.electronics import Electronics
@@ -165,7 +166,7 @@ def larger(layout: Layout, what: str) -> dict[str, Any]:
         huge = train.motor.model_copy(update={"width_mm": 160.0, "height_mm": 160.0})
         return {"drive": replace(layout.drive, train=replace(train, motor=huge))}
     if what == "spring pin":
-        spring = replace(layout.drive.spring, arm_length_mm=1.0, inside_diameter_mm=3.0)  # amid the leg
+        spring = replace(layout.drive.spring, arms=Arms(4.0, 1.0, 3.0, 1.0))  # amid the leg
         return {"drive": replace(layout.drive, spring=spring)}
     if what == "battery":
         huge = carried.battery.model_copy(update={"length_mm": 400.0})

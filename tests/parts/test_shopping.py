@@ -5,6 +5,8 @@ import re
 
 import numpy as np
 import pytest
+import trimesh
+from manifold3d import Manifold, Mesh64
 from support.built import LONG_TOES, built
 
 from jumpcad.building.assembly import assembled
@@ -56,7 +58,7 @@ def test_screws_have_lengths_that_are_sold(robot: Robot) -> None:
 
 def test_the_two_springs_mirror_each_other(robot: Robot) -> None:
     left, right = (next(item for item in robot.hardware if item.name == f"spring_{side}") for side in ("left", "right"))
-    assert left.article.removesuffix("left hand") == right.article.removesuffix("right hand")
+    assert left.article.removesuffix("right hand") == right.article.removesuffix("left hand")
     assert left.mass.mass_kg == pytest.approx(right.mass.mass_kg)
     assert left.mass.com_m * [1.0, -1.0, 1.0] == pytest.approx(right.mass.com_m, abs=1e-6)
 
@@ -125,3 +127,29 @@ def test_standoff_screws_go_through_the_plate_into_the_standoff(assembled_robot:
             inner, outer = (inside[1], outside[1]) if sign > 0 else (inside[0], outside[0])
             assert sign * (inner - tip) >= 6.0 - 1e-6
             assert 1.0 < sign * (head - outer) < 3.0
+
+
+def test_springs_are_seen_as_wire_within_the_room_that_is_kept_for_them(assembled_robot: Robot) -> None:
+    """The room's round outlines are polygons, within which the wire is up to what their chords cut off.
+
+    The leg's arm is seen with the coil's end that winding adds; that end stays within the coil's ring.
+    """
+    spring, lateral = assembled_robot.layout.drive.spring, assembled_robot.layout.lateral
+    for side, (low, high) in (("left", lateral.spring_left), ("right", lateral.spring_right)):
+        coil, arm = named(assembled_robot, f"spring_{side}")
+        for thing in (coil, arm):
+            assert thing.look.is_watertight
+            assert len(thing.look.faces) < 8000
+        whole = Manifold(Mesh64(np.asarray(coil.look.vertices), np.asarray(coil.look.faces).astype(np.uint64)))
+        assert (whole - coil.solid).volume() < 1e-3 * coil.look.volume
+        points = trimesh.transform_points(arm.look.vertices, arm.T_body_part)
+        assert low - 1e-6 <= points[:, 1].min()
+        assert points[:, 1].max() <= high + 1e-6
+        radius = np.hypot(points[:, 0], points[:, 2])
+        assert radius.min() >= spring.inside_diameter_mm / 2.0 - 1e-6
+        room = arm.shape.bounds_mm + np.array([[-1e-6], [1e-6]])
+        straight = arm.look.vertices[radius > spring.outer_diameter_mm / 2.0 + 1e-3]
+        assert len(straight) >= 8
+        assert ((straight >= room[0]) & (straight <= room[1])).all()
+        # an octagon has 0.90 of its circle's area
+        assert coil.look.volume == pytest.approx(0.9 * 1e6 * coil.mass_kg / 7.85, rel=0.02)

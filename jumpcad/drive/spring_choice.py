@@ -1,0 +1,116 @@
+"""Springs made to order: the smallest coil of the catalogue's wires whose arms meet their pins (mm, rad).
+
+The product D·n follows from the stiffness, the fraction of a turn from the pins: the arms' tangents meet them at rest
+(`jumpcad.drive.spring_arms`), so that n is the largest number that the limits allow of those one turn apart. A
+stock spring's turns are given: there the arms' length is what makes them meet the pins.
+"""
+
+import math
+
+from jumpcad.catalogue import Wire
+from jumpcad.drive.spring import SpringLimits, TorsionSpring, plain_stress_mpa, torsion_spring
+from jumpcad.drive.spring_arms import FULL_TURN_RAD, Arms, between_pins_rad
+from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.model import Spring
+
+TURNS_MIN, INDEX_MIN, INDEX_MAX = 3.0, 4.0, 16.0
+"""Least turns and index D/d (scope of EN 13906-3), and the largest index; judgement: what makers of springs offer."""
+ROUNDS = 20
+"""Of the fixed points below, which gain a digit or more a round."""
+DIAMETER_DIGITS = 6
+"""Diameters are found to a nanometre: arctangents differ between processors."""
+
+
+def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: SpringLimits) -> TorsionSpring:
+    """Find the pair of springs with the smallest outer diameter whose arms meet their pins.
+
+    Parameters
+    ----------
+    on_leg
+        Both springs together.
+    leg_pin_rad
+        Direction of the leg's pin in the rest pose.
+
+    Raises
+    ------
+    CannotBuildError
+        If no wire is strong enough in the available room.
+    """
+    for length in limits.body_lengths_max_mm:
+        for plate_pin in limits.plate_pins_rad:
+            between = between_pins_rad(plate_pin, leg_pin_rad)
+            springs = [
+                _finished(arms, on_leg, tensile, wire, limits, (plate_pin, leg_pin_rad))
+                for d, tensile in zip(wire.diameters_mm, wire.tensile_strength_mpa, strict=True)
+                if (arms := _arms_of_wire(d, tensile, on_leg, between, wire, limits, length))
+            ]
+            if springs:
+                return min(springs, key=lambda spring: (spring.outer_diameter_mm, spring.mass_g))
+    torque_nmm, wound = 500.0 * on_leg.peak_torque_nm, math.degrees(on_leg.wind_rad + on_leg.preload_rad)
+    raise CannotBuildError(
+        f"no wire of {wire.diameters_mm[0]:g} to {wire.diameters_mm[-1]:g} mm makes a torsion spring for "
+        f"{torque_nmm:.0f} N·mm at {wound:.1f}° in {limits.outer_max_mm:g} mm diameter and "
+        f"{max(limits.body_lengths_max_mm):g} mm length: lower stiffness_nmm_per_deg or compression_ratio, or give the "
+        "springs more room"
+    )
+
+
+def _arms_of_wire(
+    d: float,
+    tensile_mpa: float,
+    on_leg: Spring,
+    between_rad: float,
+    wire: Wire,
+    limits: SpringLimits,
+    length_max_mm: float,
+) -> Arms | None:
+    """Return the smallest coil of one wire whose arms meet pins an angle apart, or nothing where none fits."""
+    loaded = (on_leg.wind_rad + on_leg.preload_rad) / FULL_TURN_RAD
+    index = _least_index(limits.stress_share * tensile_mpa / plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d))
+    product = _product_mm(d, on_leg, wire)
+    loaded_mean = limits.mandrel_min_mm + limits.mandrel_clearance_mm + d
+    longest = length_max_mm / d - 1 - loaded
+
+    def arms_of(mean: float) -> Arms:
+        return Arms.to_pins(mean, d, limits.pin_mm, limits.pin_radius_mm(mean + d))
+
+    mean = max(index, INDEX_MIN) * d
+    if not (longest > 0 and mean < INDEX_MAX * d):
+        return None
+    for _ in range(ROUNDS):  # the least diameter that strength, length and bushing allow
+        body = product - mean * arms_of(mean).arm_turns
+        if body <= 0 or 1 / loaded_mean <= loaded / body:
+            return None
+        mean = max(index * d, body / longest, 1 / (1 / loaded_mean - loaded / body))
+    arms = arms_of(mean)
+    turns = product / mean - arms.arm_turns
+    # What the pins ask for is left when whole turns are taken away; fewer turns make the coil wider.
+    asked = between_rad - on_leg.preload_rad
+    whole = math.floor((FULL_TURN_RAD * turns + 2 * arms.turn_rad - asked) / FULL_TURN_RAD + 1e-9)
+    for _ in range(ROUNDS):
+        turns = whole + (asked - 2 * arms.turn_rad) / FULL_TURN_RAD
+        if turns < TURNS_MIN:
+            return None
+        arms = arms_of(round(product / (turns + arms.arm_turns), DIAMETER_DIGITS))
+    fits = arms.mean_mm <= INDEX_MAX * d and arms.mean_mm + d <= limits.outer_max_mm
+    return arms if fits else None
+
+
+def _product_mm(d: float, on_leg: Spring, wire: Wire) -> float:
+    """Return the mean diameter times the turns, arms counted, that give one spring half of the stiffness."""
+    return wire.modulus_mpa * d**4 / (64 * 500 * on_leg.stiffness_nm_per_rad)
+
+
+def _finished(
+    arms: Arms, on_leg: Spring, tensile_mpa: float, wire: Wire, limits: SpringLimits, pins_rad: tuple[float, float]
+) -> TorsionSpring:
+    """Return the spring of a coil, its turns from the stiffness."""
+    turns = _product_mm(arms.wire_mm, on_leg, wire) / arms.mean_mm - arms.arm_turns
+    return torsion_spring(arms, turns, on_leg, tensile_mpa, wire, limits, pins_rad)
+
+
+def _least_index(factor: float) -> float:
+    """Return the smallest index D/d whose inner-fibre factor is at most what the strength allows."""
+    if factor <= 1:
+        return math.inf
+    return max(INDEX_MIN, (0.75 * factor + 0.07) / (factor - 1))

@@ -1,0 +1,111 @@
+"""Springs from stock: their rate is the robot's, their arms meet their pins, what does not fit is refused."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from support.limits import default_limits
+
+from jumpcad.building import build
+from jumpcad.catalogue import StockSpring, load_catalogue
+from jumpcad.checks import check
+from jumpcad.design import Design, load_design
+from jumpcad.drive.spring import TorsionSpring
+from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.findings import errors
+from jumpcad.robot import Robot
+from jumpcad.workshop import Workshop, load_workshop
+
+KENAN = load_design("kenan-1.0")
+STOCK, WIRE = load_catalogue().springs["9271K589"], load_catalogue().wire
+LIMITS = replace(default_limits("kenan-1.0").spring, plate_pins_rad=(math.radians(55.0),))
+
+
+def with_stock(name: str, **table: StockSpring) -> Workshop:
+    workshop = load_workshop()
+    bought = workshop.bought.model_copy(update={"spring": name})
+    return workshop.model_copy(update={"bought": bought, "springs": table})
+
+
+def fitted(spring: StockSpring, design: Design = KENAN, limits: object = LIMITS) -> TorsionSpring:
+    on_leg = springs_on_leg(design, spring)
+    return fitted_spring(spring, on_leg, -math.radians(design.rest_angle_deg), WIRE, limits)  # type: ignore[arg-type]
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return build(KENAN, with_stock("9271K589"))
+
+
+def test_two_of_them_are_the_robots_stiffness_and_a_finding_says_both(robot: Robot) -> None:
+    assert robot.spring.stiffness_nm_per_rad == pytest.approx(2.0 * 26.36e-3 * 180.0 / math.pi)
+    assert robot.spring.energy_j == pytest.approx(0.5 * robot.spring.stiffness_nm_per_rad * KENAN.compression_rad**2)
+    assert robot.spring.one_sided
+    (finding,) = (found for found in check(robot) if found.name == "spring_rate")
+    assert finding.severity == "info"
+    assert "52.72 N·mm/°" in finding.message
+    assert "asks for 9.20" in finding.message
+    assert robot.design == KENAN
+    assert "spring_rate" not in {found.name for found in check(build(KENAN))}
+
+
+def test_a_stock_spring_can_be_built_in(robot: Robot) -> None:
+    assert errors(check(robot)) == []
+    assert {item.article.split(",")[0] for item in robot.hardware if "spring_l" in item.name} == {
+        "torsion spring 9271K589"
+    }
+
+
+def test_its_stress_is_that_of_its_torque() -> None:
+    """q·32·M/(pi·d³) with q = (w + 0.07)/(w - 0.75) (EN 13906-3)."""
+    spring = fitted(STOCK)
+    index = (16.21 + 2.667) / 2.667
+    torque = 26.36 * math.degrees(KENAN.compression_rad)
+    stress = (index + 0.07) / (index - 0.75) * 32.0 * torque / (math.pi * 2.667**3)
+    assert spring.stress_mpa == pytest.approx(stress)
+    assert 1650.0 < spring.tensile_mpa < 1690.0  # EN 10270-1 SM: 1690 at 2.5 mm, 1650 at 2.8 mm
+
+
+def test_arms_that_are_too_short_are_refused() -> None:
+    with pytest.raises(CannotBuildError, match=r"arms of 12 mm do not reach the pins; 1\d\.\d mm do: .* longer arms"):
+        fitted(STOCK.model_copy(update={"arm_length_mm": 12.0}))
+
+
+def test_an_arm_angle_that_no_pin_fits_is_refused() -> None:
+    words = r"arms 270° apart want the plate's pin between \d+° and \d+° from forward; there is room from 55° to 55°"
+    with pytest.raises(CannotBuildError, match=words):
+        fitted(STOCK.model_copy(update={"turns": 5.75, "arm_angle_deg": 270.0}))
+
+
+def test_a_coil_that_grips_its_bushing_is_refused() -> None:
+    thin = STOCK.model_copy(update={"wire_mm": 1.0, "inside_diameter_mm": 4.2, "turns": 3.25})
+    wide = replace(LIMITS, plate_pins_rad=tuple(math.radians(angle) for angle in range(360)))
+    with pytest.raises(CannotBuildError, match=r"a bushing of \d\.\d\d mm; 5\.00 mm go around the axle: .* larger"):
+        fitted(thin, limits=wide)
+
+
+def test_a_leg_that_is_too_short_for_its_pin_is_refused() -> None:
+    short = KENAN.model_copy(update={"carrying_link_mm": 55.0})
+    with pytest.raises(
+        CannotBuildError, match=r"leg's pin [\d.]+ mm from the axle; a leg of 55\.0 mm has room up to 27"
+    ):
+        build(short, with_stock("9271K589"))
+
+
+def test_an_unknown_one_is_refused() -> None:
+    with pytest.raises(JumpcadError, match=r"no spring '9271K588' in the catalogue .*did you mean 9271K589"):
+        build(KENAN, with_stock("9271K588"))
+
+
+def test_an_own_one_may_be_chosen() -> None:
+    """Four turns and a quarter of 1.3 mm wire, nearly as stiff as Kenan's: the arms are those of a quarter turn."""
+    own = StockSpring(
+        name="own", source="a test", wire_mm=1.3, inside_diameter_mm=6.4, turns=4.25, arm_angle_deg=90.0,
+        arm_length_mm=30.0, rate_nmm_per_deg=4.8,
+    )  # fmt: skip
+    robot = build(KENAN, with_stock("own", own=own))
+    spring = robot.layout.drive.spring
+    assert spring.turns == 4.25
+    assert spring.rate_nmm_per_deg == pytest.approx(4.8)
+    assert errors(check(robot)) == []
