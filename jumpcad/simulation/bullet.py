@@ -100,7 +100,8 @@ class BulletWorld:
         self._damping_dt = rubs.joint_damping_nms_per_rad * settings.dt_s
         self._dry_nm = [settings.joint_friction_nm] * len(JOINTS)
         self._dry_nm[LEG] += pin_torque_nm(mechanism, rubs.pin)
-        self._slides = mechanism.friction is not None  # the study's capsules stand on friction 1.5
+        # On the friction of the study (1.5) no foot slides.
+        self._slides = mechanism.friction is not None or settings.ground_friction is not None
         self.joint_damping_j = self.slip_j = 0.0
         bodies = [mechanism.bodies[name] for name in (BODY, *LINKS)]
         principal = [principal_axes(body.inertia_kg_m2) for body in bodies]
