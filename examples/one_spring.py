@@ -1,4 +1,4 @@
-"""One spring in stock: which links make the most of it?
+"""With a given spring, which links jump farthest?
 
 Spring, winding and rest angle stay those of the prototypes; only the links are searched.
 Run `python examples/one_spring.py [--model capsule] [--evaluations 100]`.

@@ -38,7 +38,7 @@ def main() -> None:
         swept = sweep(evaluator, jumpcad.load_design("best-bo"), arguments.points)
     save_figure(plots.sweeps(swept, objective), arguments.folder, "sweeps")
 
-    # GA, then BO on all that the GA saw. After an interruption, run it again: it goes on.
+    # GA, then BO on the designs of the GA. Run it again after an interruption: it continues.
     study = arguments.folder / "study.db"
     result = jumpcad.optimize(evaluations=arguments.evaluations, model=arguments.model, study=study)
     with StudyStore.read(study) as store:
@@ -48,8 +48,8 @@ def main() -> None:
         raise SystemExit("no design jumps: evaluate more designs")
     print(f"best {result.best.score:.3f}, robust pick {result.score:.3f} body lengths")
     for bound in result.bounds:
-        worth = f"rejected ({bound.reason})" if bound.worth is None else f"worth {bound.worth:+.3f}"
-        print(f"{bound.name} is at its {bound.side} bound; {bound.beyond:g} is {worth}")
+        change = f"is rejected ({bound.reason})" if bound.worth is None else f"changes the score by {bound.worth:+.3f}"
+        print(f"{bound.name} is at its {bound.side} bound; {bound.beyond:g} {change}")
     result.save(arguments.folder / "winner.toml", force=True)
 
 

@@ -1,6 +1,6 @@
 """From eight numbers to a jumping robot that can be printed, simulated and trusted.
 
-The public names load when they are first used, so that `import jumpcad` and the command line start at once.
+The public names load when they are first used, so that `import jumpcad` and the command line start quickly.
 """
 
 from typing import TYPE_CHECKING

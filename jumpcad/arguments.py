@@ -1,4 +1,4 @@
-"""What public functions take, said in one line where they are given something else."""
+"""Checks what public functions are given; the error says in one line what they take."""
 
 import functools
 import inspect
@@ -28,14 +28,14 @@ WORDS = {"Mechanism": "a Robot", "str": "a text", "bool": "True or False", "Path
 
 
 def typed(function: Callable[P, R]) -> Callable[P, R]:
-    """Have a function refuse arguments that are not what its annotations say, before it does anything.
+    """Return a function that checks its arguments against its annotations before it runs.
 
-    Annotations are classes, `Any`, or classes joined by `|`, and stand in the function's own module.
+    Annotations are classes, `Any`, or classes joined by `|`, known in the function's own module.
 
     Raises
     ------
     JumpcadError
-        From the function made: what it takes, what it was given, and how to make the one from the other.
+        From the returned function: what it takes, what it was given, and how to make what it takes.
     """
     signature = inspect.signature(function)
 
@@ -59,7 +59,7 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def _classes(hint: Any) -> tuple[type, ...]:
-    """Return the classes that an annotation allows; of what is inside a container it says nothing."""
+    """Return the classes that an annotation allows; of a container, only its own class."""
     if hint is Any:
         return (object,)
     if isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union:

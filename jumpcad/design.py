@@ -23,14 +23,14 @@ from jumpcad.files.complaints import described
 class Design(Record):
     """Eight parameters of a Kovac-type jumper, each within what is physically meaningful.
 
-    The limits here say what a design can be; the narrower box in which a search looks is `SEARCH_BOUNDS`.
+    A search uses narrower limits, `SEARCH_BOUNDS`.
     """
 
     carrying_link_mm: Annotated[float, Field(ge=20, le=400, description="length of the main leg, l2")]
     c_coef: Annotated[float, Field(ge=0.3, le=3, description="front link over main leg, l3 / l2")]
     d_coef: Annotated[float, Field(ge=0.1, le=3, description="foot link over main leg, l4 / l2")]
     e_coef: Annotated[float, Field(ge=0.1, le=3, description="toe over main leg, l5 / l2")]
-    compression_ratio: Annotated[float, Field(ge=0.01, le=0.99, description="wound part of the angle to a flat leg")]
+    compression_ratio: Annotated[float, Field(ge=0.01, le=0.99, description="loaded part of the angle to a flat leg")]
     rest_angle_deg: Annotated[float, Field(ge=5, le=90, description="angle between body and legs at rest")]
     stiffness_nmm_per_deg: Annotated[float, Field(ge=0.1, le=200, description="of both springs together")]
     ground_link_angle_deg: Annotated[float, Field(ge=1, le=89, description="each toe from the foot's centre line")]
@@ -45,7 +45,7 @@ class Design(Record):
         Raises
         ------
         JumpcadError
-            If it is no such sequence, or a value is out of range.
+            If it is not such a sequence, or a value is out of range.
         """
         wanted = f"give {len(PARAMETERS)} numbers, in the order of {', '.join(PARAMETERS)}"
         try:
@@ -56,7 +56,7 @@ class Design(Record):
             raise JumpcadError(f"a design vector has {len(PARAMETERS)} values, not {len(values)}: {wanted}")
         if wrong := [value for value in values if not isinstance(value, numbers.Real)]:
             raise JumpcadError(f"{described(wrong[0])} in a design vector is no number: {wanted}")
-        plain = [value if isinstance(value, int) else float(value) for value in values]  # huge ints are no floats
+        plain = [value if isinstance(value, int) else float(value) for value in values]  # float() fails for huge ints
         return cls(**dict(zip(PARAMETERS, plain, strict=True)))
 
     def to_vector(self) -> list[float]:
@@ -94,9 +94,9 @@ class Design(Record):
 
     @property
     def assembly_margin_mm(self) -> float:
-        """By how much an assembled pose exists, with parallel legs, a flat foot and l1 > 0 (mm).
+        """Margin by which an assembled pose exists, with parallel legs, a flat foot and l1 > 0 (mm).
 
-        The foot spans the legs' difference in height at rest, and the front link's surplus when the legs lie flat.
+        The foot must span the legs' difference in height at rest, and their difference in length when they lie flat.
         """
         surplus = self.l3_mm - self.l2_mm
         return self.l4_mm - max(abs(surplus) * math.sin(math.radians(self.rest_angle_deg)), surplus)
@@ -128,7 +128,7 @@ class Design(Record):
 
     @property
     def compression_rad(self) -> float:
-        """Angle by which the springs are wound before release, ratio·(rest + beta) (rad)."""
+        """Angle by which the springs are loaded before release, ratio·(rest + beta) (rad)."""
         return self.compression_ratio * (math.radians(self.rest_angle_deg) + self.beta_rad)
 
     @property
@@ -138,7 +138,7 @@ class Design(Record):
 
     @property
     def spring_energy_j(self) -> float:
-        """Energy that the wound springs hold, ½·k·δ² (J)."""
+        """Energy of the loaded springs, ½·k·δ² (J)."""
         return 0.5 * self.stiffness_nm_per_rad * self.compression_rad**2
 
     @property
@@ -168,7 +168,7 @@ SEARCH_BOUNDS: dict[str, Bounds] = {
     "stiffness_nmm_per_deg": Bounds(5.0, 30.0),
     "ground_link_angle_deg": Bounds(10.0, 80.0),
 }
-"""The box that the published study searched (both prototypes lie outside it, with a rest angle of 88.2°)."""
+"""The ranges that the published study searched (both prototypes lie outside it, with a rest angle of 88.2°)."""
 
 
 @typed

@@ -1,13 +1,13 @@
-"""Clearances, fixed sizes and constants that several rooms share, each with its source (mm unless named otherwise).
+"""Clearances, fixed sizes and constants that several packages share, each with its source (mm unless named otherwise).
 
 Values that a user may want to change are in the workshop instead. "Judgement" marks a value without a source.
 """
 
 GRAVITY_M_S2 = 9.81
-"""Rounded standard gravity (ISO 80000-3: 9.80665), as the published study has it."""
+"""Rounded standard gravity (ISO 80000-3: 9.80665), as in the published study."""
 
 GAP_MM = 0.5
-"""Axial gap between parts that move past each other; judgement: three first-layer squashes."""
+"""Axial gap between parts that move past each other; judgement: three times the spread of a first layer."""
 CLEAR_MM = 0.8
 """Between things that do not touch; judgement: twice the play of a loose fit plus assembly error."""
 SPACER_RADIUS_MM = 3.2
@@ -43,7 +43,7 @@ CAP_EAR_MM = 5.6
 TOE_TIP_WIDTH_MM = 5.0
 """Width of a toe's tip; judgement: wider than high, so that a landing does not turn it over."""
 PAD_WALL_MM = 3.0
-"""Material around an axle in the body plates; judgement: two and a half recommended walls."""
+"""Material around an axle in the body plates; judgement: 2.5 recommended walls (`fits.wall_mm`)."""
 COLLAR_RADIUS_MM = 3.6
 """Outside of the collars that keep axles in place; judgement."""
 STANDOFF_PAD_MM = 9.0

@@ -2,7 +2,7 @@
 
 import unicodedata
 
-CONTROL = ("Cc", "Cf", "Cs", "Zl", "Zp")
+CONTROL_CATEGORIES = ("Cc", "Cf", "Cs", "Zl", "Zp")
 """Unicode categories: control and format characters, halves of surrogate pairs, separators of lines."""
 
 
@@ -26,10 +26,10 @@ class CannotBuildError(JumpcadError):
 
 
 def without_controls(text: str) -> str:
-    """Return a text with the escapes of Python in place of its control characters."""
-    if text.isprintable():  # at once for nearly every text
+    """Return a text with its control characters replaced by Python's escapes."""
+    if text.isprintable():  # quick for nearly every text
         return text
     return "".join(
-        letter.encode("unicode_escape").decode() if unicodedata.category(letter) in CONTROL else letter
+        letter.encode("unicode_escape").decode() if unicodedata.category(letter) in CONTROL_CATEGORIES else letter
         for letter in text
     )

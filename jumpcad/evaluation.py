@@ -17,8 +17,8 @@ from jumpcad.workshop import Workshop
 class EvaluationResult:
     """A design built, simulated and checked.
 
-    `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg) and
-    what winding takes, by name with unit.
+    `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg),
+    and energy and time of winding, by name with unit.
     """
 
     robot: Robot
@@ -61,7 +61,7 @@ def evaluate(
     Raises
     ------
     CannotBuildError
-        If the mechanism cannot work, or its parts have no room.
+        If the mechanism cannot work, or there is no room for its parts.
     """
     robot = build(design, workshop, name="")
     jump = simulate(robot, settings, engine)

@@ -14,7 +14,7 @@ def face(package: str, homes: Mapping[str, str]) -> tuple[Callable[[str], Any], 
     package
         Its name.
     homes
-        Public names, and the module below the package in which each is; a module of that very name is itself meant.
+        Public names, and the module below the package in which each is; a module of the same name is meant itself.
     """
 
     def load(name: str) -> Any:

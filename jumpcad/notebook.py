@@ -1,4 +1,4 @@
-"""Pictures and tables in a notebook, by the `_repr_html_` that it asks objects for.
+"""Pictures and tables in a notebook, by the method `_repr_html_` of objects.
 
 A robot is drawn by packages that import it, so it cannot import them: `attach` gives the classes their method.
 """
@@ -42,7 +42,7 @@ def robot_html(robot: Mechanism) -> str:
 
 
 def jump_html(jump: Jump) -> str:
-    """Return the key figures of a jump; where it is none, why."""
+    """Return the key figures of a jump, or why there is none."""
     return _table("jump", [*_jump_lines(jump), *_error_lines(jump.findings)])
 
 

@@ -14,7 +14,7 @@ from jumpcad.workshop import Workshop
 
 NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
 LONGEST_NAME = 200
-"""Bytes of a robot's name: file systems allow 255 for a name with all that is put before and after it."""
+"""Longest name in bytes: file systems allow 255, with what file names add before and after it."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -31,7 +31,7 @@ class Robot(Mechanism):
 
 
 def require_name(name: str) -> None:
-    """Refuse a robot's name that cannot be that of its files.
+    """Refuse a robot's name that cannot be part of file names.
 
     Raises
     ------
@@ -39,6 +39,6 @@ def require_name(name: str) -> None:
         Saying what it may hold.
     """
     if not NAME.fullmatch(name):
-        raise JumpcadError(f"{shown(name)} names files: use letters, digits, blanks, '.', '-', '+' and '_'")
+        raise JumpcadError(f"{shown(name)} is used in file names: use letters, digits, spaces, '.', '-', '+' and '_'")
     if len(os.fsencode(name)) > LONGEST_NAME:
-        raise JumpcadError(f"{shown(name)} names files: use at most {LONGEST_NAME} bytes")
+        raise JumpcadError(f"{shown(name)} is used in file names: use at most {LONGEST_NAME} bytes")

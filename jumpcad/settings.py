@@ -1,4 +1,4 @@
-"""What a simulation is run with: time step, friction, damping, and what it shall record."""
+"""Settings of a simulation: time step, friction, damping, and what is recorded."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +21,7 @@ class Settings(Record):
     """
 
     dt_s: Annotated[float, Field(ge=1e-6, le=1 / 240, description="time step")] = 1 / 2000
-    solver_iterations: Annotated[int, Field(ge=1, le=10_000, description="at most, of each time step")] = 100
+    solver_iterations: Annotated[int, Field(ge=1, le=10_000, description="at most, in each time step")] = 100
     solver_residual: Annotated[
         float, Field(ge=0, le=1e-2, description="PyBullet stops iterating when no constraint is off by more")
     ] = 1e-5
@@ -37,12 +37,12 @@ class Settings(Record):
         None
     )
     joint_friction_nm: Annotated[float, Field(ge=0, le=100, description="dry friction of each joint (its motor)")] = 0.0
-    drag_per_s: Annotated[float, Field(ge=0, le=1e3, description="rate at which drag takes velocity")] = 0.0
+    drag_per_s: Annotated[float, Field(ge=0, le=1e3, description="rate at which drag reduces velocity")] = 0.0
     flight: Annotated[
         Literal["ballistic", "simulated"],
         Field(description="after take-off: in closed form, or on to the first touchdown"),
     ] = "ballistic"
-    max_time_s: Annotated[float, Field(gt=0, le=60, description="of simulated time, at which a run is given up")] = 3.0
+    max_time_s: Annotated[float, Field(gt=0, le=60, description="simulated time at which a run is stopped")] = 3.0
     trajectory: Annotated[bool, Field(description="record the poses and energies over time")] = False
     trajectory_rate_hz: Annotated[float, Field(ge=0.01, le=1e6, description="poses a second at most")] = 500.0
     published_quantities: Annotated[

@@ -1,4 +1,4 @@
-"""One folder with everything that a robot is made, printed and simulated from: written, opened, verified, sliced."""
+"""A folder with everything to print, buy, assemble and simulate a robot: written, opened, verified, sliced."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""The bill of materials: every printed part, and every bought one down to each nut and washer.
+"""The bill of materials: every printed part and every bought one, nuts and washers included.
 
 Prices come from the workshop, printing times from a slicer; what is not known stays blank.
 """
@@ -120,7 +120,7 @@ def mass_facts(bill: Bill) -> list[dict[str, Any]]:
 
 
 def bill_of_facts(facts: Iterable[Mapping[str, Any]], workshop: Workshop) -> Bill:
-    """Return the bill that a manifest keeps the masses of, with the prices of a workshop."""
+    """Return the bill of the masses in a manifest, with the prices of a workshop."""
     keys = ("kind", "name", "quantity", "material", "mass_kg", "source")
     return _priced([BillLine(*(line[key] for key in keys)) for line in facts], workshop)
 

@@ -32,7 +32,7 @@ def write_folder(
     contents: Iterable[tuple[str, str | bytes]],
     force: bool = False,
 ) -> Bundle:
-    """Write files and the manifest that knows them, in place of those of an older bundle.
+    """Write files and the manifest that lists them, in place of those of an older bundle.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def write_folder(
 def change_files(
     bundle: Bundle, contents: Mapping[str, str | bytes], versions: Mapping[str, str], force: bool = False
 ) -> Bundle:
-    """Put contents into some files of a bundle, new ones too; the manifest then knows them and what wrote them.
+    """Put contents into some files of a bundle, new ones too; the manifest then lists them and `versions`.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def require_unedited(bundle: Bundle, paths: Iterable[str], force: bool = False) 
 
 
 def _put(new: Bundle, old: Bundle | None, files: Mapping[str, bytes], gone: set[str], force: bool) -> Bundle:
-    """Write files in the place of those that go, with a manifest that knows their sha256 and that of what stays."""
+    """Write files in place of those that go; the manifest lists the sha256 of these and of what stays."""
     stays = {} if old is None else {path: digest for path, digest in old.manifest["files"].items() if path not in gone}
     digests = stays | {path: hashlib.sha256(data).hexdigest() for path, data in files.items()}
     manifest = {**new.manifest, "files": dict(sorted(digests.items()))}
@@ -109,7 +109,7 @@ def _put(new: Bundle, old: Bundle | None, files: Mapping[str, bytes], gone: set[
 
 
 def _place(folder: str | Path) -> Path:
-    """Return where a folder really lies; refuse one that holds the current folder, which would lose its place."""
+    """Return where a folder really lies; refuse one that holds the current folder, which would be removed."""
     target = real_path(folder)
     try:
         here = Path.cwd().resolve()
@@ -152,10 +152,10 @@ def _kept(old: Bundle, there: Tree, files: Mapping[str, bytes], gone: set[str], 
     solid = {path for path, status in there.items() if path not in touched and not stat.S_ISDIR(status.st_mode)}
     for path in sorted(touched):
         if not stat.S_ISREG(there[path].st_mode):
-            raise JumpcadError(f"{old.folder}: {shown(path)}: is no plain file, which belongs there; move it away")
+            raise JumpcadError(f"{old.folder}: {shown(path)}: must be a plain file; move it away")
     folders = {folder for path in files for folder in above(path)}
     for path in sorted(folders & solid):
-        raise JumpcadError(f"{old.folder}: {shown(path)}: is no folder, which belongs there; move it away")
+        raise JumpcadError(f"{old.folder}: {shown(path)}: must be a folder; move it away")
     lost = [path for path in sorted(touched - {MANIFEST}) if not force and not old.is_unchanged(path)]
     lost = [path for path in lost if (old.folder / path).read_bytes() != files.get(path)]
     if lost:
@@ -170,7 +170,7 @@ def _kept(old: Bundle, there: Tree, files: Mapping[str, bytes], gone: set[str], 
 
 @contextmanager
 def _plain_errors(folder: str | Path) -> Iterator[None]:
-    """Turn what the system says into one line about the folder."""
+    """Turn errors of the system into one line about the folder."""
     try:
         yield
     except OSError as error:

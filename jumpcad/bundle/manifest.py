@@ -24,18 +24,18 @@ SUFFIXES = (
     ".toml", ".urdf", ".xml",
 )  # fmt: skip
 """Of the files that a bundle may have. A stranger's manifest that lists others, such as .git/HEAD or a module of
-Python, would have them removed when the bundle is built anew."""
+Python, would have them removed when the bundle is built again."""
 
 
 def _safe(path: str) -> str:
-    """Let a path pass that stays below the bundle's folder."""
+    """Return a path that stays below the bundle's folder; reject others."""
     if not is_safe(path) or path == MANIFEST:
         raise ValueError("leads out of the bundle")
     return path
 
 
 def _ours(path: str) -> str:
-    """Let the path of a file pass that jumpcad can have written."""
+    """Return the path of a file that jumpcad can have written; reject others."""
     hidden = any(name.startswith(".") for name in path.split("/"))
     if hidden or not path.endswith(SUFFIXES):
         raise ValueError("is no file of a bundle")
@@ -43,7 +43,7 @@ def _ours(path: str) -> str:
 
 
 def _apart(files: dict[str, str]) -> dict[str, str]:
-    """Let files pass of which none is the folder of another."""
+    """Return files of which none is the folder of another; reject others."""
     if any(folder in files for path in files for folder in above(path)):
         raise ValueError("a file is the folder of another")
     return files
@@ -67,7 +67,7 @@ class _MassLine(BaseModel):
 
 
 class _Manifest(BaseModel):
-    """What is read of a manifest; it may say more."""
+    """What is read of a manifest; it may have more keys."""
 
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
 
@@ -121,7 +121,7 @@ class Bundle:
         """
         wrong = trouble(self.folder, path) if path in self.manifest["files"] else "not in the manifest"
         if wrong:
-            raise JumpcadError(f"{self.folder}: {shown(path)}: {wrong}; jumpcad build makes the bundle anew")
+            raise JumpcadError(f"{self.folder}: {shown(path)}: {wrong}; build the bundle again with jumpcad build")
         return self.folder / path
 
     def is_unchanged(self, path: str) -> bool:
@@ -151,7 +151,7 @@ def open_bundle(folder: str | Path) -> Bundle:
     except OSError as error:
         raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise JumpcadError(f"{path}: is not the manifest of a bundle: jumpcad build makes it anew") from None
+        raise JumpcadError(f"{path}: is not the manifest of a bundle: build it again with jumpcad build") from None
 
 
 def verify(folder: str | Path) -> list[str]:

@@ -1,4 +1,4 @@
-"""report.html: one robot on one page that needs nothing beside it: pictures, figures, limits, parts.
+"""report.html: a self-contained page on one robot: pictures, figures, limits, parts.
 
 Plain HTML that is well-formed XML too. The same robot gives the same bytes.
 """
@@ -25,7 +25,7 @@ img { width: 100%; }
 .warning { color: #a8641b; font-weight: bold; }
 """
 NUMERIC = ("quantity", "g each", "€", "margin", "value")
-"""Columns that are set right."""
+"""Columns that are right-aligned."""
 
 
 def write_report(robot: Robot, pictures: Mapping[str, bytes]) -> str:
@@ -59,7 +59,7 @@ def _pictures(pictures: Mapping[str, bytes]) -> Iterator[str]:
 
 
 def _figures(robot: Robot) -> Iterator[Sequence[str]]:
-    """Yield what was asked for and what it became."""
+    """Yield the design's parameters and the robot's figures."""
     for key, value in robot.design.model_dump().items():
         yield key, f"{value:g}", ""
     yield "mass", f"{1000.0 * robot.mass_kg:.1f}", "g"
@@ -110,7 +110,7 @@ def _line(item: BillLine) -> Sequence[str]:
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
-    """Yield a table; a row whose last cell tells of an error or a warning is set in its colour."""
+    """Yield a table; a row whose last cell begins with `error` or `warning` has its colour."""
     classes = [' class="number"' if title in NUMERIC else "" for title in head]
     yield "<table>"
     yield "<tr>" + "".join(f"<th{kind}>{title}</th>" for kind, title in zip(classes, head, strict=True)) + "</tr>"

@@ -1,11 +1,11 @@
 """Replaces a folder atomically: all of it or nothing.
 
-It is written beside its place and changes places with the old one in one step: whenever a build is killed, a whole
-folder stands under the name, the old one or the new one, and at most a hidden one is left over beside it. Where the
-system cannot exchange two folders (see `jumpcad.bundle.swap`) there are two renames, between which there is none.
+The new folder is written beside the old one and exchanged with it in one step: whenever a build is killed, the name
+belongs to a whole folder, old or new, and at most a hidden folder is left over beside it. Where the system cannot
+exchange two folders (see `jumpcad.bundle.swap`) there are two renames, between which no folder has the name.
 
-What is kept of the old folder is linked into the new one before they change places, so that there is no moment at
-which the name stands for less than all of it.
+What is kept of the old folder is linked into the new one before the exchange, so that the folder of that
+name is never incomplete.
 """
 
 import os
@@ -83,7 +83,7 @@ def _link(file: Path, place: Path) -> None:
 
 
 def _copy_modes(target: Path, fresh: Path, there: Tree, kept: Tree) -> None:
-    """Let the new folder and those in it be open to whom the old ones are; a user's keep their dates too."""
+    """Give the new folders the permissions of the old ones; a user's folders keep their dates too."""
     for path in reversed([path for path, status in there.items() if stat.S_ISDIR(status.st_mode)]):
         if (fresh / path).is_dir():
             (shutil.copystat if path in kept else shutil.copymode)(target / path, fresh / path)

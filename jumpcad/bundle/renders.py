@@ -67,7 +67,7 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
-    """Return an animated GIF of a recorded jump, at an even pace from release on."""
+    """Return an animated GIF of a recorded jump, at equal time steps from release on."""
     things = visuals(robot)
     times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
@@ -78,9 +78,9 @@ def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_
 
 
 def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
-    """Return poses with everything moved apart across the robot, as far as its outer face is from the middle plane.
+    """Return poses with everything moved apart across the robot, by `EXPLOSION` times its outer face's distance.
 
-    What is centred on that plane stays: legs, and what reaches from plate to plate.
+    Distances are from the middle plane. What is centred on it stays: legs, and what reaches from plate to plate.
     """
     moved = []
     for thing, pose in zip(things, poses, strict=True):
@@ -92,8 +92,8 @@ def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
 
 
 def _renders(scene: Renderer, robot: Robot, things: Sequence[Visual], size: tuple[int, int]) -> dict[str, bytes]:
-    rest, wound = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
-    scenes = ((rest, View()), (wound, View()), (exploded(things, rest), EXPLODED_VIEW))
+    rest, loaded = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
+    scenes = ((rest, View()), (loaded, View()), (exploded(things, rest), EXPLODED_VIEW))
     return {
         name: _png(scene.picture(poses, size, view, _corners(things, poses)))
         for name, (poses, view) in zip(RENDERS, scenes, strict=True)

@@ -63,7 +63,7 @@ class SlicedPlate:
 class SlicedBundle:
     """What PrusaSlicer says of a bundle printed in a workshop.
 
-    `billed` tells whether the times belong into the bundle's bill of materials: it has one and is its own workshop's.
+    `billed` is true if the times belong in the bundle's bill of materials: it has one, and its own workshop was used.
     `ignored` maps each setting that the slicer did not take over to what was asked for and what it used.
     """
 
@@ -95,7 +95,7 @@ def slice_bundle(
     workshop
         How it is printed; as the bundle's own workshop says unless given.
     tell
-        Is told the name of what is sliced next.
+        Called with the name of what is sliced next.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def slice_bundle(
         If PrusaSlicer refuses a part.
     """
     if wrong := verify(folder):
-        raise JumpcadError(f"{folder} is not as it was built: {few(wrong)}; jumpcad build makes it anew")
+        raise JumpcadError(f"{folder} is not as it was built: {few(wrong)}; build it again with jumpcad build")
     bundle = open_bundle(folder)
     printed = [line for line in bundle.manifest.get("masses", ()) if line["kind"] == "printed"]
     if not printed or WORKSHOP not in bundle.files:
@@ -124,13 +124,13 @@ def slice_bundle(
         ignored |= sliced.ignored
         modelled = _modelled_grams(stl, workshop, material)
         parts.append(
-            SlicedPart(line["name"], line["material"], line["quantity"], _some(stl, sliced), modelled, sliced.time_s)
+            SlicedPart(line["name"], line["material"], line["quantity"], _grams(stl, sliced), modelled, sliced.time_s)
         )
     for path, name, material_name in _plates(bundle):
         tell(name)
         sliced = slice_plate(path, workshop.printer, workshop.process, workshop.materials[material_name])
         ignored |= sliced.ignored
-        plates.append(SlicedPlate(name, material_name, _some(path, sliced), sliced.time_s))
+        plates.append(SlicedPlate(name, material_name, _grams(path, sliced), sliced.time_s))
     billed = workshop == built_in and {BOM, GUIDE} <= set(bundle.files)
     return SlicedBundle(bundle, version, workshop, billed, tuple(parts), tuple(plates), ignored)
 
@@ -171,8 +171,8 @@ def _require_materials(names: Iterable[str], workshop: Workshop) -> None:
             raise JumpcadError(f"the bundle has parts of {name}, but the workshop only {known}: build it with that")
 
 
-def _some(model: Path, sliced: Sliced) -> float:
-    """Return the grams of what was sliced, if any."""
+def _grams(model: Path, sliced: Sliced) -> float:
+    """Return the mass of what was sliced (g); refuse nothing at all."""
     if not sliced.grams > 0.0:
         raise CannotBuildError(f"{model.name}: the slicer found nothing to print: every wall is thinner than a line")
     return sliced.grams
@@ -180,11 +180,11 @@ def _some(model: Path, sliced: Sliced) -> float:
 
 def _modelled_grams(stl: Path, workshop: Workshop, material: Material) -> float:
     """Return what the printed-mass model makes of an STL file (g)."""
-    mass = mass_properties(_Scan(stl), material.density_g_cm3, workshop.process, workshop.printer.nozzle_mm)
+    mass = mass_properties(_StlPart(stl), material.density_g_cm3, workshop.process, workshop.printer.nozzle_mm)
     return 1000.0 * mass.mass_kg
 
 
-class _Scan:
+class _StlPart:
     """An STL file as the mass model sees parts (mm)."""
 
     def __init__(self, stl: Path) -> None:

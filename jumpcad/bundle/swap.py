@@ -8,7 +8,7 @@ from pathlib import Path
 _HERE = -100
 """`AT_FDCWD` of Linux: names are relative to the working directory."""
 _EXCHANGE = 2
-"""`RENAME_EXCHANGE` of Linux's renameat2(2), which ext4, xfs, btrfs, tmpfs and overlay file systems know."""
+"""`RENAME_EXCHANGE` of Linux's renameat2(2), which ext4, xfs, btrfs, tmpfs and overlay file systems support."""
 
 
 def exchanged(one: Path, other: Path) -> bool:

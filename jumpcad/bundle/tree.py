@@ -8,7 +8,7 @@ from pathlib import Path
 from jumpcad.errors import JumpcadError
 
 NAMED = 3
-"""Files that an error names; of more it says how many."""
+"""Files that an error names; the others are counted."""
 Tree = dict[str, os.stat_result]
 """All that lies in a folder by its path, written with '/', a folder before what is in it."""
 

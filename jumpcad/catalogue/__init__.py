@@ -1,7 +1,7 @@
 """Bought parts: motors, bearings, batteries, boards, springs, fasteners and wire, shipped and the user's own."""
 
 from jumpcad.catalogue.articles import Article, Battery, Bearing, Board, Motor, OwnParts, StockSpring
-from jumpcad.catalogue.shipped import Catalogue, Nut, Screw, Shelf, Standoff, Washer, Wire, load_catalogue
+from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
 
 __all__ = [
     "Article",
@@ -12,8 +12,8 @@ __all__ = [
     "Motor",
     "Nut",
     "OwnParts",
+    "PartsByName",
     "Screw",
-    "Shelf",
     "Standoff",
     "StockSpring",
     "Washer",

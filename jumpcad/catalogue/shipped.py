@@ -1,4 +1,4 @@
-"""The shipped catalogue, read from the templates, and what a user's own parts make of it (mm, g, N·m)."""
+"""The shipped catalogue, read from the templates, and the catalogue with a user's own parts (mm, g, N·m)."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -8,13 +8,13 @@ from typing import Any, Generic, TypeVar
 
 from pydantic import PositiveFloat
 
-from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor
+from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor, StockSpring
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 
 
 class Screw(Record):
-    """A metric screw size with its heads and the lengths that shops keep."""
+    """A metric screw size with its heads and the lengths in stock."""
 
     name: str
     diameter_mm: PositiveFloat
@@ -25,12 +25,12 @@ class Screw(Record):
     lengths_mm: list[PositiveFloat]
 
     def length_for(self, needed_mm: float, remedy: str = "choose thinner parts") -> float:
-        """Return the shortest length kept that is at least what is needed (mm); `remedy` is what a user may change."""
+        """Return the shortest stock length of at least what is needed (mm); `remedy` is what a user may change."""
         for length in self.lengths_mm:
             if length >= needed_mm - 1e-9:
                 return length
         raise JumpcadError(
-            f"no {self.name} screw of {needed_mm:.1f} mm; the longest kept is {self.lengths_mm[-1]:g} mm: {remedy}"
+            f"no {self.name} screw of {needed_mm:.1f} mm; the longest in stock is {self.lengths_mm[-1]:g} mm: {remedy}"
         )
 
 
@@ -71,17 +71,24 @@ class Wire(Record):
     diameters_mm: list[PositiveFloat]
     tensile_strength_mpa: list[PositiveFloat]
 
+    def tensile_mpa(self, diameter_mm: float) -> float:
+        """Return the least tensile strength at a diameter (MPa): straight lines between those kept, and beyond them."""
+        known = list(zip(self.diameters_mm, self.tensile_strength_mpa, strict=True))
+        above = next((index for index, (d, _) in enumerate(known) if d >= diameter_mm), len(known) - 1)
+        (d0, s0), (d1, s1) = known[max(above, 1) - 1], known[max(above, 1)]
+        return s0 + (s1 - s0) * (diameter_mm - d0) / (d1 - d0)
 
-Thing = TypeVar("Thing", bound=TomlTable)
+
+Entry = TypeVar("Entry", bound=TomlTable)
 
 
-class Shelf(Mapping[str, Thing], Generic[Thing]):
-    """Things of one kind by name; an unknown name is an error with a hint."""
+class PartsByName(Mapping[str, Entry], Generic[Entry]):
+    """Bought parts of one kind by name; an unknown name is an error with a hint."""
 
-    def __init__(self, kind: str, items: Mapping[str, Thing]) -> None:
+    def __init__(self, kind: str, items: Mapping[str, Entry]) -> None:
         self._kind, self._items = kind, dict(items)
 
-    def __getitem__(self, name: str) -> Thing:
+    def __getitem__(self, name: str) -> Entry:
         if name not in self._items:
             known = ", ".join(self._items)
             raise JumpcadError(f"no {self._kind} {name!r} in the catalogue ({known}){did_you_mean(name, self._items)}")
@@ -96,23 +103,24 @@ class Shelf(Mapping[str, Thing], Generic[Thing]):
     def __len__(self) -> int:
         return len(self._items)
 
-    def with_own(self, items: Mapping[str, Thing]) -> "Shelf[Thing]":
-        """Return the shelf with a user's things after its own."""
-        return Shelf(self._kind, {**self._items, **items})
+    def with_own(self, items: Mapping[str, Entry]) -> "PartsByName[Entry]":
+        """Return these parts with a user's own after them."""
+        return PartsByName(self._kind, {**self._items, **items})
 
 
 @dataclass(frozen=True)
 class Catalogue:
     """All bought parts that a robot can be made of."""
 
-    motors: Shelf[Motor]
-    bearings: Shelf[Bearing]
-    batteries: Shelf[Battery]
-    boards: Shelf[Board]
-    screws: Shelf[Screw]
-    nuts: Shelf[Nut]
-    washers: Shelf[Washer]
-    standoffs: Shelf[Standoff]
+    motors: PartsByName[Motor]
+    bearings: PartsByName[Bearing]
+    batteries: PartsByName[Battery]
+    boards: PartsByName[Board]
+    springs: PartsByName[StockSpring]
+    screws: PartsByName[Screw]
+    nuts: PartsByName[Nut]
+    washers: PartsByName[Washer]
+    standoffs: PartsByName[Standoff]
     wire: Wire
     rod_density_g_cm3: float
 
@@ -122,6 +130,7 @@ class Catalogue:
         bearings: Mapping[str, Bearing],
         batteries: Mapping[str, Battery],
         boards: Mapping[str, Board],
+        springs: Mapping[str, StockSpring],
     ) -> "Catalogue":
         """Return the catalogue with a user's own parts beside the shipped ones."""
         return replace(
@@ -130,6 +139,7 @@ class Catalogue:
             bearings=self.bearings.with_own(bearings),
             batteries=self.batteries.with_own(batteries),
             boards=self.boards.with_own(boards),
+            springs=self.springs.with_own(springs),
         )
 
     def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
@@ -141,8 +151,8 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    motors, bearings, electronics, fasteners = (
-        read_toml(folder / f"{name}.toml")[0] for name in ("motors", "bearings", "electronics", "fasteners")
+    motors, bearings, electronics, fasteners, springs = (
+        read_toml(folder / f"{name}.toml")[0] for name in ("motors", "bearings", "electronics", "fasteners", "springs")
     )
     defaults = motors.pop("defaults")
     return Catalogue(
@@ -150,10 +160,11 @@ def load_catalogue() -> Catalogue:
         bearings=_articles("bearing", Bearing, bearings),
         batteries=_articles("battery", Battery, electronics["batteries"] | {"source": electronics["source"]}),
         boards=_articles("board", Board, electronics["boards"] | {"source": electronics["source"]}),
-        screws=_shelf("screw", Screw, fasteners["screws"]),
-        nuts=_shelf("nut", Nut, fasteners["nuts"]),
-        washers=_shelf("washer", Washer, fasteners["washers"]),
-        standoffs=_shelf("standoff", Standoff, fasteners["standoffs"]),
+        springs=_articles("spring", StockSpring, springs),
+        screws=_by_name("screw", Screw, fasteners["screws"]),
+        nuts=_by_name("nut", Nut, fasteners["nuts"]),
+        washers=_by_name("washer", Washer, fasteners["washers"]),
+        standoffs=_by_name("standoff", Standoff, fasteners["standoffs"]),
         wire=Wire.from_toml(folder / "wire.toml"),
         rod_density_g_cm3=fasteners["rods"]["density_g_cm3"],
     )
@@ -161,11 +172,11 @@ def load_catalogue() -> Catalogue:
 
 def _articles(
     kind: str, model: type[AnyArticle], tables: dict[str, Any], defaults: Mapping[str, Any] | None = None
-) -> Shelf[AnyArticle]:
+) -> PartsByName[AnyArticle]:
     """Return the articles of a file whose `source` is that of all of them."""
     common = {"source": tables["source"]} | dict(defaults or {})
-    return _shelf(kind, model, {name: common | table for name, table in tables.items() if name != "source"})
+    return _by_name(kind, model, {name: common | table for name, table in tables.items() if name != "source"})
 
 
-def _shelf(kind: str, model: type[Thing], tables: Mapping[str, Mapping[str, Any]]) -> Shelf[Thing]:
-    return Shelf(kind, {name: model.model_validate({"name": name, **table}) for name, table in tables.items()})
+def _by_name(kind: str, model: type[Entry], tables: Mapping[str, Mapping[str, Any]]) -> PartsByName[Entry]:
+    return PartsByName(kind, {name: model.model_validate({"name": name, **table}) for name, table in tables.items()})

@@ -10,7 +10,8 @@ if TYPE_CHECKING:
     from types import FrameType
 
 INTERRUPTED = 130
-AGAIN_S = 0.02
+RETRY_S = 0.02
+"""Delay after which an interrupt is tried again while a module loads."""
 
 
 def main() -> None:
@@ -42,7 +43,7 @@ def _interrupt(number: int, frame: "FrameType | None") -> None:
 
     while frame is not None and frame.f_code is not main.__code__:
         if frame.f_code.co_filename == "<frozen importlib._bootstrap>":
-            again = threading.Timer(AGAIN_S, os.kill, (os.getpid(), number))
+            again = threading.Timer(RETRY_S, os.kill, (os.getpid(), number))
             again.daemon = True
             again.start()
             return

@@ -20,7 +20,7 @@ EXPORTS = Path("exports")
 PICTURES = "pictures"
 GIF = "jump.gif"
 WIDE = 140
-"""Columns of a table that no terminal shows."""
+"""Width of a table that is not printed on a terminal."""
 
 
 def register(app: typer.Typer) -> None:
@@ -97,7 +97,7 @@ def render(
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
     if jump.trajectory is not None:
-        with progress(f"filming {robot.name}"):
+        with progress(f"drawing the jump of {robot.name}"):
             files[GIF] = jump_gif(robot, jump.trajectory)
     if bundle:
         change_files(bundle, {f"{PICTURES}/{name}": data for name, data in files.items()}, {}, force)
@@ -117,7 +117,7 @@ def verify(
 ) -> None:
     """Compare a bundle's files with its manifest; the exit code is 1 if one is changed or missing.
 
-    Files that were added are named, but change nothing.
+    Added files are named, but are no difference.
     """
     from jumpcad.bundle.manifest import open_bundle, unlisted
     from jumpcad.bundle.manifest import verify as differences
@@ -126,7 +126,7 @@ def verify(
     if as_json:
         print_json({"bundle": str(bundle), "differences": wrong, "added": added})
     else:
-        whole = f"{escaped(str(bundle))}: {len(open_bundle(bundle).files)} files, all as they were built"
+        whole = f"{escaped(str(bundle))}: {len(open_bundle(bundle).files)} files, none changed or missing"
         print("\n".join([*(wrong or [whole]), *(f"{path}: added, not in the manifest" for path in added)]))
     if wrong:
         raise typer.Exit(1)
@@ -136,7 +136,7 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
     """Refuse to replace a bundle of the robot's name that was made from another design file.
 
     A design file that says something else than the bundle was edited since the build, or is another one. As for make,
-    the dates decide: who edits a file makes it younger than what was built from it.
+    the dates decide: an edited file is younger than what was built from it.
     """
     from jumpcad.bundle.inputs import DESIGN
     from jumpcad.bundle.manifest import open_bundle
@@ -158,7 +158,7 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
 
 @contextmanager
 def progress(doing: str) -> Iterator[None]:
-    """Show on standard error what is being done, where a person watches."""
+    """Show on standard error what is being done, if that is a terminal."""
     with status(f"{doing} …"):
         yield
 
@@ -210,7 +210,7 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
     print(f"springs        {facts['spring_energy_j']:.4f} J")
     print(
         f"winding        {winding['electrical_j']:.2f} J electrical in {winding['time_s']:.2f} s ({winding['motor']}, "
-        f"{winding['ratio']:.2f}:1), {100.0 * winding['efficiency']:.1f} % of which the springs hold"
+        f"{winding['ratio']:.2f}:1), {100.0 * winding['efficiency']:.1f} % of it in the springs"
     )
     if jump["takeoff_energy_ratio"] is not None:
         print(f"take-off       {100.0 * jump['takeoff_energy_ratio']:.1f} % of the springs' energy")
@@ -224,7 +224,7 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
 
 
 def _said(jump: dict[str, Any]) -> str:
-    """Return a jump in half a line."""
+    """Return a jump as half a line of text."""
     if jump["verdict"] == "jump":
         return (
             f"jumps {1000.0 * jump['ballistic_range_m']:.0f} mm far and {1000.0 * jump['com_rise_m']:.0f} mm high "

@@ -1,4 +1,4 @@
-"""`jumpcad coupon`: a gauge to print, and a workshop from what it says."""
+"""`jumpcad coupon`: a fit gauge to print, and a workshop from its readings."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -28,7 +28,7 @@ def coupon(
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Write a fit coupon to print; with --measured, turn what it says into a workshop file."""
+    """Write a fit coupon to print; with --measured, make a workshop file from its readings."""
     if measured is not None:
         facts = _measured(measured, workshop, output or WORKSHOP, force)
     else:
@@ -37,17 +37,16 @@ def coupon(
         print_json(facts)
     elif measured is None:
         print(f"{escaped(facts['folder'])}: {len(facts['files']) + 1} files, {facts['grams']:.1f} g to print")
-        print(f"read {escaped(facts['folder'])}/coupon.md next")
+        print(f"next: read {escaped(facts['folder'])}/coupon.md")
     else:
         for key, change in facts["fits"].items():
             print(f"{key:<28} {change['before']:.3f} -> {change['after']:.3f}")
-        print(
-            f"{facts['workshop']}: {workshop} with these fits" if facts["fits"] else f"{facts['workshop']}: as before"
-        )
+        change = "with these fits" if facts["fits"] else "unchanged"
+        print(f"{facts['workshop']}: {workshop} {change}")
 
 
 def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
-    """Write the coupon and return what to say of it."""
+    """Write the coupon; return its folder, files and mass."""
     from jumpcad.coupon.export import export_coupon
     from jumpcad.workshop import load_workshop
 

@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
 LEAST_R_SQUARED = 0.5
-"""Below it, an importance says little."""
+"""Below it, importances mean little."""
 
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
 SAMPLES, POINTS, AROUND, OVER = 1000, 21, "best-bo", "rest_angle_deg,compression_ratio"
-"""What is taken where an option is left out."""
+"""Defaults of the options."""
 USED_BY = {
     "samples": ("pca", "importance"),
     "points": ("sweep", "feasibility"),

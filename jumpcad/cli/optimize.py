@@ -26,20 +26,20 @@ _MEANINGS = "; ".join(f"{name}: {method.meaning}" for name, method in METHODS.it
 
 MethodArgument = Annotated[
     str | None,
-    typer.Argument(help=f"{_MEANINGS}. Without one: ga, then bo on all that it saw.", metavar=f"[{'|'.join(METHODS)}]"),
+    typer.Argument(help=f"{_MEANINGS}. Without one: ga, then bo on its results.", metavar=f"[{'|'.join(METHODS)}]"),
 ]
-EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate; the robust pick comes on top.")]
+EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate, not counting those of the robust pick.")]
 AroundOption = Annotated[
     str | None, typer.Option(help="The design from which --only and --within start.", metavar="DESIGN")
 ]
 OnlyOption = Annotated[
-    str | None, typer.Option(help="Free these parameters alone; the rest as in --around.", metavar="NAME,…")
+    str | None, typer.Option(help="Search these parameters only; the others as in --around.", metavar="NAME,…")
 ]
 WithinOption = Annotated[
-    float | None, typer.Option(help="Search each range within ± this share of it.", metavar="PERCENT")
+    float | None, typer.Option(help="Search within ± this percentage of each range.", metavar="PERCENT")
 ]
 PresetOption = Annotated[str, typer.Option(help="Settings of the genetic algorithm: recommended or published.")]
-BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated together: more than 1 for many workers.")]
+BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated in parallel: more than 1 for many workers.")]
 FromOption = Annotated[
     Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
 ]
@@ -72,7 +72,7 @@ def optimize(
 ) -> None:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
-    Every evaluation is kept in the study file; the same command goes on from there after an interruption. The exit
+    Every evaluation is kept in the study file; the same command continues after an interruption. The exit
     code is 1 if every design is rejected.
     """
     from jumpcad.design import load_design

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 JsonFlag = Annotated[bool, typer.Option("--json", help="Print one JSON document instead of text.")]
 ForceFlag = Annotated[bool, typer.Option("--force", help="Replace files that are there and not as jumpcad wrote them.")]
 
-CONTROL = "[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]"
+CONTROL_PATTERN = "[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]"
 """Characters that move the cursor, hide or reverse text, and lone surrogates (bytes of a path that are not UTF-8)."""
 COLOUR = "\x1b\\[[0-9;]*m"
 LONGEST_LINE = 2000
@@ -36,11 +36,11 @@ class OutputClosed(Exception):
 
 def escaped(text: str) -> str:
     """Return text on one line, its control characters as Python writes them: a line feed as \\n."""
-    return re.sub(CONTROL, _escape, text)
+    return re.sub(CONTROL_PATTERN, _escape, text)
 
 
 def shortened(text: str) -> str:
-    """Return a text without its middle where it is too long for anyone to read."""
+    """Return a text without its middle where it is longer than `LONGEST_LINE`."""
     half = LONGEST_LINE // 2
     return text if len(text) <= LONGEST_LINE else f"{text[:half]} … {text[-half:]}"
 
@@ -56,8 +56,8 @@ def complain(message: str, exit_code: int) -> int:
 
 
 class Output:
-    """Standard output for a command: keeps its lines, escapes other control characters, so that no name of a file
-    steers the terminal. The colours of tables and of the help are kept where `coloured`.
+    """Standard output for a command: keeps its lines, escapes other control characters, so that no file
+    name controls the terminal. The colours of tables and of the help are kept where `coloured`.
 
     Raises
     ------
@@ -70,7 +70,7 @@ class Output:
     def __init__(self, stream: TextIO, coloured: bool = False) -> None:
         self._stream = stream
         kept = f"({COLOUR}|[\n\t])" if coloured else "([\n\t])"
-        self._pattern = re.compile(f"{kept}|{CONTROL}")
+        self._pattern = re.compile(f"{kept}|{CONTROL_PATTERN}")
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._stream, name)

@@ -43,19 +43,19 @@ def reproduce(as_json: JsonFlag = False) -> None:
 
 def _results(rows: "list[Reproduction]") -> "Table":
     table = _table(
-        "Published results", "robot", "quantity", ">published", ">again", ">measured", ">evaluator", "of what"
+        "Published results", "robot", "quantity", ">published", ">again", ">measured", ">evaluator", "meaning"
     )
     for row in rows:
-        there, here, jump = row.printed.simulated, row.again, row.jump
-        measured = asdict(row.printed.measured) if row.printed.measured else {}
+        there, here, jump = row.published.simulated, row.again, row.jump
+        measured = asdict(row.published.measured) if row.published.measured else {}
         built = {name: f"{value:g}" for name, value in measured.items()}
         length = ("length m", f"{there.distance_m:g}", f"{here.distance_m:.4f}", built.get("distance_m"))
         height = ("height m", f"{there.base_height_m:g}", f"{here.base_height_m:.4f}", built.get("height_m"))
         energy = ("energy J", f"{there.energy_j:g}", f"{here.energy_j:.4f}", built.get("electrical_energy_j"))
-        table.add_row(row.printed.title, *length, _shown(jump.ballistic_range_m), "ballistic")
+        table.add_row(row.published.title, *length, _shown(jump.ballistic_range_m), "ballistic")
         table.add_row("", "", "", "", "", _shown(jump.touchdown_distance_m), "touchdown")
         table.add_row("", *height, _shown(jump.com_rise_m), "rise")
-        table.add_row("", *energy, _shown(jump.takeoff_energy_ratio), "of energy", end_section=True)
+        table.add_row("", *energy, _shown(jump.takeoff_energy_ratio), "share", end_section=True)
     return table
 
 

@@ -39,7 +39,7 @@ class SearchOptions:
         typer.Option(help="fitness, range, rise, range-per-joule or jumps-per-joule.", show_default="fitness"),
     ] = None
     study: Annotated[
-        Path | None, typer.Option(help="The study file; made, or continued.", metavar="F.db", dir_okay=False)
+        Path | None, typer.Option(help="The study file, new or to be continued.", metavar="F.db", dir_okay=False)
     ] = None
     seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0
     fix: Annotated[list[str] | None, typer.Option(help="Fix a parameter.", metavar="NAME=VALUE")] = None

@@ -114,7 +114,7 @@ def _published(design: "Design", engine: str | None, as_json: bool) -> None:
         print_json({"model": "published", **result})
         return
     print(f"published distance  {result['distance_m']:.6f} m   where the body is at the first contact after 0.5 s")
-    print(f"published height    {result['base_height_m']:.6f} m   the body's height above ground, standing included")
+    print(f"published height    {result['base_height_m']:.6f} m   the body's height above ground, not its rise")
     print(f"energy              {result['energy_j']:.6f} J")
 
 
@@ -175,7 +175,7 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None
                 print(f"  {'published ' + name.removesuffix('_m').replace('_', ' '):<36}{shown}")
     difference = _difference_percent(jumps)
     if difference is not None:
-        print(f"{jumps[1].engine} jumps {difference:+.3f} % of the range of {jumps[0].engine}")
+        print(f"range of {jumps[1].engine}: {difference:+.3f} % from that of {jumps[0].engine}")
 
 
 def _difference_percent(jumps: "list[Jump]") -> float | None:

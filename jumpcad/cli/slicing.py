@@ -1,4 +1,4 @@
-"""`jumpcad slice`: what a slicer says of a bundle's parts and plates."""
+"""`jumpcad slice`: masses and printing times of a bundle's parts and plates by PrusaSlicer."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,18 +23,16 @@ def register(app: typer.Typer) -> None:
 def slice_command(
     bundle: Annotated[Path, typer.Argument(help="A bundle's folder.", metavar="BUNDLE")],
     workshop: Annotated[
-        str | None, typer.Option(help="Print it as another workshop does: a template's name or a file.")
+        str | None, typer.Option(help="Print with another workshop: a template's name or a file.")
     ] = None,
     write_masses: Annotated[
         Path | None,
-        typer.Option(
-            help="Write the workshop, complete, with the sliced grams as weighed masses.", metavar="FILE.toml"
-        ),
+        typer.Option(help="Write the workshop, complete, with the sliced masses as weighed ones.", metavar="FILE.toml"),
     ] = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Slice a bundle with PrusaSlicer: grams beside the mass model, printing times, settings that it ignored.
+    """Slice a bundle with PrusaSlicer: masses beside the model's, printing times, settings that it ignored.
 
     The times go into the bundle's bill of materials and guide, unless another workshop prints it.
     """
@@ -106,7 +104,7 @@ def _tell(found: "SlicedBundle") -> None:
 
 
 def _print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table as wide as it needs to be; columns of figures are set right."""
+    """Print a table as wide as it needs to be; columns of figures are right-aligned."""
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)

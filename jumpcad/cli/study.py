@@ -18,7 +18,7 @@ StudiesArgument = Annotated[
 ExportOption = Annotated[
     Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
 ]
-ListOption = Annotated[int, typer.Option("--list", help="Show so many of the best trials.", metavar="COUNT", min=0)]
+ListOption = Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)]
 
 
 def register(app: typer.Typer) -> None:

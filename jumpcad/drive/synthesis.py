@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from jumpcad.catalogue import Catalogue, Motor, load_catalogue
+from jumpcad.catalogue import Catalogue, Motor, StockSpring, load_catalogue
 from jumpcad.design import Design
 from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive.cam import Cam
@@ -13,6 +13,7 @@ from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.drive.gear_choice import least_tip_mm
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
+from jumpcad.drive.stock_spring import fitted_spring, rate_finding, springs_on_leg
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
 from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
@@ -33,16 +34,18 @@ class DriveLimits:
     ----------
     motors
         Names in the catalogue; none stands for every one.
+    stock_spring, preload_rad
+        The springs from stock, None where they are made to order; how far they are loaded at rest.
     gap_mm
-        Between things that pass each other.
+        Gap between things that pass each other.
     axle_radius_mm
-        Around an axle, with what turns on it or holds it apart: the leg's where the cam gear passes it, beside the
-        spring, and an idler's beside the cam.
+        Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
+        spring, and of an idler's axle beside the cam.
     fall_s
-        From release to the leg's swing past rest, during which the cam turns on (judgement: releases of this size take
+        Time from release to the leg's swing past rest; the cam turns on meanwhile (judgement: such releases take
         15 to 30 ms).
     face_widths_mm
-        Of the gears, in the order tried: the next where the teeth are not strong enough, or find no room that are.
+        Face widths of gears, in the order tried: the next one where no gears are strong enough and also fit.
     more_gap_mm
         How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther axis makes
         room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one pair are
@@ -53,6 +56,8 @@ class DriveLimits:
     cam: CamLimits
     train: TrainLimits
     motors: tuple[str, ...]
+    stock_spring: StockSpring | None = None
+    preload_rad: float = 0.0
     gap_mm: float = CLEAR_MM
     axle_radius_mm: float = SPACER_RADIUS_MM
     fall_s: float = 0.03
@@ -83,24 +88,35 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
         If one of them is not possible; the message names the limit and what to change.
     """
     catalogue = catalogue or load_catalogue()
-    stiffness, compression = design.stiffness_nm_per_rad, design.compression_rad
+    compression = design.compression_rad
     if compression < LEAST_COMPRESSION_RAD:
         raise CannotBuildError(
-            f"the springs are wound by {math.degrees(compression):.2f}°, less than "
+            f"the springs are loaded by {math.degrees(compression):.2f}°, less than "
             f"{math.degrees(LEAST_COMPRESSION_RAD):g}°: raise compression_ratio, rest_angle_deg or c_coef"
         )
-    spring = synthesise_spring(stiffness, compression, catalogue.wire, limits.spring)
-    law = CamLaw(compression, stiffness, limits.cam.lift_rad, limits.cam.ramp_rad)
+    spring = _spring(design, limits, catalogue)
+    stiffness = 2.0 * spring.stiffness_nm_per_rad
+    law = CamLaw(compression, stiffness, limits.cam.lift_rad, limits.cam.ramp_rad, spring.preload_rad)
     motors = [catalogue.motors[name] for name in limits.motors or tuple(catalogue.motors)]
     refusal: CannotBuildError | None = None
     for width in limits.face_widths_mm:
         beside = replace(limits, train=replace(limits.train, face_width_mm=width))
         try:
             return Drive(spring, *_cam_and_train(law, motors, spring.outer_diameter_mm, beside))
-        except NoTrainError as error:  # wider teeth bear more
+        except NoTrainError as error:  # wider teeth carry more
             refusal = error
     assert refusal is not None
     raise refusal
+
+
+def _spring(design: Design, limits: DriveLimits, catalogue: Catalogue) -> TorsionSpring:
+    """Find the springs, from stock or made to order; the leg's pin stands on its middle line."""
+    stock, leg_pin = limits.stock_spring, -math.radians(design.rest_angle_deg)
+    on_leg = springs_on_leg(design, stock, limits.preload_rad)
+    if stock is None:
+        return synthesise_spring(on_leg, leg_pin, catalogue.wire, limits.spring)
+    spring = fitted_spring(stock, on_leg, leg_pin, catalogue.wire, limits.spring)
+    return replace(spring, findings=(*spring.findings, rate_finding(design, stock)))
 
 
 def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits: DriveLimits) -> tuple[Cam, GearTrain]:
@@ -115,7 +131,7 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
         gap = limits.cam.gap_min_mm + more
         try:
             cam = synthesise_cam(law, replace(limits.cam, hub_radius_mm=around, gap_min_mm=gap))
-        except CannotBuildError as error:  # a farther axis only narrows what a cam may be
+        except CannotBuildError as error:  # with a farther axis fewer cams are possible
             refusal = refusal or error
             break
         beside = _train_limits(cam, limits)
@@ -127,7 +143,7 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
             if len(train.stages) == 1:
                 return cam, train
             found = found or (cam, train)
-        if found is not None:  # two pairs do it here; farther away only one pair would do better
+        if found is not None:  # two pairs work here; farther away only one pair would be better
             tip = least_tip_mm(law, motors, beside)
             enough = more + tip - beside.cam_gear_tip_max_mm if tip <= limits.train.cam_gear_tip_max_mm else math.inf
     if found is None:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from jumpcad.scene.visuals import Visual
 
 SUBSTEPS = 4
-"""MuJoCo's own steps in one of the settings': what makes its stiffest constraints as exact as Bullet's rigid ones."""
+"""MuJoCo's own steps per step of the settings; its stiffest constraints are then as exact as Bullet's rigid ones."""
 SOFTNESS_STEPS = 2.0
 """Time constant of the constraints over MuJoCo's own step: the least that MuJoCo keeps stable."""
 IMPEDANCE = [0.99, 0.9999, 0.0001, 0.5, 2.0]
@@ -39,11 +39,11 @@ FREE_RAD = 10.0
 """How far springs that only push let the leg go on: more than any leg turns."""
 CONTACT_IMPEDANCE = [0.0, 0.95, 0.0001, 0.5, 1.0]
 """The same of contacts: growing from nothing over 0.1 mm, or a sliding foot chatters and gains energy (ranges of
-slipping jumps 5 to 9 % long; with it within 1 % of rigid contacts)."""
+slipping jumps up to 9 % too long; with it within 1 % of rigid contacts)."""
 FRICTION_STIFFNESS = 100.0
 """Of friction over normal force (MuJoCo's `impratio`): at 1 a foot that sticks creeps by 1 % of the range."""
 LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100
-"""Fewer do not reach the tolerance; what MuJoCo takes where a file says nothing."""
+"""Solver iterations: fewer do not reach the tolerance; and MuJoCo's default."""
 
 
 def mjcf_files(robot: "Robot") -> Iterator[tuple[str, str]]:
@@ -96,7 +96,7 @@ def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
 def _children(
     parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, visible: "Sequence[Visual]"
 ) -> list[str]:
-    """Append the bodies that hang on a body; return their joints in the order in which MuJoCo numbers them."""
+    """Append the child bodies of a body; return their joints in the order in which MuJoCo numbers them."""
     order: list[str] = []
     for joint in (joint for joint in mechanism.joints if joint.parent == name):
         node = add(
@@ -158,7 +158,7 @@ def _pushing_spring(root: ET.Element, spring: Spring) -> None:
 
 
 def _fill(node: ET.Element, body: Body, visible: "Sequence[Visual]") -> None:
-    """Give a body its mass properties, what is seen of it, its contact spheres."""
+    """Give a body its mass properties, visible meshes and contact spheres."""
     tensor = body.inertia_kg_m2
     six = (*tensor.diagonal(), tensor[0, 1], tensor[0, 2], tensor[1, 2])
     add(node, "inertial", pos=body.com_m, mass=body.mass_kg, fullinertia=six)
@@ -211,7 +211,7 @@ def _contacts(root: ET.Element, mechanism: Mechanism, settings: Settings, rubs: 
 
 
 def _loop(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
-    """Tie the loop's two points, a site on each body."""
+    """Connect the loop's two points, a site on each body."""
     loop = mechanism.loop
     for name, point in ((loop.body_a, loop.point_a_m), (loop.body_b, loop.point_b_m)):
         body = next(node for node in root.iter("body") if node.get("name") == name)
@@ -230,5 +230,5 @@ def _key(keys: ET.Element, name: str, release: Release, order: list[str]) -> Non
 
 
 def _stiff(settings: Settings) -> dict[str, Sequence[float]]:
-    """Return how stiff contacts and loop are: as stiff as the project's own MuJoCo runs have them."""
+    """Return the stiffness of contacts and loop, the same as in the project's own MuJoCo runs."""
     return {"solref": (SOFTNESS_STEPS * settings.dt_s / SUBSTEPS, 1.0), "solimp": IMPEDANCE}

@@ -1,4 +1,4 @@
-"""URDF: the tree of the mechanism, and a JSON file beside it with what URDF cannot say: loop, spring, release.
+"""URDF: the tree of the mechanism, and a JSON file beside it with what URDF cannot express: loop, spring, release.
 
 The leg's upper limit is the stop. Pin friction is one dry torque at the leg joint; the JSON file has its coefficient.
 
@@ -32,7 +32,7 @@ OWN = "stop", "roller_off", "friction"
 
 
 def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
-    """Yield path and content of the meshes of all that is seen, of the URDF and of the loop beside it."""
+    """Yield path and content of the visible meshes, of the URDF and of the loop file beside it."""
     from jumpcad.scene.visuals import visuals
     from jumpcad.solids.stl import write_stl
 
@@ -46,9 +46,9 @@ def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
 def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:
     """Return the URDF document of a mechanism; its joints have the settings' damping and dry friction.
 
-    `visible` is what is seen of it, from `jumpcad.scene.visuals`.
+    `visible` are its visible meshes, from `jumpcad.scene.visuals`.
 
-    MuJoCo's own element keeps it from dropping the root link's mass and the folder of the meshes.
+    The `mujoco` element keeps MuJoCo from dropping the root link's mass and the folder of the meshes.
     """
     settings = settings or Settings()
     root = ET.Element("robot", name=mechanism.name)

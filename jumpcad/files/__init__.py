@@ -1,4 +1,4 @@
-"""Files that users have: read with errors that name file, line, key, value and limit; written whole or not at all."""
+"""Files of users: read with errors that name file, line, key, value and limit; written whole or not at all."""
 
 from jumpcad.files.complaints import did_you_mean
 from jumpcad.files.reading import read_bytes, read_json, read_text, read_toml, real_path, to_toml

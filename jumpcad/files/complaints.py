@@ -1,4 +1,4 @@
-"""What is wrong with values that users wrote, in words: one clause a bad key, and never more than a few."""
+"""Messages about wrong values in users' files: one clause a bad key, and not more than `MOST_NAMED`."""
 
 import difflib
 import re
@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 MOST_NAMED = 10
-"""Bad keys that are named; of the others only their number is told."""
+"""Bad keys that are named; the others are counted."""
 LONGEST = 60
 """Characters of a value that are shown."""
 LIMITS = {
@@ -64,7 +64,7 @@ def shown(value: Any) -> str:
     """Return a value as it is shown in one line: without control characters, and shortened."""
     try:
         text = " ".join(repr(value).split()) if not isinstance(value, str) else repr(value)
-    except (ValueError, RecursionError):  # Python writes no integer of more than 4300 digits, and nothing endless
+    except (ValueError, RecursionError):  # more than 4300 digits, or a value within itself
         return "a value too long to show"
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
 
@@ -80,7 +80,7 @@ def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str
         return f"{key}: unknown key{did_you_mean(location[-1], _known_keys(model, location[:-1]))}"
     if item["type"] == "missing":
         return f"{key}: missing"
-    if not location:  # a validator that speaks of the whole record
+    if not location:  # a validator of the whole record
         return _reason(item, location, model)
     if item["loc"][-1] == "[key]":
         return f"{key}: {_reason(item, location, model)}"
@@ -88,7 +88,7 @@ def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str
 
 
 def _step(name: str) -> str:
-    """Return a key's name as it is shown: bare where it is short and plain."""
+    """Return a key's name as it is shown: without quotes where it is short and plain."""
     return name if name and name.isprintable() and len(name) <= LONGEST else shown(name)
 
 
@@ -119,7 +119,7 @@ def _known_keys(model: type[BaseModel], location: tuple[str, ...]) -> list[str]:
         if _is_model(annotation):
             field = annotation.model_fields.get(step)
             annotation = field.annotation if field else None
-        else:  # a table whose keys the user chooses: what its values are
+        else:  # a table whose keys the user chooses: the type of its values
             annotation = (getattr(annotation, "__args__", None) or (None,))[-1]
     fields = annotation.model_fields if _is_model(annotation) else {}
     return [name for name, field in fields.items() if not field.exclude]

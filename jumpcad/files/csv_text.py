@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from jumpcad.errors import without_controls
 
 FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
-"""What makes a spreadsheet compute a cell (OWASP, CSV injection), in the full width of East Asian scripts too."""
+"""First characters of cells that spreadsheets compute (OWASP, CSV injection), also in full-width form."""
 
 
 def to_csv(rows: Iterable[Sequence[object]]) -> str:
@@ -19,7 +19,7 @@ def to_csv(rows: Iterable[Sequence[object]]) -> str:
 
 
 def _cell(value: object) -> object:
-    """Return a value as it is safe in a cell: numbers as they are, also those that are written out."""
+    """Return a value that is safe in a cell; numbers, also those given as text, stay as they are."""
     if not isinstance(value, str) or _is_number(value):
         return value
     text = value.replace("\r\n", "\n").replace("\r", "\n")  # a lone \r is not quoted, and would begin another row

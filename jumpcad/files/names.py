@@ -1,4 +1,4 @@
-"""Names and free text that users and strangers choose: what they may hold, since they end in files and on terminals."""
+"""Names and free text from users and their files: what they may contain, as they get into files and terminals."""
 
 import re
 import unicodedata
@@ -7,19 +7,19 @@ from typing import Annotated
 from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
 
-from jumpcad.errors import CONTROL
+from jumpcad.errors import CONTROL_CATEGORIES
 
 NAME = re.compile(r"\w[\w .,()+-]{0,49}")
-"""What a name is: it begins no formula and no hidden file, and holds no separator of paths and no markup."""
-NAME_RULE = "a name has 1 to 50 letters, digits, blanks and . , + - _ ( ), and begins with a letter, a digit or _"
+"""Pattern of a name: it begins neither a formula nor a hidden file, and has no path separator and no markup."""
+NAME_RULE = "a name has 1 to 50 letters, digits, spaces and . , + - _ ( ), and begins with a letter, a digit or _"
 LONGEST_TEXT = 1000
 
 
 def control_character(text: str) -> str:
-    """Return the first character that can steer a terminal or break a line, as `U+0007`, or nothing."""
-    if text.isprintable():  # at once for nearly every text
+    """Return the first character that can control a terminal or break a line, as `U+0007`, or nothing."""
+    if text.isprintable():  # quick for nearly every text
         return ""
-    return next((f"U+{ord(letter):04X}" for letter in text if unicodedata.category(letter) in CONTROL), "")
+    return next((f"U+{ord(letter):04X}" for letter in text if unicodedata.category(letter) in CONTROL_CATEGORIES), "")
 
 
 def _name(value: str) -> str:
@@ -30,7 +30,7 @@ def _name(value: str) -> str:
 
 def _text(value: str) -> str:
     if found := control_character(value):
-        raise PydanticCustomError("value_error", f"holds the control character {found}: leave it out")
+        raise PydanticCustomError("value_error", f"contains the control character {found}: leave it out")
     if len(value) > LONGEST_TEXT:
         raise PydanticCustomError("value_error", f"has {len(value)} characters, more than {LONGEST_TEXT}: shorten it")
     return value

@@ -1,8 +1,8 @@
 """Files that are written where a user says: whole or not at all, and never over what is the user's own.
 
 One rule holds for every command: what is there already is replaced only if jumpcad wrote it and nobody has changed it
-since, or with `--force`. A bundle knows its files by its manifest; a text file that is written again and again bears
-a seal; of any other file nobody can tell.
+since, or with `--force`. A bundle's manifest lists its files; a text file that is rewritten often ends with
+a seal, the checksum of its lines; any other file counts as the user's own.
 """
 
 import hashlib
@@ -55,12 +55,12 @@ def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
 
 
 def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -> None:
-    """Refuse a file to be written whose name ends otherwise, that has no folder to lie in, or that is a user's own.
+    """Refuse an output file with another suffix, in a missing folder, or that would replace a user's own.
 
     Raises
     ------
     JumpcadError
-        Saying which.
+        Naming the path and what is wrong.
     """
     if path.suffix not in suffixes:
         raise JumpcadError(f"{path}: must end in {' or '.join(suffixes)}")
@@ -69,7 +69,7 @@ def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -
 
 
 def require_folder(path: Path) -> None:
-    """Refuse a file to be written that has no folder to lie in.
+    """Refuse an output file in a missing folder.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def require_folder(path: Path) -> None:
 
 
 def require_free(path: Path, force: bool = False) -> None:
-    """Refuse to write over a file that is not sealed by jumpcad, unless forced, and over what is no plain file at all.
+    """Refuse to write over a file that is not sealed by jumpcad, unless forced, and over anything but a plain file.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def require_free(path: Path, force: bool = False) -> None:
 
 
 def sealed(text: str, comment: str = "# {}") -> str:
-    """Return text with a last line by which `require_free` knows it again, as long as nobody changes it.
+    """Return text with a last line by which `require_free` recognises it, as long as nobody changes it.
 
     Parameters
     ----------
@@ -136,11 +136,11 @@ def _sha256(data: bytes) -> str:
 
 
 def _write_all(files: Mapping[Path, str | bytes]) -> None:
-    """Write files under other names beside their own, then give all of them their names."""
+    """Write files under temporary names in the same folders, then rename them all."""
     waiting = {path: path.parent / f".jumpcad-{secrets.token_hex(8)}" for path in files}
     try:
         for path, data in files.items():
-            with waiting[path].open("xb") as stream:  # as open to others as the user's umask says
+            with waiting[path].open("xb") as stream:  # with the permissions that the user's umask allows
                 stream.write(data.encode() if isinstance(data, str) else data)
             if path.exists():
                 shutil.copymode(path, waiting[path])

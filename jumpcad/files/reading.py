@@ -1,4 +1,4 @@
-"""Reading files that may come from strangers: regular files of bounded size and depth, errors in one line."""
+"""Reads files that may come from strangers: regular files of limited size and depth, errors in one line."""
 
 import json
 import os
@@ -30,7 +30,7 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     """
     text = read_text(path, "a TOML file")
     for number, line in enumerate(text.split("\n"), start=1):
-        # Parsing takes time with the square of a key's parts, and no other line has so many dots.
+        # Parsing time grows with the square of the number of a key's parts; no useful line has so many dots.
         if line.count(".") > MOST_DOTS and not line.lstrip().startswith("#"):
             raise JumpcadError(f"{path}: line {number} has more than {MOST_DOTS} dots, more than any key or list has")
     try:
@@ -65,7 +65,7 @@ def read_json(path: Path) -> Any:
 
 
 def read_text(path: Path, kind: str = "a text file") -> str:
-    """Return the text of a file in UTF-8, for what it should be see `read_bytes`."""
+    """Return the text of a file in UTF-8; for `kind` see `read_bytes`."""
     try:
         return read_bytes(path, kind).decode("utf-8").replace("\r\n", "\n")
     except UnicodeDecodeError:
@@ -75,7 +75,7 @@ def read_text(path: Path, kind: str = "a text file") -> str:
 def read_bytes(path: Path, kind: str = "a file") -> bytes:
     """Return the content of a regular file of moderate size; `kind` says what it should be, such as `a TOML file`.
 
-    What is looked at is the opened file, so nobody can exchange it in between; a pipe or a device does not block.
+    The opened file is checked, so nobody can exchange it in between; a pipe or a device does not block.
 
     Raises
     ------
@@ -117,7 +117,7 @@ def _no_constant(name: str) -> None:
 
 
 def _require_characters(data: Any, path: Path) -> None:
-    """Refuse texts with halves of characters, which JSON can hold and no file or terminal."""
+    """Refuse texts with lone surrogates, which JSON can hold, but no file and no terminal."""
     try:
         json.dumps(data, ensure_ascii=False).encode()
     except UnicodeEncodeError:
@@ -125,7 +125,7 @@ def _require_characters(data: Any, path: Path) -> None:
 
 
 def _require_shallow(data: Any, path: Path) -> None:
-    """Refuse data that are nested deeper than any file of this program; what works on them may call itself."""
+    """Refuse data that are nested deeper than any file of this program; functions that use them may be recursive."""
     level = [data]
     for _ in range(DEEPEST):
         level = [

@@ -1,4 +1,4 @@
-"""Validated values that users make by name, in Python or as a TOML file."""
+"""Validated values that users give by keyword, in Python or in a TOML file."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -16,13 +16,13 @@ Contradiction = tuple[tuple[str, ...], Any, str]
 
 
 class TomlTable(BaseModel):
-    """A validated group of values: no unknown keys, no NaN, no guessing of types, immutable."""
+    """A validated group of values: no unknown keys, no NaN, no conversion of types, immutable."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True, strict=True)
 
 
 class Record(TomlTable):
-    """A `TomlTable` that users make by name, in Python or as a TOML file; errors are `JumpcadError`."""
+    """A `TomlTable` that users give by keyword, in Python or in a TOML file; errors are `JumpcadError`."""
 
     def __init__(self, /, *unnamed: Any, **values: Any) -> None:
         if unnamed:
@@ -43,7 +43,7 @@ class Record(TomlTable):
         return ()
 
     def revalidated(self) -> Self:
-        """Return the same record, validated anew: copies with changes, and changed dictionaries, never were.
+        """Return the same record, validated again: pydantic does not validate changed copies and dictionaries.
 
         Raises
         ------

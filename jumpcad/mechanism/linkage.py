@@ -66,10 +66,10 @@ class Linkage:
         return np.asarray(np.abs(self.l1 - self._ankle(leg_rad)))
 
     def closing_margin_mm(self) -> float:
-        """Return by how much the loop closes over the whole travel; negative where it cannot.
+        """Return the margin (mm) by which the loop closes over the whole travel; negative where it cannot.
 
-        Ankle and front pivot must stay nearer than foot and front link reach and farther than their difference. The
-        diagonal grows with the leg's angle from the body line up to 180°, so its extremes are at the ends of the
+        The diagonal from ankle to front pivot must stay between difference and sum of the lengths of foot and front
+        link. It grows with the leg's angle from the body line up to 180°, so its extremes are at the ends of the
         travel, or where the leg crosses the body line.
         """
         shortest = self.diagonal_mm(-min(self.design.compression_rad, self.rest_rad))
@@ -86,7 +86,7 @@ class Linkage:
         """
         leg = np.atleast_1d(np.asarray(leg_rad, dtype=float))
         ankle, foot = self._ankle(leg), self._foot(leg, other_branch)
-        # Turned back to the assembled pose, no link comes near the half turn at which angles jump.
+        # Measured from the assembled pose, no link comes near the ±180° at which angles jump.
         front = _below((ankle + foot - self.l1) * np.exp(1j * self.rest_rad))
         angle = _below(foot)
         ankle_mm = self.back_pivot_mm + _points(ankle)
@@ -107,7 +107,7 @@ class Linkage:
         """Return d(ankle x, ankle z, foot angle)/d(leg angle), shape (n, 3), in mm/rad, mm/rad and rad/rad.
 
         Velocity analysis of the four-bar (e.g. Norton, Design of Machinery, ch. 6): the eye's velocity is the same
-        seen along main leg and foot as along the front link.
+        computed along main leg and foot as along the front link.
         """
         pose = self.pose(leg_rad)
         ankle_rate = self.l2 * velocity_about_y(direction(self.rest_rad + pose.leg_rad))

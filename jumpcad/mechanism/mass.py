@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia of rigid things, moved and added up.
+"""Mass, centre of mass and inertia of rigid bodies, moved and added up.
 
 Products of matrices are sums here and not calls to BLAS, whose last digits depend on the processor and on the number of
 threads: the same robot has the same bytes everywhere.
@@ -37,7 +37,7 @@ class MassProperties:
         return cls(mass_kg, np.zeros(3), np.diag([across, mass_kg * radii / 2.0, across]))
 
     def placed(self, transform: Array) -> "MassProperties":
-        """Return the same thing seen from a frame in which this frame is `transform` (4, 4), lengths in m."""
+        """Return the same body seen from a frame in which this frame is `transform` (4, 4), lengths in m."""
         rotation = transform[:3, :3]
         return MassProperties(
             self.mass_kg,
@@ -51,7 +51,7 @@ class MassProperties:
 
 
 def combined(items: Iterable[MassProperties]) -> MassProperties:
-    """Return the mass properties of several things that share a frame (parallel-axis theorem)."""
+    """Return the mass properties of several bodies that share a frame (parallel-axis theorem)."""
     items = list(items)
     mass = math.fsum(item.mass_kg for item in items)
     com = sum((item.mass_kg * item.com_m for item in items), np.zeros(3)) / mass

@@ -4,7 +4,7 @@ Frames follow REP-103: x forward (the jump), y left, z up; all joint axes are +y
 nose downwards. The frame of `body` lies midway between its two pivots with x through both, from the main leg's to the
 front link's. Each leg's frame lies at its pivot with x along the link; the foot's frame lies at the ankle with x
 towards the front eye. All joint angles are zero in the assembled pose (springs at rest), where the foot is flat.
-Loading the springs turns the legs flat: negative angles of the `leg` joint.
+Loading the springs flattens the legs: negative angles of the `leg` joint.
 """
 
 import math
@@ -24,7 +24,7 @@ Surface = Literal["foot", "body"]
 
 BODY, MAIN_LEG, FRONT_LINK, FOOT = BODY_NAMES = ("body", "main_leg", "front_link", "foot")
 JOINT_SPEED_RAD_S = 100.0
-"""Measured releases of light designs reach the speed at which PyBullet limits joints."""
+"""Joint speed at which PyBullet limits joints; releases of light designs reach it (measured)."""
 RANGE_POINTS = 33
 """Leg angles at which the ranges of the other joints are looked for."""
 
@@ -57,10 +57,10 @@ class Body:
 
 @dataclass(frozen=True)
 class Joint:
-    """A hinge about +y: the child frame sits at `origin_m` in the parent frame, turned by `rest_angle_rad` + q.
+    """A hinge about +y: the child frame lies at `origin_m` in the parent frame, turned by `rest_angle_rad` + q.
 
     `lower_rad` and `upper_rad` bound q as far as the mechanism goes (information for exporters, not a stop).
-    `effort_nm` and `velocity_rad_s` are the joint's largest ones, for the URDF's limits.
+    `effort_nm` and `velocity_rad_s` are the joint's largest torque and speed, for the URDF's limits.
     """
 
     name: str
@@ -112,6 +112,11 @@ class Spring:
     def energy_j(self) -> float:
         """Energy that the springs give from the loaded to the rest pose, ½·k·((δ + p)² - p²) (J)."""
         return 0.5 * self.stiffness_nm_per_rad * self.wind_rad * (self.wind_rad + 2.0 * self.preload_rad)
+
+    @property
+    def peak_torque_nm(self) -> float:
+        """Torque in the loaded pose, k·(δ + p) (N·m)."""
+        return self.stiffness_nm_per_rad * (self.wind_rad + self.preload_rad)
 
     def torque_nm(self, joint_rad: float) -> float:
         """Return the torque on the joint at a coordinate of it (N·m)."""

@@ -24,7 +24,8 @@ RESTITUTION = 0.9
 """The values that give the published results; the study's hyperparameter table lists others (see `reproduction`)."""
 
 STEP_S = 1.0 / 240.0
-SETTLE_S = HOLD_S = BLIND_S = 0.5
+SETTLE_S = HOLD_S = IGNORED_S = 0.5
+"""Settling before loading, holding before release, and contacts ignored after it."""
 LIMIT_S = 10.0
 HOLD_TOLERANCE_RAD = math.radians(2.0)
 MOTOR_FORCE_NM = 0.001
@@ -69,7 +70,7 @@ def simulate(design: Design) -> PublishedJump:
 
 @dataclass(frozen=True)
 class _Geometry:
-    """Lengths in m and angles in rad; `wound_rad` is the compression δ."""
+    """Lengths in m and angles in rad; `compression_rad` is δ, by which the springs are loaded."""
 
     l1: float
     l2: float
@@ -79,7 +80,7 @@ class _Geometry:
     radius: float
     rest_rad: float
     beta_rad: float
-    wound_rad: float
+    compression_rad: float
     toe_rad: float
 
 
@@ -102,7 +103,7 @@ def _geometry(design: Design) -> _Geometry:
         radius=max(l2, l3, l5) / LENGTH_PER_RADIUS / 1000.0,
         rest_rad=rest,
         beta_rad=beta,
-        wound_rad=design.compression_ratio * (rest + beta),
+        compression_rad=design.compression_ratio * (rest + beta),
         toe_rad=design.ground_link_angle_deg * math.pi / 180.0,
     )
 
@@ -115,7 +116,7 @@ def _jump(bullet: ModuleType, client: int, design: Design, geometry: _Geometry) 
     ground = bullet.createMultiBody(0.0, bullet.createCollisionShape(bullet.GEOM_PLANE, **here), **here)
     bullet.changeDynamics(ground, -1, lateralFriction=GROUND_FRICTION, **here)
     robot = _robot(bullet, client, geometry)
-    wound = geometry.wound_rad
+    compression = geometry.compression_rad
     stiffness_nm_per_deg = design.stiffness_nmm_per_deg / 1000.0
     released, start_y, height = False, 0.0, 0.0
     # Three float clocks: adding 1/240 does not give k/240, and the step in which each runs out decides the result.
@@ -130,15 +131,15 @@ def _jump(bullet: ModuleType, client: int, design: Design, geometry: _Geometry) 
                 # In this order: math.degrees rounds otherwise, which moves one design in eight by more than 1e-9 m.
                 torque = -angle * 180 / math.pi * stiffness_nm_per_deg
                 bullet.setJointMotorControl2(robot, LEG, bullet.TORQUE_CONTROL, force=torque, **here)
-                if flown > BLIND_S and bullet.getContactPoints(robot, ground, **here):
+                if flown > IGNORED_S and bullet.getContactPoints(robot, ground, **here):
                     return y - start_y, height
                 flown += STEP_S
             else:
-                bullet.setJointMotorControl2(robot, LEG, bullet.POSITION_CONTROL, targetPosition=wound, **here)
-                if held > 0.0 or abs(angle - wound) < HOLD_TOLERANCE_RAD:
+                bullet.setJointMotorControl2(robot, LEG, bullet.POSITION_CONTROL, targetPosition=compression, **here)
+                if held > 0.0 or abs(angle - compression) < HOLD_TOLERANCE_RAD:
                     held += STEP_S  # before the comparison: one step later moves distances by 1e-4 m
                     if held > HOLD_S:
-                        for link in LINKS:  # the last bit of the motors: a little friction in every joint
+                        for link in LINKS:  # the motors stay on, as a little friction in every joint
                             bullet.setJointMotorControl2(
                                 robot, link, bullet.VELOCITY_CONTROL, force=MOTOR_FORCE_NM, **here
                             )
@@ -186,8 +187,8 @@ def _robot(bullet: ModuleType, client: int, geometry: _Geometry) -> int:
         linkJointAxis=[[1.0, 0.0, 0.0]] * 5,
         **here,
     )
-    # The pose closes the loop only where l2 = l3 and l1 = l4; the constraint pulls it shut while it settles.
-    for link, angle in ((LEG, g.wound_rad), (FOOT, -g.wound_rad), (FRONT, g.wound_rad)):
+    # The pose closes the loop only where l2 = l3 and l1 = l4; the constraint closes it while the robot settles.
+    for link, angle in ((LEG, g.compression_rad), (FOOT, -g.compression_rad), (FRONT, g.compression_rad)):
         bullet.resetJointState(robot, link, angle, **here)
     bullet.createConstraint(
         robot, FRONT, robot, FOOT, bullet.JOINT_POINT2POINT, [1.0, 0.0, 0.0],

@@ -1,6 +1,6 @@
-"""The published study's table of results: as printed, as simulated again, as measured, and as it should be read.
+"""The published study's table of results: as published, simulated again, measured, and by jumpcad's evaluator.
 
-Lengths in m, energies in J. What was printed is quoted from the study, rounded as there.
+Lengths in m, energies in J. Published values are quoted from the study, rounded as there.
 """
 
 from dataclasses import asdict, dataclass
@@ -23,8 +23,8 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class Printed:
-    """What the study prints for one robot: simulated, and measured where it was built."""
+class PublishedResult:
+    """What the study publishes on one robot: simulated, and measured where it was built."""
 
     title: str
     template: str
@@ -32,11 +32,11 @@ class Printed:
     measured: Measured | None = None
 
 
-PRINTED = (
-    Printed("Kenan 1.0", "kenan-1.0", PublishedJump(0.25, 0.10, 0.153), Measured(0.25, 0.15, 1.5)),
-    Printed("best GA", "best-ga", PublishedJump(0.891, 0.386, 0.73)),
-    Printed("best BO", "best-bo", PublishedJump(0.905, 0.389, 0.72)),
-    Printed("Kenan 2.0", "kenan-2.0", PublishedJump(0.321, 0.126, 0.133), Measured(0.35, 0.12, 1.3)),
+PUBLISHED_RESULTS = (
+    PublishedResult("Kenan 1.0", "kenan-1.0", PublishedJump(0.25, 0.10, 0.153), Measured(0.25, 0.15, 1.5)),
+    PublishedResult("best GA", "best-ga", PublishedJump(0.891, 0.386, 0.73)),
+    PublishedResult("best BO", "best-bo", PublishedJump(0.905, 0.389, 0.72)),
+    PublishedResult("Kenan 2.0", "kenan-2.0", PublishedJump(0.321, 0.126, 0.133), Measured(0.35, 0.12, 1.3)),
 )
 
 
@@ -59,7 +59,7 @@ HYPERPARAMETERS = (
 )
 
 READING = (
-    "published: printed by the study; again: its simulation, run here; measured: built robots, the energy electrical "
+    "published: as given by the study; again: its simulation, run here; measured: built robots, electrical energy "
     "with all losses; evaluator: the same masses (capsule robot) in jumpcad's own simulation: ballistic range of the "
     "centre of mass, the body's displacement at touchdown, rise of the centre of mass, and the share of the springs' "
     "energy that is mechanical energy at take-off. "
@@ -71,8 +71,9 @@ WHY_THEY_DIFFER = (
     "is tumbling after the landing.",
     "Published height is the body's absolute height, standing height included; a jump is what the centre of mass "
     "gains.",
-    "The published simulation does not converge: its pose does not close the loop, near-rigid joint motors fight the "
-    "loop's constraint, and with smaller time steps it blows up. The evaluator starts from the exactly closed pose.",
+    "The published simulation does not converge: its pose does not close the loop, near-rigid joint motors work "
+    "against the loop's constraint, and with smaller time steps it diverges. The evaluator starts from the exactly "
+    "closed pose.",
     "Designs whose loop cannot close over their travel score best in it; the evaluator's gate rejects them, and every "
     "run has to pass an audit of its energy and its loop.",
 )
@@ -80,25 +81,25 @@ WHY_THEY_DIFFER = (
 
 @dataclass(frozen=True)
 class Reproduction:
-    """One robot: as printed, simulated again in the same way, and as the evaluator sees the same masses jump."""
+    """One robot: as published, simulated again in the same way, and the evaluator's jump with the same masses."""
 
-    printed: Printed
+    published: PublishedResult
     again: PublishedJump
     jump: Jump
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
         return {
-            "robot": self.printed.template,
-            "published": asdict(self.printed.simulated),
+            "robot": self.published.template,
+            "published": asdict(self.published.simulated),
             "reproduced": asdict(self.again),
-            "measured": self.printed.measured and asdict(self.printed.measured),
+            "measured": self.published.measured and asdict(self.published.measured),
             "evaluated": self.jump.to_dict(),
         }
 
 
 def reproduce(engine: str = "pybullet") -> list[Reproduction]:
-    """Simulate the study's four robots twice: as the study did, and with the evaluator, on to touchdown.
+    """Simulate the study's four robots twice: as the study did, and with the evaluator, up to touchdown.
 
     Parameters
     ----------
@@ -112,8 +113,8 @@ def reproduce(engine: str = "pybullet") -> list[Reproduction]:
     """
     settings = Settings(flight="simulated")
     rows = []
-    for printed in PRINTED:
-        design = load_design(printed.template)
+    for result in PUBLISHED_RESULTS:
+        design = load_design(result.template)
         jump = simulate(capsule_robot(design), settings, engine)
-        rows.append(Reproduction(printed, published.simulate(design), jump))
+        rows.append(Reproduction(result, published.simulate(design), jump))
     return rows

@@ -1,1 +1,1 @@
-"""What a printer makes of a part: beds, plates, layers, masses, and what a slicer says."""
+"""Printing: fit to the bed, print plates, layers and their mass, and the slicer."""

@@ -1,4 +1,4 @@
-"""How a part lies on the printer's bed: along it, or askew where it is too long for that (mm)."""
+"""How a part lies on the printer's bed: along its sides, or at an angle where it is too long for that (mm)."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ class BedFit:
 
 
 def fit_to_bed(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> BedFit:
-    """Return how a part fits the bed: along it if it can, else askew; where it fits nowhere, how it nearly does.
+    """Return how a part fits the bed: along its sides if it can, else at an angle; the best if it does not fit.
 
     Parameters
     ----------
@@ -34,13 +34,13 @@ def fit_to_bed(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[
     x, y, z = (bounds_mm[1] - bounds_mm[0]).tolist()
     bed_x, bed_y, bed_z = bed_mm
     along = BedFit(0.0, min(bed_x - x, bed_y - y, bed_z - z)), BedFit(90.0, min(bed_x - y, bed_y - x, bed_z - z))
-    best = max(along, key=lambda fit_to_bed: fit_to_bed.margin_mm)
+    best = max(along, key=lambda fit: fit.margin_mm)
     if best.margin_mm >= -ROUND_OFF_MM:
         return best
-    for found in _askew(outline(), z, np.asarray(bed_mm)):
+    for found in _at_angles(outline(), z, np.asarray(bed_mm)):
         if found.margin_mm >= -ROUND_OFF_MM:
             return found
-        best = max(best, found, key=lambda fit_to_bed: fit_to_bed.margin_mm)
+        best = max(best, found, key=lambda fit: fit.margin_mm)
     return best
 
 
@@ -62,8 +62,8 @@ def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_m
     return found
 
 
-def _askew(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[BedFit]:
-    """Yield all lies between along the bed and across it."""
+def _at_angles(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[BedFit]:
+    """Yield the fit at each whole degree between 0° and 90°."""
     angles = np.arange(1.0, 90.0)
     cos, sin = np.cos(np.radians(angles))[:, None], np.sin(np.radians(angles))[:, None]
     x, y = outline_mm.T

@@ -1,4 +1,4 @@
-"""Reading what a printer will do: extruded lines, their volume and its moments, and the slicer's own remarks."""
+"""Reads G-code: extruded lines, their volume and its moments, and the slicer's remarks."""
 
 import math
 import re
@@ -15,9 +15,9 @@ SETTING = re.compile(r"^; ([\w \[\]()]+?) = (.*)$")
 
 @dataclass(frozen=True)
 class Toolpath:
-    """Extruding moves: ends (n, 3) of the nozzle's way, filament fed (n,), line heights (n,), all mm, and kinds.
+    """Extruding moves: both ends (n, 3) of the nozzle's path, filament fed (n,), line heights (n,), all mm, and kinds.
 
-    `remarks` holds the slicer's closing comments: its settings, and what it says of time and filament.
+    `remarks` holds the slicer's closing comments: its settings, time and filament.
     """
 
     starts_mm: Array

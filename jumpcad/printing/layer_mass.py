@@ -1,4 +1,4 @@
-"""What a print weighs and how it turns: shells, solid layers and infill, layer by layer.
+"""Mass and inertia of a print: shells, solid layers and infill, layer by layer.
 
 A line of width w and height h has the cross-section h·s with s = w - h·(1 - π/4), and lines lie s apart. n perimeters
 therefore fill the part between (w - s)/2 and n·s + (w - s)/2 from its outline; what is inside that is solid where one
@@ -71,7 +71,7 @@ Case = tuple[int, Window]
 
 
 _KNOWN: WeakKeyDictionary[Weighable, dict[Hashable, MassProperties]] = WeakKeyDictionary()
-"""Masses of shapes, for as long as someone keeps the shape: gears and small parts serve many designs."""
+"""Masses of shapes, as long as the shape is in memory: gears and small parts recur in many designs."""
 
 
 def mass_properties(
@@ -152,7 +152,7 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
 def _window(middle: int, which: Numbers, jumps: Sequence[int], process: Process) -> Window:
     """Return the window of a layer, given the numbers of all layers' outlines (n,).
 
-    Of layers that change little by little, those at either end of the window and beside jumps stand for all.
+    Where layers change gradually, those at either end of the window and beside jumps stand for all.
     """
     low, high = middle - process.bottom_layers, middle + process.top_layers
     if low < 0 or high >= len(which):
@@ -165,7 +165,7 @@ def _window(middle: int, which: Numbers, jumps: Sequence[int], process: Process)
 def _cores(outlines: Mapping[int, Region], shell_mm: float, spacing_mm: float) -> dict[int, Region]:
     """Return what is inside the perimeters of outlines, each under its number.
 
-    It is nothing where that is all narrower than a line, as perimeters widen to fill it. So does PrusaSlicer
+    It is empty where all of it is narrower than a line, as perimeters then widen to fill it; the same in PrusaSlicer
     (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
     """
     inside = {
@@ -184,7 +184,7 @@ def _cores(outlines: Mapping[int, Region], shell_mm: float, spacing_mm: float) -
 def _filled(core: Region, window: Window, outlines: Sequence[Region], solid_below_mm2: float) -> Filling:
     """Return how a core is filled: sparsely where it lies in all outlines of a window, and solidly elsewhere.
 
-    Pieces of the sparse region that are so small as to be filled are solid.
+    Pieces of the sparse region that are smaller than `solid_below_mm2` become solid.
     """
     if window is None or core.is_empty():
         return Filling(core, NOTHING)

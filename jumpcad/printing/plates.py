@@ -16,7 +16,7 @@ STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend 
 
 
 class Printable(Protocol):
-    """What packing needs to know of a printed part; the mesh is in mm and lies as it is printed."""
+    """What packing needs to know of a printed part; the mesh is in mm, in printing orientation."""
 
     @property
     def name(self) -> str:
@@ -60,7 +60,7 @@ class PrintPlate:
 def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[PrintPlate]:
     """Pack parts on plates, sorted by material; as many plates as it takes.
 
-    Parts are turned by quarters as it suits; one that is too long for that lies askew.
+    Parts are turned by 90° as needed; one that is too long for that lies at another angle.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: flo
 
 
 def _angle_deg(part: Printable, bed_mm: Sequence[float]) -> float:
-    """Return the turn at which a part fits the bed; packing makes quarters of its own."""
+    """Return the turn at which a part fits the bed; packing may add 90°."""
     mesh = part.mesh
     return require_bed(part.name, mesh.bounds, lambda: mesh.vertices[:, :2], bed_mm).angle_deg % 90.0
 
@@ -128,7 +128,7 @@ def _bounds(part: Printable, angle_deg: float) -> tuple[Array, Array]:
 
 
 def _turn(angle_deg: float) -> Array:
-    """Return a turn about z as a pose (4, 4); quarters are exact."""
+    """Return a turn about z as a pose (4, 4); those by 0° and 90° are exact."""
     quarter = {0.0: (1.0, 0.0), 90.0: (0.0, 1.0)}
     angle = math.radians(angle_deg)
     cos, sin = quarter.get(angle_deg, (math.cos(angle), math.sin(angle)))

@@ -1,4 +1,4 @@
-"""PrusaSlicer as a second opinion: grams, time and toolpath of a part, printed as the workshop says."""
+"""Mass, time and toolpath of a part by PrusaSlicer, printed as the workshop says."""
 
 import re
 import shutil
@@ -18,7 +18,7 @@ MAJOR = 2
 TIMEOUT_S = 600
 FILAMENT_MM = 1.75
 REFUSED = 1
-"""PrusaSlicer's exit code for input that it will not print; others are not its own."""
+"""PrusaSlicer's exit code for input that it will not print; any other means a crash."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ def slicer_program() -> str | None:
 
 
 def slicer_settings(printer: Printer, process: Process, material: Material) -> dict[str, str]:
-    """Return PrusaSlicer's settings for a workshop: what decides the plastic laid down, and nothing that adds to it."""
+    """Return PrusaSlicer's settings for a workshop: all that decides a part's plastic; no skirt, brim, support."""
     width, height = printer.bed_mm[:2]
     solid = process.infill >= 1.0
     lines = ("", "perimeter_", "external_perimeter_", "infill_", "solid_infill_", "top_infill_", "first_layer_")
@@ -96,7 +96,7 @@ def slice_part(stl: Path, printer: Printer, process: Process, material: Material
     JumpcadError
         If PrusaSlicer is missing, crashes, or writes something that is not its G-code.
     CannotBuildError
-        If PrusaSlicer refuses the part; its own last words are quoted.
+        If PrusaSlicer refuses the part; its last line of output is quoted.
     """
     centre = f"{printer.bed_mm[0] / 2.0:g},{printer.bed_mm[1] / 2.0:g}"
     return _sliced(stl, ["--center", centre], slicer_settings(printer, process, material), material)
@@ -108,7 +108,7 @@ def slice_plate(threemf: Path, printer: Printer, process: Process, material: Mat
 
 
 def _sliced(model: Path, place: list[str], asked: dict[str, str], material: Material) -> Sliced:
-    """Slice a model file with settings and read what came of it."""
+    """Slice a model file with settings and read the result."""
     with tempfile.TemporaryDirectory() as folder:
         config, output = Path(folder) / "config.ini", Path(folder) / "part.gcode"
         config.write_text("".join(f"{key} = {value}\n" for key, value in asked.items()), encoding="utf-8")
@@ -118,7 +118,7 @@ def _sliced(model: Path, place: list[str], asked: dict[str, str], material: Mate
             words = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
             if words and done.returncode == REFUSED:
                 raise CannotBuildError(f"{PROGRAM} refused {model.name}: {words[-1]}")
-            said = words[-1] if words else "it said nothing"
+            said = words[-1] if words else "it printed no message"
             raise JumpcadError(f"{PROGRAM} crashed on {model.name} with exit code {done.returncode}: {said}")
         toolpath = read_gcode(output.read_text(encoding="utf-8", errors="replace"))
     remarks = toolpath.remarks
@@ -136,7 +136,7 @@ def _sliced(model: Path, place: list[str], asked: dict[str, str], material: Mate
 
 
 def _run(arguments: list[str], purpose: str) -> subprocess.CompletedProcess[str]:
-    """Run PrusaSlicer; what it prints is text whatever it is."""
+    """Run PrusaSlicer; output that is not UTF-8 is replaced, not an error."""
     program = slicer_program()
     if program is None:
         raise JumpcadError(f"{PROGRAM} is not installed: install PrusaSlicer, or leave the printed masses as modelled")
@@ -153,9 +153,7 @@ def _run(arguments: list[str], purpose: str) -> subprocess.CompletedProcess[str]
     except subprocess.TimeoutExpired:
         raise JumpcadError(f"{PROGRAM} did not finish {purpose} within {TIMEOUT_S} s") from None
     except OSError as error:
-        raise JumpcadError(
-            f"{PROGRAM} at {program} cannot be run: {error.strerror}: install PrusaSlicer anew"
-        ) from None
+        raise JumpcadError(f"{PROGRAM} at {program} cannot be run: {error.strerror}: reinstall PrusaSlicer") from None
 
 
 def _seconds(text: str) -> float:

@@ -14,11 +14,11 @@ from jumpcad.workshop import Process
 Numbers = npt.NDArray[np.int64]
 
 ALIKE_LAYERS = 5
-"""So many layers at most that change little by little are taken together."""
+"""Largest number of layers that change gradually and are taken together."""
 ALIKE = 0.1
-"""Nor may the bends of what changes add up to more than this share of the largest cross-section."""
+"""Largest sum of second differences in such a run, over the largest cross-section."""
 JUMP = 0.01
-"""A change by a larger share of it, beyond twice the changes below and above, is a jump."""
+"""A change by more than this share of the largest cross-section plus twice the neighbouring changes is a jump."""
 
 
 class LayerRun(NamedTuple):
@@ -29,7 +29,7 @@ class LayerRun(NamedTuple):
 
     @property
     def middle(self) -> int:
-        """The layer that speaks for all."""
+        """The layer that represents all."""
         return (self.first + self.end) // 2
 
 
@@ -49,11 +49,11 @@ def jumps_of(which: Numbers, area_mm2: Array) -> list[int]:
 
 
 def runs_of(area: Array, jumps: Sequence[int], process: Process) -> list[LayerRun]:
-    """Return runs of layers that are alike and have the same jumps among what makes them bottoms and tops.
+    """Return runs of layers that are alike and have the same jumps among the layers that make them bottom or top.
 
     Where area and polar moment about the centre change from layer to layer, they change steadily within a run, and so
-    does what makes its layers bottoms and tops; its length is odd. Its middle layer is then what all are on average.
-    It is no longer than tops are thick: what a run bridges begins where the run below ends.
+    do the layers that make them bottom or top; its length is odd. Its middle layer is then the average of all.
+    It has no more layers than a top: what a run bridges begins where the run below ends.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The order in which a robot is put together: each step with the things that it adds."""
+"""The order in which a robot is assembled: each step with the parts that it adds."""
 
 import re
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from jumpcad.scene.visuals import Visual, visuals
 
 @dataclass(frozen=True)
 class Step:
-    """One step: what to do, and what is added to what is already there."""
+    """One step: what to do, and the parts that are added."""
 
     title: str
     text: str
@@ -46,9 +46,10 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Springs and legs",
         r"spring_(left|right)|spring_(left|right)_leg_arm|spring_bushing_.*|front_spacer_.*",
-        "On the leg axle go, from the plate on: the right spring on its bushing with its body arm below the plate's "
-        "pin, the main leg with its pin behind the spring's other arm, the left spring on its bushing. On the front "
-        "axle go spacer, front link, spacer. The springs are relaxed as drawn.",
+        "On the leg axle go, from the plate on: the right spring, which is the left-hand one, on its bushing with its "
+        "outer arm below the plate's pin, the main leg with its pin below the spring's other arm, the left spring, the "
+        "right-hand one, on its bushing with its inner arm above the leg's pin. On the front axle go spacer, front "
+        "link, spacer. Winding turns the leg's pin towards the plate's pin and closes the coils.",
     ),
     (
         "Cam and gears",
@@ -71,7 +72,7 @@ ORDER: tuple[tuple[str, str, str], ...] = (
         "leaving it play enough to turn.",
     ),
 )
-"""Title, names of what is added, text."""
+"""Title, names of the parts that are added, text."""
 REST = ("Everything else", "Fasten what remains where the picture shows it.")
 
 

@@ -201,7 +201,7 @@ class Turned:
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
-    """The union of blocks without others; none of what is cut away reaches the edges of the bounding box alone."""
+    """The union of blocks minus the union of others, which must not make the bounding box smaller."""
 
     added: tuple[Block, ...]
     removed: tuple[Block, ...] = ()
@@ -245,7 +245,7 @@ class Blocks:
         return [sections.outlines[number] for number in sections.which]
 
     def sections_at(self, heights_mm: npt.ArrayLike) -> Sections:
-        """Return the same as outlines that differ, which no chamfer narrows."""
+        """Return the cross-sections at heights (n,), each different outline once; blocks have no chamfers."""
         heights = np.asarray(heights_mm, dtype=float)
         numbers: dict[tuple[int, tuple[bytes, ...]], int] = {}
         regions: list[Region] = []

@@ -1,4 +1,4 @@
-"""From a solid to the mesh that is written, and the proof that the written file is a part."""
+"""From a solid to the mesh that is written, and the check that the written file is one printable part."""
 
 import io
 
@@ -16,7 +16,7 @@ TOLERANCE_MM = 1e-3
 
 
 def finished(solid: Manifold) -> Manifold:
-    """Return the result of booleans in space without the slivers that would make its file leak."""
+    """Return the result of 3D booleans without the slivers that would open its surface in a file."""
     return solid.set_tolerance(TOLERANCE_MM).as_original().simplify(TOLERANCE_MM)
 
 
@@ -27,7 +27,7 @@ def vertices_and_faces(solid: Manifold) -> tuple[Floats, Ints]:
 
 
 def to_trimesh(solid: Manifold) -> trimesh.Trimesh:
-    """Return a solid as a mesh (mm), vertex by vertex as it is."""
+    """Return a solid as a mesh (mm) with the same vertices."""
     vertices, faces = vertices_and_faces(solid)
     return trimesh.Trimesh(vertices, faces, process=False)
 
@@ -42,7 +42,7 @@ def faults(stl: bytes) -> list[str]:
         return ["it is empty"]
     found = []
     if not mesh.is_watertight:
-        found.append("its surface has open or crowded edges")
+        found.append("its surface has edges that do not join two triangles")
     elif not mesh.is_winding_consistent:
         found.append("its surface is turned inside out in places")
     elif not mesh.volume > 0:
@@ -62,4 +62,4 @@ def require_part(name: str, stl: bytes) -> None:
         Naming the part and its faults.
     """
     if found := faults(stl):
-        raise CannotBuildError(f"part {name} cannot be printed: {', '.join(found)}: change the dimension that thins it")
+        raise CannotBuildError(f"part {name} cannot be printed: {', '.join(found)}: thicken it where it is thinnest")

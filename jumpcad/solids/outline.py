@@ -1,9 +1,9 @@
 """Flat regions that parts are extruded from, in mm.
 
 Every function returns a `manifold3d.CrossSection`, here called a `Region`: a set of polygons without overlaps. To
-Python two of them are never equal, so whatever compares or remembers regions does so by their `corners_key`.
+Python two of them are never equal, so regions are compared and cached by their `corners_key`.
 Circles are polygons of at least 64 sides. The corners of a disc lie on its circle, so it is never wider than its
-diameter; the sides of a hole touch its circle, so it is never narrower. What must slide through therefore does.
+diameter; the sides of a hole touch its circle, so it is never narrower. No clearance is smaller than drawn.
 """
 
 import math

@@ -1,9 +1,9 @@
-"""The closed surface of a stack, built without booleans in space.
+"""The closed surface of a stack, built without 3D booleans.
 
-Faces of a union that lie nanometres apart survive in memory and tear when a file rounds them to 32 bits. Here every
+Faces of a 3D union may lie nanometres apart; rounding to 32 bits in a file then opens the surface. Here every
 corner lies on a grid that 32-bit floats hold exactly, and all outlines of a stack are cut at each other's corners and
 crossings first (iterated snap rounding, Hobby 1999). Walls and caps then have the same edges, so that the surface is
-closed, before and after writing. docs/decisions/skin.md compares this with booleans in space.
+closed, before and after writing. docs/decisions/skin.md compares this with 3D booleans.
 """
 
 from collections import defaultdict
@@ -17,7 +17,7 @@ Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 
 GRID_MM = 2.0**-10  # about a micrometre; 32-bit floats hold its multiples exactly up to 16 m
-SHORT_STEPS = 4  # edges up to this many grid steps long are drawn together
+SHORT_STEPS = 4  # edges up to this many grid steps long become points
 MAX_ROUNDS = 50  # three or four are usual
 
 
@@ -80,7 +80,7 @@ def _unique(pairs: Ints) -> tuple[Ints, Ints]:
 
 
 def _merged(edges: Ints, signs: Ints) -> tuple[Ints, Ints]:
-    """Return every edge once, from its lower to its higher point; runs to and fro cancel."""
+    """Return every edge once, from its lower to its higher point; opposite runs cancel."""
     backwards = edges[:, 0] > edges[:, 1]
     signs = np.where(backwards[:, None], -signs, signs)
     unique, index = _unique(np.sort(edges, axis=1))
@@ -93,8 +93,8 @@ def _merged(edges: Ints, signs: Ints) -> tuple[Ints, Ints]:
 def _conforming(points: Ints, edges: Ints, signs: Ints) -> tuple[Ints, Ints, Ints]:
     """Cut edges until they meet in common end points only, and no point lies within half a grid step of an edge.
 
-    Edges of a few grid steps are drawn together into a point: where two outlines cross, rounding can leave one along
-    which two slabs would meet like the black squares of a chessboard.
+    Edges of a few grid steps become a point: where two outlines cross, rounding can leave one at which four faces of
+    the surface would meet.
     """
     for _ in range(MAX_ROUNDS):
         points = np.concatenate([points, _crossings(points, edges)])
@@ -114,7 +114,7 @@ def _conforming(points: Ints, edges: Ints, signs: Ints) -> tuple[Ints, Ints, Int
         edges, signs = _merged(target[edges], signs)
         used, edges = np.unique(edges, return_inverse=True)
         points, edges = points[used], edges.reshape(-1, 2)
-    raise RuntimeError(f"outlines do not settle on their grid in {MAX_ROUNDS} rounds")
+    raise RuntimeError(f"outlines do not converge on their grid in {MAX_ROUNDS} rounds")
 
 
 def _within(keys: Ints, low: Ints, high: Ints) -> tuple[Ints, Ints]:
@@ -211,7 +211,7 @@ def _loops(points: Ints, starts: Ints, ends: Ints) -> list[Ints]:
         following[start].append(end)
     loops = []
     while following:
-        # where one way leads on, if there is such a point
+        # a point from which only one edge starts, if there is one
         first = next((point for point, ways in following.items() if len(ways) == 1), next(iter(following)))
         loop = [first]
         while True:

@@ -30,7 +30,7 @@ NOTHING: Region = CrossSection()
 
 
 class Sections(NamedTuple):
-    """Cross-sections at heights (n,): different outlines, which of them each is, and how far a chamfer sets it back.
+    """Cross-sections at heights (n,): the different outlines, the number of each section's outline, and its inset.
 
     Two heights have the same cross-section where their numbers `which` (n,) and insets `inset_mm` (n,) are the same.
     """
@@ -112,13 +112,13 @@ class Stack:
         return self._mapped(lambda region: region.rotate(angle_deg))
 
     def mirrored(self) -> "Stack":
-        """Return the other hand: y becomes -y."""
+        """Return the mirror image: y becomes -y."""
         return self._mapped(lambda region: region.mirror((0.0, 1.0)))
 
     def flipped(self) -> "Stack":
         """Return the stack turned over about x and put back on the heights that it came from: y -> -y, top -> bottom.
 
-        The hand stays the same: this is the part lying on its other side.
+        It is not mirrored: this is the same part lying on its other side.
         """
         total = self.z0_mm + self.z1_mm
         return self._mapped(lambda region: region.mirror((0.0, 1.0)), lambda z: total - z)
@@ -184,7 +184,7 @@ class Stack:
         return float(self.moments[0])
 
     def mass_properties(self, density_g_cm3: float) -> MassProperties:
-        """Return the mass properties of the stack made solid, in its own frame (kg, m)."""
+        """Return the mass properties of the stack printed solid, in its own frame (kg, m)."""
         return mass_of(self.moments, density_g_cm3)
 
     def regions_at(self, heights_mm: npt.ArrayLike) -> list[Region]:
@@ -193,7 +193,7 @@ class Stack:
         return [regions[number] for number in self._slabs_at(heights_mm)]
 
     def sections_at(self, heights_mm: npt.ArrayLike) -> Sections:
-        """Return the same as outlines with what a chamfer takes from them."""
+        """Return the cross-sections at heights (n,) as outlines and the insets of chamfers."""
         place = {number: index for index, number in enumerate(self._outlines)}
         which = np.array([*(place[slab.number] for slab in self.slabs), len(place)])
         insets = np.array([*(slab.inset_mm for slab in self.slabs), 0.0])
@@ -310,7 +310,7 @@ def _clean(slabs: Iterable[SlabLike]) -> list[Slab]:
 def _arranged(added: Iterable[SlabLike], removed: Iterable[SlabLike]) -> Stack:
     """Return disjoint slabs that cover what is added but not removed.
 
-    Heights at which the same of the given slabs are present, and no others between them, are in one slab.
+    Adjacent intervals of height in which the same slabs are present become one slab.
     """
     plus, minus = _clean(added), _clean(removed)
     levels = sorted({z for slab in (*plus, *minus) for z in (slab.z0_mm, slab.z1_mm)})
@@ -331,7 +331,7 @@ def _arranged(added: Iterable[SlabLike], removed: Iterable[SlabLike]) -> Stack:
         else:
             slabs.append(Slab(z0, z1, regions[number], number=number))
     if not slabs:
-        raise JumpcadError("nothing is left of a part: its slabs are empty or wholly cut away")
+        raise JumpcadError("nothing is left of a part: its slabs are empty or cut away completely")
     return Stack(tuple(slabs))
 
 

@@ -1,4 +1,4 @@
-"""STL: one mesh a file, binary, in millimetres; a printed part lies as it is printed."""
+"""STL: one mesh a file, binary, in millimetres, in printing orientation."""
 
 import numpy as np
 import trimesh
@@ -10,7 +10,7 @@ HEADER = b"jumpcad, millimetres".ljust(80)  # must not begin with "solid", which
 def write_stl(mesh: trimesh.Trimesh) -> bytes:
     """Return the STL file of a mesh (mm); the same mesh gives the same bytes.
 
-    Whether a file is a part that prints is another question: see `jumpcad.solids.finish.faults`.
+    `jumpcad.solids.finish.faults` checks that a file is one printable part.
     """
     corners = mesh.vertices.astype(np.float32)  # what is written: the normals must be those of these
     written = trimesh.Trimesh(corners, mesh.faces, process=False)

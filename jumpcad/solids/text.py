@@ -19,7 +19,7 @@ TRACED_AT = 100.0  # size at which letters are traced: large enough for smooth c
 
 @lru_cache(maxsize=256)
 def text(label: str, height_mm: float) -> Region:
-    """Return a line of text whose capitals have a height, from the origin along +x, standing on y = 0.
+    """Return a line of text with capitals of a given height, from the origin along +x, standing on y = 0.
 
     Letters that the font lacks are left out: see `engravable`.
 
@@ -43,7 +43,7 @@ def text(label: str, height_mm: float) -> Region:
 
 
 def engravable(label: str) -> str:
-    """Return what of a label can be engraved: the font has Latin, Greek and Cyrillic letters, but not all there are."""
+    """Return the letters of a label that the font has: Latin, Greek, Cyrillic and some others."""
     known = _font().get_charmap()
     return "".join(letter for letter in label if ord(letter) in known)
 
@@ -56,7 +56,7 @@ def _font() -> FT2Font:
 
 
 def _letter(font: FT2Font, letter: str) -> tuple[float, list[Array]]:
-    """Return how far a letter moves the pen, and its closed contours (n, 2)."""
+    """Return the advance width of a letter, and its closed contours (n, 2)."""
     glyph = font.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
     vertices, codes = font.get_path()
     polygons = [np.asarray(polygon) for polygon in Curve(vertices, codes).to_polygons()] if len(vertices) else []

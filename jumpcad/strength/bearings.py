@@ -1,7 +1,7 @@
-"""The main leg's hub: its bearings' loads with the springs loaded, and which of the catalogue bear them (N, mm).
+"""The main leg's hub: loads of its bearings with the springs loaded, and the bearings that carry them (N, mm).
 
 Two bearings sit at the hub's faces. The springs' arms press evenly on both; the cam pushes beside the leg, where the
-roller is, so that the leg tilts against them and the nearer one bears more than the cam's whole force.
+roller is, so that the leg tilts against them and the nearer one carries more than the cam's whole force.
 """
 
 import math
@@ -12,16 +12,17 @@ from jumpcad.catalogue import Bearing
 from jumpcad.design import Design
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.drive import Drive
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
 
 ANY = "any"
-"""In a workshop's place for a bearing: the lightest of the catalogue that bears its load."""
+"""Instead of a bearing's name in a workshop: the lightest of the catalogue that carries its load."""
 LONGEST_ARM_MM = 10.0
-"""Springs' torque over a bearing's load; judgement: about the longest of many designs, so that few hubs bear less."""
+"""Springs' torque over a bearing's load; judgement: about the longest of many designs, so that few hubs carry less."""
 SHOULDER_MM = 0.8
-"""Between the seats of both bearings, at least; judgement: four layers of 0.2 mm."""
+"""Least distance between the seats of both bearings; judgement: four layers of 0.2 mm."""
 
 
 def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
@@ -57,7 +58,7 @@ def roller_bearing(workshop: Workshop) -> Bearing:
     roller, screw = workshop.catalogue.bearings[workshop.bought.roller], workshop.catalogue.screws["M3"]
     if roller.bore_mm != screw.diameter_mm:
         raise JumpcadError(
-            f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not sit on the {screw.name} '
+            f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not fit the {screw.name} '
             f"screw that holds it: choose a bearing with a bore of {screw.diameter_mm:g} mm"
         )
     return roller
@@ -65,7 +66,8 @@ def roller_bearing(workshop: Workshop) -> Bearing:
 
 def first_guess(bearings: list[Bearing | None], design: Design, workshop: Workshop) -> int:
     """Return the number of the bearing to try first; those before it are hardly ever strong enough."""
-    load = 1000.0 * design.peak_spring_torque_nm / LONGEST_ARM_MM
+    springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
+    load = 1000.0 * springs.peak_torque_nm / LONGEST_ARM_MM
     enough = (bearing is None or load <= allowed_n(bearing, workshop) for bearing in bearings[:-1])
     return next((number for number, good in enumerate(enough) if good), len(bearings) - 1)
 
@@ -78,11 +80,12 @@ def hub_width_mm(bearing: Bearing | None) -> float:
 def loaded_forces_n(design: Design, drive: Drive) -> tuple[Array, Array]:
     """Return the forces (2,) of both springs' arms on the leg, and of the cam on the lever, springs loaded.
 
-    In the body's x-z plane, with the roller at the end of the lift.
+    In the body's x-z plane, with the roller at the end of the lift. An arm pushes its pin away from the hub, square to
+    the arm.
     """
-    along = direction(math.radians(design.rest_angle_deg) - design.compression_rad)
-    strength = 1000.0 * design.peak_spring_torque_nm / drive.spring.pin_radius_mm
-    on_leg = strength * np.array([along[1], -along[0]])  # downwards: towards rest
+    spring = drive.spring
+    outwards = direction(-(spring.leg_pin_rad + design.compression_rad - spring.arms.turn_rad))
+    on_leg = 2.0 * spring.pin_force_n * outwards
     lever = drive.cam.lever_start_rad + design.compression_rad
     return on_leg, drive.cam.peak_contact_n * np.array([-math.sin(lever), math.cos(lever)])
 

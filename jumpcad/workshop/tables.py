@@ -21,7 +21,7 @@ class Printer(TomlTable):
 
 
 class Process(TomlTable):
-    """How the printer is told to print; the printed mass follows from these."""
+    """Print settings; the printed mass follows from them."""
 
     layer_height_mm: Annotated[float, Field(ge=0.03, le=1.5)]
     first_layer_mm: Annotated[float, Field(ge=0.03, le=1.5)]
@@ -36,7 +36,7 @@ class Process(TomlTable):
 
 
 class Material(TomlTable):
-    """What is printed; strengths along the layers and between them, and its price where one is entered."""
+    """A material: strengths along the layers and between them, and its price where one is entered."""
 
     density_g_cm3: Annotated[float, Field(ge=0.3, le=10)]
     strength_in_plane_mpa: Positive
@@ -55,9 +55,9 @@ class Roles(TomlTable):
 
 
 class Fits(TomlTable):
-    """Every tolerance offset, as modelled. Fits are added per side; diameters of screw holes are complete.
+    """Every tolerance offset, as modelled. Fits are added per side; screw holes are given by their drawn diameter.
 
-    The limits leave room for any printer that can be used: holes come out up to 1 mm too small in diameter, hardly ever
+    The limits allow for any usable printer: holes come out up to 1 mm too small in diameter, hardly ever
     too large. What a shaft turns in or passes is never drawn smaller than the shaft; a screw cuts its thread in a hole
     between its core and its own diameter, and passes one that is wider than itself.
     """
@@ -84,7 +84,9 @@ class Fits(TomlTable):
 class BoughtParts(TomlTable):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
-    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none.
+    `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none.
+    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
+    springs of the design's stiffness are made to order.
     """
 
     motors: Annotated[tuple[Name, ...], Field(strict=False)]
@@ -93,6 +95,7 @@ class BoughtParts(TomlTable):
     battery: Name
     controller: Name
     driver: Name
+    spring: OptionalName
     axle_mm: Positive
 
 
@@ -100,6 +103,12 @@ class BodyPlates(TomlTable):
     """The two plates of the body."""
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
+
+
+class SpringTable(TomlTable):
+    """How the springs sit: loaded by `preload_deg` already in the rest pose."""
+
+    preload_deg: Annotated[float, Field(ge=0, le=45)]
 
 
 class Ground(TomlTable):
@@ -127,13 +136,14 @@ class Pins(TomlTable):
 
 
 class Safety(TomlTable):
-    """How far the parts are kept from what they could just bear."""
+    """Safety factors, and what springs, motor and legs may be loaded with."""
 
     strength_factor: Annotated[float, Field(ge=1, le=20)]
     motor_stall_share: Share
     motor_torque_max_nm: Positive
     gear_efficiency: Share
     spring_stress_share: Share
+    spring_rate_scatter: Annotated[float, Field(ge=0, le=0.5)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Positive
     leg_flex_share: Share

@@ -111,6 +111,6 @@ def test_verify_names_changed_and_missing_files(small_robot: Robot, tmp_path: Pa
 
 @pytest.mark.parametrize("name", ["", "../up", "a/b", ".hidden", "a\nb"])
 def test_names_that_cannot_be_files_are_refused(name: str, small_robot: Robot, tmp_path: Path) -> None:
-    with pytest.raises(JumpcadError, match="names files"):
+    with pytest.raises(JumpcadError, match="is used in file names"):
         exported(replace(small_robot, name=name), tmp_path / "b")
     assert list(tmp_path.iterdir()) == []

@@ -56,7 +56,7 @@ def test_what_is_no_plain_file_is_never_replaced_or_followed(tmp_path: Path, thi
         make = {"link": lambda p: p.symlink_to("../outside/b.md"), "folder": Path.mkdir, "fifo": os.mkfifo}[thing]
         make(target / "a.md")
     before = listed(target)
-    with pytest.raises(JumpcadError, match=r"is no (plain file|folder), which belongs there; move it away"):
+    with pytest.raises(JumpcadError, match=r"must be a (plain file|folder); move it away"):
         write_folder(target, "robot", {}, {"a.md": "new", "deep/b.md": "new"}.items(), force)
     assert listed(target) == before
     assert (outside / "b.md").read_text() == "old"

@@ -1,4 +1,4 @@
-"""A manifest is ours and reads as such, or it is none; no path of it leads out of its folder."""
+"""Only jumpcad's own manifests are accepted; no path in one leads out of its folder."""
 
 import json
 import os
@@ -17,7 +17,7 @@ LINE = {"kind": "printed", "name": "foot", "quantity": 1, "material": "PLA", "ma
 
 
 def refused(folder: Path, text: str | bytes) -> str:
-    """Return the one line in which a manifest is refused."""
+    """Return the one line that rejects a manifest."""
     (folder / "manifest.json").write_bytes(text.encode() if isinstance(text, str) else text)
     with pytest.raises(JumpcadError, match=r"manifest\.json") as error:
         open_bundle(folder)
@@ -107,7 +107,7 @@ def test_files_that_are_not_plain_are_named_and_not_opened(tmp_path: Path) -> No
     }  # fmt: skip
     assert verify(bundle.folder) == [f"{path}: {reason}" for path, reason in wrong.items()]
     for path, reason in {**wrong, "other": "not in the manifest"}.items():
-        with pytest.raises(JumpcadError, match=f"b: {path}: {reason}; jumpcad build"):
+        with pytest.raises(JumpcadError, match=f"b: {path}: {reason}; build the bundle again"):
             bundle.file(path)
     assert bundle.file("good.md").read_text() == "x"
 

@@ -110,7 +110,7 @@ def test_pictures_elsewhere_replace_nothing(run: Run, bundle: Path, tmp_path: Pa
     assert "rest.png: exists already" in err
     linked = Path(shutil.copytree(bundle, tmp_path / "linked"))
     (linked / "pictures").symlink_to("../p")
-    assert "pictures: is no folder" in run("render", linked, "--force")[2]
+    assert "pictures: must be a folder" in run("render", linked, "--force")[2]
     assert [path.name for path in (tmp_path / "p").iterdir()] == ["rest.png"]
     assert (tmp_path / "p" / "rest.png").read_bytes() == b"mine"
 

@@ -42,7 +42,7 @@ def test_a_coupon_is_printed_tried_and_built_with(run: Run, tmp_path: Path) -> N
 def test_what_is_told(run: Run) -> None:
     code, out, _ = run("coupon", "-o", "gauges")
     assert code == 0
-    assert "read gauges/coupon.md next" in out
+    assert "next: read gauges/coupon.md" in out
     Path("r.toml").write_text("[gauge.PLA]\naxle_sliding_mm = 0.25")
     code, out, _ = run("coupon", "--measured", "r.toml", "--workshop", "gauges/workshop.toml", "-o", "w.toml")
     assert code == 0

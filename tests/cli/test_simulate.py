@@ -38,7 +38,7 @@ def test_both_engines_and_their_difference(command: Run) -> None:
     assert abs(document["range_difference_percent"]) < 0.5
     code, out, _ = command("kenan-2.0", "--capsule", "--engine", "both")
     assert code == 0
-    assert "% of the range of pybullet" in out.splitlines()[-1]
+    assert "% from that of pybullet" in out.splitlines()[-1]
 
 
 def test_refused_design_says_why_and_what_to_change(command: Run, tmp_path: Path) -> None:

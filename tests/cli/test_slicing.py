@@ -125,7 +125,7 @@ def test_another_workshop_prints_the_same_parts(run: Run, bundle: Path, pretend:
         (
             OBEDIENT.replace("TAMPER", "import os; os.abort()"),
             2,
-            "prusa-slicer crashed on body_plate_left.stl with exit code -6: it said nothing",
+            "prusa-slicer crashed on body_plate_left.stl with exit code -6: it printed no message",
         ),
         (
             OBEDIENT.replace("TAMPER", "sys.exit(print('out of memory') or 137)"),
@@ -195,7 +195,7 @@ def test_many_changed_files_are_few_words(run: Run, bundle: Path) -> None:
         file.unlink()
     code, _, err = run("slice", str(bundle))
     assert code == 2
-    assert " more; jumpcad build makes it anew" in err
+    assert " more; build it again with jumpcad build" in err
     assert err.count(": missing") == 3
 
 

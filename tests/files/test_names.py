@@ -1,4 +1,4 @@
-"""Names and free text of strangers: any script, but nothing that steers a terminal or leads to another file."""
+"""Names and free text from others: any script, but nothing that controls a terminal or leads to another file."""
 
 import pytest
 from pydantic import TypeAdapter, ValidationError
@@ -33,7 +33,7 @@ def test_an_optional_name_may_be_empty() -> None:
 
 def test_free_text_is_one_line_of_moderate_length() -> None:
     assert TypeAdapter(Text).validate_python("ISO 15: 3 × 10 × 4 mm, 机器人") == "ISO 15: 3 × 10 × 4 mm, 机器人"
-    assert refused(Text, "a\x07") == "holds the control character U+0007: leave it out"
+    assert refused(Text, "a\x07") == "contains the control character U+0007: leave it out"
     assert refused(Text, "a" * 1001) == "has 1001 characters, more than 1000: shorten it"
 
 

@@ -79,7 +79,7 @@ def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):
     with pytest.raises(CannotBuildError, match=r"refused leg\.stl: no layers were detected"):
         sliced(tmp_path)
     stand_in("exit 139")
-    with pytest.raises(JumpcadError, match="exit code 139: it said nothing") as crash:
+    with pytest.raises(JumpcadError, match="exit code 139: it printed no message") as crash:
         sliced(tmp_path)
     assert not isinstance(crash.value, CannotBuildError)
 

@@ -1,4 +1,4 @@
-"""Take-off, told from ground and leg: a foot that chatters is on the ground, one that stays away has left."""
+"""Take-off, found from ground and leg: a foot that chatters is on the ground, one that stays away has left."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -21,7 +21,7 @@ def test_a_box_is_a_part():
 def test_a_missing_triangle_is_found():
     mesh = trimesh.creation.box((1, 2, 3))
     mesh.faces = mesh.faces[1:]
-    assert faults(stl(mesh)) == ["its surface has open or crowded edges"]
+    assert faults(stl(mesh)) == ["its surface has edges that do not join two triangles"]
 
 
 def test_a_part_inside_out_is_found():

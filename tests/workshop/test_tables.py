@@ -23,7 +23,7 @@ def test_names_that_could_become_paths_formulas_or_markup_are_refused(name, writ
         f"[bought]\nmotors = [{quoted}]\n",
         f"[bought]\nroller = {quoted}\n",
     ):
-        with pytest.raises(JumpcadError, match="a name has 1 to 50 letters, digits, blanks") as caught:
+        with pytest.raises(JumpcadError, match="a name has 1 to 50 letters, digits, spaces") as caught:
             load_workshop(written(text))
         assert str(caught.value).isprintable()
 
@@ -31,7 +31,7 @@ def test_names_that_could_become_paths_formulas_or_markup_are_refused(name, writ
 @pytest.mark.parametrize("text", ["a\x07", "a\x1b[31m", "a\nb", "a\u2028b", "a\u202eb", "a" * 1001])
 def test_free_text_is_one_line_that_steers_no_terminal(text, written):
     for key in ("printer.name", "printer.source", "materials.PETG.source"):
-        with pytest.raises(JumpcadError, match=f"{key} = .*: (holds the control character U|has 1001 characters)"):
+        with pytest.raises(JumpcadError, match=f"{key} = .*: (contains the control character U|has 1001 characters)"):
             load_workshop(written(f"{key} = {json.dumps(text)}"))
 
 
