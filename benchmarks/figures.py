@@ -108,7 +108,7 @@ def of_prototypes() -> dict[str, str]:
     return {
         "prototypes": table(head, rows),
         "first touchdown": mm(capsules[1].touchdown_distance_m),
-        "damping": percent([second.energy.joint_damping_j / second.spring_energy_j]),
+        "damping": percent([capsules[1].energy.joint_damping_j / capsules[1].spring_energy_j]),
         "printed masses": grams(robot.mass_kg for robot in robots),
         "study's masses": grams(jump.mass_kg for jump in capsules),
         "energy needed": percent(map(_least_energy_share, PROTOTYPES)),

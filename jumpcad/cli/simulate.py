@@ -28,7 +28,7 @@ LINES = (
     ("take-off speed", "takeoff_speed_m_s", "{:.3f} m/s"),
     ("take-off angle", "takeoff_angle_deg", "{:.1f}°"),
     ("take-off after", "takeoff_time_s", "{:.4f} s"),
-    ("energy after release / spring energy", "release_energy_ratio", "{:.4f}"),
+    ("energy released / spring energy", "release_energy_ratio", "{:.4f}"),
     ("energy at take-off / spring energy", "takeoff_energy_ratio", "{:.4f}"),
     ("spring energy", "spring_energy_j", "{:.4f} J"),
     ("mass", "mass_kg", "{:.4f} kg"),

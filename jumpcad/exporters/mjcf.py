@@ -39,7 +39,7 @@ FREE_RAD = 10.0
 """How far springs that only push let the leg go on: more than any leg turns."""
 CONTACT_IMPEDANCE = [0.0, 0.95, 0.0001, 0.5, 1.0]
 """The same of contacts: growing from nothing over 0.1 mm, or a sliding foot chatters and gains energy (ranges of
-slipping jumps 5 to 9 % long; with it within 1 % of rigid contacts)."""
+slipping jumps up to 9 % too long; with it within 1 % of rigid contacts)."""
 FRICTION_STIFFNESS = 100.0
 """Of friction over normal force (MuJoCo's `impratio`): at 1 a foot that sticks creeps by 1 % of the range."""
 LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100

@@ -100,7 +100,8 @@ class BulletWorld:
         self._damping_dt = rubs.joint_damping_nms_per_rad * settings.dt_s
         self._dry_nm = [settings.joint_friction_nm] * len(JOINTS)
         self._dry_nm[LEG] += pin_torque_nm(mechanism, rubs.pin)
-        self._slides = mechanism.friction is not None
+        # On the friction of the study (1.5) no foot slides.
+        self._slides = mechanism.friction is not None or settings.ground_friction is not None
         self.joint_damping_j = self.slip_j = 0.0
         bodies = [mechanism.bodies[name] for name in (BODY, *LINKS)]
         principal = [principal_axes(body.inertia_kg_m2) for body in bodies]
@@ -120,6 +121,7 @@ class BulletWorld:
         if mechanism.roller_off:
             self._set_off(bodies[0], release)
         self._close_loop(mechanism)
+        self._foot = self._foot_motion()
 
     def advance(self, steps: int) -> float:
         """Go on by a number of time steps with the springs' torque of each step's beginning."""
@@ -150,25 +152,27 @@ class BulletWorld:
         return max(min(self._stop.stiffness_nm_per_rad * beyond_rad, halting), 0.0)
 
     def _slip_work_j(self) -> float:
-        """Return what friction on the ground took in the last time step."""
-        bullet, client = self._bullet, self._client
-        lost = 0.0
-        for contact in bullet.getContactPoints(self.robot_id, self._ground, physicsClientId=client):
-            if contact[9] > 0.0:
-                com, velocity, spin = self._motion(contact[3])
-                (ax, ay, az), (wx, wy, wz) = (p - c for p, c in zip(contact[5], com, strict=True)), spin
-                vx, vy = velocity[0] + wy * az - wz * ay, velocity[1] + wz * ax - wx * az
-                for force, along in ((contact[10], contact[11]), (contact[12], contact[13])):
-                    lost += abs(force * (along[0] * vx + along[1] * vy))
-        return lost * self._dt_s
+        """Return what friction on the ground took from the foot in the last time step.
 
-    def _motion(self, link: int) -> tuple[Any, Any, Any]:
-        """Return centre of mass, velocity and spin of a link; -1 is the base."""
-        bullet, client = self._bullet, self._client
-        if link < 0:
-            velocity, spin = bullet.getBaseVelocity(self.robot_id, client)
-            return bullet.getBasePositionAndOrientation(self.robot_id, client)[0], velocity, spin
-        state = bullet.getLinkState(self.robot_id, link, computeLinkVelocity=1, physicsClientId=client)
+        The force at each contact times the mean of the foot's velocities there before and after.
+        """
+        before, self._foot = self._foot, self._foot_motion()
+        power = 0.0
+        contacts = self._bullet.getContactPoints(
+            self.robot_id, self._ground, linkIndexA=FOOT_LINK, physicsClientId=self._client
+        )
+        for contact in contacts:
+            for com, velocity, spin in (before, self._foot):
+                arm_x, arm_y, arm_z = (point - centre for point, centre in zip(contact[5], com, strict=True))
+                slip_x = velocity[0] + spin[1] * arm_z - spin[2] * arm_y
+                slip_y = velocity[1] + spin[2] * arm_x - spin[0] * arm_z
+                for force, along in ((contact[10], contact[11]), (contact[12], contact[13])):
+                    power -= 0.5 * force * (along[0] * slip_x + along[1] * slip_y)
+        return power * self._dt_s
+
+    def _foot_motion(self) -> tuple[Any, Any, Any]:
+        """Return centre of mass, velocity and spin of the foot."""
+        state = self._bullet.getLinkState(self.robot_id, FOOT_LINK, computeLinkVelocity=1, physicsClientId=self._client)
         return state[0], state[6], state[7]
 
     def loaded(self) -> bool:

@@ -223,6 +223,9 @@ def _require_mechanism(mechanism: Mechanism) -> None:
         turned_rad = abs(read.rest_angle_rad - joint.rest_angle_rad)
         if moved_m > SAME_M or turned_rad > SAME_RAD:
             raise JumpcadError(f"joint {joint.name}: its origin is not that of the design in the loop file")
+    off, wind_rad = mechanism.roller_off, mechanism.spring.wind_rad
+    if off and off.leg_rad < -wind_rad:
+        raise JumpcadError(f"roller_off.leg_rad = {off.leg_rad:g}: begins before the springs' {-wind_rad:g}")
     if (mechanism.loop.body_a, mechanism.loop.body_b) != (loop.body_a, loop.body_b):
         raise JumpcadError(f"the loop must join {loop.body_a} and {loop.body_b}")
     for read_m, point_m in ((mechanism.loop.point_a_m, loop.point_a_m), (mechanism.loop.point_b_m, loop.point_b_m)):

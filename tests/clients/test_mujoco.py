@@ -55,6 +55,8 @@ def jump_from_file(file: Path) -> float:
     mujoco.mj_resetDataKeyframe(model, data, model.key("wound").id)
     mujoco.mj_forward(model, data)
     start = data.subtree_com[0].copy()
+    mujoco.mj_resetDataKeyframe(model, data, model.nkey - 1)  # `released`, where the robot has a cam
+    mujoco.mj_forward(model, data)
     force, airborne = np.zeros(6), 0
     while airborne * model.opt.timestep < 0.004:
         mujoco.mj_step(model, data)

@@ -1,16 +1,17 @@
 """Standing robots: feet flat on the ground, the loop closed, whatever the load of the springs."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import BODY, FOOT, Mechanism
-from jumpcad.mechanism.poses import body_poses, release_pose, standing
+from jumpcad.mechanism.model import BODY, FOOT, Mechanism, RollerOff
+from jumpcad.mechanism.poses import Release, body_poses, release_pose, standing
 
-NAMES = ["kenan-2.0", "best-ga", "best-bo"]
+NAMES = ["kenan-2.0", "best-ga", "best-bo", "best-printable"]
 
 
 @pytest.fixture(params=NAMES)
@@ -45,3 +46,21 @@ def test_the_body_at_rest_is_tilted_by_beta_nose_up() -> None:
     design = load_design("best-ga").model_copy(update={"c_coef": 1.1})
     pose = body_poses(capsule_robot(design))[BODY]
     assert math.asin(pose[2, 0]) == pytest.approx(design.beta_rad)  # how far the body's x axis points upwards
+
+
+def test_rates_at_release_are_those_of_the_poses(mechanism: Mechanism) -> None:
+    """Where the roller leaves: rates of joints and body against poses a little before and after."""
+    step, rate = 1e-6, 5.0
+
+    def off(leg_rad: float) -> Release:
+        return release_pose(replace(mechanism, roller_off=RollerOff(leg_rad, rate, 1.0)))
+
+    leg_rad = -0.9 * mechanism.spring.wind_rad
+    before, here, after = (off(leg_rad + move) for move in (-step, 0.0, step))
+    seconds = 2.0 * step / rate
+    assert here.joint_rad["leg"] == leg_rad
+    for name, joint_rate in here.joint_rad_s.items():
+        assert joint_rate == pytest.approx((after.joint_rad[name] - before.joint_rad[name]) / seconds, rel=1e-6)
+    velocity = (after.body_position_m - before.body_position_m) / seconds
+    np.testing.assert_allclose(here.body_m_s, velocity, atol=1e-6)
+    assert here.body_rad_s == pytest.approx((after.body_pitch_rad - before.body_pitch_rad) / seconds, abs=1e-6)

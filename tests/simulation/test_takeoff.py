@@ -1,4 +1,4 @@
-"""Take-off, found from the ground's force alone: a foot that chatters is on the ground, one that stays up has left."""
+"""Take-off, found from ground and leg: a foot that chatters is on the ground, one that stays away has left."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -25,13 +25,16 @@ class Scripted:
 
     joint_damping_j = slip_j = 0.0
 
-    def __init__(self, start: State, flights_s: list[tuple[float, float]], speed_m_s: float) -> None:
+    def __init__(
+        self, start: State, flights_s: list[tuple[float, float]], speed_m_s: float, opening_s: float = 0.0
+    ) -> None:
         self.flights_s, self.steps, self.start = flights_s, 0, start
-        self.speed_m_s = speed_m_s
+        self.speed_m_s, self.opening_s = speed_m_s, opening_s
 
     def advance(self, steps: int) -> float:
+        """Return the coordinate of a leg that opens by 1 rad/s and comes to rest after `opening_s`."""
         self.steps += steps
-        return 0.0
+        return min(self.steps * DT_S - self.opening_s, 0.0)
 
     def loaded(self) -> bool:
         time = self.steps * DT_S
@@ -51,10 +54,12 @@ def released(mechanism: Mechanism) -> Iterator[State]:
         yield world.state()
 
 
-def takeoff_s(mechanism: Mechanism, flights_s: list[tuple[float, float]], speed_m_s: float = 0.1) -> float | None:
+def takeoff_s(
+    mechanism: Mechanism, flights_s: list[tuple[float, float]], speed_m_s: float = 0.1, opening_s: float = 0.0
+) -> float | None:
     """Return when a robot with these flights is said to take off."""
     with released(mechanism) as start:
-        run = Run(Scripted(start, flights_s, speed_m_s), mechanism, Settings(dt_s=DT_S))
+        run = Run(Scripted(start, flights_s, speed_m_s, opening_s), mechanism, Settings(dt_s=DT_S))
         run.go()
     return run.takeoff.time_s if run.takeoff else None
 
@@ -64,6 +69,14 @@ def test_chatter_is_no_takeoff_and_a_hop_is(kenan: Mechanism) -> None:
     assert takeoff_s(kenan, [chatter]) is None
     assert takeoff_s(kenan, [chatter, hop]) == pytest.approx(0.020)
     assert takeoff_s(kenan, [hop]) == pytest.approx(0.020)
+
+
+def test_a_hop_while_the_springs_still_push_is_a_part_of_the_push_off(kenan: Mechanism) -> None:
+    """The last contact before the leg is at rest counts, and a flight that goes on until then."""
+    hop, flight = (0.010, 0.010 + CONTACT_LOST_S), (0.030, 0.060)
+    assert takeoff_s(kenan, [hop, flight]) == pytest.approx(0.010)
+    assert takeoff_s(kenan, [hop, flight], opening_s=0.020) == pytest.approx(0.030)
+    assert takeoff_s(kenan, [hop, flight], opening_s=0.040) == pytest.approx(0.030)
 
 
 def test_a_robot_that_sinks_has_not_taken_off(kenan: Mechanism) -> None:

@@ -42,6 +42,13 @@ def test_values_that_do_not_go_together_are_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
 
 
+def test_without_a_pad_the_feet_are_bare(written):
+    ground = load_workshop().ground
+    assert ground.foot_friction == ground.friction <= 0.8
+    bare = load_workshop(written('[ground]\npad = ""')).ground
+    assert bare.foot_friction == bare.bare_friction < ground.friction
+
+
 def test_a_workshop_cannot_be_changed():
     workshop = jumpcad.load_workshop()
     assert isinstance(workshop, Workshop)

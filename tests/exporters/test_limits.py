@@ -1,0 +1,106 @@
+"""The stop, one-sided springs and the released state in every format that can say them."""
+
+import json
+import math
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.machines import PAD_NM_PER_RAD, STOP_RAD, machine, one_sided, rubbing
+
+from jumpcad.design import load_design
+from jumpcad.exporters.limits import SWING_RAD
+from jumpcad.exporters.mjcf import write_mjcf
+from jumpcad.exporters.sdf import write_sdf
+from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.model import Mechanism
+from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.from_urdf import robot_from_urdf
+
+
+@pytest.fixture(scope="module")
+def robot() -> Mechanism:
+    """Capsules with all that a printed robot has."""
+    return rubbing(machine(capsule_robot(load_design("best-bo"))), 0.8, pin=0.25)
+
+
+def leg(root: ET.Element) -> ET.Element:
+    return next(node for node in root.iter("joint") if node.get("name") == "leg")
+
+
+def test_the_leg_is_limited_at_the_stop(robot: Mechanism) -> None:
+    urdf = leg(ET.fromstring(write_urdf(robot))).find("limit")
+    sdf = leg(ET.fromstring(write_sdf(robot))).find("axis/limit")
+    mjcf = leg(ET.fromstring(write_mjcf(robot)))
+    assert float(urdf.get("upper")) == float(sdf.findtext("upper")) == STOP_RAD
+    assert float(sdf.findtext("stiffness")) == PAD_NM_PER_RAD
+    assert [float(word) for word in mjcf.get("range").split()] == [robot.joint("leg").lower_rad - SWING_RAD, STOP_RAD]
+    free = capsule_robot(robot.design)
+    assert float(leg(ET.fromstring(write_urdf(free))).find("limit").get("upper")) == SWING_RAD
+    assert leg(ET.fromstring(write_mjcf(free))).get("range") is None
+
+
+def test_a_mujoco_spring_only_pushes(robot: Mechanism) -> None:
+    """MuJoCo's own passive torque on the leg at angles on both sides of where the springs are free."""
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
+    data = mujoco.MjData(model)
+    at = model.joint("leg")
+    for angle in (-0.8, -0.1, 0.0, 0.03, 0.06, 0.2, 1.0):
+        mujoco.mj_resetData(model, data)
+        data.qpos[at.qposadr[0]] = angle
+        mujoco.mj_forward(model, data)
+        assert data.qfrc_passive[at.dofadr[0]] == pytest.approx(robot.spring.torque_nm(angle), abs=1e-12)
+
+
+def test_the_keyframe_moves_as_the_robot_does(robot: Mechanism) -> None:
+    """In `released` the loop is closed and the foot flat, both with all their velocities; `wound` stands still."""
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_string(write_mjcf(robot))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("released").id)
+    mujoco.mj_forward(model, data)
+    for body in ("foot", "front_link"):
+        velocity = np.zeros(6)
+        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_SITE, model.site(f"{body}_loop").id, velocity, 0)
+        np.testing.assert_allclose(velocity[3:], 0.0, atol=1e-9)
+    assert data.joint("leg").qvel[0] == robot.roller_off.leg_rad_s
+    assert data.joint("leg").qpos[0] == robot.roller_off.leg_rad
+    mujoco.mj_resetDataKeyframe(model, data, model.key("wound").id)
+    assert not data.qvel.any()
+    assert data.joint("leg").qpos[0] == -robot.spring.wind_rad
+    assert "released" not in write_mjcf(capsule_robot(robot.design))
+
+
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco", "planar"])
+def test_the_urdf_jumps_as_the_robot_in_memory(robot: Mechanism, engine: str, tmp_path: Path) -> None:
+    if engine != "planar":
+        pytest.importorskip(engine)
+    path = tmp_path / "r.urdf"
+    path.write_text(write_urdf(robot), encoding="utf-8")
+    path.with_suffix(".loop.json").write_text(write_loop(robot), encoding="utf-8")
+    again = robot_from_urdf(path)
+    assert (again.spring, again.stop, again.roller_off, again.friction) == (
+        robot.spring, robot.stop, robot.roller_off, robot.friction,
+    )  # fmt: skip
+    here, there = simulate(robot, Settings(), engine), simulate(again, Settings(), engine)
+    assert there.ballistic_range_m == pytest.approx(here.ballistic_range_m, rel=1e-9)
+    assert there.release_energy_ratio == pytest.approx(here.release_energy_ratio, rel=1e-9)
+
+
+def test_a_loop_file_of_capsules_is_as_it_was() -> None:
+    """Files written before there were stops read as robots without one."""
+    data = json.loads(write_loop(capsule_robot(load_design("best-bo"))))
+    assert set(data) == {"design", "loop", "spring", "travel_rad", "release", "foot_depth_m", "surfaces"}
+    assert set(data["spring"]) == {"joint", "stiffness_nm_per_rad", "rest_rad", "wind_rad"}
+
+
+def test_a_preloaded_spring_that_pulls_too_is_a_joints_own() -> None:
+    robot = capsule_robot(load_design("best-bo"))
+    both = one_sided(robot, math.radians(3.0))
+    node = leg(ET.fromstring(write_mjcf(both)))
+    assert node.get("stiffness") is None
+    sdf = leg(ET.fromstring(write_sdf(both)))
+    assert float(sdf.findtext("axis/dynamics/spring_reference")) == math.radians(3.0)

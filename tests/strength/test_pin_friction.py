@@ -1,0 +1,40 @@
+"""Pin friction as one torque at the leg joint."""
+
+from dataclasses import replace
+
+import pytest
+from support.machines import PINS_M, rubbing
+
+from jumpcad.design import load_design
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.simulation import Settings
+from jumpcad.simulation.planar import PlanarWorld
+from jumpcad.strength.pin_friction import pin_torque_nm
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
+def test_its_work_is_that_of_the_pins(name: str) -> None:
+    """The planar engine knows the force of every pin at every step; here the foot lies flat, the links have no mass."""
+    robot = rubbing(capsule_robot(load_design(name)), pin=0.25)
+    taken = PlanarWorld(robot, Settings()).push_off().moment.losses.friction_j
+    work = pin_torque_nm(robot, 0.25) * robot.spring.wind_rad
+    assert work == pytest.approx(taken, rel=0.2)
+    assert 0.01 < work / robot.spring.energy_j < 0.04
+
+
+def test_it_grows_with_coefficient_and_radius_and_each_pin_adds_its_own() -> None:
+    robot = rubbing(capsule_robot(load_design("best-bo")), pin=0.25)
+    whole = pin_torque_nm(robot, 0.25)
+    assert pin_torque_nm(robot, 0.5) == pytest.approx(2.0 * whole, abs=2e-6)
+    alone = []
+    for pin in range(4):
+        radii = tuple(radius if index == pin else 0.0 for index, radius in enumerate(PINS_M))
+        alone.append(pin_torque_nm(rubbing(robot, pin=0.25, pin_radius_m=radii), 0.25))
+    assert min(alone) > 0.0
+    assert sum(alone) == pytest.approx(whole, abs=4e-6)
+
+
+def test_capsules_have_no_pins() -> None:
+    robot = capsule_robot(load_design("best-bo"))
+    assert pin_torque_nm(robot, 0.25) == 0.0
+    assert pin_torque_nm(replace(rubbing(robot)), 0.0) == 0.0
