@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from jumpcad.building.releasing import release_of
 from jumpcad.building.settle import settle
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
@@ -39,10 +40,12 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
     parts = tuple(_printed(drawing, workshop) for drawing in drawn)
     hardware = tuple(shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought))
     joints, loop, spring = five_bar(layout.linkage, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
+    bodies = _bodies(layout, parts, hardware)
+    release = release_of(layout, workshop, holes, parts, bodies, spring)
     return Robot(
         name=name,
         design=design,
-        bodies=_bodies(layout, parts, hardware),
+        bodies=bodies,
         joints=joints,
         loop=loop,
         spring=spring,
@@ -51,6 +54,8 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
         hardware=hardware,
         workshop=workshop,
         layout=layout,
+        release=release,
+        roller_off=release.off,
     )
 
 

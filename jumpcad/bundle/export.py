@@ -13,6 +13,7 @@ from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
+from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.robot import Robot, require_name
@@ -67,6 +68,7 @@ def _facts(robot: Robot) -> dict[str, Any]:
     return {
         "mass_kg": robot.mass_kg,
         "masses": mass_facts(bill_of_materials(robot)),
+        "drive": {"release": release_facts(robot.release)},
         "bodies": {
             name: {
                 "mass_kg": body.mass_kg,

@@ -59,11 +59,15 @@ class Component:
 
 @dataclass(frozen=True)
 class Moment:
-    """One position of the mechanism: leg angle and cam angle (rad), and what it is called."""
+    """One position of the mechanism: leg angle and cam angle (rad), and what it is called.
+
+    `ahead_rad` is how far the cam has run ahead of its gear, which stands at `cam_rad`.
+    """
 
     label: str
     leg_rad: float
     cam_rad: float
+    ahead_rad: float = 0.0
 
 
 def components(robot: Robot) -> list[Component]:
@@ -86,6 +90,8 @@ def moments(layout: Layout) -> list[Moment]:
     ]
     falls = np.linspace(wound, 0.0, DROP_POSITIONS)
     free = float(cam.wind_rad(cam.free_rad - 1e-6))
+    # the cam at the end of the dog's play, the gear where the lift ended, and turned on by the motor while the leg falls
+    play = layout.drive.dog.play_rad
     drop = [Moment(f"dropping, at {math.degrees(w):.1f}°", -float(w), cam.free_rad) for w in falls if w <= free]
     return winding + drop
 

@@ -11,6 +11,7 @@ from jumpcad.drive.cam import Cam
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
+from jumpcad.drive.dog import Dog, free_play_rad
 from jumpcad.drive.gear_choice import least_tip_mm
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
@@ -18,6 +19,8 @@ from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 
+FALL_S = 0.03
+"""From release to the leg's swing past rest; judgement: releases of this size take 15 to 30 ms."""
 LEAST_COMPRESSION_RAD = math.radians(0.5)
 """Below it the cam's lift is less than a printer can resolve; judgement."""
 
@@ -33,14 +36,15 @@ class DriveLimits:
     ----------
     motors
         Names in the catalogue; none stands for every one.
+    dog_mm
+        Diameter of the dog between cam and cam gear.
     gap_mm
         Between things that pass each other.
     axle_radius_mm
         Around an axle, with what turns on it or holds it apart: the leg's where the cam gear passes it, beside the
         spring, and an idler's beside the cam.
     fall_s
-        From release to the leg's swing past rest, during which the cam turns on (judgement: releases of this size take
-        15 to 30 ms).
+        From release to the leg's swing past rest, during which the cam turns on.
     face_widths_mm
         Of the gears, in the order tried: the next where the teeth are not strong enough, or find no room that are.
     more_gap_mm
@@ -53,20 +57,22 @@ class DriveLimits:
     cam: CamLimits
     train: TrainLimits
     motors: tuple[str, ...]
+    dog_mm: float
     gap_mm: float = CLEAR_MM
     axle_radius_mm: float = SPACER_RADIUS_MM
-    fall_s: float = 0.03
+    fall_s: float = FALL_S
     face_widths_mm: tuple[float, ...] = FACE_WIDTHS_MM
     more_gap_mm: tuple[float, ...] = (0.0, 2.5, 5.0, 7.5, 10.0)
 
 
 @dataclass(frozen=True)
 class Drive:
-    """Springs, cam and gear train of one design, and every limit that was checked with its margin."""
+    """Springs, cam, dog and gear train of one design, and every limit that was checked with its margin."""
 
     spring: TorsionSpring
     cam: Cam
     train: GearTrain
+    dog: Dog
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -96,9 +102,11 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     for width in limits.face_widths_mm:
         beside = replace(limits, train=replace(limits.train, face_width_mm=width))
         try:
-            return Drive(spring, *_cam_and_train(law, motors, spring.outer_diameter_mm, beside))
+            cam, train = _cam_and_train(law, motors, spring.outer_diameter_mm, beside)
         except NoTrainError as error:  # wider teeth bear more
             refusal = error
+        else:
+            return Drive(spring, cam, train, _dog(cam, limits))
     assert refusal is not None
     raise refusal
 
@@ -134,6 +142,12 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
         assert refusal is not None
         raise refusal
     return found
+
+
+def _dog(cam: Cam, limits: DriveLimits) -> Dog:
+    """Return the dog of a cam, its play rounded to thousandths of a degree: the cam is known no better."""
+    play = float(free_play_rad(cam.roll_over_rad, limits.cam.play_rad))
+    return Dog(math.radians(round(math.degrees(play), 3)), limits.dog_mm)
 
 
 def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
