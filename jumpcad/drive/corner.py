@@ -8,10 +8,10 @@ import numpy as np
 from jumpcad.drive.cam import CamGeometry
 from jumpcad.transforms import Array, turned_about_y
 
-POSITIONS = 801
-"""Cam angles on the corner; with four times as many, the energy kept changes by less than 0.0005."""
-WINDOW_STEP_DEG = 0.5
-"""Between the cam angles at which the roller's way is looked at."""
+POSITIONS = 401
+"""Cam angles on the corner; with 32 times as many, the energy kept changes by less than 0.0002, the kick by 2 %."""
+WINDOW_POSITIONS = 51
+"""Cam angles between the end of the lift and a whole turn at which the roller's way is looked at."""
 SEARCHED_RAD = 0.5
 """How far before the end of the lift a rounding may begin; judgement: far more than a printed corner needs."""
 
@@ -63,23 +63,34 @@ def roll_over(geometry: CamGeometry, rounding_mm: float = 0.0) -> Corner:
     return Corner(cam, wind, slope, np.gradient(slope, cam[1] - cam[0]), np.maximum(arm, 1e-3))
 
 
-def clear_window_rad(geometry: CamGeometry) -> tuple[float, float]:
+def clear_window_rad(geometry: CamGeometry, outline_mm: Array) -> tuple[float, float]:
     """Return between which cam angles, from the end of the lift, the roller passes freely from wound to past rest.
 
-    Every corner of the outline keeps a roller's radius from the arc of the roller's centre. NaN where none does.
+    Every corner of the outline (n, 2) keeps a roller's radius from the arc of the roller's centre. NaN where none does.
     """
     start, lift = geometry.lever_start_rad, geometry.law.lift_rad
     ends = geometry.roller_mm([-geometry.overshoot_rad, geometry.law.compression_rad])
     span = geometry.law.compression_rad + geometry.overshoot_rad
-    turns = np.radians(np.arange(0.0, 360.0 - math.degrees(lift), WINDOW_STEP_DEG))
-    outline = geometry.in_body(geometry.outline_mm()[None], lift + turns[:, None])
+    turns = np.linspace(0.0, 2.0 * math.pi - lift, WINDOW_POSITIONS)
+    outline = geometry.in_body(outline_mm[None], lift + turns[:, None])
     x, z = outline[..., 0], outline[..., 1]
     beside = np.mod(np.arctan2(z, x) - start + geometry.overshoot_rad, 2.0 * math.pi) <= span
     off_arc = np.abs(np.hypot(x, z) - geometry.lever_mm)
     off_ends = np.minimum(*(np.hypot(x - end[0], z - end[1]) for end in ends))
     gap = np.where(beside, off_arc, off_ends).min(axis=1) - geometry.roller_radius_mm
     free = np.flatnonzero(gap >= 0.0)
-    return (float(turns[free[0]]), float(turns[free[-1]])) if free.size else (math.nan, math.nan)
+    if not free.size:
+        return math.nan, math.nan
+    first, last = int(free[0]), int(free[-1])
+    return _crossing(turns, gap, first - 1, first), _crossing(turns, gap, last + 1, last)
+
+
+def _crossing(turns: Array, gap: Array, outside: int, inside: int) -> float:
+    """Return where a gap becomes positive between two neighbours, or the inner one at either end."""
+    if not 0 <= outside < len(turns):
+        return float(turns[inside])
+    share = gap[inside] / (gap[inside] - gap[outside])
+    return float(turns[inside] + share * (turns[outside] - turns[inside]))
 
 
 def _rounding(geometry: CamGeometry, radius_mm: float) -> tuple[float, Array]:

@@ -107,8 +107,7 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
     """
     geometry, law, train = drive.cam.geometry, drive.cam.law, drive.train
     cases = tuple(
-        _parts(drive, moving, limits, *motor)
-        for motor in zip(limits.rotor_kg_m2, limits.backlash_rad, strict=True)
+        _parts(drive, moving, limits, *motor) for motor in zip(limits.rotor_kg_m2, limits.backlash_rad, strict=True)
     )
     sharp = roll_over(geometry)
     wound = float(sharp.wind_rad.max())
@@ -117,7 +116,10 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
     worst = printed + [roll(corner, case, wound) for case in cases]
     first = min(printed, key=lambda rolled: rolled.kept_j)
     kick, allowed = max(rolled.kick_nm for rolled in worst) / train.ratio, _kick_limit_nm(drive, limits)
-    ratio, window = min(rolled.kept_j / rolled.held_j for rolled in worst), clear_window_rad(geometry)
+    ratio, window = (
+        min(rolled.kept_j / rolled.held_j for rolled in worst),
+        clear_window_rad(geometry, drive.cam.profile_mm),
+    )
     return Release(
         off=_roller_off(first, moving.spring),
         energy_ratio=ratio,

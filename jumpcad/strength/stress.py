@@ -140,7 +140,9 @@ def tube_shear_mpa(torque_nmm: float, outer_mm: float, bore_mm: float) -> float:
     return 16.0 * torque_nmm * outer_mm / (math.pi * (outer_mm**4 - bore_mm**4))
 
 
-def jaw_stress_mpa(torque_nmm: float, jaw_rad: float, jaws: int, inner_mm: float, outer_mm: float, long_mm: float) -> float:
+def jaw_stress_mpa(
+    torque_nmm: float, jaw_rad: float, jaws: int, inner_mm: float, outer_mm: float, long_mm: float
+) -> float:
     """Return the stress at the root of a dog's jaws that share a torque, as the tension that it equals.
 
     A jaw is a short cantilever along the axle, pushed in the middle of its length at its mean radius: bending 6·M/(b·h²)
