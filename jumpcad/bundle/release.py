@@ -10,11 +10,13 @@ from jumpcad.drive.rolling import ReleaseParts
 def release_facts(release: Release) -> dict[str, Any]:
     """Return plain data: angles in degrees, torques at the gear motor's output unless their name says at the cam.
 
-    `energy_ratio` leaves the lever's bending aside, `energy_ratio_with_bending` is where the jump starts. `assumed` are
-    the two motors at the ends of the workshop's ranges; the first corner is as printed, the second one is rounded.
+    `energy_ratio` leaves the lever's bending aside, `energy_ratio_rounded` too, with the corner rounded as the workshop
+    says; `energy_ratio_with_bending` is where the jump starts. Torques are the largest of both corners and of the two
+    motors of `assumed`, those at the ends of the workshop's ranges.
     """
     return {
         "energy_ratio": round(release.energy_ratio, 6),
+        "energy_ratio_rounded": round(release.rounded_ratio, 6),
         "energy_ratio_with_bending": round(release.off.energy_ratio, 6),
         "bending_ratio": round(release.bending_ratio, 6),
         "leg_deg": round(math.degrees(release.off.leg_rad), 6),

@@ -76,8 +76,9 @@ class Release:
     ----------
     off
         Where the jump starts: the roller has left the corner as printed.
-    energy_ratio
-        Least of what the springs keep, with the leg's motion, over what they held while the lever was bent.
+    energy_ratio, rounded_ratio
+        What the springs keep, with the leg's motion, over what they held while the lever was bent: corner as printed,
+        and rounded.
     bending_ratio
         What they held while the lever was bent, over what they would have held otherwise.
     blow_nm, kick_nm, kick_limit_nm
@@ -88,6 +89,7 @@ class Release:
 
     off: RollerOff
     energy_ratio: float
+    rounded_ratio: float
     bending_ratio: float
     blow_nm: float
     kick_nm: float
@@ -113,25 +115,24 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
     wound = float(sharp.wind_rad.max())
     printed = [roll(sharp, case, wound) for case in cases]
     corner = roll_over(geometry, limits.rounding_mm)
-    worst = printed + [roll(corner, case, wound) for case in cases]
-    first = min(printed, key=lambda rolled: rolled.kept_j)
-    kick, allowed = max(rolled.kick_nm for rolled in worst) / train.ratio, _kick_limit_nm(drive, limits)
-    ratio, window = (
-        min(rolled.kept_j / rolled.held_j for rolled in worst),
-        clear_window_rad(geometry, drive.cam.profile_mm),
-    )
+    rounded = [roll(corner, case, wound) for case in cases]
+    first, second = (min(each, key=lambda rolled: rolled.kept_j) for each in (printed, rounded))
+    ratios = first.kept_j / first.held_j, second.kept_j / second.held_j
+    kick = max(rolled.kick_nm for rolled in printed + rounded) / train.ratio
+    allowed, window = _kick_limit_nm(drive, limits), clear_window_rad(geometry, drive.cam.profile_mm)
     return Release(
         off=_roller_off(first, moving.spring),
-        energy_ratio=ratio,
+        energy_ratio=ratios[0],
+        rounded_ratio=ratios[1],
         bending_ratio=first.held_j / moving.spring.stored_j(-law.compression_rad),
-        blow_nm=max(rolled.blow_nm for rolled in worst),
+        blow_nm=max(rolled.blow_nm for rolled in printed + rounded),
         kick_nm=kick,
         kick_limit_nm=allowed,
         free_play_rad=drive.dog.play_rad,
         roll_over_rad=drive.cam.roll_over_rad,
         window_rad=window,
         parts=cases,
-        findings=_findings(drive, limits, ratio, kick, allowed, window[1]),
+        findings=_findings(drive, limits, min(ratios), kick, allowed, window[1]),
     )
 
 

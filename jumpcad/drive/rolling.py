@@ -1,4 +1,4 @@
-"""The release: the roller rolls over the cam's corner, the cam runs ahead through the dog's play, and hits its end (SI).
+"""The release: the roller rolls over the cam's corner, the cam runs ahead through the dog's play to its end (SI).
 
 Three things move: cam (inertia J, angle phi), leg (inertia I reflected to its joint, wind angle theta), and between
 them the lever, an elastic link without mass. While roller and corner touch, the corner gives the roller's wind angle
@@ -137,7 +137,7 @@ class _Release:
         return min(self.first + math.ceil(angle_rad / self.step), self.last)
 
     def _join(self, inertia: float) -> float:
-        """Meet another mass at rest; return the largest torque of the blow, speed times root of k and both in series."""
+        """Meet another mass at rest; return the blow's largest torque: speed times the root of k, both in series."""
         together = self.inertia + inertia
         blow = self.speed * math.sqrt(self.parts.train_nm_per_rad * self.inertia * inertia / together)
         self.speed *= self.inertia / together

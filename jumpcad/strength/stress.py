@@ -145,8 +145,8 @@ def jaw_stress_mpa(
 ) -> float:
     """Return the stress at the root of a dog's jaws that share a torque, as the tension that it equals.
 
-    A jaw is a short cantilever along the axle, pushed in the middle of its length at its mean radius: bending 6·M/(b·h²)
-    and shear 3·F/(2·b·h), b from inside to outside (diameters), h along the mean circle.
+    A jaw is a short cantilever along the axle, pushed in the middle of its length at its mean radius: bending
+    6·M/(b·h²) and shear 3·F/(2·b·h), b from inside to outside (diameters), h along the mean circle.
     """
     radial, mean = (outer_mm - inner_mm) / 2.0, (outer_mm + inner_mm) / 4.0
     force, around = torque_nmm / (jaws * mean), mean * jaw_rad
