@@ -83,6 +83,8 @@ class Release:
         What they held while the lever was bent, over what they would have held otherwise.
     blow_nm, kick_nm, kick_limit_nm
         Largest torque in the dog, at the cam; largest one on the gear motor's output, and what it may be.
+    gear_ratio
+        Motor turns a cam turn.
     free_play_rad, roll_over_rad, window_rad
         Of the dog; cam angle from the end of the lift until the roller can fall freely; between which it can.
     """
@@ -94,6 +96,7 @@ class Release:
     blow_nm: float
     kick_nm: float
     kick_limit_nm: float
+    gear_ratio: float
     free_play_rad: float
     roll_over_rad: float
     window_rad: tuple[float, float]
@@ -128,6 +131,7 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
         blow_nm=max(rolled.blow_nm for rolled in printed + rounded),
         kick_nm=kick,
         kick_limit_nm=allowed,
+        gear_ratio=train.ratio,
         free_play_rad=drive.dog.play_rad,
         roll_over_rad=drive.cam.roll_over_rad,
         window_rad=window,
