@@ -6,7 +6,6 @@ from jumpcad.catalogue import Bearing
 from jumpcad.dimensions import CLEAR_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
 from jumpcad.drive.release import ReleaseLimits
-from jumpcad.drive.synthesis import FALL_S
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.fatigue import spring_share
 from jumpcad.strength.sizing import Sections
@@ -78,5 +77,4 @@ def release_limits(workshop: Workshop) -> ReleaseLimits:
         rotor_kg_m2=table.rotor_kg_m2,
         backlash_rad=(math.radians(low), math.radians(high)),
         train_nm_per_rad=table.train_nm_per_rad,
-        fall_s=FALL_S,
     )

@@ -5,16 +5,21 @@ bearing. The lightest bearing comes first, then the next that bears those forces
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
+
+import numpy as np
 
 from jumpcad.building.limits import drive_limits
 from jumpcad.catalogue import Bearing
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive, DriveLimits, synthesise
+from jumpcad.drive.cam_limits import OVERSHOOT_RAD
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
+from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.bearings import (
     allowed_n,
@@ -25,7 +30,7 @@ from jumpcad.strength.bearings import (
     loaded_forces_n,
     roller_bearing,
 )
-from jumpcad.strength.sizing import Growth, Sections, sections
+from jumpcad.strength.sizing import RESERVE, TYPICAL_BODY, Growth, Sections, sections
 from jumpcad.workshop import Workshop
 
 
@@ -52,6 +57,7 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
     """
     linkage, roller = Linkage(design), roller_bearing(workshop)
     bearings = hub_bearings(workshop)
+    fall_s = _fall_s(linkage)
 
     @cache
     def drive_within(limits: DriveLimits) -> Drive:
@@ -60,7 +66,7 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
     def with_bearing(bearing: Bearing | None) -> Settled:
         sizes = sections(linkage, workshop, hub_width_mm(bearing), growth)
         holes = HoleSizes.of(workshop, bearing)
-        drive = drive_within(drive_limits(workshop, roller, sizes, holes))
+        drive = drive_within(replace(drive_limits(workshop, roller, sizes, holes), fall_s=fall_s))
         return Settled(linkage, sizes, holes, drive, roller)
 
     number = first_guess(bearings, design, workshop)
@@ -74,6 +80,18 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
             _require_hub_room(settled)
             return settled
         number = stronger
+
+
+def _fall_s(linkage: Linkage) -> float:
+    """Return how long the leg falls with the body's usual mass, with a reserve."""
+    body, still = TYPICAL_BODY, np.zeros((3, 3))
+    inertia = still.copy()
+    inertia[1, 1] = body.mass_kg * (body.gyration_mm / 1000.0) ** 2
+    com = np.array([body.com_mm[0], 0.0, body.com_mm[1]]) / 1000.0
+    bodies = {BODY: Body(BODY, body.mass_kg, com, inertia)}
+    bodies |= {name: Body(name, 0.0, np.zeros(3), still) for name in (MAIN_LEG, FRONT_LINK)}
+    spring = Spring("leg", linkage.design.stiffness_nm_per_rad, linkage.design.compression_rad)
+    return RESERVE * reflected_mass(bodies, linkage).push_off_s(spring, OVERSHOOT_RAD)
 
 
 def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:

@@ -25,6 +25,7 @@ def release_facts(release: Release) -> dict[str, Any]:
         "kick_limit_nm": round(release.kick_limit_nm, 6),
         "blow_at_cam_nm": round(release.blow_nm, 6),
         "gear_ratio": round(release.gear_ratio, 9),
+        "push_off_s": round(release.push_off_s, 6),
         "free_play_deg": round(math.degrees(release.free_play_rad), 6),
         "roll_over_deg": round(math.degrees(release.roll_over_rad), 6),
         "window_deg": [round(math.degrees(angle), 6) for angle in release.window_rad],

@@ -15,6 +15,9 @@ from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.dog import PLAY_MORE_RAD, free_play_rad
 from jumpcad.transforms import Array
 
+OVERSHOOT_RAD = math.radians(5)
+"""How far the leg may swing past rest; judgement."""
+
 
 @dataclass(frozen=True)
 class CamLimits:
@@ -74,7 +77,7 @@ class CamLimits:
     clearance_mm: float = GAP_MM
     pressure_angle_rad: float = math.radians(45)
     undercut_margin_mm: float = 0.5
-    overshoot_rad: float = math.radians(5)
+    overshoot_rad: float = OVERSHOOT_RAD
     reserve_rad: float = math.radians(8)
     play_rad: float | None = None
     axis_max_rad: float = math.radians(115)

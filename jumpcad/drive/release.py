@@ -37,8 +37,6 @@ class ReleaseLimits:
         Of the motor's rotor, and of the gearhead at its output.
     train_nm_per_rad
         Stiffness of dog, teeth and gearhead together, at the cam.
-    fall_s
-        From release to the leg's swing past rest, during which the motor turns on.
     """
 
     energy_ratio_min: float
@@ -49,7 +47,6 @@ class ReleaseLimits:
     rotor_kg_m2: tuple[float, float]
     backlash_rad: tuple[float, float]
     train_nm_per_rad: float
-    fall_s: float
 
 
 @dataclass(frozen=True)
@@ -83,8 +80,8 @@ class Release:
         What they held while the lever was bent, over what they would have held otherwise.
     blow_nm, kick_nm, kick_limit_nm
         Largest torque in the dog, at the cam; largest one on the gear motor's output, and what it may be.
-    gear_ratio
-        Motor turns a cam turn.
+    gear_ratio, push_off_s
+        Motor turns a cam turn; from release until the leg is as far past rest as it may swing.
     free_play_rad, roll_over_rad, window_rad
         Of the dog; cam angle from the end of the lift until the roller can fall freely; between which it can.
     """
@@ -97,6 +94,7 @@ class Release:
     kick_nm: float
     kick_limit_nm: float
     gear_ratio: float
+    push_off_s: float
     free_play_rad: float
     roll_over_rad: float
     window_rad: tuple[float, float]
@@ -122,6 +120,7 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
     first, second = (min(each, key=lambda rolled: rolled.kept_j) for each in (printed, rounded))
     ratios = first.kept_j / first.held_j, second.kept_j / second.held_j
     kick = max(rolled.kick_nm for rolled in printed + rounded) / train.ratio
+    push_off = moving.leg.push_off_s(moving.spring, geometry.overshoot_rad)
     allowed, window = _kick_limit_nm(drive, limits), clear_window_rad(geometry, drive.cam.profile_mm)
     return Release(
         off=_roller_off(first, moving.spring),
@@ -132,11 +131,12 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
         kick_nm=kick,
         kick_limit_nm=allowed,
         gear_ratio=train.ratio,
+        push_off_s=push_off,
         free_play_rad=drive.dog.play_rad,
         roll_over_rad=drive.cam.roll_over_rad,
         window_rad=window,
         parts=cases,
-        findings=_findings(drive, limits, min(ratios), kick, allowed, window[1]),
+        findings=_findings(drive, limits, min(ratios), kick, allowed, window[1], push_off),
     )
 
 
@@ -176,10 +176,16 @@ def _kick_limit_nm(drive: Drive, limits: ReleaseLimits) -> float:
 
 
 def _findings(
-    drive: Drive, limits: ReleaseLimits, ratio: float, kick_nm: float, allowed_nm: float, window_rad: float
+    drive: Drive,
+    limits: ReleaseLimits,
+    ratio: float,
+    kick_nm: float,
+    allowed_nm: float,
+    window_rad: float,
+    push_off_s: float,
 ) -> tuple[Finding, ...]:
     play, over = math.degrees(drive.dog.play_rad), math.degrees(drive.cam.roll_over_rad)
-    turned = free_speed_rad_s(drive.train.motor) / drive.train.ratio * limits.fall_s
+    turned = free_speed_rad_s(drive.train.motor) / drive.train.ratio * push_off_s
     needed, window = play + math.degrees(turned + PLAY_MORE_RAD), math.degrees(np.nan_to_num(window_rad))
     more_play = f'release.play_deg = "auto" or more than {over + 3.0:.0f}, or a smaller bought.roller'
     return (
@@ -199,6 +205,6 @@ def _findings(
             "release_window", needed, window, "°",
             f"the cam may run {needed:.0f}° past the end of its lift while the leg falls; the roller's way is free up "
             f"to {window:.0f}°",
-            "less release.play_deg, or a smaller bought.roller",
+            "a slower motor, less release.play_deg, or a smaller bought.roller",
         ),
     )  # fmt: skip

@@ -11,7 +11,8 @@ from jumpcad.drive.cam import Cam
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
-from jumpcad.drive.dog import Dog, free_play_rad
+from jumpcad.drive.corner import clear_window_rad
+from jumpcad.drive.dog import PLAY_MORE_RAD, Dog, free_play_rad
 from jumpcad.drive.gear_choice import least_tip_mm
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
@@ -19,8 +20,8 @@ from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 
-FALL_S = 0.03
-"""From release to the leg's swing past rest; judgement: releases of this size take 15 to 30 ms."""
+LEAST_TURN_RAD = math.radians(1.0)
+"""That the motor may turn the cam on while the leg falls, at least: a window without room is told by its finding."""
 LEAST_COMPRESSION_RAD = math.radians(0.5)
 """Below it the cam's lift is less than a printer can resolve; judgement."""
 
@@ -44,7 +45,8 @@ class DriveLimits:
         Around an axle, with what turns on it or holds it apart: the leg's where the cam gear passes it, beside the
         spring, and an idler's beside the cam.
     fall_s
-        From release to the leg's swing past rest, during which the cam turns on.
+        From release to the leg's swing past rest, during which the motor may turn on the cam; the default is that of
+        robots of 0.1 kg with strong springs.
     face_widths_mm
         Of the gears, in the order tried: the next where the teeth are not strong enough, or find no room that are.
     more_gap_mm
@@ -60,7 +62,7 @@ class DriveLimits:
     dog_mm: float
     gap_mm: float = CLEAR_MM
     axle_radius_mm: float = SPACER_RADIUS_MM
-    fall_s: float = FALL_S
+    fall_s: float = 0.05
     face_widths_mm: tuple[float, ...] = FACE_WIDTHS_MM
     more_gap_mm: tuple[float, ...] = (0.0, 2.5, 5.0, 7.5, 10.0)
 
@@ -154,10 +156,13 @@ def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
     """Return the limits of motor and gears beside a cam."""
     room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
     around = cam.outer_radius_mm + limits.gap_mm
+    _, window = clear_window_rad(cam.geometry, cam.profile_mm)
+    play = float(free_play_rad(cam.roll_over_rad, limits.cam.play_rad))
+    turn = max(window - play - PLAY_MORE_RAD, LEAST_TURN_RAD)
     return replace(
         limits.train,
         cam_gear_tip_max_mm=min(limits.train.cam_gear_tip_max_mm, room),
         cam_room_mm=max(limits.train.cam_room_mm, around),
         idler_distance_min_mm=max(limits.train.idler_distance_min_mm, around + limits.axle_radius_mm),
-        cam_speed_max_rad_s=min(limits.train.cam_speed_max_rad_s, limits.cam.reserve_rad / limits.fall_s),
+        cam_speed_max_rad_s=min(limits.train.cam_speed_max_rad_s, turn / limits.fall_s),
     )

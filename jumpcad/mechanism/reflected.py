@@ -1,5 +1,6 @@
 """The robot as its leg joint feels it while the foot stands flat on the ground without slipping (SI units)."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -7,7 +8,7 @@ import numpy as np
 
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body
+from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
 from jumpcad.transforms import Array, turned_about_y
 
 POSITIONS = 33
@@ -39,6 +40,28 @@ class ReflectedMass:
         columns = (self.inertia_kg_m2, self.inertia_slope, self.weight_nm)
         inertia, slope, weight = (np.interp(wind_rad, self.wind_rad, column) for column in columns)
         return inertia, slope, weight
+
+    def push_off_s(self, spring: Spring, past_rad: float) -> float:
+        """Return the time from rest with loaded springs until the leg is an angle past rest, foot on the ground.
+
+        From the energy, dt = dw/sqrt(2·(E(wound) - E(w))/I); with w = wound·cos(s) the integrand is finite.
+        """
+        wound = spring.wind_rad
+        phase = (np.arange(POSITIONS) + 0.5) * (math.pi / 2.0 / POSITIONS)
+        wind = wound * np.cos(phase)
+        inertia, _, _ = self.at(wind)
+        weight = np.interp(wind, self.wind_rad, self._weight_j())
+        stored = 0.5 * spring.stiffness_nm_per_rad * (wind + 2.0 * spring.preload_rad) * wind
+        free = np.maximum(spring.energy_j + self._weight_j()[-1] - stored - weight, 1e-3 * spring.energy_j)
+        rate = np.sqrt(2.0 * free / inertia)
+        to_rest = float(np.sum(wound * np.sin(phase) / rate)) * math.pi / 2.0 / POSITIONS
+        return to_rest + past_rad / float(rate[-1])
+
+    def _weight_j(self) -> Array:
+        """Return the potential energy of weight (n,), that at rest 0."""
+        step = self.wind_rad[1] - self.wind_rad[0]
+        mean = 0.5 * step * (self.weight_nm[1:] + self.weight_nm[:-1])
+        return np.concatenate([[0.0], np.add.accumulate(mean)])
 
 
 def reflected_mass(bodies: Mapping[str, Body], linkage: Linkage) -> ReflectedMass:
