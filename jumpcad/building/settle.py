@@ -57,7 +57,7 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
     """
     linkage, roller = Linkage(design), roller_bearing(workshop)
     bearings = hub_bearings(workshop)
-    fall_s = _fall_s(linkage)
+    falls_s = fall_s(linkage)
 
     @cache
     def drive_within(limits: DriveLimits) -> Drive:
@@ -66,7 +66,7 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
     def with_bearing(bearing: Bearing | None) -> Settled:
         sizes = sections(linkage, workshop, hub_width_mm(bearing), growth)
         holes = HoleSizes.of(workshop, bearing)
-        drive = drive_within(replace(drive_limits(workshop, roller, sizes, holes), fall_s=fall_s))
+        drive = drive_within(replace(drive_limits(workshop, roller, sizes, holes), fall_s=falls_s))
         return Settled(linkage, sizes, holes, drive, roller)
 
     number = first_guess(bearings, design, workshop)
@@ -82,7 +82,7 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
         number = stronger
 
 
-def _fall_s(linkage: Linkage) -> float:
+def fall_s(linkage: Linkage) -> float:
     """Return how long the leg falls with the body's usual mass, with a reserve."""
     body, still = TYPICAL_BODY, np.zeros((3, 3))
     inertia = still.copy()

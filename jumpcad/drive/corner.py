@@ -107,4 +107,8 @@ def _rounding(geometry: CamGeometry, radius_mm: float) -> tuple[float, Array]:
     face = geometry.lever_mm + geometry.roller_radius_mm + geometry.clearance_mm
     room = np.hypot(seen[:, 0], seen[:, 1]) - face - radius_mm
     index = int(np.flatnonzero(room >= 0.0)[-1]) if (room >= 0.0).any() else 0
-    return float(cam[index]), inside[index]
+    if index == POSITIONS - 1:
+        return float(cam[index]), inside[index]
+    share = float(np.clip(room[index] / (room[index] - room[index + 1]), 0.0, 1.0))
+    between = cam[index] + share * (cam[1] - cam[0])
+    return float(between), inside[index] + share * (inside[index + 1] - inside[index])

@@ -19,6 +19,9 @@ from jumpcad.drive.corner import Corner
 from jumpcad.mechanism.model import Spring
 from jumpcad.mechanism.reflected import ReflectedMass
 
+LONGEST_S = 1e-4
+"""Longest step in time, while the motor pushes the cam slowly: a hundredth of a swing of leg and lever."""
+
 
 @dataclass(frozen=True)
 class ReleaseParts:
@@ -128,9 +131,19 @@ class _Release:
         self._push_to(end)
         self.kick_nm = self._join(parts.rotor_kg_m2)
         if end < self.last:  # the corner still stands below the roller
+            self._push_off(end)
+
+    def _push_off(self, end: int) -> None:
+        """Let the leg push the cam with the motor off the rest of the corner; what a hop gives the leg is lost."""
+        self.at = max(self.at, end) if not self.touches else self.at
+        while self.at < self.last:
+            begin = self.at
             if not self.touches:
-                self._fall_to(end)
+                self._fall_to(self.at)
             self._push_to(self.last)
+            if not self.touches:
+                self.rate = min(self.rate, 0.0)
+                self.at = max(self.at, begin + 1)
 
     def _index(self, angle_rad: float) -> int:
         """Return the place at which the cam has run ahead by an angle; the last one where that is beyond the corner."""
@@ -174,8 +187,12 @@ class _Release:
                 self.kick_nm = max(self.kick_nm, share * gain)
             speed = math.sqrt(max(speed * speed + gain, least))  # the motor goes on pushing
             time = self.step / speed
-            rate += time * mobility[number] * (torque - stiffness * wind - weight[number])
-            wind += time * rate
+            parts_of_it = math.ceil(time / LONGEST_S)
+            time /= parts_of_it
+            for _ in range(parts_of_it):
+                torque = lever * (roller[number] - wind)
+                rate += time * mobility[number] * (torque - stiffness * wind - weight[number])
+                wind += time * rate
         else:
             number = stop - self.at
         self.at, self.speed, self.wind, self.rate = self.at + number, speed, wind, rate

@@ -52,7 +52,7 @@ class ReflectedMass:
         inertia, _, _ = self.at(wind)
         weight = np.interp(wind, self.wind_rad, self._weight_j())
         stored = 0.5 * spring.stiffness_nm_per_rad * (wind + 2.0 * spring.preload_rad) * wind
-        free = np.maximum(spring.energy_j + self._weight_j()[-1] - stored - weight, 1e-3 * spring.energy_j)
+        free = np.maximum(spring.energy_j + self._weight_j()[-1] - stored - weight, 1e-9 * spring.energy_j)
         rate = np.sqrt(2.0 * free / inertia)
         to_rest = float(np.sum(wound * np.sin(phase) / rate)) * math.pi / 2.0 / POSITIONS
         return to_rest + past_rad / float(rate[-1])

@@ -89,8 +89,8 @@ def test_the_cam_gives_way_to_a_thick_spring():
 
 def test_a_fast_motor_is_geared_down_for_the_leg_to_fall_in_time():
     drive = synthesise(load_design("kenan-2.0"), dataclasses.replace(LIMITS, motors=("n20-75",)))
-    needed = 180 * math.pi / 30 * LIMITS.fall_s / LIMITS.cam.reserve_rad
-    assert drive.train.ratio >= needed
+    slow = synthesise(load_design("kenan-2.0"), LIMITS)
+    assert drive.train.ratio > 2.0 * slow.train.ratio
     check(load_design("kenan-2.0"), drive)
 
 
