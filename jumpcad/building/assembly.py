@@ -41,7 +41,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
     hardware = tuple(shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought))
     joints, loop, spring = five_bar(layout.linkage, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
     bodies = _bodies(layout, parts, hardware)
-    release = release_of(layout, workshop, holes, parts, bodies, spring)
+    release = release_of(layout, workshop, holes, parts, hardware, bodies, spring)
     return Robot(
         name=name,
         design=design,

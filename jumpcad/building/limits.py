@@ -76,5 +76,6 @@ def release_limits(workshop: Workshop) -> ReleaseLimits:
         friction=table.friction,
         rotor_kg_m2=table.rotor_kg_m2,
         backlash_rad=(math.radians(low), math.radians(high)),
+        rebound=table.rebound,
         train_nm_per_rad=table.train_nm_per_rad,
     )

@@ -12,9 +12,13 @@ from jumpcad.mechanism.model import Body, Spring
 from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Part
+from jumpcad.parts.purchased import BoughtPart
 from jumpcad.strength.stress import STATIONS, Beam, Shell, tip_stiffness_n_per_mm
 from jumpcad.transforms import Array, in_metres
 from jumpcad.workshop import Workshop
+
+LEVER_SHARE = 33.0 / 140.0
+"""Of a cantilever's mass that moves with its end (Rayleigh)."""
 
 
 def release_of(
@@ -22,11 +26,14 @@ def release_of(
     workshop: Workshop,
     holes: HoleSizes,
     parts: tuple[Part, ...],
+    hardware: tuple[BoughtPart, ...],
     bodies: Mapping[str, Body],
     spring: Spring,
 ) -> Release:
     """Return the release of a robot with all its masses."""
     by_name = {part.name: part for part in parts}
+    lever, length = _lever(layout, workshop), layout.drive.cam.lever_length_mm
+    mass = 1e-6 * float(np.mean(lever.area_mm2)) * length * workshop.material("links").density_g_cm3
     moving = MovingParts(
         spring=spring,
         leg=reflected_mass(bodies, layout.linkage),
@@ -34,7 +41,8 @@ def release_of(
         cam_gear_kg_m2=_about_axle(by_name["cam_gear"], layout.cam_axis_mm),
         pinion_kg_m2=_about_axle(by_name["motor_pinion"], layout.motor_mm),
         bore_mm=holes.running(layout.axle_mm),
-        lever_n_per_m=1000.0 * _lever_n_per_mm(layout, workshop),
+        lever_n_per_m=1000.0 * tip_stiffness_n_per_mm(lever, length, workshop.material("links").modulus_mpa),
+        roller_kg=sum(item.mass.mass_kg for item in hardware if item.name.startswith("roller")) + LEVER_SHARE * mass,
     )
     return release(layout.drive, moving, release_limits(workshop))
 
@@ -46,9 +54,8 @@ def _about_axle(part: Part, axis_mm: Array) -> float:
     return float(mass.inertia_kg_m2[1, 1] + mass.mass_kg * np.sum(away**2))
 
 
-def _lever_n_per_mm(layout: Layout, workshop: Workshop) -> float:
-    """Return the bending stiffness of the printed lever at the roller: a tapered cantilever on the leg's hub."""
+def _lever(layout: Layout, workshop: Workshop) -> Beam:
+    """Return the printed lever from the leg's hub to the roller."""
     sections = layout.sections
     heights = np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS)
-    lever = Beam(sections.thickness_mm, heights, Shell.of(workshop.process))
-    return tip_stiffness_n_per_mm(lever, layout.drive.cam.lever_length_mm, workshop.material("links").modulus_mpa)
+    return Beam(sections.thickness_mm, heights, Shell.of(workshop.process))

@@ -41,8 +41,10 @@ def _assumed(parts: ReleaseParts) -> dict[str, float]:
         "rotor_kg_m2": parts.rotor_kg_m2,
         "backlash_deg": math.degrees(parts.backlash_rad),
         "cam_rad_s": parts.cam_rad_s,
+        "rebound": parts.rebound,
         "friction_mm": parts.friction_mm,
         "train_nm_per_rad": parts.train_nm_per_rad,
         "lever_nm_per_rad": parts.lever_nm_per_rad,
+        "roller_kg_m2": parts.roller_kg_m2,
     }
     return {name: float(f"{value:.9g}") for name, value in values.items()}

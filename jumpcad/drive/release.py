@@ -35,6 +35,8 @@ class ReleaseLimits:
         Coefficient between the cam's bore and its axle.
     rotor_kg_m2, backlash_rad
         Of the motor's rotor, and of the gearhead at its output.
+    rebound
+        Coefficient of restitution between the jaws.
     train_nm_per_rad
         Stiffness of dog, teeth and gearhead together, at the cam.
     """
@@ -46,6 +48,7 @@ class ReleaseLimits:
     friction: float
     rotor_kg_m2: tuple[float, float]
     backlash_rad: tuple[float, float]
+    rebound: float
     train_nm_per_rad: float
 
 
@@ -53,7 +56,8 @@ class ReleaseLimits:
 class MovingParts:
     """What the finished parts add to a drive: springs, reflected leg, moments of inertia about their own axes (kg·m²).
 
-    `bore_mm` is the cam's; `lever_n_per_m` the bending stiffness of the lever at the roller.
+    `bore_mm` is the cam's; `lever_n_per_m` the bending stiffness of the lever at the roller, `roller_kg` the mass of
+    the roller, with its screw and the part of the lever that moves with it.
     """
 
     spring: Spring
@@ -63,6 +67,7 @@ class MovingParts:
     pinion_kg_m2: float
     bore_mm: float
     lever_n_per_m: float
+    roller_kg: float
 
 
 @dataclass(frozen=True)
@@ -144,7 +149,7 @@ def _parts(
     drive: Drive, moving: MovingParts, limits: ReleaseLimits, rotor_kg_m2: float, backlash_rad: float
 ) -> ReleaseParts:
     """Return what takes part in a release with one motor, at the cam."""
-    train = drive.train
+    train, lever_m = drive.train, drive.cam.lever_length_mm / 1000.0
     return ReleaseParts(
         spring=moving.spring,
         leg=moving.leg,
@@ -154,9 +159,11 @@ def _parts(
         play_rad=drive.dog.play_rad,
         backlash_rad=backlash_rad / train.ratio,
         cam_rad_s=free_speed_rad_s(train.motor) / train.ratio,
+        rebound=limits.rebound,
         friction_mm=limits.friction * moving.bore_mm / 2.0,
         train_nm_per_rad=limits.train_nm_per_rad,
-        lever_nm_per_rad=moving.lever_n_per_m * (drive.cam.lever_length_mm / 1000.0) ** 2,
+        lever_nm_per_rad=moving.lever_n_per_m * lever_m**2,
+        roller_kg_m2=moving.roller_kg * lever_m**2,
     )
 
 

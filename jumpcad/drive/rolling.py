@@ -1,13 +1,14 @@
 """The release: the roller rolls over the cam's corner, the cam runs ahead through the dog's play to its end (SI).
 
 Three things move: cam (inertia J, angle phi), leg (inertia I reflected to its joint, wind angle theta), and between
-them the lever, an elastic link without mass. While roller and corner touch, the corner gives the roller's wind angle
-w(phi); the lever's torque Q = k·(w - theta) turns the cam by -dw/dphi of it, less friction, and holds the leg against
-springs and weight. The roller leaves where Q would pull. What bends the lever goes to the cam, the lighter of the two.
+them the lever, an elastic link with the roller's mass at its end. While roller and corner touch, the corner gives the
+roller's wind angle w(phi); the lever's torque Q = k·(w - theta) turns cam and roller, less friction, and holds the leg
+against springs and weight. The roller leaves where the corner would have to pull it. What bends the lever goes to the
+cam, the lightest of the three.
 
-The gear joins the cam at the end of the dog's play, the motor's rotor at that of the gearhead's backlash, both without
-rebound. If the corner then still stands below the falling roller, it catches it. Left out: mass of roller and lever,
-rebound, friction in gears and gearhead.
+The gear joins the cam at the end of the dog's play, the motor's rotor at that of the gearhead's backlash. If the corner
+then still stands below the falling roller, it catches it. The gear's rebound counts in the kick alone; friction in
+gears and gearhead is left out.
 """
 
 import math
@@ -37,12 +38,14 @@ class ReleaseParts:
         Of the dog, and of gearhead and teeth.
     cam_rad_s
         Speed at which the gear pushes the cam over the end of the lift.
+    rebound
+        Coefficient of restitution between cam and gear.
     friction_mm
         Coefficient of friction times the radius of the cam's bore.
     train_nm_per_rad
         Stiffness of dog, teeth and gearhead, which stops the cam.
-    lever_nm_per_rad
-        Of the lever in bending, at the leg's joint.
+    lever_nm_per_rad, roller_kg_m2
+        Stiffness of the lever in bending, and moment of inertia of roller and lever's end, at the leg's joint.
     """
 
     spring: Spring
@@ -53,9 +56,11 @@ class ReleaseParts:
     play_rad: float
     backlash_rad: float
     cam_rad_s: float
+    rebound: float
     friction_mm: float
     train_nm_per_rad: float
     lever_nm_per_rad: float
+    roller_kg_m2: float
 
     def held_rad(self, roller_rad: float) -> float:
         """Return the leg's wind angle that the bent lever holds with the roller wound to an angle."""
@@ -129,7 +134,7 @@ class _Release:
             self.inertia += parts.gear_kg_m2
         end = self._index(parts.play_rad + parts.backlash_rad)
         self._push_to(end)
-        self.kick_nm = self._join(parts.rotor_kg_m2)
+        self.kick_nm = max(self._rebound_nm(), self._join(parts.rotor_kg_m2))
         if end < self.last:  # the corner still stands below the roller
             self._push_off(end)
 
@@ -157,6 +162,14 @@ class _Release:
         self.inertia = together
         return blow
 
+    def _rebound_nm(self) -> float:
+        """Return the torque with which a gear that the cam has thrown ahead meets the motor alone."""
+        parts = self.parts
+        if parts.play_rad == 0.0:
+            return 0.0
+        alone = parts.gear_kg_m2 * parts.rotor_kg_m2 / (parts.gear_kg_m2 + parts.rotor_kg_m2)
+        return (1.0 + parts.rebound) * self.speed * math.sqrt(parts.train_nm_per_rad * alone)
+
     def _fall_to(self, at: int) -> None:
         """Let the leg fall until the roller meets the corner where the cam stands."""
         here, spring = float(self.corner.wind_rad[at]), self.parts.spring
@@ -168,31 +181,32 @@ class _Release:
         """Let the leg push the cam until the roller leaves it or the cam gets to a place (semi-implicit Euler)."""
         if not self.touches or stop <= self.at:
             return
-        parts, part = self.parts, slice(self.at, stop + 1)
-        stiffness, spring, lever = parts.spring.stiffness_nm_per_rad, parts.spring, parts.lever_nm_per_rad
-        roller = self.corner.wind_rad[part].tolist()
-        drive = (2.0 * self.step / self.inertia * self.drive[part]).tolist()
-        weight = (self.weight[part] + stiffness * spring.preload_rad).tolist()
-        mobility = (1.0 / self.leg_inertia[part]).tolist()
-        least, speed, wind, rate = parts.cam_rad_s**2, self.speed, self.wind, self.rate
+        parts, part, step = self.parts, slice(self.at, stop + 1), self.step
+        spring, lever = parts.spring, parts.lever_nm_per_rad
         with_motor = self.inertia > parts.cam_kg_m2 + parts.gear_kg_m2
+        tip = 0.0 if with_motor else parts.roller_kg_m2
+        roller, slope = self.corner.wind_rad[part].tolist(), self.corner.slope[part].tolist()
+        drive, bend = self.drive[part].tolist(), self.corner.bend[part].tolist()
+        moving = (self.inertia + tip * self.corner.slope[part] ** 2).tolist()
+        weight = (self.weight[part] + spring.stiffness_nm_per_rad * spring.preload_rad).tolist()
+        mobility = (1.0 / self.leg_inertia[part]).tolist()
+        least, square, wind, rate = parts.cam_rad_s**2, self.speed**2, self.wind, self.rate
         for number in range(stop - self.at):
             torque = lever * (roller[number] - wind)
-            if torque < 0.0:
+            grown = (moving[number] * square + 2.0 * step * drive[number] * torque) / moving[number + 1]
+            gain = (grown - square) / (2.0 * step)
+            if torque + tip * (bend[number] * square + slope[number] * gain) < 0.0:
                 self.touches = False
                 break
-            gain = drive[number] * torque
             if with_motor:
-                share = parts.rotor_kg_m2 / (2.0 * self.step)
-                self.kick_nm = max(self.kick_nm, share * gain)
-            speed = math.sqrt(max(speed * speed + gain, least))  # the motor goes on pushing
-            time = self.step / speed
-            parts_of_it = math.ceil(time / LONGEST_S)
-            time /= parts_of_it
+                self.kick_nm = max(self.kick_nm, parts.rotor_kg_m2 * gain)
+            square = max(grown, least)  # the motor goes on pushing
+            parts_of_it = math.ceil(step / math.sqrt(square) / LONGEST_S)
+            time = step / math.sqrt(square) / parts_of_it
             for _ in range(parts_of_it):
                 torque = lever * (roller[number] - wind)
-                rate += time * mobility[number] * (torque - stiffness * wind - weight[number])
+                rate += time * mobility[number] * (torque - spring.stiffness_nm_per_rad * wind - weight[number])
                 wind += time * rate
         else:
             number = stop - self.at
-        self.at, self.speed, self.wind, self.rate = self.at + number, speed, wind, rate
+        self.at, self.speed, self.wind, self.rate = self.at + number, math.sqrt(square), wind, rate

@@ -14,6 +14,9 @@ from jumpcad.transforms import Array, turned_about_y
 POSITIONS = 33
 """Leg angles of the table; with four times as many, inertia and slopes change by less than 0.3 %."""
 
+WEAKEST = 0.2
+"""Share of the springs' energy that is left for motion, at least: a leg too weak for its body is refused elsewhere."""
+
 
 @dataclass(frozen=True)
 class ReflectedMass:
@@ -52,7 +55,8 @@ class ReflectedMass:
         inertia, _, _ = self.at(wind)
         weight = np.interp(wind, self.wind_rad, self._weight_j())
         stored = 0.5 * spring.stiffness_nm_per_rad * (wind + 2.0 * spring.preload_rad) * wind
-        free = np.maximum(spring.energy_j + self._weight_j()[-1] - stored - weight, 1e-9 * spring.energy_j)
+        free = spring.energy_j + self._weight_j()[-1] - stored - weight
+        free = np.maximum(free, WEAKEST * spring.energy_j * np.sin(phase) ** 2)
         rate = np.sqrt(2.0 * free / inertia)
         to_rest = float(np.sum(wound * np.sin(phase) / rate)) * math.pi / 2.0 / POSITIONS
         return to_rest + past_rad / float(rate[-1])

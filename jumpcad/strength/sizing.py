@@ -41,9 +41,9 @@ LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 DOG_MM_PER_NMM = 1.45
 """Diameter of the cam's dog over the cube root of the springs' torque, as shafts are sized (Shigley 7-4); judgement:
 the jaws of all templates then bear the blow at the end of their play."""
-LEVER_MM_PER_NMM = 1.1
-"""Height of the lever's root over the same root, at least; judgement: what bends the lever drives the released cam, and
-the gear motors of all templates then bear its blow."""
+LEVER_MM_PER_ROOT_NMM = 0.385
+"""Height of the lever's root over the square root of the torque, as of bars for strength, at least; judgement: what
+bends the lever drives the released cam, and with this the gear motors of all templates bear its blow."""
 DOG_FACETS_MM = 0.05
 """What the corners and sides of two circles take from a jaw between them."""
 GROWTH_STEP = 1.1
@@ -135,13 +135,12 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
     toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
     rail_root = _in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
-    cube_root = torque ** (1.0 / 3.0)
     return Sections(
         thickness_mm=thickness,
         leg_root_mm=leg_root,
         leg_tip_mm=leg_tip,
         front_mm=growth.front * HEIGHT_MIN_MM,
-        lever_root_mm=_in_hundredths(growth.lever * max(root, LEVER_MM_PER_NMM * cube_root)),
+        lever_root_mm=_in_hundredths(growth.lever * max(root, LEVER_MM_PER_ROOT_NMM * math.sqrt(torque))),
         eye_radius_mm=eye,
         lug_thickness_mm=lug,
         foot_depth_mm=depth,
@@ -150,7 +149,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         toe_width_mm=TOE_WIDTH_MM,
         toe_root_mm=toe_root,
         toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
-        dog_mm=_in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * cube_root)),
+        dog_mm=_in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
     )
 
 

@@ -132,6 +132,7 @@ class ReleaseTable(TomlTable):
     friction: Annotated[float, Field(ge=0, le=1)]
     rotor_kg_m2: Annotated[tuple[SmallPositive, SmallPositive], Field(strict=False)]
     backlash_deg: Annotated[tuple[Backlash, Backlash], Field(strict=False)]
+    rebound: Annotated[float, Field(ge=0, le=1)]
     train_nm_per_rad: Positive
     energy_ratio_min: Share
 

@@ -25,8 +25,6 @@ DAMPING = 0.2
 """Of every contact, as a share of the critical one: a rebound with about half of the speed."""
 CONTACT_N_PER_M = 5e6
 """Of the roller on the cam; a hundredth of a millimetre at 50 N."""
-TIP_G = 4.0
-"""Roller 623, its screw, nut and washer, and a quarter of the lever (Rayleigh, a cantilever: 33/140)."""
 G = 9.81
 
 
@@ -235,7 +233,7 @@ class Contact:
             math.radians(motor["backlash_deg"]),
         )
         arm_m, lift = self.lever_mm / 1000.0, self._end_of_lift(wound)
-        tip_inertia = TIP_G / 1000.0 * arm_m**2
+        tip_inertia = motor["roller_kg_m2"]
         masses = np.array([self.cam_kg_m2, motor["gear_kg_m2"], motor["rotor_kg_m2"]])
         roller = self.wind_at(lift)
         weight = self.leg.at(roller)[2]
