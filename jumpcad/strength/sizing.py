@@ -41,9 +41,9 @@ LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 DOG_MM_PER_NMM = 1.45
 """Diameter of the cam's dog over the cube root of the springs' torque, as shafts are sized (Shigley 7-4); judgement:
 the jaws of all templates then bear the blow at the end of their play."""
-LEVER_MM_PER_ROOT_NMM = 0.385
-"""Height of the lever's root over the square root of the torque, as of bars for strength, at least; judgement: what
-bends the lever drives the released cam, and with this the gear motors of all templates bear its blow."""
+LEVER_MORE = 1.47
+"""Height of the lever's root over that which bears its bending; judgement: what bends the lever drives the released
+cam, and with this the gear motors of all templates bear its blow."""
 DOG_FACETS_MM = 0.05
 """What the corners and sides of two circles take from a jaw between them."""
 GROWTH_STEP = 1.1
@@ -125,7 +125,8 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     lug = growth.lug * LUG_MM
     torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
     thickness = growth.thickness * max(THICKNESS_MM if torque < THICK_FROM_NMM else THICK_MM, hub_width_mm)
-    root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, height_for_mm(torque, thickness, allowable, shell))
+    bending = height_for_mm(torque, thickness, allowable, shell)
+    root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, bending)
     stiff = _stiff_mm(design, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
     leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
@@ -140,7 +141,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         leg_root_mm=leg_root,
         leg_tip_mm=leg_tip,
         front_mm=growth.front * HEIGHT_MIN_MM,
-        lever_root_mm=_in_hundredths(growth.lever * max(root, LEVER_MM_PER_ROOT_NMM * math.sqrt(torque))),
+        lever_root_mm=_in_hundredths(growth.lever * max(root, LEVER_MORE * bending)),
         eye_radius_mm=eye,
         lug_thickness_mm=lug,
         foot_depth_mm=depth,
