@@ -104,7 +104,9 @@ def test_pivots_pins_and_axles_are_where_the_design_says() -> None:
         assert math.dist(layout.hub_mm, layout.front_mm) == pytest.approx(layout.design.l1_mm), name
         assert math.dist(layout.spring_pin_mm, layout.hub_mm) == pytest.approx(layout.drive.spring.pin_radius_mm)
         assert layout.spring_pin_mm[1] > layout.hub_mm[1]
-        assert set(layout.axles) == {"leg", "front", "cam"} | ({"idler"} if name == "geared" else set())
+        assert set(layout.axles) == {"leg", "front", "cam"} | (
+            {"idler"} if len(layout.drive.train.stages) == 2 else set()
+        )
         assert layout.tray_mm[1] >= 0  # everything bought sits above the line of the pivots
         assert all(place[1] >= 0 for place in layout.standoffs_mm)
 
