@@ -3,9 +3,10 @@
 Reads a bundle's meshes, URDF, loop.json and manifest. The cam is the outline of its mesh, the roller a circle on a
 lever that bends, the leg a four-bar whose foot stands on the ground; between them elastic contacts. The dog's play is
 measured on the jaws of the meshes. Cam, gear and rotor have a moment of inertia each; flanks of dog and gearhead are
-springs with damping. From the manifest come only figures that no mesh has: the assumed motors, friction, stiffnesses.
+springs with damping. From the manifest come figures that no mesh has: inertias of gear, rotor and roller, friction,
+stiffnesses.
 
-Unlike the model in jumpcad/drive it steps in time, and has mass in roller and lever's end, rebound, and hops.
+Unlike the model in jumpcad/drive it steps in time, with rebound and hops in every contact.
 """
 
 import json
