@@ -51,6 +51,11 @@ STANDOFF_PAD_MM = 9.0
 LEVER_EYE_RADIUS_MM = 4.5
 """Of the lever's eye for the roller's screw: a washer of 7 mm (ISO 7089 M3) and an edge of 1 mm."""
 
+DOG_PLAY_MIN_DEG = 12.0
+"""Least free play of the cam's dog. With 1 to 8° the cam gains speed and meets the play's end with the roller still on
+its corner, which is worse than none (contact simulations of three designs: 6 to 8° with a sharp corner, 8 to 11° with
+one rounded by 0.8 mm); judgement above that."""
+
 MESH_FOLDER = "meshes"
 """Folder of the meshes beside a URDF file; MJCF and SDF files see it as `MESHES_FROM_BESIDE`."""
 MESHES_FROM_BESIDE = f"../urdf/{MESH_FOLDER}"

@@ -4,6 +4,7 @@ import os
 import re
 from dataclasses import dataclass
 
+from jumpcad.drive.release import Release
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.layout.layout import Layout
@@ -21,13 +22,15 @@ LONGEST_NAME = 200
 class Robot(Mechanism):
     """One printed robot; its bodies have the mass and inertia of its parts.
 
-    `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with.
+    `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with;
+    `release` is what the springs keep when the roller leaves the cam.
     """
 
     parts: tuple[Part, ...]
     hardware: tuple[BoughtPart, ...]
     workshop: Workshop
     layout: Layout
+    release: Release
 
 
 def require_name(name: str) -> None:

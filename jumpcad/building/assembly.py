@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from jumpcad.building.releasing import release_of
 from jumpcad.building.settle import settle
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
@@ -44,10 +45,12 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
     hardware = tuple(shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought))
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
     joints, loop, _ = five_bar(layout.linkage, (-design.compression_rad, 0.0), spring.peak_torque_nm)
+    bodies = _bodies(layout, parts, hardware)
+    release = release_of(layout, workshop, holes, parts, hardware, bodies, spring)
     return Robot(
         name=name,
         design=design,
-        bodies=_bodies(layout, parts, hardware),
+        bodies=bodies,
         joints=joints,
         loop=loop,
         spring=spring,
@@ -57,6 +60,8 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
         hardware=hardware,
         workshop=workshop,
         layout=layout,
+        release=release,
+        roller_off=release.off,
     )
 
 

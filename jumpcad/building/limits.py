@@ -5,6 +5,7 @@ import math
 from jumpcad.catalogue import Bearing
 from jumpcad.dimensions import CLEAR_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
+from jumpcad.drive.release import ReleaseLimits
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.fatigue import spring_share
@@ -28,6 +29,7 @@ def drive_limits(
         cam=_cam_limits(workshop, roller, sections),
         train=_train_limits(workshop, sections),
         motors=workshop.bought.motors,
+        dog_mm=sections.dog_mm,
         stock_spring=workshop.stock_spring,
         preload_rad=math.radians(workshop.spring.preload_deg),
     )
@@ -49,15 +51,16 @@ def _spring_limits(
 
 
 def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamLimits:
-    """Return the limits of the cam: its roller, the lever's eye beside its axle, and a wall around its key."""
+    """Return the limits of the cam: its roller, the lever's eye beside its axle, and its dog."""
     lever_eye = max(LEVER_EYE_RADIUS_MM, sections.lever_root_mm / 2.0)
     return CamLimits(
         roller_radius_mm=roller.outer_mm / 2.0,
         roller_load_n=roller.static_load_n,
         cam_width_mm=roller.width_mm,
         gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
-        core_radius_mm=sections.key_mm / math.sqrt(3.0) + workshop.fits.wall_min_mm,
+        core_radius_mm=sections.dog_mm / 2.0,
         modulus_mpa=workshop.material("gears").modulus_mpa,
+        play_rad=workshop.release.play_rad,
     )
 
 
@@ -73,5 +76,22 @@ def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
         tip_min_mm=workshop.process.line_width_mm,
         pinion_root_min_mm=workshop.bought.axle_mm / 2.0 + fits.sliding_mm + fits.wall_mm,
         shaft_wall_mm=fits.press_mm + fits.wall_mm,
-        cam_gear_root_min_mm=(sections.key_mm + 2.0 * fits.press_mm) / math.sqrt(3.0) + fits.wall_mm,
+        cam_gear_root_min_mm=sections.dog_mm / 2.0 + fits.sliding_mm + fits.wall_mm,
+    )
+
+
+def release_limits(workshop: Workshop) -> ReleaseLimits:
+    """Return the limits and assumptions of the release in a workshop."""
+    table, safety = workshop.release, workshop.safety
+    low, high = table.backlash_deg
+    return ReleaseLimits(
+        energy_ratio_min=table.energy_ratio_min,
+        motor_nm=safety.motor_torque_max_nm,
+        teeth_mpa=workshop.material("gears").strength_in_plane_mpa / safety.strength_factor,
+        rounding_mm=table.corner_radius_mm,
+        friction=table.friction,
+        rotor_kg_m2=table.rotor_kg_m2,
+        backlash_rad=(math.radians(low), math.radians(high)),
+        rebound=table.rebound,
+        train_nm_per_rad=table.train_nm_per_rad,
     )

@@ -5,17 +5,23 @@ bearing. The lightest bearing is tried first, then the next that carries those f
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
+
+import numpy as np
 
 from jumpcad.building.limits import drive_limits
 from jumpcad.catalogue import Bearing
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive, DriveLimits, synthesise
+from jumpcad.drive.cam_limits import OVERSHOOT_RAD
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
+from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.bearings import (
     allowed_n,
@@ -26,7 +32,7 @@ from jumpcad.strength.bearings import (
     loaded_forces_n,
     roller_bearing,
 )
-from jumpcad.strength.sizing import Growth, Sections, sections
+from jumpcad.strength.sizing import RESERVE, TYPICAL_BODY, Growth, Sections, sections
 from jumpcad.workshop import Workshop
 
 
@@ -56,6 +62,8 @@ def settle(
     """
     linkage, roller = Linkage(design), roller_bearing(workshop)
     bearings = hub_bearings(workshop)
+    springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
+    falls_s = fall_s(linkage, springs)
 
     @cache
     def drive_within(limits: DriveLimits) -> Drive:
@@ -64,7 +72,8 @@ def settle(
     def with_bearing(bearing: Bearing | None) -> Settled:
         sizes = sections(linkage, workshop, hub_width_mm(bearing), growth)
         holes = HoleSizes.of(workshop, bearing)
-        drive = drive_within(drive_limits(workshop, roller, sizes, holes, plate_pins_rad))
+        limits = drive_limits(workshop, roller, sizes, holes, plate_pins_rad)
+        drive = drive_within(replace(limits, fall_s=falls_s))
         return Settled(linkage, sizes, holes, drive, roller)
 
     number = first_guess(bearings, design, workshop)
@@ -78,6 +87,17 @@ def settle(
             _require_hub_room(settled)
             return settled
         number = stronger
+
+
+def fall_s(linkage: Linkage, spring: Spring) -> float:
+    """Return how long the leg falls with the body's usual mass, with a reserve (s)."""
+    body, still = TYPICAL_BODY, np.zeros((3, 3))
+    inertia = still.copy()
+    inertia[1, 1] = body.mass_kg * (body.gyration_mm / 1000.0) ** 2
+    com = np.array([body.com_mm[0], 0.0, body.com_mm[1]]) / 1000.0
+    bodies = {BODY: Body(BODY, body.mass_kg, com, inertia)}
+    bodies |= {name: Body(name, 0.0, np.zeros(3), still) for name in (MAIN_LEG, FRONT_LINK)}
+    return RESERVE * reflected_mass(bodies, linkage).push_off_s(spring, OVERSHOOT_RAD)
 
 
 def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:

@@ -13,6 +13,7 @@ from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
+from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.exporters.registry import Exporter, Files, chosen
@@ -76,5 +77,5 @@ def _facts(robot: Robot) -> dict[str, Any]:
             }
             for name, body in robot.bodies.items()
         },
-        "drive": {"springs": spring_facts(robot)},
+        "drive": {"springs": spring_facts(robot), "release": release_facts(robot.release)},
     }

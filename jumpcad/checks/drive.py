@@ -1,4 +1,4 @@
-"""Spring, cam, gears and motor: the limits of their synthesis as findings."""
+"""Spring, cam, gears and motor: the limits of their synthesis, and those of the release, as findings."""
 
 from dataclasses import replace
 
@@ -9,8 +9,8 @@ ROUND_OFF = 1e-6
 
 
 def drive_findings(robot: Robot) -> list[Finding]:
-    """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*` and `motor_*` by what they check."""
-    return [_judged(found) for found in robot.layout.drive.findings]
+    """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*`, `motor_*`, `release_*` by what they limit."""
+    return [_judged(found) for found in (*robot.layout.drive.findings, *robot.release.findings)]
 
 
 def _judged(found: Finding) -> Finding:

@@ -59,11 +59,15 @@ class Component:
 
 @dataclass(frozen=True)
 class Moment:
-    """One position of the mechanism: its name, leg angle and cam angle (rad)."""
+    """One position of the mechanism: its name, leg angle and cam angle (rad).
+
+    `ahead_rad` is how far the cam has run ahead of its gear, which stands at `cam_rad`.
+    """
 
     label: str
     leg_rad: float
     cam_rad: float
+    ahead_rad: float = 0.0
 
 
 def components(robot: Robot) -> list[Component]:
@@ -77,7 +81,7 @@ def components(robot: Robot) -> list[Component]:
 
 
 def moments(layout: Layout) -> list[Moment]:
-    """Return the positions that are checked: the cam's lift, and the roller's drop."""
+    """Return the positions that are checked: the cam's lift, and the roller's drop, at last with the cam run ahead."""
     cam, wound = layout.drive.cam, layout.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [
@@ -87,7 +91,13 @@ def moments(layout: Layout) -> list[Moment]:
     falls = np.linspace(wound, 0.0, DROP_POSITIONS)
     free = float(cam.wind_rad(cam.free_rad - 1e-6))
     drop = [Moment(f"dropping, at {math.degrees(w):.1f}°", -float(w), cam.free_rad) for w in falls if w <= free]
-    return winding + drop
+    play = layout.drive.dog.play_rad
+    ahead = [
+        Moment(f"dropping, the cam ahead, at {math.degrees(w):.1f}°", -float(w), cam.law.lift_rad, play)
+        for w in falls[:: len(falls) - 1]
+        if play > 0.0
+    ]
+    return winding + drop + ahead
 
 
 def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
@@ -157,7 +167,8 @@ def pose_of(piece: Component, layout: Layout, linkage: Linkage, moment: Moment) 
     T_world_piece = pose_about_y(angle, origin) @ piece.T_body_part
     if piece.name not in TURNING:
         return T_world_piece
-    centre, turn = _train_turn(piece.name, layout, moment.cam_rad)
+    ahead = moment.ahead_rad if piece.name == "cam" else 0.0
+    centre, turn = _train_turn(piece.name, layout, moment.cam_rad + ahead)
     return pose_about_y(turn, centre) @ pose_about_y(0.0, -centre) @ T_world_piece
 
 

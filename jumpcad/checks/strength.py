@@ -15,11 +15,12 @@ import numpy as np
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.checks.steel import steel_findings
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
+from jumpcad.drive.dog import JAWS
 from jumpcad.findings import Finding, at_most, limit
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
 from jumpcad.robot import Robot
 from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm, toe_reach_mm
-from jumpcad.strength.sizing import leg_flex_share
+from jumpcad.strength.sizing import dog_inside_mm, leg_flex_share
 from jumpcad.strength.stress import (
     STATIONS,
     VON_MISES,
@@ -28,6 +29,7 @@ from jumpcad.strength.stress import (
     bored_stress_mpa,
     buckling_load_n,
     eye_stress_mpa,
+    jaw_stress_mpa,
     tapered_stress_mpa,
     tube_shear_mpa,
 )
@@ -166,7 +168,7 @@ def _sideways(case: LoadCase) -> Iterator[Finding]:
 
 
 def _seats(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of the plates around axles and pins, and of the cam's key."""
+    """Yield the findings of the plates around axles and pins, and of the cam's dog: loaded, and hit by its far end."""
     safety, body = case.workshop.safety, case.workshop.material("body")
     arms, cam = case.wound_forces_n
     worst = max(float(np.linalg.norm(force)) for force in (cam - arms[1], cam, arms[1])) / 2.0
@@ -174,11 +176,14 @@ def _seats(case: LoadCase) -> Iterator[Finding]:
     allowable = body.strength_in_plane_mpa / safety.strength_factor
     yield stress_finding("plate_seat", "plates under axles and pins", stress, allowable, "raise body.plate_mm", "plate")
     gears = case.workshop.material("gears")
-    torque = 1000.0 * case.layout.drive.cam.peak_torque_nm
-    bore = case.holes.running(case.layout.axle_mm)
-    stress = VON_MISES * tube_shear_mpa(torque, case.layout.sections.key_mm, bore)
+    dog, layout = case.layout.drive.dog, case.layout
+    torque = 1000.0 * max(layout.drive.cam.peak_torque_nm, case.robot.release.blow_nm)
+    inside = dog_inside_mm(case.holes.fits, layout.axle_mm)
+    length = layout.lateral.gears[0][1] - layout.lateral.gears[0][0]
+    jaw = jaw_stress_mpa(torque, dog.jaw_rad, JAWS, inside, dog.outer_mm, length)
+    boss = VON_MISES * tube_shear_mpa(torque, dog.outer_mm, case.holes.running(layout.axle_mm))
     allowable = gears.strength_interlayer_mpa / safety.strength_factor
     remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
     yield stress_finding(
-        "cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, remedy, "key"
+        "cam_dog_strength", "the cam's dog, across its layers at release", max(jaw, boss), allowable, remedy, "dog"
     )

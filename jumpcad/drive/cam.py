@@ -214,6 +214,11 @@ class Cam:
         """Cam angle at which the roller has left the corner and falls."""
         return self.geometry.free_rad
 
+    @property
+    def roll_over_rad(self) -> float:
+        """Cam angle from the end of the lift until the roller falls past the corner with the usual clearance."""
+        return self.free_rad - self.law.lift_rad
+
     def wind_rad(self, cam_rad: npt.ArrayLike) -> Array:
         """Return the leg angle (n,) at cam angles (n,) of any turn: lift, over the corner, then at rest."""
         phi = np.mod(np.asarray(cam_rad, dtype=float), 2 * math.pi)

@@ -12,7 +12,11 @@ import numpy as np
 
 from jumpcad.dimensions import GAP_MM
 from jumpcad.drive.cam_law import CamLaw
+from jumpcad.drive.dog import PLAY_MORE_RAD, free_play_rad
 from jumpcad.transforms import Array
+
+OVERSHOOT_RAD = math.radians(5)
+"""How far the leg may swing past rest; judgement."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +31,7 @@ class CamLimits:
         Least distance from the circle of the lever's end to the cam's axis, for the axle that crosses the lever's
         plane.
     core_radius_mm
-        Material around the cam's axis that nothing may cut into (bore and key).
+        Material around the cam's axis that nothing may cut into: the dog's boss stands on it.
     modulus_mpa, poisson, pressure_mpa
         Of the cam's material, against a steel roller. Rolling line contact shakes down to an elastic state up to 4k, k
         the yield strength in shear (Johnson, Contact Mechanics, 9.2): 104 MPa for a printed PETG that yields at 45 MPa
@@ -44,7 +48,9 @@ class CamLimits:
     overshoot_rad
         How far the leg may swing past rest before the roller meets the cam; judgement.
     reserve_rad
-        How far the cam may turn on after the roller's fall while that room stays free; judgement.
+        How far the cam may turn on with the motor while the leg falls and that room stays free; judgement.
+    play_rad
+        Free play of the cam's dog where it is given, instead of the rule in `dog`.
     axis_max_rad, axis_min_rad
         Direction of the cam's axis from the hub, counter-clockwise from forward: farthest back, and
         farthest forward; judgement: above the hub, where links sweep least.
@@ -71,8 +77,9 @@ class CamLimits:
     clearance_mm: float = GAP_MM
     pressure_angle_rad: float = math.radians(45)
     undercut_margin_mm: float = 0.5
-    overshoot_rad: float = math.radians(5)
+    overshoot_rad: float = OVERSHOOT_RAD
     reserve_rad: float = math.radians(8)
+    play_rad: float | None = None
     axis_max_rad: float = math.radians(115)
     axis_min_rad: float = math.radians(60)
     lever_loaded_max_rad: float = math.pi
@@ -104,10 +111,10 @@ LIMITS = (
     Limit("cam_core", "mm", 1.0, "material left around the cam's axis, beyond the core", f"{_WIND_LESS}"),
     Limit("cam_hub", "mm", 1.0, "gap between cam and hub, beyond the clearance",
            f"{_WIND_LESS}, or a thinner hub (hub_radius_mm)"),
-    Limit("cam_drop", "rad", 0.1, "cam angle left between the roller's fall and the next lift",
-           "a shorter lift (lift_rad) or a smaller roller"),
+    Limit("cam_drop", "rad", 0.1, "cam angle left between the roller's fall, with the dog's play, and the next lift",
+           "a smaller bought.roller, or less release.play_deg"),
     Limit("cam_next_lift", "mm", 1.0, "gap between the leg past rest and the next lift, beyond the clearance",
-           "a shorter lift (lift_rad) or a smaller overshoot_rad"),
+           "a smaller bought.roller, or less release.play_deg"),
     Limit("cam_overshoot", "rad", 0.1, "room for the leg past rest, beyond the overshoot", "a smaller overshoot_rad"),
     Limit("cam_place", "rad", 0.1, "range of directions in which the cam finds room around the hub", _WIND_LESS),
 )  # fmt: skip
@@ -152,7 +159,9 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
     free = np.arccos(np.clip(cos_free, -1.0, 1.0))
     corner = np.angle(axis + outer * np.exp(1j * free))
     bottom = lever * np.exp(1j * past) - axis
-    fallen = law.lift_rad + np.mod(np.angle(tip) - free, 2 * math.pi) + limits.reserve_rad
+    over = np.mod(np.angle(tip) - free, 2 * math.pi)
+    ahead = np.maximum(over, free_play_rad(over, limits.play_rad) + PLAY_MORE_RAD)
+    fallen = law.lift_rad + ahead + limits.reserve_rad
     # The edge where the next lift begins, as it stands when the leg swings past rest.
     edge = touched[:, 0] * np.exp(-1j * fallen)
     swung = lever * np.exp(1j * (past + limits.overshoot_rad * np.array([[0.0], [0.5], [1.0]]))) - axis

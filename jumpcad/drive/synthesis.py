@@ -11,6 +11,8 @@ from jumpcad.drive.cam import Cam
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
+from jumpcad.drive.corner import clear_window_rad
+from jumpcad.drive.dog import PLAY_MORE_RAD, Dog, free_play_rad
 from jumpcad.drive.gear_choice import least_tip_mm
 from jumpcad.drive.spring import SpringLimits, TorsionSpring
 from jumpcad.drive.spring_choice import synthesise_spring
@@ -20,6 +22,8 @@ from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 
+LEAST_TURN_RAD = math.radians(1.0)
+"""That the motor may turn the cam on while the leg falls, at least: a window without room is told by its finding."""
 LEAST_COMPRESSION_RAD = math.radians(0.5)
 """Below it the cam's lift is less than a printer can resolve; judgement."""
 LEG_SHARE = 0.5
@@ -37,6 +41,8 @@ class DriveLimits:
     ----------
     motors
         Names in the catalogue; none stands for every one.
+    dog_mm
+        Diameter of the dog between cam and cam gear.
     stock_spring, preload_rad
         The springs from stock, None where they are made to order; how far they are loaded at rest.
     gap_mm
@@ -45,8 +51,8 @@ class DriveLimits:
         Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
         spring, and of an idler's axle beside the cam.
     fall_s
-        Time from release to the leg's swing past rest; the cam turns on meanwhile (judgement: such releases take
-        15 to 30 ms).
+        Time from release to the leg's swing past rest, during which the motor may turn on the cam; the default is that
+        of robots of 0.1 kg with strong springs.
     face_widths_mm
         Face widths of gears, in the order tried: the next one where no gears are strong enough and also fit.
     more_gap_mm
@@ -59,22 +65,24 @@ class DriveLimits:
     cam: CamLimits
     train: TrainLimits
     motors: tuple[str, ...]
+    dog_mm: float
     stock_spring: StockSpring | None = None
     preload_rad: float = 0.0
     gap_mm: float = CLEAR_MM
     axle_radius_mm: float = SPACER_RADIUS_MM
-    fall_s: float = 0.03
+    fall_s: float = 0.05
     face_widths_mm: tuple[float, ...] = FACE_WIDTHS_MM
     more_gap_mm: tuple[float, ...] = (0.0, 2.5, 5.0, 7.5, 10.0)
 
 
 @dataclass(frozen=True)
 class Drive:
-    """Springs, cam and gear train of one design, and every limit that was checked with its margin."""
+    """Springs, cam, dog and gear train of one design, and every limit that was checked with its margin."""
 
     spring: TorsionSpring
     cam: Cam
     train: GearTrain
+    dog: Dog
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -105,9 +113,11 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     for width in limits.face_widths_mm:
         beside = replace(limits, train=replace(limits.train, face_width_mm=width))
         try:
-            return Drive(spring, *_cam_and_train(law, motors, spring.outer_diameter_mm, beside))
+            cam, train = _cam_and_train(law, motors, spring.outer_diameter_mm, beside)
         except NoTrainError as error:  # wider teeth carry more
             refusal = error
+        else:
+            return Drive(spring, cam, train, _dog(cam, limits))
     assert refusal is not None
     raise refusal
 
@@ -162,14 +172,23 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
     return found
 
 
+def _dog(cam: Cam, limits: DriveLimits) -> Dog:
+    """Return the dog of a cam, its play rounded to thousandths of a degree: the cam is known no better."""
+    play = float(free_play_rad(cam.roll_over_rad, limits.cam.play_rad))
+    return Dog(math.radians(round(math.degrees(play), 3)), limits.dog_mm)
+
+
 def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
     """Return the limits of motor and gears beside a cam."""
     room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
     around = cam.outer_radius_mm + limits.gap_mm
+    _, window = clear_window_rad(cam.geometry, cam.profile_mm)
+    play = float(free_play_rad(cam.roll_over_rad, limits.cam.play_rad))
+    turn = max(window - play - PLAY_MORE_RAD, LEAST_TURN_RAD)
     return replace(
         limits.train,
         cam_gear_tip_max_mm=min(limits.train.cam_gear_tip_max_mm, room),
         cam_room_mm=max(limits.train.cam_room_mm, around),
         idler_distance_min_mm=max(limits.train.idler_distance_min_mm, around + limits.axle_radius_mm),
-        cam_speed_max_rad_s=min(limits.train.cam_speed_max_rad_s, limits.cam.reserve_rad / limits.fall_s),
+        cam_speed_max_rad_s=min(limits.train.cam_speed_max_rad_s, turn / limits.fall_s),
     )

@@ -51,9 +51,8 @@ class TrainLimits:
     axle_mm
         Radius around the cam's axle that an idler's large gear must leave free: that of its spacer, and the gap.
     cam_speed_max_rad_s
-        Largest speed of the unloaded cam: while the leg falls, it must not bring the next lift under the roller.
-        By default the 8°
-        of the cam's reserve in 30 ms, as in `synthesis`.
+        Of the unloaded cam; judgement. `synthesis` allows less, so that while the leg falls it does not bring the next
+        lift under the roller.
     seconds_per_gram
         Seconds of winding accepted per gram saved; judgement.
     """

@@ -167,10 +167,11 @@ def _hub_obstacles(hub: Array, drive: Drive, lateral: Lateral) -> list[Obstacle]
 
 
 def _cam_obstacles(axis: Array, drive: Drive, lateral: Lateral) -> list[Obstacle]:
-    """Return cam, cam gear and their axle."""
+    """Return cam, cam gear, the dog between them and their axle."""
     wheel = drive.train.stages[-1].wheel
     return [
         disc("cam", axis, drive.cam.outer_radius_mm + CLEAR_MM, lateral.cam),
+        disc("cam's dog", axis, drive.dog.outer_mm / 2.0 + CLEAR_MM, (lateral.cam[1], lateral.gears[0][0])),
         disc("cam gear", axis, wheel.tip_radius_mm + CLEAR_MM, lateral.gears[0]),
         _axle("cam axle", axis, lateral),
     ]

@@ -1,37 +1,47 @@
 """Gears and cam: the drive's profiles made solid and turned so that teeth are in gaps (mm).
 
-The cam is placed as at cam angle 0, springs at rest. Its hexagonal boss reaches through the cam gear and turns
-with it; both run on the cam's dead axle.
+The cam stands as it does at cam angle 0, springs at rest, and the cam gear as it pushes the cam. The cam's jaws stand
+on a boss and reach into pockets of the cam gear, longer than the jaws by the dog's play; both run on the cam's dead
+axle. The boss ends beside the gear and holds it in its plane.
 """
 
 import math
+from collections.abc import Iterable
 from functools import lru_cache
 
 import numpy as np
 
+from jumpcad.dimensions import GAP_MM
+from jumpcad.drive.dog import Dog
 from jumpcad.drive.gears import Gear
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left
-from jumpcad.solids.outline import Point, Region, d_bore, disc, hole, polygon, rectangle, rounded, union
+from jumpcad.solids.outline import Region, d_bore, disc, hole, polygon, rectangle, ring, rounded, union
 from jumpcad.solids.stack import Stack
+from jumpcad.strength.sizing import dog_inside_mm
 from jumpcad.transforms import pose_about_z
 
 WEB_RIM_MM = 3.0
 """Material kept inside the root circle and around the hub of a gear with web holes."""
 WEB_HOLES = 6
+SECTOR_POINTS = 16
+"""On the rim of a sector: twice as far out as what it cuts, so that few are enough."""
 
 
 def cam(layout: Layout, holes: HoleSizes) -> Drawing:
-    """Return the cam with its hexagonal boss."""
+    """Return the cam with its boss and the dog's jaws."""
     centre = layout.cam_axis_mm
     profile = polygon(layout.drive.cam.profile_mm).translate(centre)
     bore = hole(holes.running(layout.axle_mm), centre)
-    y0, y1 = layout.lateral.cam
+    (y0, y1), (gear_y0, gear_y1), dog = layout.lateral.cam, layout.lateral.gears[0], layout.drive.dog
+    shoulder = gear_y0 - GAP_MM / 2.0
+    jaws = ring(dog.outer_mm, dog_inside_mm(holes.fits, layout.axle_mm)) ^ _sectors(dog.cam_jaws_rad, dog.outer_mm)
     slabs = [
         (y0, y1, profile - bore),
-        (y1, layout.lateral.gears[0][1], _hexagon(layout.sections.key_mm, centre) - bore),
+        (y1, shoulder, disc(dog.outer_mm, centre) - bore),
+        (shoulder, gear_y1, jaws.translate(centre)),
     ]
     stack, pose = laid(slabs, "right")
     return Drawing("cam", "gears", holes.chamfered(stack), (Placement(BODY, pose),))
@@ -45,9 +55,8 @@ def gears(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     stages, motor = layout.drive.train.stages, layout.drive.train.motor
     cam_y, motor_y = layout.lateral.gears[0], layout.lateral.gears[-1]
     turns = gear_turns(layout)
-    key_mm = layout.sections.key_mm + 2.0 * holes.fits.press_mm
     shaft_mm = (holes.press(motor.shaft_mm), motor.shaft_flat_mm + 2.0 * holes.fits.press_mm)
-    cam_gear = _cam_gear(stages[-1].wheel, key_mm, holes)
+    cam_gear = _cam_gear(stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes)
     pinion = _motor_pinion(stages[0].pinion, *shaft_mm, holes)
     made = [
         Drawing("cam_gear", "gears", cam_gear, (_placed(cam_y[1], layout.cam_axis_mm, turns["cam_gear"]),)),
@@ -90,8 +99,23 @@ def _placed(top_mm: float, centre_mm: np.ndarray, turn_rad: float) -> Placement:
 
 
 @lru_cache(maxsize=64)
-def _cam_gear(gear: Gear, key_mm: float, holes: HoleSizes) -> Stack:
-    return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, _webbed(gear, _hexagon(key_mm, (0.0, 0.0)), 0.0))]))
+def _cam_gear(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes) -> Stack:
+    """Return the cam gear: a hub on the axle, and around it pockets in which the cam's jaws slide."""
+    play = 2.0 * holes.fits.sliding_mm
+    outer, inner = dog.outer_mm + play, dog_inside_mm(holes.fits, axle_mm) - play
+    around = hole(outer) - disc(inner)
+    region = _webbed(gear, hole(holes.running(axle_mm)), outer / 2.0) - (around ^ _sectors(dog.pockets_rad, outer))
+    return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, region)]))
+
+
+def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:
+    """Return sectors about the origin, counter-clockwise from one angle to the other, that hold a circle's."""
+    made = []
+    for begin, end in ends_rad:
+        angles = np.linspace(begin, end, SECTOR_POINTS)
+        rim = diameter_mm * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        made.append(polygon(np.vstack([np.zeros((1, 2)), rim])))
+    return union(made)
 
 
 @lru_cache(maxsize=64)
@@ -123,9 +147,3 @@ def _webbed(gear: Gear, bore: Region, hub_radius_mm: float) -> Region:
         rectangle((2.0 * rim, WEB_RIM_MM)).rotate(180.0 * index / (WEB_HOLES / 2)) for index in range(WEB_HOLES // 2)
     )
     return region - rounded(disc(2.0 * rim) - disc(2.0 * hub) - spokes, 1.0)
-
-
-def _hexagon(across_flats_mm: float, centre: Point) -> Region:
-    radius = across_flats_mm / math.sqrt(3.0)
-    angles = np.arange(6) * math.pi / 3.0
-    return polygon(np.asarray(centre) + radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1))

@@ -54,9 +54,9 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Cam and gears",
         r"cam|cam_gear|motor_pinion|idler|cam_spacer_.*|idler_spacer_.*",
-        "On the cam axle go spacer, cam and, on the cam's hexagon, the cam gear; the roller lies at the foot of the "
-        "cam's drop. Press the pinion onto the motor's shaft, flat to flat. Turn the cam once by hand: the leg winds "
-        "and lets go.",
+        "On the cam axle go spacer, cam and, over the cam's jaws, the cam gear; the roller lies at the foot of the "
+        "cam's drop. The cam must turn freely in the gear from jaw to jaw. Press the pinion onto the motor's shaft, "
+        "flat to flat. Turn the cam once by hand: the leg winds and lets go.",
     ),
     (
         "Electronics",

@@ -18,7 +18,7 @@ from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
 from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
 from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm
-from jumpcad.workshop import Workshop
+from jumpcad.workshop import Fits, Workshop
 
 TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
 """The body's mass properties before its parts are known; those of the template designs are within 10 %."""
@@ -40,8 +40,14 @@ RAIL_MIN_MM, TOE_MIN_MM, TOE_TIP_MIN_MM = 3.2, 3.2, 2.4
 """Least heights; judgement: 16 and 12 layers of 0.2 mm."""
 LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 """Height at the tip over that at the root. With half or more, moment over section falls from the root on."""
-KEY_MM = 7.0
-"""Across the flats of the cam's key; judgement: a wall of 1.8 mm around the bore of a 3 mm axle."""
+DOG_MM_PER_NMM = 1.45
+"""Diameter of the cam's dog over the cube root of the springs' torque, as shafts are sized (Shigley 7-4); judgement:
+the jaws of all templates then bear the blow at the end of their play."""
+LEVER_MORE = 1.47
+"""Height of the lever's root over that which bears its bending; judgement: what bends the lever drives the released
+cam, and with this the gear motors of all templates bear its blow."""
+DOG_FACETS_MM = 0.05
+"""What the corners and sides of two circles take from a jaw between them."""
 GROWTH_STEP = 1.1
 """Factor by which a section grows at a time; judgement: few rounds, little mass more than needed."""
 STIFF_ROUNDS, STIFF_MORE = 12, 1.01
@@ -53,8 +59,8 @@ class Sections:
     """Outer dimensions of legs and foot (mm).
 
     `thickness_mm` is across the robot (y); heights are in the plane of motion. `foot_depth_mm` is the distance from
-    the line of ankle and front eye down to the ground. `lug_thickness_mm` is that of lugs and rails, `key_mm` the
-    distance across the flats of the hexagon that turns the cam.
+    the line of ankle and front eye down to the ground. `lug_thickness_mm` is that of lugs and rails, `dog_mm` the
+    diameter of the dog that turns the cam.
     """
 
     thickness_mm: float
@@ -70,7 +76,7 @@ class Sections:
     toe_width_mm: float
     toe_root_mm: float
     toe_tip_height_mm: float
-    key_mm: float
+    dog_mm: float
 
     def leg(self, shell: Shell) -> Beam:
         """Return the main leg's sections from hub to ankle."""
@@ -104,7 +110,7 @@ class Growth:
     toe: float = 1.0
     rail: float = 1.0
     plate: float = 1.0
-    key: float = 1.0
+    dog: float = 1.0
 
     def more(self, weak: Iterable[str]) -> "Growth":
         """Return the factors with those of weak sections one step larger."""
@@ -122,7 +128,8 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
     torque = RESERVE * 1000.0 * springs.peak_torque_nm
     thickness = growth.thickness * max(THICKNESS_MM if torque < THICK_FROM_NMM else THICK_MM, hub_width_mm)
-    root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, height_for_mm(torque, thickness, allowable, shell))
+    bending = height_for_mm(torque, thickness, allowable, shell)
+    root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, bending)
     stiff = _stiff_mm(design, springs, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
     leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
@@ -137,7 +144,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         leg_root_mm=leg_root,
         leg_tip_mm=leg_tip,
         front_mm=growth.front * HEIGHT_MIN_MM,
-        lever_root_mm=_in_hundredths(growth.lever * root),
+        lever_root_mm=_in_hundredths(growth.lever * max(root, LEVER_MORE * bending)),
         eye_radius_mm=eye,
         lug_thickness_mm=lug,
         foot_depth_mm=depth,
@@ -146,7 +153,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         toe_width_mm=TOE_WIDTH_MM,
         toe_root_mm=toe_root,
         toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
-        key_mm=growth.key * KEY_MM,
+        dog_mm=_in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
     )
 
 
@@ -178,6 +185,17 @@ def _stiff_mm(
             break
         root_mm *= STIFF_MORE * (share / share_max) ** (1.0 / 3.0)
     return root_mm
+
+
+def dog_inside_mm(fits: Fits, axle_mm: float) -> float:
+    """Return the inner diameter of the jaws on the cam: the cam gear's hub, a thin wall on its bore, turns inside."""
+    return axle_mm + 2.0 * (fits.sliding_mm + fits.wall_min_mm + fits.sliding_mm)
+
+
+def _least_dog_mm(workshop: Workshop) -> float:
+    """Return the diameter at which the jaws are as thick as the thinnest column that prints."""
+    jaw = workshop.fits.pin_min_mm + DOG_FACETS_MM
+    return dog_inside_mm(workshop.fits, workshop.bought.axle_mm) + 2.0 * jaw
 
 
 def _in_hundredths(height_mm: float) -> float:

@@ -110,6 +110,11 @@ def tapered_energy_nmm(bar: Beam, moment_nmm: float, length_mm: float, modulus_m
     return float(np.trapezoid(density, dx=length_mm / (len(share) - 1)))
 
 
+def tip_stiffness_n_per_mm(bar: Beam, length_mm: float, modulus_mpa: float) -> float:
+    """Return the force over the deflection at the tip of such a cantilever, F²/(2·U) with its bending energy U."""
+    return 1.0 / (2.0 * tapered_energy_nmm(bar, length_mm, length_mm, modulus_mpa))
+
+
 def bored_stress_mpa(moment_nmm: float, width_mm: float, height_mm: float, bore_mm: float) -> float:
     """Return the bending stress of a bar at a cross bore in its middle, 6·M·H/(b·(H³ - d³))."""
     return 6.0 * moment_nmm * height_mm / (width_mm * (height_mm**3 - bore_mm**3))
@@ -133,6 +138,20 @@ def pin_stress_mpa(moment_nmm: float, diameter_mm: float) -> float:
 def tube_shear_mpa(torque_nmm: float, outer_mm: float, bore_mm: float) -> float:
     """Return the shear stress at the outside of a tube under torsion, 16·T·D/(pi·(D⁴ - d⁴))."""
     return 16.0 * torque_nmm * outer_mm / (math.pi * (outer_mm**4 - bore_mm**4))
+
+
+def jaw_stress_mpa(
+    torque_nmm: float, jaw_rad: float, jaws: int, inner_mm: float, outer_mm: float, long_mm: float
+) -> float:
+    """Return the stress at the root of a dog's jaws that share a torque, as the tension that it equals.
+
+    A jaw is a short cantilever along the axle, pushed in the middle of its length at its mean radius: bending
+    6·M/(b·h²) and shear 3·F/(2·b·h), b from inside to outside (diameters), h along the mean circle.
+    """
+    radial, mean = (outer_mm - inner_mm) / 2.0, (outer_mm + inner_mm) / 4.0
+    force, around = torque_nmm / (jaws * mean), mean * jaw_rad
+    bending = 6.0 * force * long_mm / 2.0 / (radial * around**2)
+    return math.hypot(bending, VON_MISES * 1.5 * force / (radial * around))
 
 
 def bar_shear_mpa(torque_nmm: float | Array, width_mm: float | Array, height_mm: float | Array) -> float | Array:

@@ -1,5 +1,6 @@
-"""The tables of a workshop: printer, process, materials, fits, bought parts, body, ground, pins, safety, masses."""
+"""The tables of a workshop: printer, process, materials, fits, bought parts, body, release, ground, safety, masses."""
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -8,6 +9,8 @@ from jumpcad.files import TomlTable
 from jumpcad.files.names import Name, OptionalName, Text
 
 Positive = Annotated[float, Field(gt=0, le=1e4)]
+SmallPositive = Annotated[float, Field(gt=0, le=1e-5)]
+Backlash = Annotated[float, Field(ge=0, le=30)]
 Share = Annotated[float, Field(gt=0, le=1)]
 
 
@@ -150,6 +153,27 @@ class Safety(TomlTable):
     steel_yield_mpa: Positive
     steel_factor: Annotated[float, Field(ge=1, le=20)]
     bearing_factor: Annotated[float, Field(ge=0.4, le=20)]
+
+
+class ReleaseTable(TomlTable):
+    """The dog between cam and cam gear, and what its release is judged with; ranges are (least, largest).
+
+    `play_deg` is the dog's free play, "auto" by the rule in `drive.dog`, 0 a rigid key.
+    """
+
+    play_deg: Literal["auto"] | Annotated[float, Field(ge=0, le=90)]
+    corner_radius_mm: Annotated[float, Field(ge=0, le=3)]
+    friction: Annotated[float, Field(ge=0, le=1)]
+    rotor_kg_m2: Annotated[tuple[SmallPositive, SmallPositive], Field(strict=False)]
+    backlash_deg: Annotated[tuple[Backlash, Backlash], Field(strict=False)]
+    rebound: Annotated[float, Field(ge=0, le=1)]
+    train_nm_per_rad: Positive
+    energy_ratio_min: Share
+
+    @property
+    def play_rad(self) -> float | None:
+        """The fixed play; None where it follows from the cam."""
+        return None if self.play_deg == "auto" else math.radians(self.play_deg)
 
 
 class Masses(TomlTable):

@@ -23,6 +23,7 @@ from jumpcad.catalogue import (
     StockSpring,
     load_catalogue,
 )
+from jumpcad.dimensions import DOG_PLAY_MIN_DEG
 from jumpcad.files import Contradiction, Record, to_toml
 from jumpcad.files.names import Name
 from jumpcad.workshop.tables import (
@@ -36,6 +37,7 @@ from jumpcad.workshop.tables import (
     Positive,
     Printer,
     Process,
+    ReleaseTable,
     Roles,
     Safety,
     SpringTable,
@@ -65,6 +67,7 @@ class Workshop(Record):
     spring: SpringTable
     ground: Ground
     pins: Pins
+    release: ReleaseTable
     safety: Safety
     mass: Masses
     prices_eur: dict[Name, Positive]
@@ -127,6 +130,7 @@ class Workshop(Record):
         yield from _not_ascending(fits, ("press_mm", "sliding_mm", "loose_mm"))
         yield from _not_ascending(fits, ("m2_tap_mm", "m2_clearance_mm"))
         yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
+        yield from _release_contradictions(self.release)
         for role, name in self.roles.model_dump().items():
             if name not in self.materials:
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"
@@ -145,6 +149,18 @@ def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Con
             yield (kind, key, "name"), part.name, "a part has its table's name: leave it out"
         for where, value, reason in part.contradictions():
             yield (kind, key, *where), value, reason
+
+
+def _release_contradictions(release: ReleaseTable) -> Iterator[Contradiction]:
+    """Yield a play that is worse than none, and ranges that end before they begin."""
+    play, least = release.play_deg, DOG_PLAY_MIN_DEG
+    if play != "auto" and 0.0 < play < least:
+        reason = f'meets its end with the roller on the cam\'s corner: use at least {least:g}, 0 (rigid), or "auto"'
+        yield ("release", "play_deg"), play, reason
+    for key in ("rotor_kg_m2", "backlash_deg"):
+        low, high = getattr(release, key)
+        if low > high:
+            yield ("release", key), low, f"must be at most {high:g}, the end of its range"
 
 
 def _not_ascending(fits: Fits, keys: tuple[str, ...]) -> Iterator[Contradiction]:

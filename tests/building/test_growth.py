@@ -12,7 +12,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, at_least, errors
 from jumpcad.robot import Robot
-from jumpcad.strength.sizing import KEY_MM, Growth
+from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import Workshop, load_workshop
 
 
@@ -34,7 +34,7 @@ def test_what_was_sized_to_hold_does_not_grow(monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.parametrize(
     ("shop", "grown"),
     [
-        (workshop(figures={"strength_interlayer_mpa": 4.0}), {"lug_thickness_mm", "key_mm"}),
+        (workshop(figures={"strength_interlayer_mpa": 4.0}), {"lug_thickness_mm", "dog_mm"}),
         (workshop(landing_stop_mm=2.0), {"toe_root_mm", "front_mm", "thickness_mm"}),
         (workshop("PLA", {"strength_in_plane_mpa": 35.0}), {"plate"}),
     ],
@@ -53,11 +53,12 @@ def test_sections_grow_until_the_checks_pass(shop: Workshop, grown: set[str]) ->
 
 
 def test_any_check_can_make_a_section_grow(monkeypatch: pytest.MonkeyPatch) -> None:
-    def wide_key(robot: Robot) -> list[Finding]:
-        return [at_least("key_width", robot.layout.sections.key_mm, 7.5, "mm", "found", "remedy", grows="key")]
+    def wide_dog(robot: Robot) -> list[Finding]:
+        return [at_least("dog_width", robot.layout.sections.dog_mm, 11.7, "mm", "found", "remedy", grows="dog")]
 
-    monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, checks.Check(wide_key, cheap=True)))
-    assert build(load_design("kenan-2.0")).layout.sections.key_mm == pytest.approx(1.1 * KEY_MM)
+    as_sized = build(load_design("kenan-2.0")).layout.sections.dog_mm
+    monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, checks.Check(wide_dog, cheap=True)))
+    assert build(load_design("kenan-2.0")).layout.sections.dog_mm == pytest.approx(1.1 * as_sized)
 
 
 def test_what_finds_no_room_to_grow_stays_and_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

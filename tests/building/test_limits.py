@@ -1,6 +1,5 @@
 """Every figure of a workshop reaches its own limit of the drive."""
 
-import math
 from dataclasses import fields, replace
 from typing import Any
 
@@ -38,8 +37,9 @@ def changed(table: str, **values: Any) -> Workshop:
         ("safety", "gear_efficiency", 0.8, "train", {"pair_efficiency"}),
         ("safety", "strength_factor", 5.0, "train", {"stress_mpa"}),
         ("fits", "backlash_circumferential_mm", 0.3, "train", {"backlash_circumferential_mm"}),
-        ("fits", "press_mm", 0.15, "train", {"cam_gear_root_min_mm", "shaft_wall_mm"}),
-        ("fits", "wall_min_mm", 0.9, "cam", {"core_radius_mm"}),
+        ("fits", "press_mm", 0.15, "train", {"shaft_wall_mm"}),
+        ("fits", "wall_mm", 1.4, "train", {"cam_gear_root_min_mm", "pinion_root_min_mm", "shaft_wall_mm"}),
+        ("release", "play_deg", 30.0, "cam", {"play_rad"}),
         ("fits", "sliding_mm", 0.4, "spring", {"mandrel_min_mm", "pin_radius_min_mm"}),
         ("process", "line_width_mm", 0.6, "train", {"tip_min_mm"}),
     ],
@@ -65,11 +65,11 @@ def test_springs_that_last_longer_are_stressed_less() -> None:
     assert limits(changed("safety", jumps=1e6)).spring.stress_share == pytest.approx(0.5)
 
 
-def test_a_thick_lever_or_key_pushes_the_cam_away() -> None:
+def test_a_thick_lever_or_dog_pushes_the_cam_away() -> None:
     workshop, holes = load_workshop(), HoleSizes.of(load_workshop(), None)
-    thick = drive_limits(workshop, ROLLER, replace(SECTIONS, lever_root_mm=20.0, key_mm=10.0), holes)
+    thick = drive_limits(workshop, ROLLER, replace(SECTIONS, lever_root_mm=20.0, dog_mm=20.0), holes)
     usual = limits(workshop)
     assert thick.cam.gap_min_mm == pytest.approx(usual.cam.gap_min_mm + 10.0 - 4.5)
-    corner = (10.0 - SECTIONS.key_mm) / math.sqrt(3.0)
+    corner = (20.0 - SECTIONS.dog_mm) / 2.0
     assert thick.cam.core_radius_mm == pytest.approx(usual.cam.core_radius_mm + corner)
     assert thick.train.cam_gear_root_min_mm == pytest.approx(usual.train.cam_gear_root_min_mm + corner)

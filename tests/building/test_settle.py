@@ -1,9 +1,11 @@
 """Settled parts agree with each other: the drive fits its sections, the bearing carries the drive's forces."""
 
+from dataclasses import replace
+
 import pytest
 
 from jumpcad.building.limits import drive_limits
-from jumpcad.building.settle import Settled, settle
+from jumpcad.building.settle import Settled, fall_s, settle
 from jumpcad.design import load_design
 from jumpcad.drive import synthesise
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
@@ -30,7 +32,8 @@ def test_settling_again_changes_nothing(name: str, factor: float) -> None:
     settled = settle(design, workshop, Growth())
     sizes = sections(settled.linkage, workshop, hub_width_mm(settled.holes.bearing), Growth())
     assert sizes == settled.sections
-    drive = synthesise(design, drive_limits(workshop, settled.roller, sizes, settled.holes))
+    limits = drive_limits(workshop, settled.roller, sizes, settled.holes)
+    drive = synthesise(design, replace(limits, fall_s=fall_s(settled.linkage)))
     assert drive.spring == settled.drive.spring
     assert drive.train == settled.drive.train
     assert drive.cam.profile_mm.tobytes() == settled.drive.cam.profile_mm.tobytes()

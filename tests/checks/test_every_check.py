@@ -13,9 +13,12 @@ from support.built import LONG_TOES, built, checked
 from support.limits import default_limits
 from support.places import TESTS
 
+from jumpcad.building import build
+from jumpcad.building.releasing import release_of
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks.printability import bed_findings
 from jumpcad.checks.strength import strength_findings
+from jumpcad.design import load_design
 from jumpcad.drive import CamLimits, synthesise
 from jumpcad.drive.cam_limits import LIMITS, ROWS, measure
 from jumpcad.drive.gear_pair import gear_pair
@@ -23,6 +26,7 @@ from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.drive.train import finished_train
 from jumpcad.findings import errors
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 
 USUAL = default_limits()
@@ -89,6 +93,20 @@ def test_gears_and_motor(name: str, tighter: dict[str, Any]) -> None:
     assert finding.margin < 0.0
     usual = finished_train(law, DRIVE.train.motor, (good, good), replace(USUAL.train, cam_speed_max_rad_s=50.0))
     assert all(finding.margin > 0.0 for finding in usual.findings if finding.name == name)
+
+
+def test_release(kenan: Robot) -> None:
+    """A rigid key loses energy and hits the motor; a motor as quick as a fan brings the next lift under the roller."""
+    shop = kenan.workshop
+    rigid = shop.model_copy(update={"release": shop.release.model_copy(update={"play_deg": 0.0})})
+    broken = {finding.name for finding in errors(build(load_design("best-bo"), rigid).release.findings)}
+    assert {"release_energy", "release_kick"} <= broken
+    train = kenan.layout.drive.train
+    quick = replace(train, motor=train.motor.model_copy(update={"no_load_rpm": 10.0 * train.motor.no_load_rpm}))
+    layout = replace(kenan.layout, drive=replace(kenan.layout.drive, train=quick))
+    holes = HoleSizes.of(shop, layout.hub_bearing)
+    found = release_of(layout, shop, holes, kenan.parts, kenan.hardware, kenan.bodies, kenan.spring)
+    assert [finding.name for finding in errors(found.findings)] == ["release_window"]
 
 
 def test_spring_stress() -> None:

@@ -34,7 +34,7 @@ WEAK_LINKS = (
         ("links", {"strength_interlayer_mpa": 0.3}, ("foot_lug_strength",)),
         ("links", {"modulus_mpa": 100.0}, ("leg_flex", "front_link_buckling")),
         ("body", {"strength_in_plane_mpa": 5.0}, ("plate_seat",)),
-        ("gears", {"strength_interlayer_mpa": 0.5}, ("cam_key_strength",)),
+        ("gears", {"strength_interlayer_mpa": 0.5}, ("cam_dog_strength",)),
         ("safety", {"steel_yield_mpa": 5.0},
          ("leg_axle_strength", "cam_axle_strength", "spring_pin_strength", "foot_pin_strength")),
         ("safety", {"steel_factor": 20.0}, ("roller_screw_strength",)),

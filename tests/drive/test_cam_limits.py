@@ -40,7 +40,8 @@ def test_sizes_are_those_of_the_finished_cam(measured: tuple) -> None:
 
 def test_the_drop_ends_before_the_next_lift(measured: tuple) -> None:
     cam, _, margins, _ = measured
-    left = 2.0 * math.pi - cam.free_rad - CAM_LIMITS.reserve_rad
+    """Run ahead by the dog's play, the roll-over and 3°, and 3° more, the cam may turn on by its reserve."""
+    left = 2.0 * math.pi - cam.free_rad - math.radians(6.0) - CAM_LIMITS.reserve_rad
     assert margins["cam_drop"][0] == pytest.approx(left, abs=1e-9)
 
 

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 import shapely.ops
-from support.built import LONG_TOES, built, cut, geared, hole_centres, inscribed_diameter, part, placed
+from support.built import LONG_TOES, built, cut, geared, hole_centres, inscribed_diameter, part, placed, region
 from support.fits import AXLE, MR63_OUTER, N20_FLAT, N20_SHAFT, PRESS, PRESSED, RUNNING, TOLERANCE_MM, measured
 
 from jumpcad.robot import Robot
@@ -54,12 +55,22 @@ def test_cam_and_gears(kenan: Robot) -> None:
     assert measured(kenan, "cam", sum(lateral.cam) / 2.0, layout.cam_axis_mm) == pytest.approx(
         RUNNING, abs=TOLERANCE_MM
     )
-    assert measured(kenan, "cam", y, layout.cam_axis_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
-    key = measured(kenan, "cam_gear", y, layout.cam_axis_mm)
-    boss = placed(kenan, "cam").slice_plane([0.0, y, 0.0], [0.0, 1.0, 0.0])
-    offsets = (boss.vertices[:, [0, 2]] - layout.cam_axis_mm) @ np.array([0.0, 1.0])
-    across_flats = np.ptp(offsets)
-    assert key - across_flats == pytest.approx(2 * PRESS, abs=2 * TOLERANCE_MM)
+    assert measured(kenan, "cam_gear", y, layout.cam_axis_mm) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
+
+
+def test_the_cam_s_jaws_slide_in_the_pockets_of_the_gear(kenan: Robot) -> None:
+    """A sliding fit inside and outside; to the end of the play they touch nothing but the gear's jaws."""
+    layout, y = kenan.layout, sum(kenan.layout.lateral.gears[0]) / 2.0
+    jaws, gear = (
+        shapely.affinity.translate(region(cut(placed(kenan, name), y)), *-layout.cam_axis_mm)
+        for name in ("cam", "cam_gear")
+    )
+    sliding, play = kenan.workshop.fits.sliding_mm, layout.drive.dog.play_rad
+    for turn in (0.1 * play, 0.5 * play, 0.9 * play):
+        ahead = shapely.affinity.rotate(jaws, -turn, (0, 0), use_radians=True)  # clockwise, as the cam turns
+        assert ahead.distance(gear) == pytest.approx(min(sliding, 2.7 * min(turn, play - turn)), abs=0.01)
+    for turn in (-0.02, play + 0.02):
+        assert shapely.affinity.rotate(jaws, -turn, (0, 0), use_radians=True).intersection(gear).area > 0.1
 
 
 @pytest.mark.parametrize("which", ["kenan-2.0", "two pairs"])

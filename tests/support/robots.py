@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 
+from jumpcad.building import build
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
@@ -84,5 +85,5 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
     layout, _ = layout_of(design, workshop)
     return Robot(
         name, design, bodies, capsules.joints, capsules.loop, capsules.spring, capsules.foot_depth_m,
-        parts, hardware, workshop, layout,
+        parts, hardware, workshop, layout, build(design, workshop, name="").release,
     )  # fmt: skip

@@ -1,0 +1,217 @@
+"""What a robot's release keeps of the springs' energy, and how hard it hits the gear motor, in a workshop's ranges.
+
+The dog's far end stops the cam; the gear then takes up the gearhead's backlash and hits the motor. `rolling` has the
+model, `corner` the roller's path. Checked against a contact simulation of the exported meshes (`tests/clients`).
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.drive.corner import clear_window_rad, roll_over
+from jumpcad.drive.dog import PLAY_MORE_RAD
+from jumpcad.drive.motor import free_speed_rad_s
+from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
+from jumpcad.drive.synthesis import Drive
+from jumpcad.findings import Finding, at_least, at_most
+from jumpcad.mechanism.model import RollerOff, Spring
+from jumpcad.mechanism.reflected import ReflectedMass
+
+
+@dataclass(frozen=True)
+class ReleaseLimits:
+    """The limits and assumptions of a release; ranges are (least, largest).
+
+    Attributes
+    ----------
+    energy_ratio_min
+        Least share of the springs' energy that they keep, the lever's bending aside.
+    motor_nm, teeth_mpa
+        Largest torque on the gear motor's output, and largest bending stress of teeth.
+    rounding_mm
+        Of the corner, with which the limits must hold as well as with a sharp one.
+    friction
+        Coefficient between the cam's bore and its axle.
+    rotor_kg_m2, backlash_rad
+        Of the motor's rotor, and of the gearhead at its output.
+    rebound
+        Coefficient of restitution between the jaws.
+    train_nm_per_rad
+        Stiffness of dog, teeth and gearhead together, at the cam.
+    """
+
+    energy_ratio_min: float
+    motor_nm: float
+    teeth_mpa: float
+    rounding_mm: float
+    friction: float
+    rotor_kg_m2: tuple[float, float]
+    backlash_rad: tuple[float, float]
+    rebound: float
+    train_nm_per_rad: float
+
+
+@dataclass(frozen=True)
+class MovingParts:
+    """What the finished parts add to a drive: springs, reflected leg, moments of inertia about their own axes (kg·m²).
+
+    `bore_mm` is the cam's; `lever_n_per_m` the bending stiffness of the lever at the roller, `roller_kg` the mass of
+    the roller, with its screw and the part of the lever that moves with it.
+    """
+
+    spring: Spring
+    leg: ReflectedMass
+    cam_kg_m2: float
+    cam_gear_kg_m2: float
+    pinion_kg_m2: float
+    bore_mm: float
+    lever_n_per_m: float
+    roller_kg: float
+
+
+@dataclass(frozen=True)
+class Release:
+    """The release of one robot.
+
+    Attributes
+    ----------
+    off
+        Where the jump starts: the roller has left the corner as printed.
+    energy_ratio, rounded_ratio
+        What the springs keep, with the leg's motion, over what they held while the lever was bent: corner as printed,
+        and rounded.
+    bending_ratio
+        What they held while the lever was bent, over what they would have held otherwise.
+    blow_nm, kick_nm, kick_limit_nm
+        Largest torque in the dog, at the cam; largest one on the gear motor's output, and what it may be.
+    gear_ratio, push_off_s
+        Motor turns a cam turn; from release until the leg is as far past rest as it may swing.
+    free_play_rad, roll_over_rad, window_rad
+        Of the dog; cam angle from the end of the lift until the roller can fall freely; between which it can.
+    """
+
+    off: RollerOff
+    energy_ratio: float
+    rounded_ratio: float
+    bending_ratio: float
+    blow_nm: float
+    kick_nm: float
+    kick_limit_nm: float
+    gear_ratio: float
+    push_off_s: float
+    free_play_rad: float
+    roll_over_rad: float
+    window_rad: tuple[float, float]
+    parts: tuple[ReleaseParts, ...]
+    findings: tuple[Finding, ...]
+
+
+def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release:
+    """Return the release of a drive with its finished parts: the worst of sharp and rounded corner and of both motors.
+
+    Heavy rotors come with much backlash and light ones with little, which are the extremes where the play is too
+    small; with enough of it, both give the same.
+    """
+    geometry, law, train = drive.cam.geometry, drive.cam.law, drive.train
+    cases = tuple(
+        _parts(drive, moving, limits, *motor) for motor in zip(limits.rotor_kg_m2, limits.backlash_rad, strict=True)
+    )
+    sharp = roll_over(geometry)
+    wound = float(sharp.wind_rad.max())
+    printed = [roll(sharp, case, wound) for case in cases]
+    corner = roll_over(geometry, limits.rounding_mm)
+    rounded = [roll(corner, case, wound) for case in cases]
+    first, second = (min(each, key=lambda rolled: rolled.kept_j) for each in (printed, rounded))
+    ratios = first.kept_j / first.held_j, second.kept_j / second.held_j
+    kick = max(rolled.kick_nm for rolled in printed + rounded) / train.ratio
+    push_off = moving.leg.push_off_s(moving.spring, geometry.overshoot_rad)
+    allowed, window = _kick_limit_nm(drive, limits), clear_window_rad(geometry, drive.cam.profile_mm)
+    return Release(
+        off=_roller_off(first, moving.spring),
+        energy_ratio=ratios[0],
+        rounded_ratio=ratios[1],
+        bending_ratio=first.held_j / moving.spring.stored_j(-law.compression_rad),
+        blow_nm=max(rolled.blow_nm for rolled in printed + rounded),
+        kick_nm=kick,
+        kick_limit_nm=allowed,
+        gear_ratio=train.ratio,
+        push_off_s=push_off,
+        free_play_rad=drive.dog.play_rad,
+        roll_over_rad=drive.cam.roll_over_rad,
+        window_rad=window,
+        parts=cases,
+        findings=_findings(drive, limits, min(ratios), kick, allowed, window[1], push_off),
+    )
+
+
+def _parts(
+    drive: Drive, moving: MovingParts, limits: ReleaseLimits, rotor_kg_m2: float, backlash_rad: float
+) -> ReleaseParts:
+    """Return what takes part in a release with one motor, at the cam."""
+    train, lever_m = drive.train, drive.cam.lever_length_mm / 1000.0
+    return ReleaseParts(
+        spring=moving.spring,
+        leg=moving.leg,
+        cam_kg_m2=moving.cam_kg_m2,
+        gear_kg_m2=moving.cam_gear_kg_m2 + moving.pinion_kg_m2 * train.ratio**2,
+        rotor_kg_m2=rotor_kg_m2 * (train.motor.ratio * train.ratio) ** 2,
+        play_rad=drive.dog.play_rad,
+        backlash_rad=backlash_rad / train.ratio,
+        cam_rad_s=free_speed_rad_s(train.motor) / train.ratio,
+        rebound=limits.rebound,
+        friction_mm=limits.friction * moving.bore_mm / 2.0,
+        train_nm_per_rad=limits.train_nm_per_rad,
+        lever_nm_per_rad=moving.lever_n_per_m * lever_m**2,
+        roller_kg_m2=moving.roller_kg * lever_m**2,
+    )
+
+
+def _roller_off(rolled: Rolled, spring: Spring) -> RollerOff:
+    """Return where the jump starts; the energy that bends the lever counts as lost."""
+    ratio = rolled.kept_j / spring.energy_j
+    return RollerOff(round(-rolled.wind_rad, 9), round(-rolled.wind_rad_s, 6), round(ratio, 9))
+
+
+def _kick_limit_nm(drive: Drive, limits: ReleaseLimits) -> float:
+    """Return the largest torque on the gear motor's output: what its gearhead and every printed pinion bear."""
+    allowed, geared = limits.motor_nm, 1.0
+    for pair in drive.train.stages:
+        allowed = min(allowed, limits.teeth_mpa / pair.pinion.lewis_stress_mpa(geared))
+        geared *= pair.ratio
+    return allowed
+
+
+def _findings(
+    drive: Drive,
+    limits: ReleaseLimits,
+    ratio: float,
+    kick_nm: float,
+    allowed_nm: float,
+    window_rad: float,
+    push_off_s: float,
+) -> tuple[Finding, ...]:
+    play, over = math.degrees(drive.dog.play_rad), math.degrees(drive.cam.roll_over_rad)
+    turned = free_speed_rad_s(drive.train.motor) / drive.train.ratio * push_off_s
+    needed, window = play + math.degrees(turned + PLAY_MORE_RAD), math.degrees(np.nan_to_num(window_rad))
+    more_play = f'release.play_deg = "auto" or more than {over + 3.0:.0f}, or a smaller bought.roller'
+    return (
+        at_least(
+            "release_energy", 100.0 * ratio, 100.0 * limits.energy_ratio_min, "%",
+            f"the springs keep {100.0 * ratio:.1f} % of their energy while the roller leaves the cam; "
+            f"{100.0 * limits.energy_ratio_min:g} % are needed (play {play:.0f}°, roll-over {over:.0f}°)",
+            more_play,
+        ),
+        at_most(
+            "release_kick", 1000.0 * kick_nm, 1000.0 * allowed_nm, "mN·m",
+            f"the released cam hits the gear motor with {1000.0 * kick_nm:.0f} mN·m; {1000.0 * allowed_nm:.0f} mN·m "
+            "are allowed",
+            f"a stiffer lever, or {more_play}", grows="lever",
+        ),
+        at_most(
+            "release_window", needed, window, "°",
+            f"the cam may run {needed:.0f}° past the end of its lift while the leg falls; the roller's way is free up "
+            f"to {window:.0f}°",
+            "a slower motor, less release.play_deg, or a smaller bought.roller",
+        ),
+    )  # fmt: skip

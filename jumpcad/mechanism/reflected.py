@@ -1,0 +1,98 @@
+"""The robot as its leg joint feels it while the foot stands flat on the ground without slipping (SI units)."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
+from jumpcad.transforms import Array, turned_about_y
+
+POSITIONS = 33
+"""Leg angles of the table; with four times as many, inertia and slopes change by less than 0.3 %."""
+
+WEAKEST = 0.2
+"""Share of the springs' energy that is left for motion, at least: a leg too weak for its body is refused elsewhere."""
+
+
+@dataclass(frozen=True)
+class ReflectedMass:
+    """What moves with the leg, at wind angles (n,) that grow from rest to the loaded springs.
+
+    Attributes
+    ----------
+    wind_rad
+        Angles (n,), evenly spaced.
+    inertia_kg_m2, inertia_slope
+        Reflected inertia I (n,), of which half times the wind rate squared is the kinetic energy; its slope by the
+        wind angle.
+    weight_nm
+        Slope (n,) of the potential energy of weight by the wind angle: negative where the body sinks.
+    """
+
+    wind_rad: Array
+    inertia_kg_m2: Array
+    inertia_slope: Array
+    weight_nm: Array
+
+    def at(self, wind_rad: Array) -> tuple[Array, Array, Array]:
+        """Return I, its slope and the weight's torque (n,) at wind angles (n,); constant beyond the table."""
+        columns = (self.inertia_kg_m2, self.inertia_slope, self.weight_nm)
+        inertia, slope, weight = (np.interp(wind_rad, self.wind_rad, column) for column in columns)
+        return inertia, slope, weight
+
+    def push_off_s(self, spring: Spring, past_rad: float) -> float:
+        """Return the time from rest with loaded springs until the leg is an angle past rest, foot on the ground.
+
+        From the energy, dt = dw/sqrt(2·(E(wound) - E(w))/I); with w = wound·cos(s) the integrand is finite.
+        """
+        wound = spring.wind_rad
+        phase = (np.arange(POSITIONS) + 0.5) * (math.pi / 2.0 / POSITIONS)
+        wind = wound * np.cos(phase)
+        inertia, _, _ = self.at(wind)
+        weight = np.interp(wind, self.wind_rad, self._weight_j())
+        stored = 0.5 * spring.stiffness_nm_per_rad * (wind + 2.0 * spring.preload_rad) * wind
+        free = spring.energy_j + self._weight_j()[-1] - stored - weight
+        free = np.maximum(free, WEAKEST * spring.energy_j * np.sin(phase) ** 2)
+        rate = np.sqrt(2.0 * free / inertia)
+        to_rest = float(np.sum(wound * np.sin(phase) / rate)) * math.pi / 2.0 / POSITIONS
+        return to_rest + past_rad / float(rate[-1])
+
+    def _weight_j(self) -> Array:
+        """Return the potential energy of weight (n,), that at rest 0."""
+        step = self.wind_rad[1] - self.wind_rad[0]
+        mean = 0.5 * step * (self.weight_nm[1:] + self.weight_nm[:-1])
+        return np.concatenate([[0.0], np.add.accumulate(mean)])
+
+
+def reflected_mass(bodies: Mapping[str, Body], linkage: Linkage) -> ReflectedMass:
+    """Return what body, main leg and front link are to the leg joint; the foot stands still.
+
+    I = sum of m·|dc/dw|² + I_y·(dt/dw)² over the bodies, c and t their centres of mass and turns seen from the foot
+    (e.g. Norton, Design of Machinery, 10.12: equivalent inertia from equal kinetic energy).
+    """
+    leg = np.linspace(*linkage.travel_rad, POSITIONS)
+    pose = linkage.pose(leg)
+    still = np.zeros_like(pose.ankle_mm)
+    places = (
+        (bodies[BODY], still, 0.0 * leg),
+        (bodies[MAIN_LEG], still + linkage.back_pivot_mm, linkage.rest_rad + pose.leg_rad),
+        (bodies[FRONT_LINK], still + linkage.front_pivot_mm, linkage.rest_rad + pose.front_rad),
+    )
+
+    def by_wind(values: Array) -> Array:
+        return -np.gradient(values, leg, axis=0, edge_order=2)
+
+    inertia, height = np.zeros_like(leg), np.zeros_like(leg)
+    for body, origin_mm, turn in places:
+        com_mm = origin_mm + turned_about_y(1000.0 * body.com_m[[0, 2]] + still, turn)
+        seen = turned_about_y(com_mm - pose.ankle_mm, -pose.foot_rad) / 1000.0
+        speed = by_wind(seen)
+        spin = by_wind(turn - pose.foot_rad)
+        inertia = inertia + body.mass_kg * (speed**2).sum(axis=1) + body.inertia_kg_m2[1, 1] * spin**2
+        height = height + body.mass_kg * seen[:, 1]
+    columns = (-leg, inertia, by_wind(inertia), GRAVITY_M_S2 * by_wind(height))
+    return ReflectedMass(*(column[::-1].copy() for column in columns))

@@ -1,0 +1,64 @@
+"""The roller on the cam's corner, and the window in which its way is free, against shapely's distances."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from shapely import affinity
+from support.built import built
+
+from jumpcad.drive.cam import CamGeometry
+from jumpcad.drive.corner import clear_window_rad, roll_over
+
+TEMPLATES = ("kenan-2.0", "best-printable")
+
+
+def geometry(name: str) -> CamGeometry:
+    return built(name).layout.drive.cam.geometry
+
+
+def standing(name: str, cam_rad: float, radius_mm: float = 0.0) -> shapely.Geometry:
+    """The cam's outline at a cam angle, seen from the hub; its convex corners rounded by a radius."""
+    cam = built(name).layout.drive.cam
+    outline = shapely.Polygon(cam.geometry.outline_mm(721)).buffer(-radius_mm, 64).buffer(radius_mm, 64)
+    # a positive turn about +y is clockwise where x points right and z up
+    turned = affinity.rotate(outline, -cam_rad, (0, 0), use_radians=True)
+    return affinity.translate(turned, *cam.cam_axis_mm)
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+@pytest.mark.parametrize("rounding_mm", [0.0, 0.8])
+def test_the_roller_touches_the_corner_all_the_way(name: str, rounding_mm: float) -> None:
+    cam = geometry(name)
+    path = roll_over(cam, rounding_mm)
+    for index in range(0, len(path.cam_rad), 25):
+        centre = shapely.Point(cam.roller_mm(path.wind_rad[index]))
+        gap = standing(name, float(path.cam_rad[index]), rounding_mm).exterior.distance(centre)
+        assert gap == pytest.approx(cam.roller_radius_mm, abs=0.02)
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_slopes_are_those_of_the_path(name: str) -> None:
+    path = roll_over(geometry(name))
+    middle = slice(5, 200)
+    assert path.slope[middle] == pytest.approx(np.gradient(path.wind_rad, path.cam_rad)[middle], abs=1e-3)
+    assert path.wind_rad[0] == pytest.approx(geometry(name).law.compression_rad, abs=1e-9)
+    assert path.slope[0] == pytest.approx(
+        float(geometry(name).law.derivatives(geometry(name).law.lift_rad)[1]), rel=1e-6
+    )
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_the_window_is_where_the_roller_s_way_is_free(name: str) -> None:
+    cam, law = geometry(name), geometry(name).law
+    way = shapely.LineString(cam.roller_mm(np.linspace(-cam.overshoot_rad, law.compression_rad, 200)))
+    begin, end = clear_window_rad(cam, cam.outline_mm())
+
+    def gap(turn: float) -> float:
+        return standing(name, law.lift_rad + turn).distance(way) - cam.roller_radius_mm
+
+    slack = math.radians(0.3)
+    assert min(gap(turn) for turn in np.linspace(begin + slack, end - slack, 20)) > -1e-3
+    assert gap(begin - slack) < 0.0
+    assert gap(end + slack) < 0.0

@@ -1,0 +1,24 @@
+"""The dog's rule of play, and its jaws in their pockets."""
+
+import math
+
+import pytest
+
+from jumpcad.drive.dog import Dog, free_play_rad
+
+
+@pytest.mark.parametrize(("roll_over_deg", "play_deg"), [(5.0, 12.0), (9.0, 12.0), (12.0, 15.0), (22.0, 25.0)])
+def test_the_play_is_the_roll_over_and_3_degrees_and_at_least_12(roll_over_deg: float, play_deg: float) -> None:
+    assert math.degrees(free_play_rad(math.radians(roll_over_deg))) == pytest.approx(play_deg)
+    assert float(free_play_rad(math.radians(roll_over_deg), 0.5)) == 0.5
+
+
+def test_a_jaw_fills_its_pocket_but_for_the_play_ahead_of_it() -> None:
+    """The cam turns clockwise, so that it is pushed at a jaw's counter-clockwise end, the larger angle."""
+    dog = Dog(math.radians(20.0), 14.0)
+    for (begin, end), (low, high) in zip(dog.cam_jaws_rad, dog.pockets_rad, strict=True):
+        assert high == end
+        assert begin - low == pytest.approx(math.radians(20.0))
+    (_, first), (low, _) = dog.pockets_rad
+    assert low - first == pytest.approx(dog.jaw_rad)  # the gear's own jaw, as wide as the cam's
+    assert 2.0 * (2.0 * dog.jaw_rad + dog.play_rad) == pytest.approx(2.0 * math.pi)

@@ -1,0 +1,66 @@
+"""The robot as its leg joint feels it, against a simulated push-off and textbook oscillators."""
+
+import math
+
+import numpy as np
+import pytest
+from support.built import built
+
+from jumpcad.design import load_design
+from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
+from jumpcad.mechanism.reflected import ReflectedMass, reflected_mass
+
+STILL = np.zeros((3, 3))
+
+
+def bodies(mass_kg: float, com_m: tuple[float, float], inertia: float = 0.0) -> dict[str, Body]:
+    """A body alone; its legs have no mass."""
+    about_y = np.diag([0.0, inertia, 0.0])
+    body = Body(BODY, mass_kg, np.array([com_m[0], 0.0, com_m[1]]), about_y)
+    return {BODY: body} | {name: Body(name, 0.0, np.zeros(3), STILL) for name in (MAIN_LEG, FRONT_LINK)}
+
+
+def test_a_parallelogram_carries_its_body_on_a_circle() -> None:
+    """kenan-2.0 has parallel legs: its body moves on a circle as large as they are, without turning."""
+    design = load_design("kenan-2.0")
+    found = reflected_mass(bodies(0.1, (0.01, 0.02), 1e-4), Linkage(design))
+    length = design.l2_mm / 1000.0
+    # slopes of a table are exact to the square of its step
+    assert found.inertia_kg_m2 == pytest.approx(0.1 * length**2, rel=2e-3)
+    rise = -0.1 * GRAVITY_M_S2 * length * np.cos(math.radians(design.rest_angle_deg) - found.wind_rad)
+    assert found.weight_nm == pytest.approx(rise, abs=2e-4)
+
+
+def test_legs_add_what_turns_about_the_ankle() -> None:
+    """Norton, 10.12: a link that turns about a fixed end adds its inertia about that end."""
+    design = load_design("kenan-2.0")
+    alone, length = bodies(0.1, (0.0, 0.0)), design.l2_mm / 1000.0
+    leg = Body(MAIN_LEG, 0.02, np.array([length / 2.0, 0.0, 0.0]), np.diag([0.0, 0.02 * length**2 / 12.0, 0.0]))
+    more = reflected_mass(alone | {MAIN_LEG: leg}, Linkage(design)).inertia_kg_m2
+    less = reflected_mass(alone, Linkage(design)).inertia_kg_m2
+    assert more - less == pytest.approx(0.02 * length**2 / 3.0, rel=5e-3)
+
+
+@pytest.mark.parametrize("past", [0.0, 0.1])
+def test_without_weight_the_leg_is_an_oscillator(past: float) -> None:
+    """A quarter of a period, pi/2·sqrt(I/k), and then on at the largest speed, wound·sqrt(k/I)."""
+    spring, inertia = Spring("leg", 0.5, 0.7), 8e-4
+    wind = np.linspace(0.0, 0.7, 33)
+    level = ReflectedMass(wind, np.full(33, inertia), np.zeros(33), np.zeros(33))
+    expected = math.pi / 2.0 * math.sqrt(inertia / 0.5) + past / (0.7 * math.sqrt(0.5 / inertia))
+    assert level.push_off_s(spring, past) == pytest.approx(expected, rel=2e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "best-printable"])
+def test_the_push_off_takes_as_long_as_one_stepped_in_time(name: str) -> None:
+    robot = built(name)
+    leg = reflected_mass(robot.bodies, robot.linkage)
+    wind, rate, time, step = robot.spring.wind_rad, 0.0, 0.0, 2e-5
+    while wind > 0.0:
+        inertia, slope, weight = (float(value) for value in leg.at(np.array(wind)))
+        rate -= step * (robot.spring.torque_nm(-wind) + weight + 0.5 * slope * rate**2) / inertia
+        wind += step * rate
+        time += step
+    assert leg.push_off_s(robot.spring, 0.0) == pytest.approx(time, rel=0.02)
