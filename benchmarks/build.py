@@ -1,6 +1,6 @@
 """CPU time of `jumpcad build`, from the start of Python to the last file, and where it goes.
 
-Every round is a process of its own, as a build is: nothing is remembered from one to the next. The times are those of
+Every round is a separate process, as a build is: nothing is cached from one to the next. The times are those of
 Python's own processor clock (seconds), so a busy machine matters little. Run
 `python benchmarks/build.py [DESIGN ...] [--json] [--rounds N]`.
 """
@@ -29,11 +29,11 @@ STAGES = {
     "dxf/": "outlines",
     "pictures/": "pictures",
 }
-"""What a file belongs to, by where it lies in the bundle; files in no such folder are documents, but for the GLB."""
+"""Stage of a file by its folder in the bundle; all other files are documents, except for the GLB."""
 
 
 def stage_of(path: str) -> str:
-    """Return what a file of the bundle belongs to."""
+    """Return the stage that a file of the bundle belongs to."""
     found = (stage for folder, stage in STAGES.items() if path.startswith(folder))
     return next(found, "GLB" if path.endswith(".glb") else "documents")
 
@@ -75,7 +75,7 @@ def once(name: str) -> dict[str, float]:
 
 
 def rounds(name: str, count: int) -> dict[str, float]:
-    """Return the medians of some builds in processes of their own."""
+    """Return the medians of some builds, each in a separate process."""
     command = [sys.executable, __file__, "--once", name]
     runs = [json.loads(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(count)]
     return {stage: float(np.median([run[stage] for run in runs])) for stage in runs[0]}

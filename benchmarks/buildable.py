@@ -1,11 +1,11 @@
-"""Is every design either a robot that can be printed and put together, or refused for a named reason?
+"""Is every design either a robot that can be printed and assembled, or rejected for a named reason?
 
 Random designs within the search bounds, and designs near the best ones, each with two workshops. A robot counts as
 built if the re-read STL file of every part is one closed part that fits the bed. Of every tenth design the whole bundle
-is written, and no two of its pieces may meet from rest through winding and drop.
+is written, and no two of its pieces may collide while the springs are loaded and released.
 
 Run `python benchmarks/buildable.py [--designs N] [--sample N] [--log FILE.jsonl] [--json]`. With a log, an interrupted
-run goes on where it stopped.
+run continues where it stopped.
 """
 
 import argparse
@@ -34,30 +34,30 @@ from jumpcad.workshop import Workshop, load_workshop
 WORKSHOPS = ("default", "fine")
 BEST = ("best-ga", "best-bo", "best-printable")
 SHARE_NEAR = 2 / 7
-"""Of all designs, those near the best ones."""
+"""Share of designs that are near the best ones."""
 NEAR = 0.05
 SEED = 3
 REASONS = {
     r"^loop": "loop: foot and front link do not reach each other",
-    r"^below_ground": "below_ground: the wound body would lie below its feet",
-    r"^the springs are wound by": "springs hardly wound",
+    r"^below_ground": "below_ground: the body would be below its feet with the springs loaded",
+    r"^the springs are loaded by": "springs hardly loaded",
     r"^no wire": "spring: no wire is strong enough",
     r"^no cam": "cam: {limit}",
     r"^no lever": "cam: no lever beside hub and axle",
     r"^no motor": "gears: no motor turns the cam",
-    r"^main leg and front link come": "layout: main leg and front link meet",
+    r"^main leg and front link come": "layout: main leg and front link collide",
     r"^the cam gear's tip radius": "layout: cam gear beside the leg's axle",
     r"^no room for the (?P<what>[\w ]+)": "layout: no room for the {what}",
     r"^part \w+ of .* does not fit the bed": "bed: a part is too large",
 }
-"""How a refusal begins, and the reason that it is counted under."""
+"""Beginning of an error's message, and the reason that it is counted under."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one design: `result` is `built`, a refusal's reason or `WRONG`, which must not happen.
+    """The result for one design: `result` is `built`, a reason of rejection, or `WRONG`, which must not happen.
 
-    `whole` says whether bundle and interference were looked at too.
+    `whole` says whether bundle and interference were checked too.
     """
 
     kind: str
@@ -96,7 +96,7 @@ KINDS: dict[str, Callable[[int], Iterator[Design]]] = {"random": random_designs,
 
 
 def reason(refusal: str) -> str | None:
-    """Return what a refusal is counted under, or None if it is none of the known ones or proposes nothing."""
+    """Return the reason for an error's message, or None if it is unknown or the message proposes nothing."""
     for pattern, name in REASONS.items():
         if (match := re.search(pattern, refusal)) and ": " in refusal:
             missed = re.search(r"misses: (.*?) \(", refusal)
@@ -105,7 +105,7 @@ def reason(refusal: str) -> str | None:
 
 
 def faults_of(robot: Robot, workshop: Workshop, whole: bool) -> list[str]:
-    """Return what is wrong with a built robot: files that are no parts, parts off the bed, pieces that meet."""
+    """Return what is wrong with a built robot: files that are not parts, parts off the bed, pieces that collide."""
     found = [f"{part.name}: {fault}" for part in robot.parts for fault in faults(write_stl(part.mesh))]
     found += [f"{part.name} is not on the bed" for part in robot.parts if abs(part.mesh.bounds[0, 2]) > 1e-6]
     packed(robot.parts, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
@@ -116,9 +116,9 @@ def faults_of(robot: Robot, workshop: Workshop, whole: bool) -> list[str]:
 
 
 def look(design: Design, workshop: Workshop, whole: bool) -> tuple[str, str, float, bool]:
-    """Build a design; return result, detail, the CPU time of building it (s), and whether all of it was looked at.
+    """Build a design; return result, detail, the CPU time of building it (s), and whether all of it was checked.
 
-    Whatever is raised is an outcome here, as the question is whether anything but a refusal ever is.
+    Any exception is a result here, since the question is whether any but `CannotBuildError` occurs.
     """
     start = process_time()
     try:
@@ -136,7 +136,7 @@ def look(design: Design, workshop: Workshop, whole: bool) -> tuple[str, str, flo
 
 
 def outcomes(count: int, sample: int, log: Path | None) -> list[Outcome]:
-    """Look at designs of both kinds in every workshop; what the log holds is not looked at again."""
+    """Check designs of both kinds in every workshop; what the log holds is not checked again."""
     lines = log.read_text().splitlines() if log and log.exists() else []
     known = {(one.kind, one.number, one.workshop): one for one in (Outcome(**json.loads(line)) for line in lines)}
     near = round(count * SHARE_NEAR)
@@ -156,10 +156,10 @@ def outcomes(count: int, sample: int, log: Path | None) -> list[Outcome]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run, print, and return 1 if anything happened that must not."""
+    """Run, print, and return 1 if any result is `WRONG`."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--designs", type=int, default=700)
-    parser.add_argument("--sample", type=int, default=10, help="of every so many designs the whole bundle is looked at")
+    parser.add_argument("--sample", type=int, default=10, help="the whole bundle of every Nth design is checked")
     parser.add_argument("--log", type=Path)
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args(arguments)
@@ -175,7 +175,7 @@ def tell(found: list[Outcome]) -> None:
     """Print a table for every kind and workshop, and what went wrong."""
     for kind, name in sorted({(one.kind, one.workshop) for one in found}, reverse=True):
         here = [one for one in found if (one.kind, one.workshop) == (kind, name)]
-        print(f"{kind}, workshop {name}: {len(here)} designs, {sum(one.whole for one in here)} bundles looked at whole")
+        print(f"{kind}, workshop {name}: {len(here)} designs, {sum(one.whole for one in here)} whole bundles checked")
         for result, count in Counter(one.result for one in here).most_common():
             print(f"  {count:5d}  {100.0 * count / len(here):5.1f} %  {result}")
         if seconds := [one.build_s for one in here if one.result == "built"]:

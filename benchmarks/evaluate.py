@@ -1,8 +1,8 @@
-"""CPU time of `evaluate`, geometry in the loop, against the published bare simulation, and where the time goes.
+"""CPU time of `evaluate`, which builds the robot, against the published simulation alone, and where the time goes.
 
 Both take turns on every design, so that a busy machine slows them alike. The designs are those of the table of
-reference flights and random ones within the search bounds, as far as they can be built; what is remembered of gears
-and bought parts is warm, as it is in a search. Run `python benchmarks/evaluate.py [--json] [--rounds N] [--random N]`.
+reference flights and random ones within the search bounds, as far as they can be built; the caches of gears
+and bought parts are filled, as in a search. Run `python benchmarks/evaluate.py [--json] [--rounds N] [--random N]`.
 """
 
 import argparse
@@ -41,7 +41,7 @@ STAGES: dict[str, tuple[ModuleType, str]] = {
     "simulation": (evaluation, "simulate"),
     "checks": (evaluation, "constraint_findings"),
 }
-"""What `evaluate` calls, by the name under which its modules know it."""
+"""Stages of `evaluate`: module, and name of the function in it."""
 
 
 def buildable(rows: int) -> list[Design]:

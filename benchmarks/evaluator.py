@@ -1,7 +1,7 @@
-"""CPU time of one evaluation against the published recipe, the error of range beside it, and where the time goes.
+"""CPU time of one evaluation against the published simulation, its error of range, and where the time goes.
 
 All models take turns on every design, so that a busy machine slows them alike. Only designs that pass the gate and jump
-are timed: a refused one costs the gate alone. Run `python benchmarks/evaluator.py [--json] [--rounds N]`.
+are timed: a rejected one costs the checks alone. Run `python benchmarks/evaluator.py [--json] [--rounds N]`.
 """
 
 import argparse

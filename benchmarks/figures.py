@@ -1,4 +1,4 @@
-"""The figures that the README shows, by name, each as the text that ought to stand there; `readme.py` compares them.
+"""The figures that the README shows, by name, each as the text that it should have; `readme.py` compares them.
 
 What follows from the templates alone takes some seconds: `of_robots`, `of_prototypes`, `of_best_printable`. The others
 take minutes: they run the search, PrusaSlicer and the benchmarks of this folder.
@@ -42,7 +42,7 @@ GRAVITY_M_S2 = Settings().gravity_m_s2
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a search ended with: a row of `jumpcad optimize --json`, and its CPU time with that of its workers."""
+    """The result of a search: the winner of `jumpcad optimize --json`, and its CPU time with that of its workers."""
 
     winner: dict[str, Any]
     cpu_s: float
@@ -137,7 +137,7 @@ def _least_energy_share(row: Printed) -> float:
 
 
 def of_best_printable() -> dict[str, str]:
-    """Return what can be said of the template `best-printable` alone."""
+    """Return the figures of the template `best-printable` that need no search."""
     design, workshop = load_design("best-printable"), load_workshop("default")
     length_mm = 2.0 * workshop.fits.sliding_mm  # a link has the play of a sliding fit at both ends
     generator = np.random.default_rng(0)
@@ -161,7 +161,7 @@ def of_best_printable() -> dict[str, str]:
 
 @cache
 def outcome(model: str) -> Outcome:
-    """Run the search and return what it ended with."""
+    """Run the search and return its result."""
     before = children_cpu_s()
     with tempfile.TemporaryDirectory() as folder:
         files = ["--study", f"{folder}/study.db", "-o", f"{folder}/winner.toml"]
@@ -179,7 +179,7 @@ def of_search() -> dict[str, str]:
 
 
 def of_masses() -> dict[str, str]:
-    """Return how far PrusaSlicer's grams are from the mass model's, at worst, in all shipped workshops."""
+    """Return the largest difference of PrusaSlicer's masses from the mass model's in all shipped workshops."""
     sliced = []
     for workshop in template_names("workshops"):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,8 +1,8 @@
 """The planar engine against converged PyBullet and MuJoCo (step 1/16000 s), and its CPU time.
 
 Errors of range on the table of reference flights, on printed robots of random designs that pass the gate, and on
-slipping ones; CPU time of everything in turn, so that a busy machine slows all alike. MuJoCo slips with contacts that
-its steps resolve.
+slipping ones; CPU time of everything in turn, so that a busy machine slows all alike. For slipping feet MuJoCo has
+contacts that its steps resolve.
 Run `python benchmarks/planar.py [--json] [--rounds N] [--printed N] [--slipping N]`.
 """
 

@@ -1,8 +1,8 @@
 """Is every figure of the README what the program gives today? Exit code 1 and a list of what differs, if not.
 
 Compared are the README's figures between `<!-- NAME -->` and `<!-- / -->`, the template `best-printable` and its
-picture. Words have to be the same. Numbers may be a unit of their last digit apart; those of the search, which another
-processor or library may send along another path, 1 %; CPU times, a factor of 1.5.
+picture. Words have to be the same. Numbers may be a unit of their last digit apart; those of the search, which may
+take another path on another processor or library, 1 %; CPU times, a factor of 1.5.
 
 Run `python benchmarks/readme.py [--cheap] [--write]`. `--cheap` leaves out the search, PrusaSlicer and the CPU times:
 some seconds instead of some minutes; the tests do that. `--write` corrects README, template and picture.
@@ -56,7 +56,7 @@ def rewritten(readme: str, made: dict[str, str]) -> str:
 
 
 def differences(name: str, written: str, made: str, slack: float = 0.0) -> Iterator[str]:
-    """Yield a sentence for every line of a figure that says something else than it ought to."""
+    """Yield a sentence for every line of a figure that differs from what it should be."""
     for there, here in zip_longest(written.splitlines(), made.splitlines(), fillvalue=""):
         numbers = zip(NUMBER.findall(there), NUMBER.findall(here), strict=False)
         if NUMBER.sub("0", there) != NUMBER.sub("0", here) or any(apart(*pair, slack) for pair in numbers):

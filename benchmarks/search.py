@@ -1,7 +1,7 @@
-"""How fast each method climbs on the capsule robot: best fitness after so many evaluations, over several seeds.
+"""How fast each method improves the capsule robot: best fitness after numbers of evaluations, over several seeds.
 
 Default bounds; a rejected design scores 0; the best known is 11.87. Random search and the published settings of the
-genetic algorithm stand beside ours, and CMA-ES (pycma) and TPE (Optuna) as references from elsewhere.
+genetic algorithm are run too, and CMA-ES (pycma) and TPE (Optuna) as references from other projects.
 Run `python benchmarks/search.py [--seeds N] [--methods a,b] [--json]`; all of it takes about a quarter of an hour.
 """
 
@@ -105,7 +105,7 @@ def climb(method: Callable[..., None], seed: int, evaluations: int) -> Scores:
 
 
 def main() -> None:
-    """Print one line a method: median [least, greatest] at each mark."""
+    """Print one line per method: median [least, greatest] at each mark."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--methods", default=",".join(METHODS).replace(", ", ";"))

@@ -1,7 +1,7 @@
-"""Cost of pool and study file, gain of a second worker, and that a killed study loses nothing.
+"""Cost of pool and study file, gain of a second worker, and whether a killed study loses anything.
 
 Batches of 20 robots, as the genetic algorithm sends them. Wall times mean nothing on a busy machine, so the second
-worker is also tried on evaluations that take their time without using the processor.
+worker is also tried on evaluations that only wait.
 Run `python benchmarks/search_pool.py [--model capsule] [--repeats N] [--kills N]`.
 """
 
@@ -29,17 +29,17 @@ from jumpcad.workshop import load_workshop
 
 BATCH, BATCHES = 20, 15
 PAUSE_S = 0.02
-# Designs near the top of the hill: all of them pass the gate and jump, so that an evaluation takes its full time.
+# Designs near the optimum: all of them pass the checks and jump, so that an evaluation takes its full time.
 SPACE = Space.parse(bound=["compression_ratio=0.6:0.8", "rest_angle_deg=55:70", "c_coef=0.95:1.05", "e_coef=0.8:1.1",
                            "stiffness_nmm_per_deg=20:30", "ground_link_angle_deg=10:40"])  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Waiting(RobotModel):
-    """Waits, and then says of every design what its robot said of the first one."""
+    """Waits, and then returns the evaluation of the first design for every design."""
 
     def __call__(self, design: Design) -> Evaluation:
-        """Evaluate a design, as it were."""
+        """Wait, and return the first design's evaluation."""
         if "answer" not in vars(self):
             vars(self)["answer"] = super().__call__(design)
         time.sleep(PAUSE_S)
@@ -70,7 +70,7 @@ def batches_cost(model: RobotModel, workers: int, path: Path | None, repeat: int
 
 
 def contents(path: Path) -> list[Trial]:
-    """Return the trials of a study but for how long they took."""
+    """Return the trials of a study without their durations."""
     with StudyStore.read(path) as store:
         return [replace(trial, duration_s=0.0) for trial in store.trials()]
 
@@ -124,7 +124,7 @@ def main() -> None:
                 ("pool and study file / evaluations, CPU (%)", 100 * waited_two.caller_s / alone.caller_s),
                 ("pool and study file, share of one worker's wall time (%)", 100 * (1 - one.own_s / one.wall_s)),
                 ("two workers, times as fast as one", one.wall_s / two.wall_s),
-                (f"the same, waiting {1000 * PAUSE_S:.0f} ms a design", waited.wall_s / waited_two.wall_s),
+                (f"the same, waiting {1000 * PAUSE_S:.0f} ms per design", waited.wall_s / waited_two.wall_s),
             ):
                 figures.setdefault(what, []).append(value)
         print(f"{arguments.model} robot: median, and each of {arguments.repeats}")

@@ -1,6 +1,6 @@
 """CPU time of starting: bare Python, and `jumpcad --help` (s, least of some processes each).
 
-Run `python benchmarks/start.py [--json] [--rounds N]`. The least is what the work takes; a busy machine adds to it.
+Run `python benchmarks/start.py [--json] [--rounds N]`. The least is nearest to the work itself: a busy machine adds.
 """
 
 import argparse
@@ -13,7 +13,7 @@ COMMANDS = {"python_s": ["-c", "pass"], "help_s": ["-m", "jumpcad", "--help"]}
 
 
 def children_cpu_s() -> float:
-    """Return the CPU time of all processes that this one has started and that have ended, with theirs."""
+    """Return the CPU time of all ended processes that this one has started, with those that they started."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 

@@ -1,10 +1,10 @@
-"""The structure of the package in figures: rooms, floors, imports that run up, what an addition touches.
+"""The structure of the package in figures: packages, layers, imports in cycles, files that an addition touches.
 
     python benchmarks/structure.py [CHECKOUT]
 
-Run it in two checkouts to compare them. A room is a package or a loose module of `jumpcad`; rooms that import each
-other in a circle share a floor, and a room's floor is one above the highest that it imports. An import runs up if it
-is part of such a circle. What an addition touches is read off a present one of its kind: the modules that name it.
+Run it in two checkouts to compare them. Loose modules of `jumpcad` count as packages. Packages that import each other
+in a cycle share a layer, and a package's layer is one above the highest that it imports. What an addition touches is
+counted on a present one of its kind: the modules that name it.
 """
 
 import ast
@@ -22,7 +22,7 @@ ADDITIONS = {
     "a search method (nsga2)": r"\bnsga2\b",
     "an engine (MuJoCo)": r"simulation\.mujoco|MujocoEngine|\"mujoco\"",
 }
-"""Kind of addition, and what names a present one in the code."""
+"""Kind of addition, and the pattern of a present one's name in the code."""
 
 
 def modules(root: Path) -> dict[str, Path]:
@@ -46,12 +46,12 @@ def imports(path: Path, known: dict[str, Path]) -> set[str]:
     return named
 
 
-def room(module: str) -> str:
+def package_of(module: str) -> str:
     """Return the package or loose module that a module belongs to."""
     return module.split(".")[1] if "." in module else PACKAGE
 
 
-def circles(graph: dict[str, set[str]]) -> list[set[str]]:
+def cycles(graph: dict[str, set[str]]) -> list[set[str]]:
     """Return the strongly connected components, those first that others import (Tarjan 1972)."""
     order: dict[str, int] = {}
     low: dict[str, int] = {}
@@ -68,9 +68,9 @@ def circles(graph: dict[str, set[str]]) -> list[set[str]]:
             elif other in stack:
                 low[node] = min(low[node], order[other])
         if low[node] == order[node]:
-            circle = set(stack[stack.index(node) :])
+            cycle = set(stack[stack.index(node) :])
             del stack[stack.index(node) :]
-            found.append(circle)
+            found.append(cycle)
 
     for node in sorted(graph):
         if node not in order:
@@ -84,21 +84,21 @@ def figures(root: Path) -> dict[str, object]:
     graph: dict[str, set[str]] = defaultdict(set)
     edges = defaultdict(int)
     for name, path in known.items():
-        here = room(name)
+        here = package_of(name)
         if here in (PACKAGE, "__main__"):
             continue
         graph[here] |= set()
-        for there in {room(other) for other in imports(path, known)} - {here, PACKAGE}:
+        for there in {package_of(other) for other in imports(path, known)} - {here, PACKAGE}:
             graph[here].add(there)
             edges[here, there] += 1
-    floor: dict[str, int] = {}
-    up = 0
-    for circle in circles(graph):
-        below = {other for one in circle for other in graph[one]} - circle
-        for one in circle:
-            floor[one] = 1 + max((floor[other] for other in below), default=0)
-        inside = {edge: count for edge, count in edges.items() if set(edge) <= circle}
-        up += sum(min(count, inside.get((b, a), count)) for (a, b), count in inside.items() if a < b)
+    layer: dict[str, int] = {}
+    cyclic = 0
+    for cycle in cycles(graph):
+        below = {other for one in cycle for other in graph[one]} - cycle
+        for one in cycle:
+            layer[one] = 1 + max((layer[other] for other in below), default=0)
+        inside = {edge: count for edge, count in edges.items() if set(edge) <= cycle}
+        cyclic += sum(min(count, inside.get((b, a), count)) for (a, b), count in inside.items() if a < b)
     lines = {name: len(path.read_text(encoding="utf-8").splitlines()) for name, path in known.items()}
     loose = [name for name, path in known.items() if path.parent.name == PACKAGE and path.stem != "__init__"]
     text = {path: path.read_text(encoding="utf-8") for path in known.values()}
@@ -106,9 +106,9 @@ def figures(root: Path) -> dict[str, object]:
         "modules": len(known),
         "lines, median": statistics.median(lines.values()),
         "modules over 300 lines": sum(count > 300 for count in lines.values()),
-        "rooms": len(graph),
-        "floors": max(floor.values()),
-        "imports that run up": up,
+        "packages and loose modules": len(graph),
+        "layers": max(layer.values()),
+        "imports in cycles": cyclic,
         "loose modules": len(loose),
         "guards of a missing plan or workshop": sum(
             len(re.findall(r"(?:plan|workshop|parts) is (?:not )?None|assert (?:robot\.)?plan", body))

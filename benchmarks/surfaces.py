@@ -1,9 +1,9 @@
 """Surfaces of stacks: `jumpcad.solids.skin` against manifold3d's extrusions, united and finished.
 
 Every different stack, printed and bought, of random designs in several workshops is written as STL and read again. A
-file is faulty if it is not one closed part, and wrong if its volume is off the exact one of the polygons. Times are of
+file is faulty if it is not one closed part, or if its volume differs from the exact one of the polygons. Times are of
 one processor; the ways take turns on every stack. The tests' random stacks with nearly shared and crossing outlines
-come on top. Run `PYTHONPATH=tests python benchmarks/surfaces.py [--designs N] [--random N]`; it prints JSON.
+are added. Run `PYTHONPATH=tests python benchmarks/surfaces.py [--designs N] [--random N]`; it prints JSON.
 """
 
 import argparse
@@ -31,7 +31,7 @@ from jumpcad.workshop import load_workshop
 WORKSHOPS = ("default", "fine", "light")
 SEED = 9
 VOLUME_SHARE = 1e-3
-"""A file whose volume is off by a larger share is wrong; slivers and snapping take less from the smallest part."""
+"""A larger error of a file's volume is a fault; slivers and snapping take less from the smallest part."""
 
 
 def extruded(stack: Stack, clean: Callable[[Region], Region] = lambda region: region) -> Manifold:
@@ -74,7 +74,7 @@ def stacks(robot: Robot) -> Iterator[tuple[str, Stack]]:
 
 
 class Tally:
-    """What became of the stacks of one kind, made in each way."""
+    """Results of the stacks of one kind, made in each way."""
 
     def __init__(self) -> None:
         self.seen: set[Stack] = set()
@@ -84,7 +84,7 @@ class Tally:
         self.off: dict[str, float] = dict.fromkeys(WAYS, 0.0)
 
     def add(self, name: str, stack: Stack) -> None:
-        """Make, write, read and judge a stack, unless the same was seen before."""
+        """Make, write, read and check a stack, unless the same was seen before."""
         if stack in self.seen:
             return
         self.seen.add(stack)

@@ -1,4 +1,4 @@
-"""Fixtures that several rooms' tests share, and the run in which nothing may be missing."""
+"""Fixtures for the tests of several packages, and the option `--all-installed`."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Whatever a design may be, in whatever workshop: a result, or a line that says why not and what to change."""
+"""Any design in any workshop gives a result, or a line that says why not and what to change."""
 
 from contextlib import suppress
 from pathlib import Path
@@ -25,7 +25,7 @@ ODD = {
 
 
 def limits(name: str) -> tuple[float, float]:
-    """Return what a parameter may be at least and at most."""
+    """Return the lower and the upper limit of a parameter."""
     low, high = (
         next(getattr(m, key) for m in Design.model_fields[name].metadata if hasattr(m, key)) for key in ("ge", "le")
     )
@@ -48,7 +48,7 @@ def any_design(generator: np.random.Generator) -> Design:
 
 @pytest.fixture(scope="module")
 def workshops(tmp_path_factory: pytest.TempPathFactory) -> list[Workshop]:
-    """Those that ship, and some at the limits of what a workshop may be."""
+    """The shipped workshops, and some with values at their limits."""
     folder: Path = tmp_path_factory.mktemp("workshops")
     for name, text in ODD.items():
         (folder / f"{name}.toml").write_text(text)

@@ -1,4 +1,4 @@
-"""Whatever is given to a public function, it works or says in one line what it takes."""
+"""A public function works with any argument, or says in one line what it takes."""
 
 import itertools
 from pathlib import Path
@@ -105,6 +105,6 @@ def test_a_vector_may_be_of_any_numbers() -> None:
         assert jumpcad.Design.from_vector(kind([100, 1, 1, 1, 0.5, 60, 8, 40])).carrying_link_mm == 100.0
 
 
-def test_a_robot_of_which_nothing_is_seen_is_not_exported(tmp_path: Path) -> None:
+def test_a_robot_without_parts_is_not_exported(tmp_path: Path) -> None:
     with pytest.raises(JumpcadError, match=r"takes a Robot or a Design, not <Mechanism"):
         jumpcad.export(CAPSULE, tmp_path / "out")

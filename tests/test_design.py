@@ -23,7 +23,7 @@ def test_equal_legs_have_no_tilt_and_a_body_as_long_as_the_foot() -> None:
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "best-ga"])
 def test_assembled_pose_closes(name: str) -> None:
-    """Walking body, front link, foot and main leg leads back to the start, with the foot flat."""
+    """The way along body, front link, foot and main leg ends where it began, with the foot flat."""
     design = load_design(name)
     tilt, leg = design.beta_rad, math.radians(design.rest_angle_deg) - design.beta_rad
     forwards = design.l1_mm * math.cos(tilt) + (design.l3_mm - design.l2_mm) * math.cos(leg) - design.l4_mm
@@ -96,7 +96,7 @@ def test_vector_of_another_length_is_refused(count: int) -> None:
         ("e_coef", True, "a valid number"),
     ],
 )
-def test_values_beyond_physics_are_refused_by_name(name: str, value: object, limit: str) -> None:
+def test_values_out_of_range_are_refused_by_name(name: str, value: object, limit: str) -> None:
     values = dict(zip(PARAMETERS, KENAN_2, strict=True)) | {name: value}
     with pytest.raises(JumpcadError, match=rf"^{name} = .*must be {limit}$"):
         Design(**values)

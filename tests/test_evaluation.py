@@ -1,4 +1,4 @@
-"""The closed loop: eight numbers in, the jump of the robot that is printed from them out."""
+"""From eight numbers to the jump of the robot that is printed from them."""
 
 import json
 import os
@@ -25,7 +25,7 @@ from jumpcad.workshop import Workshop, load_workshop
 KENAN = load_design("kenan-2.0")
 TEMPLATES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
 FEEBLE = Design.from_vector([158.0, 1.16, 0.7, 0.96, 0.25, 60.0, 5.0, 30.0])
-"""A large robot with 5 N·mm/° that is hardly wound."""
+"""A large robot with 5 N·mm/° whose springs are hardly loaded."""
 
 
 def changed(**sections: dict[str, object]) -> Workshop:
@@ -36,7 +36,7 @@ def changed(**sections: dict[str, object]) -> Workshop:
 
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_the_jump_is_that_of_the_robot_that_is_written(name: str, tmp_path: Path) -> None:
-    """Gate, build and simulation in one; and the URDF on disk, read back and simulated."""
+    """Feasibility, build and simulation in one; and the URDF on disk, read back and simulated."""
     found, robot = evaluate(load_design(name)), build(load_design(name), name="")
     assert found.jump == simulate(robot)
     robot = replace(robot, name="robot")
@@ -67,8 +67,8 @@ def test_its_masses_are_those_of_its_parts() -> None:
     assert sum(v for k, v in found.metrics.items() if k.endswith("_mass_kg")) == pytest.approx(pieces)
 
 
-def test_figures_of_winding_keep_the_books() -> None:
-    """More goes in than the springs hold, and the motor is not switched on for more than a minute."""
+def test_winding_needs_more_energy_than_the_springs_hold() -> None:
+    """And the motor is not switched on for more than a minute."""
     found = evaluate(KENAN)
     assert found.metrics["electrical_energy_j"] > KENAN.spring_energy_j
     assert found.jump.spring_energy_j == pytest.approx(KENAN.spring_energy_j)

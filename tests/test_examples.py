@@ -1,4 +1,4 @@
-"""Every example runs, at a small budget, and says what it promises."""
+"""Every example runs, at a small budget, and prints what it promises."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""What `jumpcad` and `jumpcad.search` show: their public names, nothing else, and at no cost until they are used."""
+"""`jumpcad` and `jumpcad.search` show their public names only, and load nothing before it is used."""
 
 import re
 import subprocess

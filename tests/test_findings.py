@@ -19,7 +19,7 @@ from jumpcad.findings import Finding, at_least, at_most, limit
         (math.inf, 5.0, -math.inf, math.inf, "error"),
     ],
 )
-def test_of_a_maximum_the_value_uses_its_share(
+def test_use_is_the_value_over_a_maximum(
     value: float, allowed: float, margin: float, use: float | None, severity: str
 ) -> None:
     finding = at_most("stress", value, allowed, "MPa", "found", "remedy")
@@ -37,7 +37,7 @@ def test_of_a_maximum_the_value_uses_its_share(
         (3.0, 0.0, 3.0, None, "info"),
     ],
 )
-def test_of_a_minimum_the_limit_is_the_share(
+def test_use_is_a_minimum_over_the_value(
     value: float, needed: float, margin: float, use: float | None, severity: str
 ) -> None:
     finding = at_least("gap", value, needed, "mm", "found", "remedy", "warning")

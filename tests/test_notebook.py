@@ -1,4 +1,4 @@
-"""What objects say of themselves: one short line, and in a notebook a picture and the key figures."""
+"""How objects are shown: one short line, and in a notebook a picture and the key figures."""
 
 import base64
 import io

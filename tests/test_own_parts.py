@@ -107,7 +107,8 @@ FITS = {
 REFUSED = {
     "short shaft": (
         motor(shaft_length_mm=5.0),
-        r"^the shaft of motor own is 5 mm long; 5\.9 mm reach through its cap and 3 mm into its pinion: allow a motor "
+        r"^the shaft of motor own is 5 mm long; it needs 5\.9 mm to pass its cap and reach 3 mm into "
+        r"its pinion: allow a motor "
         "with a longer shaft$",
     ),
     "gear motor of 60 mm": (
@@ -124,12 +125,12 @@ REFUSED = {
     ),
     "bearing 625 for the roller": (
         bearing("roller", 5.0, 16.0, 5.0),
-        r'^bought\.roller = "own": its bore of 5 mm does not sit on the M3 screw that holds it: choose a '
+        r'^bought\.roller = "own": its bore of 5 mm does not fit the M3 screw that holds it: choose a '
         "bearing with a bore of 3 mm$",
     ),
     "large bearing in the hub": (
         bearing("leg_bearing", 3.0, 30.0, 8.0),
-        r"^the leg's bearing own is 30 mm outside; 1\d\.\d mm fit beside the roller's screw and the cam's axle: "
+        r"^the leg's bearing own has 30 mm diameter; 1\d\.\d mm fit beside the roller's screw and the cam's axle: "
         r"choose a smaller bought\.leg_bearing$",
     ),
     "wide bearing in the hub": (
@@ -180,7 +181,7 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Robot:
     return build(KENAN, load_workshop(path))
 
 
-def test_the_example_of_the_readme_passes_every_check_and_its_parts_are_billed(example: Robot) -> None:
+def test_the_example_of_the_readme_passes_every_check_and_its_parts_are_listed(example: Robot) -> None:
     assert not errors(check(example))
     lines = {line.name: line for line in bill_of_materials(example).items}
     assert lines["gear motor square-16"].mass_kg == pytest.approx(0.032)

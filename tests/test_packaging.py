@@ -1,4 +1,4 @@
-"""The wheel: built, looked into, installed into a fresh environment, used there (about 8 s, most of it pip)."""
+"""The wheel: built, inspected, installed into a fresh environment, used there (about 8 s, most of it pip)."""
 
 import json
 import os
@@ -16,7 +16,7 @@ from support.places import ROOT
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
 PARSING = {"typer", "rich", "pydantic", "tomli_w"}
-"""Dependencies that the command line itself is made of."""
+"""Dependencies that the command line itself needs."""
 
 
 @pytest.fixture(scope="module")

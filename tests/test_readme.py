@@ -1,4 +1,4 @@
-"""What the README says is so: its figures, its commands and options, its lines of Python (about 6 s)."""
+"""The README is right: its figures, its commands and options, its lines of Python (about 6 s)."""
 
 import importlib
 import re

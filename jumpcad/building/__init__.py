@@ -1,4 +1,4 @@
-"""From a design and a workshop to a printed robot: assembled, checked, and made stronger where a check fails."""
+"""From a design and a workshop to a printed robot: assembled, checked, and strengthened where a check fails."""
 
 from jumpcad.building.growth import build
 

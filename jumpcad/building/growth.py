@@ -1,4 +1,4 @@
-"""The printed robot of a design: assembled, checked, and made stronger where a check fails that a section can pass."""
+"""The printed robot of a design: assembled, checked, and strengthened where larger sections can pass a failed check."""
 
 from jumpcad.arguments import typed
 from jumpcad.building.assembly import assembled
@@ -23,8 +23,8 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     Raises
     ------
     JumpcadError
-        If the workshop was changed to what no file may say, or has the weight of a part that no robot has; if the name
-        cannot be that of files; or if an argument is of another type.
+        If the workshop was changed to invalid values, or has the weight of a part that no robot has; if the name
+        cannot be a file's name; or if an argument has a wrong type.
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
     """
@@ -43,6 +43,6 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
         growth = growth.more(weak)
         try:
             robot = assembled(design, workshop, name, growth)
-        except CannotBuildError:  # no room for more: the checks say what stays too weak
+        except CannotBuildError:  # no room for more: the checks report what stays too weak
             break
     return robot

@@ -1,7 +1,7 @@
 """Sections, hub bearing and drive settled together: each follows from the others.
 
 A bearing sets the hub's width and with it the sections; these set the drive's limits; the drive's forces load the
-bearing. The lightest bearing comes first, then the next that bears those forces, until one bears its own.
+bearing. The lightest bearing is tried first, then the next that carries those forces, until one carries its own.
 """
 
 import math
@@ -31,7 +31,7 @@ from jumpcad.workshop import Workshop
 
 @dataclass(frozen=True)
 class Settled:
-    """The parts of a robot's machine that depend on each other; `holes` has the hub's bearing."""
+    """What depends on each other in a robot; `holes` has the hub's bearing."""
 
     linkage: Linkage
     sections: Sections
@@ -77,7 +77,7 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
 
 
 def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:
-    """Tell whether a hub bearing bears the forces of springs and cam; a plain hub is not judged."""
+    """Tell whether a hub bearing carries the forces of springs and cam; a plain hub is not checked."""
     if bearing is None:
         return True
     forces = loaded_forces_n(settled.linkage.design, settled.drive)
@@ -86,7 +86,7 @@ def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> boo
 
 
 def _require_hub_room(settled: Settled) -> None:
-    """Refuse bearings whose seat meets the roller's screw in the lever, or whose hub meets the cam axle's spacer."""
+    """Reject bearings whose seat cuts the roller's screw in the lever, or whose hub touches the cam axle's spacer."""
     holes, cam = settled.holes, settled.drive.cam
     if holes.bearing is None:
         return
@@ -96,6 +96,6 @@ def _require_hub_room(settled: Settled) -> None:
     largest = 2.0 * (min(to_screw, to_spacer) - holes.fits.press_mm)
     if holes.bearing.outer_mm > largest:
         raise CannotBuildError(
-            f"the leg's bearing {holes.bearing.name} is {holes.bearing.outer_mm:g} mm outside; {largest:.1f} mm fit "
+            f"the leg's bearing {holes.bearing.name} has {holes.bearing.outer_mm:g} mm diameter; {largest:.1f} mm fit "
             "beside the roller's screw and the cam's axle: choose a smaller bought.leg_bearing"
         )

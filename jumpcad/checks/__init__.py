@@ -32,7 +32,7 @@ __all__ = ["CHECKS", "Check", "check", "constraint_findings", "quick_findings"]
 
 @dataclass(frozen=True)
 class Check:
-    """A line of the registry.
+    """An entry of the registry.
 
     `find` takes what the check `needs` (a Mechanism, or a Robot with its parts) and returns findings. A `cheap` check
     looks at no mesh and at no motion, takes about a millisecond, and runs for every design of a search.
@@ -58,7 +58,7 @@ CHECKS = (
 
 
 def check(robot: Mechanism) -> list[Finding]:
-    """Return the findings of every check, kept limits included; a mechanism without parts has those of feasibility."""
+    """Return the findings of every check, limits that are met included; without parts, those of feasibility only."""
     return _findings(robot, CHECKS)
 
 
@@ -68,10 +68,10 @@ def quick_findings(robot: Mechanism) -> list[Finding]:
 
 
 def constraint_findings(robot: Robot) -> list[Finding]:
-    """Return the findings of the cheap checks that need parts: those that a simulated jump does not carry already."""
+    """Return the findings of the cheap checks that need parts: those that a simulated jump does not include."""
     return _findings(robot, (check for check in CHECKS if check.cheap and check.needs is Robot))
 
 
 def _findings(robot: Mechanism, checks: Iterable[Check]) -> list[Finding]:
-    """Return what checks find that have what they need."""
+    """Return the findings of those checks whose needs the robot meets."""
     return [found for check in checks if isinstance(robot, check.needs) for found in check.find(robot)]

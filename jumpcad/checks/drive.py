@@ -9,11 +9,11 @@ ROUND_OFF = 1e-6
 
 
 def drive_findings(robot: Robot) -> list[Finding]:
-    """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*` and `motor_*` by what they limit."""
+    """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*` and `motor_*` by what they check."""
     return [_judged(found) for found in robot.layout.drive.findings]
 
 
 def _judged(found: Finding) -> Finding:
-    """Return a finding with its severity; the cam's search stops on its limits, to some 1e-9 on either side."""
+    """Return a finding with its severity; the cam's search ends on its limits, within about 1e-9."""
     margin = 0.0 if abs(found.margin) < ROUND_OFF else found.margin
     return replace(found, margin=margin, severity="error" if margin < 0.0 else "info")

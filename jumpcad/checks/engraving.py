@@ -13,7 +13,7 @@ def engraving_findings(robot: Robot) -> list[Finding]:
     return [
         at_most(
             "engraving", len(lacking), 0, "letters",
-            f"the engraving's font has no {lacking!r}: the plates of {robot.name!r} go without",
-            "use Latin, Greek or Cyrillic letters, if the plates shall show all of the name", "warning",
+            f"the engraving's font has no {lacking!r}: left out on the plates of {robot.name!r}",
+            "use Latin, Greek or Cyrillic letters if the plates must show the whole name", "warning",
         )
     ]  # fmt: skip

@@ -62,7 +62,7 @@ def foot_findings(robot: Robot) -> list[Finding]:
     return [
         limit(
             "foot_clearance", gap - FOOT_GAP_MM, "mm",
-            f"{found} of the foot, springs wound; {FOOT_GAP_MM:g} mm are kept",
+            f"{found} of the foot with loaded springs; {FOOT_GAP_MM:g} mm are needed",
             "lower compression_ratio, or raise ground_link_angle_deg",
             value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
         )

@@ -33,7 +33,7 @@ INTENDED = (
     ("toe", "foot", "thread"),
     ("spring", "spring", "coil and arm are one wire"),
 )
-"""Pairs of name beginnings that may share volume, and why."""
+"""Pairs of name prefixes that may share volume, and why."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Component:
 
 @dataclass(frozen=True)
 class Moment:
-    """One position of the mechanism: leg angle and cam angle (rad), and what it is called."""
+    """One position of the mechanism: its name, leg angle and cam angle (rad)."""
 
     label: str
     leg_rad: float
@@ -67,7 +67,7 @@ class Moment:
 
 
 def components(robot: Robot) -> list[Component]:
-    """Return every piece of a robot, copies apart."""
+    """Return every piece of a robot, each copy separately."""
     printed = [
         Component(part.name, placement.body, part.drawing.shape, placement.T_body_part)
         for part in robot.parts
@@ -81,7 +81,7 @@ def moments(layout: Layout) -> list[Moment]:
     cam, wound = layout.drive.cam, layout.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [
-        Moment(f"wound by {math.degrees(wind):.1f}°", -float(wind), float(turn))
+        Moment(f"loaded by {math.degrees(wind):.1f}°", -float(wind), float(turn))
         for turn, wind in zip(lift, cam.wind_rad(lift), strict=True)
     ]
     falls = np.linspace(wound, 0.0, DROP_POSITIONS)
@@ -114,11 +114,11 @@ def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
 
 
 def interference_findings(robot: Robot) -> list[Finding]:
-    """Return a finding a pair of pieces that meet, or one that says that none do."""
+    """Return a finding per pair of pieces that collide, or one that says that none do."""
     found = [
         Finding(
             "interference", "error", -volume, "mm³", f"{a} and {b} share {volume:.2f} mm³, {label}",
-            "raise carrying_link_mm or d_coef, or wind less", value=volume, limit=0.0,
+            "raise carrying_link_mm or d_coef, or lower compression_ratio", value=volume, limit=0.0,
         )
         for a, b, label, volume in overlaps(robot)
     ]  # fmt: skip
@@ -162,7 +162,7 @@ def pose_of(piece: Component, layout: Layout, linkage: Linkage, moment: Moment) 
 
 
 def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float]:
-    """Return a turning piece's axis (2,) and its turn about +y at a cam angle; meshing wheels turn against another."""
+    """Return a turning piece's axis (2,) and its turn about +y at a cam angle; meshing wheels turn oppositely."""
     stages = layout.drive.train.stages
     if name in ("cam", "cam_gear"):
         return layout.cam_axis_mm, cam_rad

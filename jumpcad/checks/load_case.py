@@ -120,8 +120,8 @@ def stress_finding(name: str, what: str, stress: float, allowable: float, remedy
 def leg_axle_moment_nmm(arms_n: tuple[Array, Array], cam_n: Array, span_mm: float, coil_mm: float) -> float:
     """Return the largest bending moment in the leg's axle, a simple beam between the plates.
 
-    The leg pushes on its middle with arm and cam forces; each coil, `coil_mm` beside it, pushes back with half of
-    what its arms bear.
+    The leg pushes on its middle with arm and cam forces; each coil, `coil_mm` beside it, pushes back with half of the
+    force of its arms.
     """
     on_leg, on_pin = arms_n
     support = (cam_n - on_pin) / 2.0

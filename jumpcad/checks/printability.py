@@ -1,7 +1,7 @@
-"""Can every part be printed as it lies? Bed, walls, holes, pins, overhangs, bridges, one closed solid (mm).
+"""Can every part be printed in its orientation? Bed, walls, holes, pins, overhangs, bridges, one closed solid (mm).
 
-A stack is judged by its flat regions, anything else by sections through its solid and by its mesh. Each finding speaks
-for all parts, names the worst, and has its margin.
+A stack is checked by its flat regions, anything else by sections through its solid and by its mesh. Each finding is
+for all parts, names the worst one, and has its margin.
 """
 
 import itertools
@@ -23,21 +23,21 @@ from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Fits, Process
 
 HALVINGS = 7
-"""When a width is looked for: to 1 % of the range."""
+"""Steps in the search for a width: to 1 % of the range."""
 SECTION_SPACING_MM = 1.0
-"""Between sections through solids that are no stacks."""
+"""Distance between sections through solids that are not stacks."""
 SMALLEST_PIECE_MM2 = 0.05
-"""Facets of circles over one another leave less than this."""
+"""Facets of circles on top of each other leave less than this."""
 TOUCH_MM = 0.05
 ROUND_OFF_MM = 0.02
-"""What polygons take from a width."""
+"""By how much polygons can reduce a width."""
 
 Fails = Callable[[Region, float], bool]
 """Tells whether something in a region is narrower than a width (mm)."""
 
 
 def bed_findings(robot: Robot) -> list[Finding]:
-    """Return `bed_fit`: every part within the printer's bed, along it or askew."""
+    """Return `bed_fit`: every part within the printer's bed, parallel to it or turned."""
     bed = robot.workshop.printer.bed_mm
     margin, part = min(
         ((part.drawing.fit_to_bed(bed).margin_mm, part) for part in robot.parts), key=lambda item: item[0]
@@ -54,7 +54,7 @@ def bed_findings(robot: Robot) -> list[Finding]:
 
 
 def printability_findings(robot: Robot) -> list[Finding]:
-    """Return those that need outlines and meshes: walls, holes, pins, overhangs, bridges, solid."""
+    """Return the findings that need outlines and meshes: walls, holes, pins, overhangs, bridges, solid."""
     fits, process = robot.workshop.fits, robot.workshop.process
     drawings = [part.drawing for part in robot.parts]
     regions = [(drawing.name, *tall) for drawing in drawings for tall in _tall_regions(drawing, fits.wall_min_mm)]
@@ -75,7 +75,7 @@ def printability_findings(robot: Robot) -> list[Finding]:
         _narrowest("holes", "hole", flat, _narrow_hole, hole_min, f"{finer}, or drill it"),
         _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, finer),
         _largest("overhangs", "overhang", reaches, 2.0 * process.line_width_mm, "turn the part over, or use support"),
-        _largest("bridges", "bridge", spans, fits.bridge_mm, "use support, or raise fits.bridge_mm if it may"),
+        _largest("bridges", "bridge", spans, fits.bridge_mm, "use support, or raise fits.bridge_mm if possible"),
         *_solid_findings(drawings),
     ]
 
@@ -95,7 +95,7 @@ def _narrowest(
         worst, where = high, part
     found = f"the narrowest {what} is {worst:.2f} mm, in {where}" if where else f"no {what} is under {worst:.2f} mm"
     message = f"{found}; {least_mm:g} mm are needed"
-    if not where:  # all that is known is that it is wider than was looked for
+    if not where:  # only known: wider than the range of the search
         return limit(name, worst - least_mm, "mm", message, remedy, allowed=least_mm)
     return at_least(name, worst, least_mm, "mm", message, remedy)
 
@@ -103,8 +103,8 @@ def _narrowest(
 def _largest(name: str, what: str, sizes: Sequence[tuple[float, str]], most_mm: float, remedy: str) -> Finding:
     """Return the finding of the largest of named sizes."""
     worst, where = max(sizes, default=(0.0, ""))
-    found = f"the longest {what} is {worst:.2f} mm, in {where}" if where else f"no part has an {what}"
-    return at_most(name, worst, most_mm, "mm", f"{found}; {most_mm:g} mm hold without support", remedy)
+    found = f"the longest {what} is {worst:.2f} mm, in {where}" if where else f"no part has any {what}"
+    return at_most(name, worst, most_mm, "mm", f"{found}; {most_mm:g} mm print without support", remedy)
 
 
 def _tall_regions(drawing: Drawing, least_mm: float) -> Iterator[tuple[float, Region]]:
@@ -120,7 +120,7 @@ def _tall_regions(drawing: Drawing, least_mm: float) -> Iterator[tuple[float, Re
 
 
 def _thin_wall(region: Region, width_mm: float) -> bool:
-    """Tell whether opening a region by a width takes more from it than corners and the tips of teeth."""
+    """Tell whether opening a region by a width removes more than corners and the tips of teeth."""
     half = width_mm / 2.0 - ROUND_OFF_MM
     opened = region.offset(-half, JoinType.Miter).offset(half + ROUND_OFF_MM, JoinType.Miter)
     return any(piece.area() > 0.5 * width_mm**2 for piece in (region - opened).decompose())
@@ -149,7 +149,7 @@ def _contours(region: Region, sign: float) -> Iterator[Region]:
 
 
 def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tuple[bool, float]]:
-    """Yield what hangs over air: whether it is held on more than one side (a bridge), and how far it spans (mm)."""
+    """Yield undersides over air: whether held on more than one side (a bridge), and how far they span (mm)."""
     angle = math.radians(fits.overhang_deg)
     if not isinstance(drawing.shape, Stack):
         yield from _mesh_undersides(drawing.mesh, angle)
@@ -190,7 +190,7 @@ def _least(holds: Callable[[float], bool], top_mm: float) -> float:
 
 
 def _mesh_undersides(mesh: trimesh.Trimesh, angle_rad: float) -> Iterator[tuple[bool, float]]:
-    """Yield a mesh's undersides; level ones are taken for bridges across their narrow side."""
+    """Yield a mesh's undersides; level ones count as bridges across their narrow side."""
     steep = -mesh.face_normals[:, 2] > math.sin(angle_rad) + 1e-3
     hangs = steep & (mesh.triangles_center[:, 2] > mesh.bounds[0, 2] + TOUCH_MM)
     faces = np.flatnonzero(hangs)

@@ -1,4 +1,4 @@
-"""Axles, pins, screws, bearings and springs: at the first jump, and after many (N, N·mm, mm, MPa)."""
+"""Strength and fatigue of axles, pins, screws, bearings and springs (N, N·mm, mm, MPa)."""
 
 import math
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ def steel_findings(case: LoadCase) -> Iterator[Finding]:
 
 
 def _pins(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of axles, pins and the roller's screw."""
+    """Yield the findings of axles, pins and the roller's screw."""
     layout, lateral = case.layout, case.layout.lateral
     remedy = (
         "raise bought.axle_mm with its bearings, bring the plates closer (a shorter motor, a narrower battery or "
@@ -45,7 +45,7 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
 
 
 def _fatigue(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of fatigue: springs, axles and pins after a number of jumps; none of them breaks at the first one."""
+    """Yield the findings of fatigue after a number of jumps: warnings, since nothing of it breaks at the first jump."""
     safety, spring = case.workshop.safety, case.layout.drive.spring
     lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
     allowed = spring_share(safety.jumps) * spring.tensile_mpa
@@ -65,7 +65,7 @@ def _fatigue(case: LoadCase) -> Iterator[Finding]:
 
 
 def _bearings(case: LoadCase) -> Iterator[Finding]:
-    """Yield that of the hub's bearings: an overload dents their races but does not stop the robot."""
+    """Yield the finding of the hub's bearings: an overload dents their races but does not stop the robot."""
     hub, cam = case.layout.hub_bearing, case.layout.lateral.cam
     if hub is None:
         return

@@ -50,7 +50,7 @@ def strength_findings(robot: Robot) -> list[Finding]:
 
 
 def _leg(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of main leg and lever."""
+    """Yield the findings of main leg and lever."""
     layout, torque = case.layout, case.torque_nmm
     sections, cam = layout.sections, layout.drive.cam
     leg = sections.leg(case.shell)
@@ -79,7 +79,7 @@ def _leg(case: LoadCase) -> Iterator[Finding]:
 
 
 def _front_link(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of the front link: pulled at release, pushed at landing."""
+    """Yield the findings of the front link: pulled at release, pushed at landing."""
     bar = case.layout.sections.front(case.shell)
     stress = float(bar.stress_mpa(0.0, case.front_n))
     yield stress_finding(
@@ -96,7 +96,7 @@ def _front_link(case: LoadCase) -> Iterator[Finding]:
 
 
 def _eyes(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of the printed eyes: links along their layers, the foot's lugs across them."""
+    """Yield the findings of printed eyes: links along their layers, the foot's lugs across them."""
     sections, holes = case.layout.sections, case.holes
     force = max(case.ankle_n, case.front_n, case.landing_n)
     stress = eye_stress_mpa(
@@ -115,7 +115,7 @@ def _eyes(case: LoadCase) -> Iterator[Finding]:
 
 
 def _foot(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of toes and rails."""
+    """Yield the findings of toes and rails."""
     design, sections = case.robot.design, case.layout.sections
     toes = float(case.forces.toes_n.max())
     toe, rail = sections.toe(case.shell), sections.rail(case.shell)
@@ -135,9 +135,9 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
 
 
 def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
-    """Return the stress beside the screws that hold a toe of its own, with a force on its tip.
+    """Return the stress beside the screws that hold a separate toe, with a force on its tip.
 
-    The outer screw bears the most: the force's moment about the inner one over their distance.
+    The outer screw carries the most: the force's moment about the inner one over their distance.
     """
     inner, outer = SCREWS_MM
     force = tip_n * (case.layout.design.l5_mm - inner) / (outer - inner)
@@ -148,9 +148,9 @@ def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
 
 
 def _sideways(case: LoadCase) -> Iterator[Finding]:
-    """Yield that of the main leg bent and twisted out of its plane by one toe's tip that lands first.
+    """Yield the finding of the main leg bent and twisted out of its plane by one toe's tip that lands first.
 
-    The blow's moment about the robot's long axis goes through the leg alone, the front link's help left out: its part
+    The impact's moment about the robot's long axis goes through the leg alone, the front link neglected: its part
     across the leg bends the leg sideways, its part along the leg twists it.
     """
     sections, angle = case.layout.sections, math.radians(case.robot.design.rest_angle_deg)
@@ -166,7 +166,7 @@ def _sideways(case: LoadCase) -> Iterator[Finding]:
 
 
 def _seats(case: LoadCase) -> Iterator[Finding]:
-    """Yield those of the plates around axles and pins, and of the cam's key."""
+    """Yield the findings of the plates around axles and pins, and of the cam's key."""
     safety, body = case.workshop.safety, case.workshop.material("body")
     arms, cam = case.wound_forces_n
     worst = max(float(np.linalg.norm(force)) for force in (cam - arms[1], cam, arms[1])) / 2.0

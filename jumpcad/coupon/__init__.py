@@ -1,1 +1,1 @@
-"""The fit coupon: what is printed, how it is read, and the workshop that follows."""
+"""The fit coupon: what is printed, its readings, and the workshop with the measured fits."""

@@ -69,7 +69,7 @@ def _mass_kg(piece: Piece, workshop: Workshop) -> float:
 
 
 def _guide(workshop: Workshop, holes: HoleSizes) -> str:
-    """Return the how-to."""
+    """Return the instructions."""
     bearing = (
         f"the bearing {holes.bearing.name}" if holes.bearing else "left out: the legs of this robot have no bearing"
     )
@@ -91,7 +91,7 @@ def _template(workshop: Workshop, holes: HoleSizes) -> str:
     """Return the file for the readings: every key commented out, with the value that the workshop has now."""
     fits = workshop.fits
     lines = [
-        "# What the coupon says; see coupon.md. Take the # from a line and write what you found, in mm as engraved."
+        "# Readings of the coupon; see coupon.md. Remove the # of a line and write what you found, in mm as engraved."
     ]
     for name in workshop.materials:
         lines += [

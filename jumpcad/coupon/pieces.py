@@ -1,6 +1,6 @@
 """The fit coupon: a gauge of holes and pegs in every material, and a gear pair at several backlashes (mm).
 
-Every step is engraved with its offset as it stands in a workshop's fits: `.10` in the gauge is a hole 0.10 mm larger
+Every step is engraved with its offset as written in a workshop's fits: `.10` in the gauge is a hole 0.10 mm larger
 per side than what goes through it, `.15` on a pinion a circumferential backlash of 0.15 mm. Everything lies flat on the
 bed and narrows upwards, so that it prints without support.
 """
@@ -40,7 +40,7 @@ LABEL_GAP_MM = 2.0
 TITLE_MM = 5.0
 ENGRAVED_MM = 0.6
 MODULE_MM, PINION_TEETH, WHEEL_TEETH, FACE_MM = 1.25, 15, 20, 5.0
-"""A pair as robots have them: usual module and face, no undercut, room for letters inside the pinion's root."""
+"""A gear pair as in robots: usual module and face, no undercut, room for letters inside the pinion's root."""
 PINION_LETTERS_MM = 3.0
 
 
@@ -96,7 +96,7 @@ def engraved(offset_mm: float) -> str:
 
 
 def coupon_holes(workshop: Workshop) -> HoleSizes:
-    """Return the bores that a workshop's coupon tries: with the lightest bearing that its hubs may have."""
+    """Return the bores that a workshop's coupon tests: with the lightest bearing that its hubs may have."""
     return HoleSizes.of(workshop, hub_bearings(workshop)[0])
 
 
@@ -119,7 +119,7 @@ def pieces(holes: HoleSizes, materials: Sequence[str], gear_material: str) -> li
 
 @dataclass(frozen=True)
 class GaugeRow:
-    """A row of holes or pegs: its letter, empty where it goes on from the row above, labels and diameters."""
+    """A row of holes or pegs: its letter, empty if it continues the row above, labels and diameters."""
 
     letter: str
     rungs: tuple[tuple[str, float], ...]
@@ -168,7 +168,7 @@ def gauge(holes: HoleSizes, steps: Ladders, title: str) -> Stack:
 
 
 def _holder(holes: HoleSizes, centre_distance_mm: float) -> Stack:
-    """Return the bar that holds two axles fast at a centre distance."""
+    """Return the bar that holds two axles firmly at a centre distance."""
     ends = (0.0, 0.0), (centre_distance_mm, 0.0)
     bar = stadium(*ends, holes.press(holes.axle_mm) + 4.0 * holes.fits.wall_mm)
     return Stack.of([(0.0, HOLDER_MM, bar)]).through(*(hole(holes.press(holes.axle_mm), end) for end in ends))
@@ -184,7 +184,7 @@ def _ladder(low_mm: float, high_mm: float) -> tuple[float, ...]:
 
 
 def _middled(label: str, height_mm: float) -> Region:
-    """Return letters whose middle stands on the origin."""
+    """Return letters with their middle at x = 0."""
     letters = text(label, height_mm)
     left, _, right, _ = letters.bounds()
     return letters.translate((-(left + right) / 2.0, 0.0))

@@ -1,17 +1,17 @@
-"""The fit coupon: printed once, tried with the bought parts, and read back into a workshop's fits.
+"""The fit coupon: printed once, tested with the bought parts, and read back into a workshop's fits.
 
 A fit in a workshop is what a hole must be drawn larger per side so that, printed, it fits: shrinkage is included. So
 the hole of a ladder that fits *is* the fit, and its engraved offset is taken over as it stands. Where several readings
-speak of one fit, the one counts with which every one of them still works:
+give one fit, the value is taken that still works for all of them:
 
 - `press_mm`: the smallest. A seat that is a step too tight still takes its part, one that is too wide drops it.
 - `sliding_mm`, `loose_mm`: the largest. A running fit that is a step too wide runs, one that is too tight seizes.
 - `hole_allowance_diameter_mm`: a hole that just holds a part has, once printed, the part's own diameter, so printing
   narrows holes by twice the press fit; the largest reading counts, for such holes must not be too small.
 - `backlash_circumferential_mm`: of the tightest pinion that turns freely. Where the gears were not tried it follows
-  from the pegs, since teeth are outsides like them: pegs that came out g larger in diameter have every flank g/2
+  from the pegs, since teeth are outer surfaces too: pegs that came out g larger in diameter have every flank g/2
   further out, which takes g/cos 20° from each gear's gaps along the pitch circle and 2·g/cos 20° from the pair's
-  backlash; that and the least play are what must be drawn. Lengths in mm.
+  backlash; the drawn backlash is that plus the least play. Lengths in mm.
 """
 
 import itertools
@@ -29,16 +29,16 @@ from jumpcad.files.names import Name
 from jumpcad.workshop import Workshop
 
 LEAST_PLAY_MM = 0.05
-"""Circumferential play that keeps printed gears from binding where they run out of true (judgement)."""
+"""Circumferential play that keeps printed gears from binding where they run eccentrically (judgement)."""
 PEG_ERROR_MM = 0.5
-"""A peg further than this from its diameter was misread, or comes from a printer that no fit can help."""
+"""A peg further than this from its diameter was misread, or its printer's error is too large for any fit."""
 
 
 AXLE_KEYS = ("axle_press_mm", "axle_sliding_mm", "axle_loose_mm")
 
 
 class Tried(TomlTable):
-    """What one material's gauge says; what was not tried is left out."""
+    """Readings of one material's gauge; what was not tried is left out."""
 
     axle_press_mm: float | None = None
     axle_sliding_mm: float | None = None
@@ -53,7 +53,7 @@ class Tried(TomlTable):
 
 
 class TriedGears(TomlTable):
-    """What the gears say: the backlash engraved on the tightest pinion that turns freely all round."""
+    """Reading of the gears: the backlash engraved on the tightest pinion that turns freely all round."""
 
     turns_freely_mm: float | None = None
 
@@ -136,7 +136,7 @@ def _given(values: Iterable[float | None]) -> list[float]:
 
 
 def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
-    """Yield what a workshop's coupon cannot have said."""
+    """Yield complaints about readings that a workshop's coupon cannot give."""
     steps = ladders(coupon_holes(workshop))
     for name, tried in readings.gauge.items():
         if name not in workshop.materials:

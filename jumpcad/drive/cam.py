@@ -2,8 +2,8 @@
 
 Frame. Everything lies in the body's x-z plane (x forward, z up), in mm, with the main leg's pivot (the hub) at the
 origin. Angles of the lever are counter-clockwise from x. Winding turns leg and lever counter-clockwise; the cam turns
-clockwise, which is a positive turn about +y. In the other sense the lobe would leave the roller towards the hub, where
-the lever is.
+clockwise, which is a positive turn about +y. Turned the other way, the lobe would leave the roller on the hub's side,
+where the lever is.
 
 Curves are in the cam's own frame: origin on the cam's axis, directions those of the body at cam angle 0 (leg at
 rest). At cam angle phi the cam is turned clockwise by phi.
@@ -32,9 +32,9 @@ class CamGeometry:
     axis_distance_mm, axis_rad
         The cam's axis from the hub: distance, and direction counter-clockwise from x.
     lead_rad
-        Lever at rest, counter-clockwise from the direction of the cam's axis.
+        Direction of the lever at rest, counter-clockwise from that of the cam's axis.
     roller_radius_mm, clearance_mm
-        Roller, and the gap that the drop face leaves around it.
+        Radius of the roller, and the gap that the drop face leaves around it.
     overshoot_rad
         How far past rest the drop leaves room for the leg.
     """
@@ -101,7 +101,7 @@ class CamGeometry:
         """Cam angle from which the roller can fall past the corner without touching it.
 
         The roller must clear the corner on its arc about the hub, so the corner must be farther from the hub than
-        lever, roller radius and clearance together. NaN where it never gets there.
+        lever, roller radius and clearance together. NaN if the corner never is that far away.
         """
         radius = float(np.hypot(*self.tip_mm))
         reach = self.lever_mm + self.roller_radius_mm + self.clearance_mm
@@ -125,7 +125,7 @@ class CamGeometry:
     def outline_mm(self, lift_points: int = 181) -> Array:
         """Return the cam's outline (n, 2) in its frame, counter-clockwise, not closed by repeating its first point.
 
-        Lift; drop face, an arc about the hub as it stood at release; the hollow for the roller's overshoot; the
+        Lift; drop face, an arc about the hub's position at release; the hollow for the roller's overshoot; the
         relief, an arc about the cam's axis that touches the hollow; and the step up to the lift.
         """
         lift = self.contact_mm(np.linspace(0.0, self.law.lift_rad, lift_points))
@@ -159,9 +159,9 @@ class Cam:
     profile_mm, pitch_mm
         Outline (n, 2) and the pitch curve of the lift (m, 2), in the cam's frame at cam angle 0.
     outer_radius_mm, core_radius_mm
-        Farthest and nearest point of the outline from the cam's axis.
+        Distances of the outline's farthest and nearest point from the cam's axis.
     max_pressure_angle_rad, min_convex_radius_mm
-        Of the lift; the radius is the pitch curve's.
+        Largest pressure angle of the lift, and smallest convex radius of its pitch curve.
     peak_contact_n, contact_pressure_mpa
         Largest force between roller and cam, and largest pressure of their line contact (Hertz).
     findings

@@ -13,14 +13,14 @@ from jumpcad.transforms import Array
 class CamLaw:
     """Leg angle over cam angle: constant torque at the cam, ramped up linearly at first.
 
-    Without the ramp the leg would start at infinite speed per cam angle, and the pressure angle with it.
+    Without the ramp the leg's speed per cam angle would start at infinity, and the pressure angle at 90°.
 
     Attributes
     ----------
     compression_rad
         Leg angle at the end of the lift.
     stiffness_nm_per_rad
-        Of both springs together.
+        Stiffness of both springs together.
     lift_rad, ramp_rad
         Cam angle of the whole lift, and of the ramp at its beginning.
     """

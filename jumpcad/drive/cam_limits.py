@@ -1,6 +1,6 @@
 """The limits of a cam, and the margins of many shapes at once. Notation as in `cam`.
 
-Turned about the hub, a cam stays the same cam, so its shape has three numbers: the lever, the distance from the circle
+Turning a cam about the hub does not change its shape, which has three numbers: the lever, the distance from the circle
 of the lever's end to the cam's axis (the gap), and the lever's lead over the direction of that axis.
 """
 
@@ -22,7 +22,7 @@ class CamLimits:
     Attributes
     ----------
     roller_radius_mm, roller_load_n, cam_width_mm
-        Roller, its static load rating, and the width on which it runs.
+        Radius of the roller, its static load rating, and the width on which it runs.
     gap_min_mm
         Least distance from the circle of the lever's end to the cam's axis, for the axle that crosses the lever's
         plane.
@@ -36,11 +36,11 @@ class CamLimits:
         Cam angle of the lift and of its ramp; what is left of the turn is for release and drop. Judgement: a longer
         ramp costs torque, a shorter one a larger cam.
     hub_radius_mm, clearance_mm
-        What lies around the leg's pivot in the cam's plane, and the gap between it and the cam. Leg and lever lie
+        Radius of what is around the leg's pivot in the cam's plane, and its gap to the cam. Leg and lever lie
         beside that plane; a spring's coil that is larger replaces the default, a bushing on a 3 mm axle (judgement).
     pressure_angle_rad, undercut_margin_mm
         Largest pressure angle (judgement: more than the 35° that handbooks advise for followers that pivot, since this
-        cam turns slowly), and least profile radius where the pitch curve is convex (judgement: a line of a nozzle).
+        cam turns slowly), and least profile radius where the pitch curve is convex (judgement: one printed line).
     overshoot_rad
         How far the leg may swing past rest before the roller meets the cam; judgement.
     reserve_rad
@@ -49,11 +49,11 @@ class CamLimits:
         Direction of the cam's axis from the hub, counter-clockwise from forward: farthest back, and
         farthest forward; judgement: above the hub, where links sweep least.
     lever_loaded_max_rad
-        Direction of the lever with the springs loaded, at most (level with the pivots is pi).
+        Largest direction of the lever with the springs loaded (pi: level with the pivots).
     lowest_mm
         The cam stays above this height over the hub.
     lever_max_mm, gap_max_mm, lead_max_rad
-        Where the search ends: lever, distance from the lever's circle to the cam's axis, lead of the lever over it.
+        Upper bounds of the search: lever, distance from its circle to the cam's axis, lead of the lever over it.
         Judgement: larger ones find no room in a body.
     """
 
@@ -84,7 +84,7 @@ class CamLimits:
 
 @dataclass(frozen=True)
 class Limit:
-    """A checked limit: its finding's name and unit, the size of a margin that counts as 1, and words."""
+    """A checked limit: its finding's name, unit, message and remedy, and the margin that scales to 1."""
 
     name: str
     unit: str
@@ -114,7 +114,7 @@ LIMITS = (
 
 
 ROWS = np.array([0, 0, 1, 1, 2, 2, 3, 4, 4, 5, 6, 7, 7, 7, 8, 8, 9])
-"""The limit of every row of margins. A limit that several things can set has a row for each: all rows are smooth."""
+"""The limit of every row of margins. A limit with several causes has a row for each, so that all rows are smooth."""
 FIRST_ROWS = np.flatnonzero(np.diff(ROWS, prepend=-1))
 SCALES = np.array([LIMITS[row].scale for row in ROWS])
 
@@ -161,7 +161,7 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
     face = np.abs(reach * np.exp(1j * past) - axis)
     highest, lowest = axis_range(law, limits, axis, lead[:, 0], outer)
 
-    # The extremes lie at either end of the lift or just behind the ramp, so each half is smooth in the shape.
+    # The extremes lie at either end of the lift or just after the ramp, so each half is smooth in the shape.
     halves = [0, 2 * (samples // 4)]
     pressure_angle = np.arccos(np.clip(np.minimum.reduceat(cos_pressure, halves, axis=1), -1.0, 1.0))
     convex_radius = 1 / np.maximum(np.maximum.reduceat(curvature, halves, axis=1), 1e-9)
@@ -193,7 +193,7 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
 def _sampled(law: CamLaw, samples: int) -> tuple[Array, Array, Array]:
     """Return a law's leg angle and its derivatives (samples,) over the lift; a search needs the same ones often.
 
-    The second derivative jumps where the ramp ends: the sharpest curvature is just behind it.
+    The second derivative jumps where the ramp ends: the sharpest curvature is just after it.
     """
     ramp = np.linspace(0.0, law.ramp_rad, samples // 4, endpoint=False)
     rest = law.ramp_rad + (law.lift_rad - law.ramp_rad) * np.linspace(0.0, 1.0, samples - samples // 4) ** 2

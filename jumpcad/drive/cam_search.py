@@ -1,7 +1,7 @@
 """The smallest cam that meets every limit.
 
 A coarse grid over the three numbers of a cam's shape gives the start, sequential quadratic programming the optimum,
-always in the same way; the direction of the cam's axis follows from where there is room. The optimum is rounded to
+without random numbers; the direction of the cam's axis follows from the free room. The optimum is rounded to
 tenths of a micrometre and ten-thousandths of a degree, so that differences between processors in
 the linear algebra underneath, some 1e-10 of it, do not reach the robot.
 """
@@ -59,7 +59,7 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
 
 
 def _findings(limits: CamLimits, margin: Array, numbers: dict[str, Array]) -> tuple[Finding, ...]:
-    """Return the finding of every limit; those of places and gaps have a margin alone."""
+    """Return the finding of every limit; those of places and gaps have only a margin."""
     compared = {
         "cam_pressure_angle": (numbers["pressure_angle"][0], limits.pressure_angle_rad),
         "cam_contact": (numbers["pressure"][0], limits.pressure_mpa),
@@ -108,7 +108,7 @@ class _Shapes:
         self.known: dict[bytes, tuple[float, Array, Array, Array]] = {}
 
     def best(self) -> tuple[Array, bool]:
-        """Return the rounded shape (3,) itself, and whether it meets every limit with the reserve; else the least bad.
+        """Return the rounded shape (3,), and whether it meets every limit with the reserve; if none does, the nearest.
 
         Sequential quadratic programming from the best point of a coarse grid; where that ends outside the limits, it
         starts again from where the largest violation is smallest.
@@ -139,7 +139,7 @@ class _Shapes:
         return float(self._at(logs)[2].min()) >= -1e-5
 
     def _coarse(self) -> list[Array]:
-        """Return the best points of a coarse grid, one a lever."""
+        """Return the best points of a coarse grid, one per lever."""
         grid = np.array(list(itertools.product(*np.linspace(self.lower, self.upper, 7).T)))
         size, margins = self._size_and_margins(grid, samples=12)
         missing = np.log1p(np.maximum(-margins, 0.0)).sum(axis=0)
@@ -148,7 +148,7 @@ class _Shapes:
         return list(grid.reshape(7, -1, 3)[order, rank.argmin(axis=1)[order]])
 
     def _smallest(self, start: Array) -> Array:
-        """Return where the size is smallest, every margin positive."""
+        """Return the point where the size is smallest and every margin positive."""
         return _constrained_minimum(
             lambda logs: self._at(logs)[:2],
             lambda logs: self._at(logs)[2:],

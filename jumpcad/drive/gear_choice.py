@@ -24,15 +24,15 @@ Pairs = npt.NDArray[np.void]
 """A table of gear pairs with named columns."""
 
 PINION_TEETH, WHEEL_TEETH = range(12, 46), range(13, 91)
-"""Judgement: fewer teeth than 12 need large shifts; more than 90 make a wheel larger than a body, of any module."""
+"""Judgement: fewer teeth than 12 need large shifts; more than 90 make a wheel larger than a body, at any module."""
 DISC_G_MM3 = 1.27e-3
-"""Density of the full discs by which gears are compared: PETG."""
+"""Density (g/mm³) of the solid discs by which gears are compared: PETG."""
 MOST_TRIED = 4
-"""Pairs tried of each motor, the lightest first; judgement."""
+"""Pairs tried for each motor, the lightest first; judgement."""
 
 
 def least_tip_mm(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) -> float:
-    """Return the least tip radius of a cam gear that needs no second pair, were there room; infinite if none does."""
+    """Return the least tip radius of a cam gear that works without a second pair, if it fits; infinite if none does."""
     least = math.inf
     for beside, group in _by_shape(motors, limits).items():
         pairs = _last_pairs(_printable_pairs(beside), law, replace(beside, cam_gear_tip_max_mm=math.inf))
@@ -47,7 +47,7 @@ def by_cost(
 ) -> Iterator[tuple[Motor, tuple[GearPair, ...]]]:
     """Yield motors with a number of gear pairs that turn the cam, the lightest and quickest first.
 
-    The cost is the mass of motor and gears, these as full discs, with the winding time converted to it.
+    The cost is the mass of the motor and of the gears as solid discs, plus the winding time converted to mass.
     """
     efficiency = limits.efficiency(count)
     found: list[tuple[float, int, int]] = []
@@ -109,7 +109,7 @@ def _last_pairs(pairs: Pairs, law: CamLaw, limits: TrainLimits) -> Pairs:
 
 
 def _strong(pairs: Pairs, wheel_torque_nm: npt.ArrayLike, limits: TrainLimits) -> npt.NDArray[np.bool_]:
-    """Return which pairs (n,) bear torques (n,) on their wheels, by the pinion's Lewis stress."""
+    """Return which pairs (n,) are strong enough for torques (n,) on their wheels, by the pinion's Lewis stress."""
     force = 2000 * np.asarray(wheel_torque_nm) / (pairs["module"] * pairs["wheel"])
     stress = force / (limits.face_width_mm * pairs["module"] * pairs["lewis"])
     return np.asarray(stress <= limits.stress_mpa)

@@ -1,4 +1,4 @@
-"""Involute spur gears: profiles as the ISO 53 rack cuts them, and how strong a tooth is.
+"""Involute spur gears: profiles as the ISO 53 rack cuts them, and the strength of a tooth.
 
 Basic rack A of ISO 53: pressure angle 20°, addendum 1, dedendum 1.25, fillet 0.38 (all in modules). Formulas for
 shifts and for measuring over teeth and pins: ISO 21771. Lengths in mm, angles in rad.
@@ -36,7 +36,7 @@ def inverse_involute(value: npt.ArrayLike) -> Array:
 
 
 def least_shift(teeth: int) -> float:
-    """Return the smallest profile shift that is not undercut, in modules; negative where there is room."""
+    """Return the smallest profile shift without undercut, in modules; negative for large numbers of teeth."""
     depth = DEDENDUM - _FILLET * (1 - _SIN)
     return depth - teeth * _SIN**2 / 2
 
@@ -52,7 +52,7 @@ class Gear:
     thinning_mm
         By how much its teeth are thinner than a backlash-free pair's, on the pitch circle (its share of the backlash).
     tip_cut_mm
-        Taken off the tip radius, where shifts would eat the clearance of the mating root.
+        Taken off the tip radius, where shifts would reduce the clearance to the mating root.
     """
 
     teeth: int
@@ -71,22 +71,22 @@ class Gear:
 
     @property
     def pitch_radius_mm(self) -> float:
-        """Reference circle (mm)."""
+        """Radius of the reference circle (mm)."""
         return self.module_mm * self.teeth / 2
 
     @property
     def base_radius_mm(self) -> float:
-        """Base circle of the involutes (mm)."""
+        """Radius of the base circle of the involutes (mm)."""
         return self.pitch_radius_mm * _COS
 
     @property
     def tip_radius_mm(self) -> float:
-        """Over the teeth (mm)."""
+        """Radius of the tip circle (mm)."""
         return self.pitch_radius_mm + self.module_mm * (1 + self.shift) - self.tip_cut_mm
 
     @property
     def root_radius_mm(self) -> float:
-        """Between the teeth (mm)."""
+        """Radius of the root circle (mm)."""
         return self.pitch_radius_mm - self.module_mm * (DEDENDUM - self.shift)
 
     @property
@@ -96,7 +96,7 @@ class Gear:
 
     @property
     def form_radius_mm(self) -> float:
-        """Where fillet and involute meet (mm)."""
+        """Radius at which fillet and involute meet (mm)."""
         _, radii = self._flank
         return float(radii[self._fillet_points - 1])
 

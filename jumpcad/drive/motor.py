@@ -10,12 +10,12 @@ from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.train_limits import TrainLimits
 
 POSITIONS = 201
-"""Cam angles of the lift at which the current is looked at."""
+"""Number of cam angles of the lift at which the current is computed."""
 
 
 @dataclass(frozen=True)
 class Winding:
-    """One turn of the cam at the motor's rated voltage: its time (s), and the current's mean, peak and work."""
+    """One turn of the cam at the motor's rated voltage: time, mean and peak current, and electrical work."""
 
     seconds: float
     mean_current_a: float
@@ -34,7 +34,7 @@ def free_speed_rad_s(motor: Motor) -> float:
 
 
 def least_ratio(law: CamLaw, motor: Motor, limits: TrainLimits, pairs: int) -> float:
-    """Return the motor turns a cam turn that torque and speed need with a number of gear pairs."""
+    """Return the motor turns per cam turn that torque and speed need with a number of gear pairs."""
     for_torque = law.peak_torque_nm / limits.efficiency(pairs) / allowed_nm(motor, limits)
     return max(for_torque, free_speed_rad_s(motor) / limits.cam_speed_max_rad_s)
 

@@ -1,4 +1,4 @@
-"""What a motor takes of the body: its socket around it, and the way from its front to its pinion (mm)."""
+"""Room that a motor needs in the body: its socket, and the distance from its front to its pinion (mm)."""
 
 from jumpcad.catalogue import Motor
 from jumpcad.dimensions import CAP_EAR_MM, MOTOR_CAP_MM, SOCKET_PLAY_MM, SOCKET_WALL_MM

@@ -32,7 +32,8 @@ class SpringLimits:
     mandrel_clearance_mm
         Gap that a loaded coil leaves around its bushing, on the diameter; judgement: it must not bind.
     outer_max_mm, body_lengths_max_mm
-        Of the loaded coil. The lengths are tried in this order: a long, thin spring widens the robot, a short one is
+        Largest diameter and lengths of the loaded coil.
+        The lengths are tried in this order: a long, thin spring widens the robot, a short one is
         larger around the leg's axle. Judgement: the room beside the cam, and between leg and gears.
     arm_reach_mm
         From the outside of the coil to the pins; judgement: pin, its eye and a gap.
@@ -56,7 +57,7 @@ class TorsionSpring:
     turns
         Turns of the body at rest, which its maker winds; real-valued, so that the stiffness is the design's exactly.
     body_length_mm
-        Of the close-coiled body when loaded.
+        Length of the close-coiled body when loaded.
     mandrel_mm
         Largest bushing that clears the loaded coil.
     arm_length_mm
@@ -108,7 +109,7 @@ def synthesise_spring(
     Raises
     ------
     CannotBuildError
-        If no wire is strong enough in the room that there is.
+        If no wire is strong enough in the available room.
     """
     torque_nmm = 1000 * stiffness_nm_per_rad * compression_rad / 2
     for length in limits.body_lengths_max_mm:

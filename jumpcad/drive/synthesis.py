@@ -34,15 +34,15 @@ class DriveLimits:
     motors
         Names in the catalogue; none stands for every one.
     gap_mm
-        Between things that pass each other.
+        Gap between things that pass each other.
     axle_radius_mm
-        Around an axle, with what turns on it or holds it apart: the leg's where the cam gear passes it, beside the
-        spring, and an idler's beside the cam.
+        Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
+        spring, and of an idler's axle beside the cam.
     fall_s
-        From release to the leg's swing past rest, during which the cam turns on (judgement: releases of this size take
+        Time from release to the leg's swing past rest; the cam turns on meanwhile (judgement: such releases take
         15 to 30 ms).
     face_widths_mm
-        Of the gears, in the order tried: the next where the teeth are not strong enough, or find no room that are.
+        Face widths of gears, in the order tried: the next one where no gears are strong enough and also fit.
     more_gap_mm
         How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther axis makes
         room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one pair are
@@ -86,7 +86,7 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     stiffness, compression = design.stiffness_nm_per_rad, design.compression_rad
     if compression < LEAST_COMPRESSION_RAD:
         raise CannotBuildError(
-            f"the springs are wound by {math.degrees(compression):.2f}°, less than "
+            f"the springs are loaded by {math.degrees(compression):.2f}°, less than "
             f"{math.degrees(LEAST_COMPRESSION_RAD):g}°: raise compression_ratio, rest_angle_deg or c_coef"
         )
     spring = synthesise_spring(stiffness, compression, catalogue.wire, limits.spring)
@@ -97,7 +97,7 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
         beside = replace(limits, train=replace(limits.train, face_width_mm=width))
         try:
             return Drive(spring, *_cam_and_train(law, motors, spring.outer_diameter_mm, beside))
-        except NoTrainError as error:  # wider teeth bear more
+        except NoTrainError as error:  # wider teeth carry more
             refusal = error
     assert refusal is not None
     raise refusal
@@ -115,7 +115,7 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
         gap = limits.cam.gap_min_mm + more
         try:
             cam = synthesise_cam(law, replace(limits.cam, hub_radius_mm=around, gap_min_mm=gap))
-        except CannotBuildError as error:  # a farther axis only narrows what a cam may be
+        except CannotBuildError as error:  # with a farther axis fewer cams are possible
             refusal = refusal or error
             break
         beside = _train_limits(cam, limits)
@@ -127,7 +127,7 @@ def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits:
             if len(train.stages) == 1:
                 return cam, train
             found = found or (cam, train)
-        if found is not None:  # two pairs do it here; farther away only one pair would do better
+        if found is not None:  # two pairs work here; farther away only one pair would be better
             tip = least_tip_mm(law, motors, beside)
             enough = more + tip - beside.cam_gear_tip_max_mm if tip <= limits.train.cam_gear_tip_max_mm else math.inf
     if found is None:

@@ -31,7 +31,7 @@ class GearTrain:
     Attributes
     ----------
     ratio, efficiency
-        Motor turns a cam turn; share of the motor's work that reaches the springs while they are loaded.
+        Motor turns per cam turn; share of the motor's work that reaches the springs while they are loaded.
     motor_torque_nm, stall_margin
         Largest torque on the motor's output, and what is left of its allowed torque, as a share of stall.
     winding_s, mean_current_a, peak_current_a, electrical_j
@@ -69,7 +69,7 @@ def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) 
     torque = law.peak_torque_nm / limits.cam_efficiency
     allowed = max(allowed_nm(motor, limits) for motor in motors)
     raise NoTrainError(
-        f"no motor turns the cam: it takes {1000 * torque:.0f} mN·m, the strongest allowed motor may give "
+        f"no motor turns the cam: it needs {1000 * torque:.0f} mN·m, the strongest allowed motor may give "
         f"{1000 * allowed:.0f} mN·m, and no one or two gear pairs make "
         f"{torque / allowed / limits.pair_efficiency:.1f}:1 at no more than {limits.cam_speed_max_rad_s:.1f} rad/s "
         f"with a cam gear of at most {limits.cam_gear_tip_max_mm:.1f} mm radius and {limits.stress_mpa:g} MPa in "

@@ -21,13 +21,13 @@ class TrainLimits:
     stall_share, torque_max_nm
         Largest share of a motor's stall torque, and largest torque on its gearbox.
     pair_efficiency
-        Of each printed gear pair.
+        Efficiency of each printed gear pair.
     backlash_circumferential_mm
-        For a pair, at the pitch circle.
+        Backlash of a pair, at the pitch circle.
     stress_mpa
         Allowable bending stress of the teeth: that of the printed material over its safety factor.
     tip_min_mm
-        Least width of a tooth's tip: one line of the nozzle.
+        Least width of a tooth's tip: one printed line.
     cam_gear_root_min_mm
         Least root radius of the cam gear: its key and a wall.
     pinion_root_min_mm
@@ -35,13 +35,13 @@ class TrainLimits:
     shaft_wall_mm
         Fit and wall around the motor's shaft in its pinion.
     cam_efficiency
-        Of cam, roller and their axles together; judgement.
+        Efficiency of cam, roller and their axles together; judgement.
     modules_mm
-        Judgement: the smallest whose teeth a nozzle of 0.4 mm prints, and the next of ISO 54.
+        Modules tried; judgement: the smallest whose teeth a nozzle of 0.4 mm prints, and the next of ISO 54.
     face_width_mm
-        Of all gears.
+        Face width of all gears.
     cam_gear_tip_max_mm
-        Room for the cam gear beside what surrounds the leg's pivot; without limit unless given.
+        Largest tip radius of the cam gear beside what is around the leg's pivot; no limit by default.
     motor_distance_min_mm
         Least distance of the motor's axis from the cam's, whatever the motor; judgement: the height of an N20.
     cam_room_mm
@@ -51,7 +51,8 @@ class TrainLimits:
     axle_mm
         Radius around the cam's axle that an idler's large gear must leave free: that of its spacer, and the gap.
     cam_speed_max_rad_s
-        Of the unloaded cam: while the leg falls, it must not bring the next lift under the roller. By default the 8°
+        Largest speed of the unloaded cam: while the leg falls, it must not bring the next lift under the roller.
+        By default the 8°
         of the cam's reserve in 30 ms, as in `synthesis`.
     seconds_per_gram
         Seconds of winding accepted per gram saved; judgement.

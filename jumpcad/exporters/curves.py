@@ -16,16 +16,16 @@ from jumpcad.transforms import Array
 ON_CIRCLE_MM = 2e-3
 """How far corners may be from their circle: outlines are cut and grown on a grid of about a tenth of that."""
 SAME_MM = 1e-6
-"""Corners nearer than this are one: CAD kernels have no edge that short (1e-7 mm in Open CASCADE)."""
+"""Corners closer than this are one: CAD kernels allow no shorter edge (1e-7 mm in Open CASCADE)."""
 LEAST_SIDES = 6
-"""Fewer sides are taken for corners."""
+"""Fewer sides are corners, not an arc."""
 WIDEST_SIDE_RAD = math.radians(12.0)
-"""Angle over which a side may reach; circles have at least 64 sides, of 5.6 degrees."""
+"""Largest angle that a side of an arc spans; circles have at least 64 sides, of 5.6 degrees."""
 
 
 FULLEST_RAD = math.radians(350.0)
 STRAIGHT = 1e-3
-"""Sine of the angle at which three points are as good as in line."""
+"""Sine of the angle up to which three points count as collinear."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ Curve = Line | Arc | Circle
 def curves_of(polygon: npt.ArrayLike) -> list[Curve]:
     """Return the curves of a closed polygon (n, 2), counter-clockwise round material and clockwise round holes.
 
-    They follow each other from end to start, and are nowhere further from the polygon than it is from the curves that
+    Each starts where the last one ends. They are nowhere further from the polygon than it is from the curves that
     it was drawn for.
     """
     points = np.asarray(polygon, dtype=float)
@@ -69,7 +69,7 @@ def curves_of(polygon: npt.ArrayLike) -> list[Curve]:
         return [circle]
     curves: list[Curve] = []
     lengths = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
-    points = np.roll(points, -int(np.argmax(lengths)), axis=0)  # the longest side is a line: no arc goes on over it
+    points = np.roll(points, -int(np.argmax(lengths)), axis=0)  # the longest side is a line: no arc contains it
     closed = np.vstack([points, points[:1]])
     at = 0
     while at < count:
@@ -83,7 +83,7 @@ def curves_of(polygon: npt.ArrayLike) -> list[Curve]:
 
 
 def _circle(points: Array) -> Circle | None:
-    """Return the circle that a whole polygon stands for, if it does."""
+    """Return the circle that a whole polygon stands for, if any."""
     sides = np.roll(points, -1, axis=0) - points
     if len(points) < 2.0 * math.pi / WIDEST_SIDE_RAD:
         return None
@@ -121,7 +121,7 @@ def _is_arc(points: Array) -> bool:
 
 
 def _through(a: Array, b: Array, c: Array) -> tuple[Array, float] | None:
-    """Return centre and radius of the circle through three points, or None if they are as good as in line."""
+    """Return centre and radius of the circle through three points, or None if they are collinear."""
     ab, ac = b - a, c - a
     double = 2.0 * float(_cross(ab, ac))
     if abs(double) <= STRAIGHT * float(np.hypot(*ab) * np.hypot(*ac)):

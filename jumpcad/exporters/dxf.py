@@ -59,7 +59,7 @@ def write_dxf(cut: Region, engraved: Region) -> str:
             document.layers.add(layer, color=colour)
             _outlines(document.modelspace(), layer, region)
         stream = io.StringIO()
-        # ezdxf would register the classes in use in the order of a set, another one in every process
+        # ezdxf would register the classes in use in the order of a set, which differs between processes
         for name in sorted(document.entitydb.dxf_types_in_use()):
             document.classes.add_class(name)
         document.write(stream)

@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     from jumpcad.scene.visuals import Visual
 
 SUBSTEPS = 4
-"""MuJoCo's own steps in one of the settings': what makes its stiffest constraints as exact as Bullet's rigid ones."""
+"""MuJoCo's own steps per step of the settings; its stiffest constraints are then as exact as Bullet's rigid ones."""
 SOFTNESS_STEPS = 2.0
 """Time constant of the constraints over MuJoCo's own step: the least that MuJoCo keeps stable."""
 IMPEDANCE = [0.99, 0.9999, 0.0001, 0.5, 2.0]
 """Share of a constraint that is enforced, and how it grows with penetration (MuJoCo's `solimp`)."""
 LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100
-"""Fewer do not reach the tolerance; what MuJoCo takes where a file says nothing."""
+"""Solver iterations: fewer do not reach the tolerance; and MuJoCo's default."""
 
 
 def mjcf_files(robot: "Robot") -> Iterator[tuple[str, str]]:
@@ -74,7 +74,7 @@ def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
 def _children(
     parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, visible: "Sequence[Visual]"
 ) -> list[str]:
-    """Append the bodies that hang on a body; return their joints in the order in which MuJoCo numbers them."""
+    """Append the child bodies of a body; return their joints in the order in which MuJoCo numbers them."""
     order: list[str] = []
     for joint in (joint for joint in mechanism.joints if joint.parent == name):
         node = add(
@@ -101,7 +101,7 @@ def _hinge(node: ET.Element, joint: Joint, mechanism: Mechanism, settings: Setti
 
 
 def _fill(node: ET.Element, body: Body, visible: "Sequence[Visual]") -> None:
-    """Give a body its mass properties, what is seen of it, its contact spheres."""
+    """Give a body its mass properties, visible meshes and contact spheres."""
     tensor = body.inertia_kg_m2
     six = (*tensor.diagonal(), tensor[0, 1], tensor[0, 2], tensor[1, 2])
     add(node, "inertial", pos=body.com_m, mass=body.mass_kg, fullinertia=six)
@@ -154,7 +154,7 @@ def _contacts(root: ET.Element, mechanism: Mechanism, settings: Settings) -> Non
 
 
 def _loop(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
-    """Tie the loop's two points, a site on each body."""
+    """Connect the loop's two points, a site on each body."""
     loop = mechanism.loop
     for name, point in ((loop.body_a, loop.point_a_m), (loop.body_b, loop.point_b_m)):
         body = next(node for node in root.iter("body") if node.get("name") == name)
@@ -171,5 +171,5 @@ def _wound(root: ET.Element, mechanism: Mechanism, order: list[str]) -> None:
 
 
 def _stiff(settings: Settings) -> dict[str, Sequence[float]]:
-    """Return how stiff contacts and loop are: as stiff as the project's own MuJoCo runs have them."""
+    """Return the stiffness of contacts and loop, the same as in the project's own MuJoCo runs."""
     return {"solref": (SOFTNESS_STEPS * settings.dt_s / SUBSTEPS, 1.0), "solimp": IMPEDANCE}

@@ -19,7 +19,7 @@ Files = Iterable[tuple[str, str | bytes]]
 
 @dataclass(frozen=True)
 class Exporter:
-    """A line of the registry: a name, and the function that makes files from a robot.
+    """An entry of the registry: a name, and the function that makes files from a robot.
 
     An `optional` one writes only where it is asked for by name; `require` raises `JumpcadError` if it cannot.
     """

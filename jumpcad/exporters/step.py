@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 FIXED_DATE = "1980-01-01T00:00:00"
 FUZZY_MM = (0.0, 1e-4, 1e-3)
-"""How near to each other faces may be to be taken for one; tried in this order until the solid closes."""
+"""Distances up to which two faces count as one; tried in this order until the solid closes."""
 
 
 def is_installed() -> bool:
@@ -68,7 +68,7 @@ def write_step(drawing: Drawing) -> bytes:
 
 
 def _stacked(stack: Stack) -> "Iterator[Shape[Any]]":
-    """Yield a stack as one solid of flat and cylindrical faces, more and more tolerant of faces that nearly meet."""
+    """Yield a stack as one solid of flat and cylindrical faces, with growing tolerance for faces that nearly meet."""
     first, *others = (solid for slab in stack.slabs for solid in _extruded(slab))
     if not others:
         yield first

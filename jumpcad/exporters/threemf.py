@@ -1,4 +1,4 @@
-"""3MF: one plate a file, every part a named object (3MF Core Specification 1.3).
+"""3MF: one plate per file, every part a named object (3MF Core Specification 1.3).
 
 Written here and not by a library: fixed dates and a fixed order give the same bytes, and strict readers report nothing.
 """
@@ -86,7 +86,7 @@ def _object(number: int, part: Printable) -> str:
 
 
 def _lines(line: str, rows: npt.NDArray[np.generic]) -> str:
-    """Return a line for every row of three numbers, all written at once, which is quicker than one by one."""
+    """Return a line for every row of three numbers, all formatted at once, which is faster than one by one."""
     return line * len(rows) % tuple(rows.ravel().tolist())
 
 

@@ -1,4 +1,4 @@
-"""URDF: the tree of the mechanism, and a JSON file beside it with what URDF cannot say: loop, spring, release.
+"""URDF: the tree of the mechanism, and a JSON file beside it with what URDF cannot express: loop, spring, release.
 
 Link frames are the body frames of `Robot`. Inertial frames lie along the principal axes, because PyBullet turns any
 other tensor to them with an error of 1e-5. What is seen are the parts' meshes (`meshes/NAME.stl`, in mm, scaled to
@@ -27,7 +27,7 @@ SWING_RAD = math.pi / 2
 
 
 def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
-    """Yield path and content of the meshes of all that is seen, of the URDF and of the loop beside it."""
+    """Yield path and content of the visible meshes, of the URDF and of the loop file beside it."""
     from jumpcad.scene.visuals import visuals
     from jumpcad.solids.stl import write_stl
 
@@ -41,9 +41,9 @@ def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
 def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:
     """Return the URDF document of a mechanism; its joints have the settings' damping and dry friction.
 
-    `visible` is what is seen of it, from `jumpcad.scene.visuals`.
+    `visible` are its visible meshes, from `jumpcad.scene.visuals`.
 
-    MuJoCo's own element keeps it from dropping the root link's mass and the folder of the meshes.
+    The `mujoco` element keeps MuJoCo from dropping the root link's mass and the folder of the meshes.
     """
     settings = settings or Settings()
     root = ET.Element("robot", name=mechanism.name)

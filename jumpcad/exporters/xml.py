@@ -1,4 +1,4 @@
-"""What the XML formats share: elements whose numbers are written so that they read back as the same doubles."""
+"""Shared by the XML formats: elements whose numbers are written so that they read back as the same doubles."""
 
 import re
 import xml.etree.ElementTree as ET
@@ -14,7 +14,7 @@ from jumpcad.transforms import Array
 Value: TypeAlias = str | float | npt.ArrayLike
 
 FORBIDDEN = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What is no character of XML (XML 1.0, production 2)."""
+"""Characters that XML does not allow (XML 1.0, production 2)."""
 
 
 def add(parent: ET.Element, tag: str, text: Value | None = None, **attributes: Value) -> ET.Element:
@@ -26,7 +26,7 @@ def add(parent: ET.Element, tag: str, text: Value | None = None, **attributes: V
 
 
 def written(value: Value) -> str:
-    """Return a value as text: the shortest decimals that read back as the same doubles, with blanks between them."""
+    """Return a value as text: the shortest decimals that read back as the same doubles, separated by blanks."""
     if isinstance(value, str):
         return value
     return " ".join(repr(float(number) + 0.0) for number in np.ravel(value))

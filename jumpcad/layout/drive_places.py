@@ -30,7 +30,7 @@ ARM_BEYOND_MM = 2.0
 MOTOR_WANTED_MM = np.array([0.0, 14.0])
 """Where the motor is wanted in the body frame; judgement: between the pivots, its socket just above their line."""
 IDLER_STEP = 2
-"""Every which free place of an idler is tried: 10° apart; judgement."""
+"""Every second free place of an idler is tried: 10° apart; judgement."""
 
 
 def spring_pin_place(obstacles: list[Obstacle], hub: Array, radius_mm: float, inside: Interval) -> Array:
@@ -60,17 +60,17 @@ def spring_arm(hub: Array, pin: Array, radius_mm: float, inside: Interval) -> Ob
 
 
 def require_shaft(motor: Motor, lateral: Lateral) -> None:
-    """Refuse a motor whose shaft does not reach into its pinion by its diameter (judgement; usual for hubs)."""
+    """Reject a motor whose shaft reaches less than its diameter into its pinion (judgement; usual for hubs)."""
     needed = lateral.gears[-1][0] + motor.shaft_mm - lateral.motor[1]
     if motor.shaft_length_mm < needed - 1e-9:
         raise CannotBuildError(
-            f"the shaft of motor {motor.name} is {motor.shaft_length_mm:g} mm long; {needed:.1f} mm reach through its "
-            f"cap and {motor.shaft_mm:g} mm into its pinion: allow a motor with a longer shaft"
+            f"the shaft of motor {motor.name} is {motor.shaft_length_mm:g} mm long; it needs {needed:.1f} mm to pass "
+            f"its cap and reach {motor.shaft_mm:g} mm into its pinion: allow a motor with a longer shaft"
         )
 
 
 def require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y: Interval) -> None:
-    """Reject a cam gear that meets the springs or an axle."""
+    """Reject a cam gear that collides with the springs or an axle."""
     room = clearance(hub_things, axis[None], (0.0, 0.0), 0.0, y)[0] - tip_mm
     if room < 0:
         raise CannotBuildError(

@@ -23,20 +23,20 @@ from jumpcad.layout.room import EVERYWHERE, Obstacle, box_obstacle, disc
 from jumpcad.transforms import Array
 
 BOARDS_APART_MM = 1.0
-"""Between both boards, and over the battery; judgement: wires and solder joints."""
+"""Gap between both boards, and above the battery; judgement: wires and solder joints."""
 TRAY_MORE_MM = 2.0
 """By how much a tray is longer and wider than its load; judgement: an edge of 1 mm all around."""
 GRID_MM = 2.0
-"""Between candidate places; judgement."""
+"""Distance between candidate places; judgement."""
 TRAY_AHEAD_MM, TRAY_HIGHEST_MM = 30.0, 60.0
-"""Where trays find room: from the hub to so far ahead of the front pivot, up to so high; judgement."""
+"""Places tried for trays: from the hub to this far ahead of the front pivot, up to this height; judgement."""
 HEIGHT_COST = 1.2
 """Cost of a tray's height over that of its distance from the front pivot; judgement: a low body tips less."""
 STANDOFF_BEHIND_MM, STANDOFF_AHEAD_MM, STANDOFF_HIGHEST_MM = 20.0, 40.0, 80.0
-"""Where standoffs find room: from behind the cam's axis to ahead of the front pivot or trays, up to so high; judgement.
+"""Places tried for standoffs: this far behind the cam's axis, ahead of the front pivot or trays, and up; judgement.
 """
 STANDOFFS_APART_MM = 8.0
-"""Between two standoffs, beside the usual clearance; judgement: nearer ones would hold the plates in one place only."""
+"""Distance added to the usual clearance between standoffs; judgement: closer ones hold the plates in one place only."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Electronics:
 
     @property
     def names(self) -> str:
-        """Their names, in words."""
+        """Their names, for messages."""
         return f"{self.battery.name}, {self.controller.name} and {self.driver.name}"
 
     @property

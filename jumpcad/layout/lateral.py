@@ -1,7 +1,7 @@
-"""The lateral stack: who occupies which interval of y (mm, y to the left, 0 in the middle of the main leg).
+"""The lateral stack: which part occupies which interval of y (mm, y to the left, 0 in the middle of the main leg).
 
-From the leg to the left: roller and cam, the screw head that holds the roller, beyond the spring the cam gear, for two
-stages the first wheel, the left plate. To the right: the spring alone, the motor's body, the right plate. The motor
+From the leg to the left: roller and cam, the screw head that holds the roller; beyond the spring the cam gear; with two
+stages, the first wheel; the left plate. To the right: the spring alone, the motor's body, the right plate. The motor
 lies across, its shaft to the left.
 """
 
@@ -32,12 +32,12 @@ class Lateral:
 
     @property
     def inside(self) -> Interval:
-        """Between the plates."""
+        """Interval between the plates."""
         return self.right_plate[1], self.left_plate[0]
 
     @property
     def outside(self) -> Interval:
-        """Over both plates."""
+        """Interval over both plates."""
         return self.right_plate[0], self.left_plate[1]
 
 
@@ -58,7 +58,7 @@ def lateral_stack(
     leg_mm, lug_mm
         Thickness of legs and of the foot's lugs beside them.
     roller_width_mm, spring_length_mm
-        Of the roller bearing, and of one spring's wound body.
+        Width of the roller bearing, and length of one spring's loaded coil.
     gear_widths_mm
         Face widths of the gear planes, the cam gear's first, the motor pinion's last.
     motor
@@ -66,7 +66,7 @@ def lateral_stack(
     plate_mm
         Thickness of the body plates.
     tray_width_mm
-        What the electronics need at least between the plates.
+        Least width that the electronics need between the plates.
     """
     half = leg_mm / 2.0
     cam = (half + ROLLER_WASHER_MM, half + ROLLER_WASHER_MM + roller_width_mm)

@@ -37,8 +37,8 @@ class Layout:
     """Where everything is; points (2,) are x-z in the body frame (mm).
 
     The places come with their inputs: linkage, sections, hub bearing (None where the hub runs on its axle)
-    and drive. `toes_apart` says whether the foot is too large for the bed with its toes, so that they are parts of
-    their own.
+    and drive. `toes_apart` says whether the foot is too large for the bed with its toes, so that they are
+    separate parts.
     """
 
     linkage: Linkage
@@ -84,7 +84,7 @@ def make_layout(
     roller_width_mm: float,
     axle_mm: float,
 ) -> Layout:
-    """Lay out a robot: the lateral stack first, then in the plane of motion one thing after the other.
+    """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
     Raises
     ------

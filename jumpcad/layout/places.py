@@ -19,7 +19,7 @@ TURN_STEPS = 72
 BATCH = 24
 """Candidates measured at once, the cheapest first."""
 ROUND_OFF_MM = 1e-6
-"""Accepted shortfall: a drive may be synthesised to clear a thing by exactly nothing."""
+"""Accepted shortfall: a synthesised drive may have a clearance of exactly 0."""
 
 
 def ring_candidates(centre_mm: Array, radius_mm: float) -> tuple[Array, Array]:
@@ -29,7 +29,7 @@ def ring_candidates(centre_mm: Array, radius_mm: float) -> tuple[Array, Array]:
 
 
 def around(centre_mm: Array, radius_mm: float, angle_rad: Array) -> Array:
-    """Return the places (n, 2) at angles (n,) on a circle, to a nanometre: cosines differ between processors."""
+    """Return the places (n, 2) at angles (n,) on a circle, rounded to 1 nm: cosines differ between processors."""
     return np.round(centre_mm + radius_mm * np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1), 6)
 
 
@@ -49,7 +49,7 @@ def best_place(
     cost: Callable[[Array], Array],
     remedy: str,
 ) -> int:
-    """Return the index of the cheapest candidate that meets no obstacle.
+    """Return the index of the cheapest candidate that collides with no obstacle.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Finding room: obstacles as clouds of points with radii, and the clearance of boxes among them (numpy only, mm).
 
-All motion is in planes parallel to x-z, so an obstacle is a flat cloud that occupies an interval of y; two things can
-only meet where their intervals do.
+All motion is in planes parallel to x-z, so an obstacle is a flat cloud that occupies an interval of y; two of them can
+only collide where their intervals overlap.
 """
 
 from collections.abc import Iterable
@@ -15,9 +15,9 @@ from jumpcad.transforms import Array
 EVERYWHERE = (-1e3, 1e3)
 """An interval of y wider than any robot."""
 BAR_SPACING_MM = 4.0
-"""Between the points of a bar; judgement: a notch of 0.4 mm between discs of 5 mm radius."""
+"""Distance between the points of a bar; judgement: notches of 0.4 mm between discs of 5 mm radius."""
 BOX_POINT_MM = 1.0
-"""Radius of the points of a box, which lie twice that apart; judgement."""
+"""Radius of the points of a box; they are twice that apart; judgement."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def clearance(
     Parameters
     ----------
     obstacles
-        Kept clear of.
+        What the boxes must not touch.
     centres_mm, angles_rad
         Box centres (k, 2) and their turns in x-z (k,) or one for all.
     half_mm

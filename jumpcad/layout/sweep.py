@@ -13,9 +13,9 @@ from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array, direction
 
 POSITIONS = 13
-"""Leg angles of the travel; judgement: bars drawn at so many leave notches of less than the gaps beside them."""
+"""Number of leg angles of the travel; judgement: the notches between bars at so many are less than the gaps."""
 ALONG = 41
-"""Points along a link when the gap between two is looked for."""
+"""Points along a link at which its gap to another is computed."""
 OVERSHOOT_RAD = math.radians(8.0)
 """Swing past rest that stays free, judgement; the cam leaves its own room for the roller's overshoot."""
 
@@ -59,7 +59,7 @@ def link_obstacles(
 
 
 def legs_apart_mm(linkage: Linkage, sections: Sections) -> float:
-    """Return the smallest gap between main leg and front link, which move in one plane, over the travel."""
+    """Return the smallest gap over the travel between main leg and front link, which move in one plane."""
     travel = np.linspace(*linkage.travel_rad, POSITIONS)
     pose = linkage.pose(travel)
     share = np.linspace(0.0, 1.0, ALONG)

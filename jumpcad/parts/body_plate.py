@@ -1,4 +1,4 @@
-"""The two body plates: outlines laid out from what they carry, lightened between it, named by engraving (mm).
+"""The two body plates: outlines around what they carry, pockets in between, the robot's name engraved (mm).
 
 Drawn in the body frame and printed outside down, so that the motor's socket stands on the inside of the right one.
 """
@@ -35,14 +35,14 @@ POCKET_RADIUS_MM = 1.5
 ENGRAVING_MM = 0.5
 TEXT_HEIGHTS_MM = (4.5, 3.5)
 TEXT_EDGE_MM = 0.8
-"""Around a label, at least: two lines of a nozzle."""
+"""Least margin around a label: two printed lines."""
 TEXT_STEP_MM = 1.0
 
 
 def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     """Return the left plate, at the side of the gears, and the right one with the socket that holds the motor.
 
-    Without a name nothing is engraved, and of a name what the engraving's font has.
+    Without a name nothing is engraved; letters that the engraving's font lacks are left out.
     """
     label = engravable(name).strip()
     motor, lateral = layout.drive.train.motor, layout.lateral
@@ -102,7 +102,7 @@ def _motor_box(layout: Layout, width_mm: float, height_mm: float) -> Region:
 
 
 def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
-    """Return what the plate must have material for, with more of it all around."""
+    """Return the regions in which the plate needs material, each grown by a margin."""
     more = 2.0 * more_mm
     pads = [disc(layout.axle_mm + 2.0 * PAD_WALL_MM + more, place) for place in layout.axles.values()]
     pads += [disc(STANDOFF_PAD_MM + more, place) for place in layout.standoffs_mm]
@@ -164,7 +164,7 @@ def _drawing(
 def _letters(label: str, face: Region, mirrored: bool) -> Region | None:
     """Return a plate's label, or its last letter alone, at the place nearest to the pivots' line that has room for it.
 
-    Read from the left, x runs to the left. Where nothing fits there are no letters.
+    Seen from the left, x points to the left. Where nothing fits there are no letters.
     """
     low_x, low_z, high_x, high_z = face.bounds()
     x, z = np.meshgrid(np.arange(low_x, high_x, TEXT_STEP_MM), np.arange(low_z, high_z, TEXT_STEP_MM))

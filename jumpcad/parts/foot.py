@@ -32,7 +32,7 @@ LOW_WEB_AT = 0.6
 WEB_BELOW_RAIL_MM = 0.2
 """By how much that web is lower than the rails beside it: surfaces that only meet in a line leave slivers."""
 LINK_GAP_MM = 1.0
-"""Below the folded front link; judgement: the usual gap, and the flexing of the link."""
+"""Gap below the folded front link; judgement: the usual gap, and the flexing of the link."""
 SOLE_LENGTH, NOSE_AHEAD = 1.6, 0.42
 """How far a lug's sole reaches behind (and ahead of the ankle) and ahead of the front eye, in depths of the foot.
 Judgement for the first; a flank of 45° that touches the round nose reaches the sole 0.42 depths ahead."""

@@ -24,7 +24,7 @@ class HoleSizes:
         return cls(workshop.fits, workshop.process, workshop.bought.axle_mm, bearing)
 
     def press(self, diameter_mm: float) -> float:
-        """Return the diameter of a hole that holds a shaft fast."""
+        """Return the diameter of a hole that holds a shaft tightly."""
         return diameter_mm + 2.0 * self.fits.press_mm
 
     def running(self, diameter_mm: float) -> float:
@@ -47,7 +47,7 @@ class HoleSizes:
 
     @property
     def hub_radius_mm(self) -> float:
-        """Outside of the leg's hub."""
+        """Outer radius of the leg's hub."""
         return self.hub_bore_mm / 2.0 + 2.0 * self.fits.wall_mm
 
     def hub_slabs(self, y0_mm: float, y1_mm: float) -> list[tuple[float, float, Region]]:
@@ -60,7 +60,7 @@ class HoleSizes:
         return [(y0_mm, y0_mm + width, seat), (y0_mm + width, y1_mm - width, shoulder), (y1_mm - width, y1_mm, seat)]
 
     def chamfered(self, stack: Stack) -> Stack:
-        """Return a stack with the edge of its bed face set back against a spreading first layer."""
+        """Return a stack with the edge of its bed face chamfered, since the first layer spreads."""
         return stack.chamfered(
             self.fits.first_layer_chamfer_mm, self.process.layer_height_mm, self.process.first_layer_mm
         )

@@ -81,7 +81,7 @@ class Drawing:
 
 
 def laid(slabs: Iterable[tuple[float, float, Region]], face: Face = "left") -> tuple[Stack, Array]:
-    """Lay slabs (y0, y1, region in x-z) on their left or right face; return stack and pose in the frame drawn in."""
+    """Lay slabs (y0, y1, region in x-z) on their left or right face; return stack and pose in the slabs' frame."""
     slabs = list(slabs)
     if face == "left":
         top = max(y1 for _, y1, _ in slabs)
@@ -122,7 +122,7 @@ class Part:
 
     @property
     def name(self) -> str:
-        """The part's name; its files are called after it."""
+        """The part's name, also that of its files."""
         return self.drawing.name
 
     @property

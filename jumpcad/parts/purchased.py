@@ -40,7 +40,7 @@ class BoughtPart:
         return self.mass.mass_kg
 
     def moved(self, T_body_frame: Array) -> "BoughtPart":
-        """Return the part drawn in a frame of its body instead of the body's own; that frame's pose (4, 4) in mm."""
+        """Return the part moved from its body's frame into a frame with a pose (4, 4; mm) in that body."""
         T_body_part = chained(T_body_frame, self.T_body_part)
         return replace(self, T_body_part=T_body_part, mass=self.mass.placed(in_metres(T_body_frame)))
 

@@ -22,9 +22,9 @@ from jumpcad.transforms import Array
 from jumpcad.workshop import BoughtParts
 
 TOE_THREAD_MM = 4.0
-"""Thread of a toe's screw in the foot's stub, at least."""
+"""Least length of thread of a toe's screw in the foot's stub."""
 SCREW_END_MM = 6.0
-"""Thread of a standoff's screw inside the standoff."""
+"""Length of thread of a standoff's screw inside the standoff."""
 
 
 def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> list[BoughtPart]:
@@ -150,7 +150,7 @@ def _arm(hub: Array, pin: Array, coil_mm: float, wire_mm: float, offset_mm: floa
 
 
 def _motor_things(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
-    """Yield the gear motor and the screws of its cap; the shaft stands as the pinion's teeth want it."""
+    """Yield the gear motor and the screws of its cap; the shaft is turned to fit the pinion."""
     motor, (x, z) = layout.drive.train.motor, layout.motor_mm
     low, front = layout.lateral.motor
     shaft_mass = catalogue.rod_mass_g(motor.shaft_mm, motor.shaft_length_mm)
@@ -185,7 +185,7 @@ def _standoffs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
 
 
 def _toe_screws(layout: Layout, holes: HoleSizes, catalogue: Catalogue) -> Iterator[BoughtPart]:
-    """Yield the screws of toes that are parts of their own, from outside into the foot's stubs."""
+    """Yield the screws of separate toes, from outside into the foot's stubs."""
     if not layout.toes_apart:
         return
     screw, height = (

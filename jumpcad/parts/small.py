@@ -18,7 +18,7 @@ from jumpcad.workshop import Workshop
 
 COLLAR_MM = 3.0
 TRAY_EDGE_MM, TRAY_LEDGE_MM = 5.0, 2.0
-"""Of a tray's window: from the tray's ends, and what it leaves under the narrowest thing that lies on a tray."""
+"""Of a tray's window: distance from the tray's ends, and width left under the narrowest thing on a tray."""
 WINDOW_MIN_MM = 4.0
 """Least width of the window: that of its round ends."""
 CAP_HEAD_MM = 3.9
@@ -62,7 +62,7 @@ def spring_bushing(layout: Layout, holes: HoleSizes, side: str) -> Drawing:
 
 
 def require_axle(workshop: Workshop) -> None:
-    """Refuse axles around which the spacers' tubes would have no wall.
+    """Reject axles around which the spacers' tubes would have no wall.
 
     Raises
     ------
@@ -73,8 +73,8 @@ def require_axle(workshop: Workshop) -> None:
     thickest = 2.0 * (SPACER_RADIUS_MM - fits.sliding_mm - fits.wall_min_mm)
     if axle > thickest:
         raise JumpcadError(
-            f"bought.axle_mm = {axle:g} is more than {thickest:g}, around which spacers of "
-            f"{2.0 * SPACER_RADIUS_MM:g} mm keep a wall of fits.wall_min_mm = {fits.wall_min_mm:g}: a thinner axle fits"
+            f"bought.axle_mm = {axle:g} is more than {thickest:g}, the most with which spacers of "
+            f"{2.0 * SPACER_RADIUS_MM:g} mm keep a wall of fits.wall_min_mm = {fits.wall_min_mm:g}: use a thinner axle"
         )
 
 

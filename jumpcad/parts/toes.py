@@ -1,7 +1,7 @@
 """The foot's toes: fingers from the ankle to their tips, one piece with the foot where the bed is large enough.
 
-Where it is not, each toe is a part of its own, screwed to a stub of the foot from outside. Stub and toe lie side by
-side, so that both keep their height where the push-off bends them, and two screws across carry the moment.
+Where it is not, each toe is a separate part, screwed to a stub of the foot from outside. Stub and toe lie side by
+side, so that both keep their height where the push-off bends them, and two cross screws carry the moment.
 
 A toe's own frame has its origin at the root and x towards the tip; its printing frame is the same, on the ground.
 """
@@ -22,14 +22,14 @@ from jumpcad.solids.outline import Region, hole, polygon, rectangle, union
 from jumpcad.transforms import Array
 
 JOINT_MM = (12.0, 34.0)
-"""Where a toe of its own and its stub overlap, from the root; judgement."""
+"""Where a separate toe and its stub overlap, from the root; judgement."""
 SCREWS_MM = (16.0, 30.0)
-"""Where the screws across are, from the root; judgement: as far apart as the overlap allows."""
+"""Where the cross screws are, from the root; judgement: as far apart as the overlap allows."""
 GRIP_MM, GRIP_WIDTH_MM, GRIP_PITCH_MM = 0.4, 0.8, 2.4
-"""Depth, width and distance of the grooves in the sole, across the toe; judgement: two layers, two lines of a nozzle.
+"""Depth, width and distance of the grooves in the sole, across the toe; judgement: two layers, two printed lines.
 """
 GRIP_EDGE_MM = 1.0
-"""Between a groove's end and the edge of the toe's tip; judgement: two lines of a nozzle."""
+"""Distance from a groove's end to the edge of the toe's tip; judgement: two printed lines."""
 ROOF = 1.15
 """Height of a lying hole's flat roof over its radius: it leaves a flat of a quarter of the width."""
 
@@ -38,7 +38,7 @@ ROOF = 1.15
 class Toe:
     """Where one toe is: its root (2,) in the foot's frame, its direction, and its length to the tip's middle.
 
-    `sign` is +1 for the left one; `outside` is the side of its frame's x axis on which a toe of its own lies.
+    `sign` is +1 for the left one; `outside` is the side of its frame's x axis on which a separate toe lies.
     """
 
     name: str
@@ -74,7 +74,7 @@ def joint_height_mm(layout: Layout, holes: HoleSizes) -> float:
 
 
 def beside_mm(layout: Layout, holes: HoleSizes) -> float:
-    """Return how far beside its stub a toe of its own lies, from middle to middle."""
+    """Return how far beside its stub a separate toe lies, from middle to middle."""
     return layout.sections.toe_width_mm + holes.fits.sliding_mm
 
 
@@ -93,7 +93,7 @@ def on_the_foot(layout: Layout, holes: HoleSizes) -> tuple[list[Block], list[Blo
 
 
 def toes_apart(layout: Layout, holes: HoleSizes) -> list[Drawing]:
-    """Return the toes that are parts of their own."""
+    """Return the toes that are separate parts."""
     return [_drawing(layout, holes, toe) for toe in toes(layout)] if layout.toes_apart else []
 
 
@@ -114,7 +114,7 @@ def _toe(layout: Layout, name: str, sign: float) -> Toe:
 
 
 def _drawing(layout: Layout, holes: HoleSizes, toe: Toe) -> Drawing:
-    """Return a toe of its own: beside the stub, then on to the tip."""
+    """Return a separate toe: beside the stub, then on to the tip."""
     width, height = layout.sections.toe_width_mm, joint_height_mm(layout, holes)
     y = toe.outside * beside_mm(layout, holes)
     start, end = np.array([JOINT_MM[0] + width / 2.0, y]), np.array([JOINT_MM[1], y])
@@ -135,7 +135,7 @@ def _finger(layout: Layout, start_mm: Array, length_mm: float) -> Finger:
 
 
 def _stub(layout: Layout, holes: HoleSizes) -> Finger:
-    """Return the foot's stub of a toe that is a part of its own."""
+    """Return the foot's stub of a separate toe."""
     width, height = layout.sections.toe_width_mm, joint_height_mm(layout, holes)
     return Finger(np.zeros(2), width, height, np.array([JOINT_MM[1] - width / 2.0, 0.0]), width, height)
 

@@ -1,6 +1,6 @@
-"""Gears and cam: the drive's profiles made solid and turned so that teeth meet gaps (mm).
+"""Gears and cam: the drive's profiles made solid and turned so that teeth are in gaps (mm).
 
-The cam stands as it does at cam angle 0, springs at rest. Its hexagonal boss reaches through the cam gear and turns
+The cam is placed as at cam angle 0, springs at rest. Its hexagonal boss reaches through the cam gear and turns
 with it; both run on the cam's dead axle.
 """
 
@@ -78,7 +78,7 @@ def mesh_turn(wheel: Gear, pinion: Gear, wheel_mm: np.ndarray, pinion_mm: np.nda
     """
     line = math.atan2(pinion_mm[1] - wheel_mm[1], pinion_mm[0] - wheel_mm[0])
     offset = (line - wheel_turn_rad) * wheel.teeth / (2.0 * math.pi)
-    # a share of a pitch by which the wheel's nearest tooth is away from the line of centres
+    # distance of the wheel's nearest tooth from the line of centres, as a share of a pitch
     share = offset - round(offset)
     pinion_pitch = 2.0 * math.pi / pinion.teeth
     return line + math.pi + pinion_pitch * (0.5 + share)
@@ -101,7 +101,7 @@ def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes)
 
 @lru_cache(maxsize=64)
 def _idler(wheel: Gear, pinion: Gear, gap_mm: float, axle_mm: float, holes: HoleSizes) -> Stack:
-    """Return an idler on its wheel's left face; the small teeth stand on the wheel, so that they print unsupported."""
+    """Return an idler on its wheel's left face; the small teeth are on top of it, so that no support is needed."""
     bore = hole(holes.running(axle_mm))
     low = wheel.face_width_mm
     slabs = [

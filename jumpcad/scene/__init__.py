@@ -1,4 +1,4 @@
-"""What there is to see of a robot: meshes in their places, cameras, shading, the renderer, steps of assembly."""
+"""The visible robot: meshes in their places, cameras, shading, the renderer, steps of assembly."""
 
 from typing import TYPE_CHECKING
 

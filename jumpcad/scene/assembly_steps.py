@@ -1,4 +1,4 @@
-"""The order in which a robot is put together: each step with the things that it adds."""
+"""The order in which a robot is assembled: each step with the parts that it adds."""
 
 import re
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from jumpcad.scene.visuals import Visual, visuals
 
 @dataclass(frozen=True)
 class Step:
-    """One step: what to do, and what is added to what is already there."""
+    """One step: what to do, and the parts that are added."""
 
     title: str
     text: str
@@ -71,7 +71,7 @@ ORDER: tuple[tuple[str, str, str], ...] = (
         "leaving it play enough to turn.",
     ),
 )
-"""Title, names of what is added, text."""
+"""Title, names of the parts that are added, text."""
 REST = ("Everything else", "Fasten what remains where the picture shows it.")
 
 

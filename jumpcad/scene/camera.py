@@ -8,7 +8,7 @@ import numpy as np
 from jumpcad.transforms import Array
 
 FIELD_OF_VIEW_DEG = 14.0
-"""Small, for a nearly parallel projection."""
+"""Small, so that the projection is nearly parallel."""
 SLOPE = math.tan(math.radians(FIELD_OF_VIEW_DEG / 2.0))
 """Half the height of what is seen, over its distance."""
 MARGIN = 1.06
@@ -50,7 +50,7 @@ class Camera:
 
 
 def aimed(frame_m: Array, view: View, aspect: float) -> Camera:
-    """Return the camera that sees points (n, 3) in a picture of a width over height."""
+    """Return the camera that sees points (n, 3) in a picture of an aspect ratio, width over height."""
     along = turned(frame_m, view.axes)
     low, high = along.min(axis=0), along.max(axis=0)
     half_width, half_height, half_depth = MARGIN * (high - low) / 2.0

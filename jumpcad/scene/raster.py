@@ -30,9 +30,9 @@ def drawn(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Array]:
     Returns
     -------
     number
-        Of the triangle at every pixel (height, width); -1 where there is none.
+        Index of the triangle at every pixel (height, width); -1 where there is none.
     nearness, shade
-        Of that triangle at the pixel's centre (height, width); 0 where there is none.
+        Those of that triangle at the pixel's centre (height, width); 0 where there is none.
     """
     width, height = size
     ahead, across = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]

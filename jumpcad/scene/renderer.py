@@ -1,6 +1,6 @@
 """Shaded pictures of meshes with their visible edges.
 
-Everything is drawn twice as large as asked and scaled down. An edge is a crease of a mesh that nothing nearer hides, or
+Everything is drawn twice as large as asked and scaled down. An edge is a visible crease of a mesh, or
 a border between two things.
 """
 
@@ -26,20 +26,20 @@ Mask = npt.NDArray[np.bool_]
 
 SUPERSAMPLING = 2
 EDGE_DEPTH_M = 0.0006
-"""An edge may lie this far behind what is seen beside it."""
+"""An edge is still drawn this far behind the surface beside it."""
 EDGE_COLOUR = np.array([30.0, 32.0, 36.0])
 EDGE_STRENGTH = 0.7
 BACKGROUND = 255
 PALE: Colour = (0.90, 0.90, 0.91)
 LIGHT = np.array([-0.5, -1.2, 1.6]) / math.hypot(-0.5, -1.2, 1.6)
 AMBIENT, DIFFUSE = 0.6, 0.45
-"""Brightness of a face without light, and what light at a right angle adds."""
+"""Brightness of an unlit face, and what light at a right angle adds."""
 MM = 0.001
 
 
 @dataclass(frozen=True)
 class Thing:
-    """What can be seen: corners (n, 3) in m, their normals (n, 3), faces (m, 3), creases (k, 2, 3) in m, a colour."""
+    """A visible thing: corners (n, 3) in m, their normals (n, 3), faces (m, 3), creases (k, 2, 3) in m, a colour."""
 
     vertices_m: Array
     normals: Array
@@ -71,7 +71,7 @@ class Renderer:
         size
             Width and height in pixels.
         view
-            From where.
+            Direction of view.
         frame_m
             Points (n, 3) that the picture must contain.
         pale
@@ -140,14 +140,14 @@ def _least_beside(values: Array) -> Array:
 
 
 def _draw(ink: Mask, pixel: Array, distance_m: Array, seen_m: Array) -> None:
-    """Ink the pixels of edges, whose ends lie at pixels (n, 2, 2) and distances (n, 2), before what is seen there."""
+    """Ink the pixels of edges, whose ends lie at pixels (n, 2, 2) and distances (n, 2), where nothing hides them."""
     height, width = ink.shape
     before = (distance_m > 0.0).all(axis=1)
     pixel, distance_m = pixel[before], distance_m[before]
     count = np.ceil(np.abs(pixel[:, 1] - pixel[:, 0]).max(axis=1, initial=0.0)).astype(int) + 1
     which = np.repeat(np.arange(len(pixel)), count)
     share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / np.repeat(count, count)
-    # perspective: what moves evenly across the picture is the inverse of distance
+    # perspective: the inverse of the distance is linear across the picture
     x, y = np.floor(pixel[which, 0] + share[:, None] * (pixel[which, 1] - pixel[which, 0])).astype(int).T
     near = 1.0 / (1.0 / distance_m[which, 0] + share * (1.0 / distance_m[which, 1] - 1.0 / distance_m[which, 0]))
     inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
 
 CREASE_RAD = 0.5
-"""Faces that meet at less than this look smooth."""
+"""Faces that meet at a smaller angle look smooth."""
 SCENE = 128
-"""How many meshes are remembered: those of a robot, which its scene file and its pictures both show."""
+"""How many meshes stay in the cache: those of a robot, which its scene file and its pictures both show."""
 
 
 @lru_cache(maxsize=SCENE)
@@ -24,9 +24,9 @@ def creased(mesh: "trimesh.Trimesh") -> tuple[Array, Array, npt.NDArray[np.int64
     """Return vertices (n, 3), their normals (n, 3) and faces (m, 3): one vertex for every normal that a corner needs.
 
     A corner's normal is the mean of the faces around it that meet its own face at less than the crease angle, weighted
-    by area. trimesh's `smooth_shade` numbers its vertices in the order of a sort that leaves ties to the processor.
+    by area. trimesh's `smooth_shade` numbers its vertices in the order of a sort whose ties depend on the processor.
     """
-    seen = mesh.face_normals.any(axis=1)  # not a needle without an area
+    seen = mesh.face_normals.any(axis=1)  # without faces of no area
     normal, area, ends = mesh.face_normals[seen], mesh.area_faces[seen], mesh.faces[seen].ravel()
     corner = np.arange(ends.size)
     at_vertex = sparse.csr_array((np.ones(corner.size), (corner, ends)))

@@ -1,4 +1,4 @@
-"""What there is to see of a robot: every copy of every part with its mesh, its place and its colour.
+"""The visible things of a robot: every copy of every part with its mesh, its place and its colour.
 
 Every picture and every exported file takes its meshes and colours from here.
 """
@@ -22,7 +22,7 @@ PRINTED_COLOURS: dict[str, Colour] = {
     "body": (0.60, 0.71, 0.82),
     "gears": (0.16, 0.52, 0.66),
 }
-"""By the role of a printed part."""
+"""Colours by the role of a printed part."""
 BOUGHT_COLOURS: dict[str, Colour] = {
     "torsion spring": (0.30, 0.33, 0.38),
     "gear motor": (0.85, 0.70, 0.30),
@@ -34,7 +34,7 @@ BOUGHT_COLOURS: dict[str, Colour] = {
     "controller": (0.13, 0.50, 0.28),
     "driver": (0.50, 0.20, 0.50),
 }
-"""By a word of a bought part's article or name; the first that occurs counts."""
+"""Colours by a word in a bought part's article or name; the first match counts."""
 STEEL: Colour = (0.62, 0.64, 0.67)
 
 

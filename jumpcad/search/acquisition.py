@@ -29,7 +29,7 @@ class Proposal:
     log_feasible: float
 
     def note(self) -> dict[str, float]:
-        """Return what the study file keeps of it."""
+        """Return the figures that the study file keeps."""
         return {"log_improvement": self.log_improvement, "log_feasible": self.log_feasible}
 
 
@@ -55,9 +55,9 @@ def propose(
     admits
         Whether a design may be proposed: it is new, and the model admits it.
     generator
-        Draws the candidates.
+        Random generator that draws the candidates.
     penalty
-        Is subtracted from the logarithm of the acquisition: points (m, d) to (m,), 0 where allowed.
+        Subtracted from the logarithm of the acquisition: points (m, d) to (m,), 0 where allowed.
     """
 
     def log_acquisition(points: Array) -> Array:

@@ -1,4 +1,4 @@
-"""The SQLite file of a study: opening it, locking it, and its errors in words."""
+"""The SQLite file of a study: opening it, locking it, and messages for its errors."""
 
 import os
 import sqlite3
@@ -23,7 +23,7 @@ def connect(target: str) -> sqlite3.Connection:
 def open_to_read(path: Path) -> sqlite3.Connection:
     """Return a connection to a file that may be read.
 
-    It is opened for writing if that is allowed: the last one to close then folds the log beside the file into it. What
+    It is opened for writing if that is allowed: the last one to close then merges the log beside the file into it. What
     may not be written to is read with the log, or, where there is none, as a file that does not change.
     """
     log = path.with_name(f"{path.name}-wal")
@@ -72,13 +72,13 @@ def plain_errors(path: Path | None) -> Iterator[None]:
     except sqlite3.IntegrityError:
         raise
     except UnicodeDecodeError:  # in a message of SQLite's about a damaged file
-        raise JumpcadError(f"{path}: is damaged, or is not a study file (text that is none)") from None
+        raise JumpcadError(f"{path}: is damaged, or is not a study file (invalid text)") from None
     except sqlite3.DatabaseError as error:
         name, text = _name(error), without_controls(str(error))[:200]
         if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
             reason = "is locked by another program; close it there and repeat the command"
         elif name.startswith(("SQLITE_FULL", "SQLITE_IOERR")):
-            reason = f"cannot be written ({text}); free some space and repeat the command: it goes on from there"
+            reason = f"cannot be written ({text}); free some space and repeat the command: it continues from there"
         elif name.startswith(("SQLITE_READONLY", "SQLITE_CANTOPEN")):
             reason = f"cannot be opened ({text})"
         else:

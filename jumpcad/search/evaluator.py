@@ -12,7 +12,7 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Key, Trial
 
 Watch = Callable[[Trial, bool], None]
-"""Is told of every trial, and whether it was computed now (or read from the study file)."""
+"""Called with every trial, and whether it was computed now (or read from the study file)."""
 
 
 def ignore(_trial: Trial, _computed: bool) -> None:
@@ -20,7 +20,7 @@ def ignore(_trial: Trial, _computed: bool) -> None:
 
 
 class Evaluator:
-    """What methods work with.
+    """Evaluates designs for the methods.
 
     A search is a deterministic function of its seed and of the trials it has seen. It therefore resumes by being run
     again: proposals that are in the study file are read, and from the first one that is not, they are computed.
@@ -28,7 +28,7 @@ class Evaluator:
     Parameters
     ----------
     space, objective
-        Where is searched, and for what.
+        The space that is searched, and the objective.
     model
         Evaluates a design; sent to the workers.
     store, pool
@@ -36,7 +36,7 @@ class Evaluator:
     prior
         Trials of an earlier study that the search may learn from.
     watch
-        Is told of every trial.
+        Called with every trial.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class Evaluator:
         places = {key: (phase, step, place) for place, key in enumerate(fresh)}
         if any(self._taken.get(place, key) != key for key, place in places.items()):
             raise JumpcadError(
-                f"{self.store.path}: this search proposes other designs than the study holds; start anew"
+                f"{self.store.path}: this search proposes other designs than the study holds; start a new study"
             )
         missing = [key for key in fresh if key not in self._finished]
         computed: list[Trial] = []

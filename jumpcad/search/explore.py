@@ -20,7 +20,7 @@ FOLDS = 5
 REPEATS = 10
 
 UNIFORM_NOTE = (
-    "Components of evenly sampled parameters are equal by construction, up to chance: they say nothing of the robot. "
+    "Components of evenly sampled parameters are equal apart from chance: they say nothing about the robot. "
     "Look at the components of the best tenth, and at the importance."
 )
 
@@ -38,7 +38,7 @@ class Sweep:
 class Components:
     """Principal components of standardised parameters.
 
-    ``shares`` (k,) of the variance, falling; ``directions`` (k, k), one component a row, over ``names``.
+    ``shares`` (k,) of the variance, largest first; ``directions`` (k, k), one component per row, over ``names``.
     """
 
     names: tuple[str, ...]
@@ -106,7 +106,7 @@ def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
 
 
 def elite(trials: Sequence[Trial]) -> list[Trial]:
-    """Return the best tenth of the feasible trials, at least `ELITE_LEAST` if there are so many, best first."""
+    """Return the best tenth of the feasible trials, at least `ELITE_LEAST` if that many exist, best first."""
     feasible = feasible_trials(trials)
     return feasible[: max(ELITE_LEAST, round(ELITE_SHARE * len(feasible)))]
 

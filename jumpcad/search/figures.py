@@ -40,7 +40,7 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
 
 
 def save_figure(figure: Figure, folder: Path, name: str) -> Path:
-    """Write a figure as `folder/name.svg`, sealed as ours, and return the path."""
+    """Write a figure as `folder/name.svg`, marked as jumpcad's, and return the path."""
     stream = io.StringIO()
     with matplotlib.rc_context(STYLE):
         figure.savefig(stream, format="svg", metadata={"Date": None})

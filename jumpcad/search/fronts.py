@@ -1,4 +1,4 @@
-"""Fronts of score against spring energy: which trials are on one, and how good it is as a whole."""
+"""Fronts of score against spring energy: the trials on a front, and a measure of the whole front."""
 
 from collections.abc import Sequence
 
@@ -21,7 +21,7 @@ def energy_j(design: Design) -> float:
 
 
 def front(trials: Sequence[Trial]) -> list[Trial]:
-    """Return the trials with a positive score that no other one reaches with less energy, by energy."""
+    """Return the trials with a positive score that no other one reaches with less energy, sorted by energy."""
     scored = [trial for trial in trials if trial.score is not None]
     best, chosen = 0.0, []
     for trial in sorted(scored, key=lambda trial: (energy_j(trial.design), -(trial.score or 0.0))):

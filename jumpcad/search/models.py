@@ -21,7 +21,7 @@ from jumpcad.workshop import DEFAULT, Workshop, load_workshop
 
 MODELS = ("printed", "capsule", "published")
 PRESENTATION = ("bundle", "cli", "coupon")
-"""The packages of jumpcad that decide no trial of a study."""
+"""The packages of jumpcad that do not affect the trials of a study."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -32,7 +32,7 @@ class RobotModel:
     ----------
     name
         `printed`: built, simulated and checked in a workshop. `capsule`: the published masses as uniform capsules.
-        `published`: the published simulation, after the geometric gate, which its study did not have.
+        `published`: the published simulation, after the geometric checks, which its study did not have.
     workshop
         Where `printed` is built; the default if None.
     settings, engine
@@ -66,11 +66,11 @@ class RobotModel:
 
     @property
     def tolerance_mm(self) -> float:
-        """By how much a printed link may come out wrong (mm): both its ends have the play of a sliding fit."""
+        """Error of a printed link's length (mm): both its ends have the play of a sliding fit."""
         return 0.2 if self.workshop is None else 2.0 * self.workshop.fits.sliding_mm
 
     def admits(self, design: Design) -> bool:
-        """Whether the gate admits a design, as far as that is known without solids and simulation (microseconds)."""
+        """Whether the feasibility checks that need neither solids nor simulation accept a design (microseconds)."""
         if errors(geometry_findings(design)):
             return False
         if self.name != "capsule":
@@ -89,7 +89,7 @@ class RobotModel:
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of the description and of the versions of what computes (hexadecimal)."""
+        """SHA-256 of the description and of the versions of the packages (hexadecimal)."""
         content = json.dumps([self.describe(), self.versions()], sort_keys=True)
         return hashlib.sha256(content.encode()).hexdigest()
 
@@ -135,7 +135,7 @@ def robot_model(
     Parameters
     ----------
     name
-        One of `MODELS`; each takes of the others what it needs.
+        One of `MODELS`; each uses those of the other arguments that it needs.
     workshop, settings
         Where `printed` is built; how `printed` and `capsule` are simulated.
     engine

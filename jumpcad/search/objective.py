@@ -17,8 +17,8 @@ QUARANTINED = "quarantined"
 class Evaluation:
     """The outcome of evaluating one design.
 
-    ``metrics`` are named figures with the unit in the name; ``findings`` hold the margins of every limit that was
-    reached before the verdict; ``detail`` says more where verdict and findings do not.
+    ``metrics`` are named figures with the unit in the name; ``findings`` hold the margins of all limits that were
+    checked before the verdict; ``detail`` adds what verdict and findings do not say.
     """
 
     verdict: str
@@ -46,7 +46,7 @@ class Model(Protocol):
     """What evaluates designs: a picklable, pure function of the design."""
 
     def __call__(self, design: Design, /) -> Evaluation:
-        """Evaluate a design. Raises `JumpcadError` only where no design would do."""
+        """Evaluate a design. Raises `JumpcadError` only if no design would work."""
 
     def admits(self, design: Design, /) -> bool:
         """Whether a design is worth an evaluation, as far as that is known within microseconds."""

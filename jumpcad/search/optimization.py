@@ -49,15 +49,15 @@ def optimize(
     method
         `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), or `pareto` and `nsga2` for a front.
     evaluations
-        How many designs are evaluated; the robust pick comes on top.
+        How many designs are evaluated, without those of the robust pick.
     seed
-        Random seed: the same call finds the same.
+        Random seed: the same call gives the same result.
     objective
         `fitness`, `range`, `rise`, `range-per-joule` or `jumps-per-joule`; `range` for a front, else `fitness`.
     model
         The robot that is evaluated: `printed`, `capsule` or `published`.
     study
-        A file (.db) in which every trial is kept, and from which the same call goes on; none if None.
+        A file (.db) in which every trial is kept, and from which the same call continues; none if None.
     fixed, bounds, choices
         By parameter: a value, a pair of limits in place of `SEARCH_BOUNDS`, allowed values.
     around, only, within_percent

@@ -98,7 +98,7 @@ def changed_parameters(changes: Iterable[Change]) -> dict[str, Parameter]:
     for change in changes:
         name = known_name(change.name)
         if name in changed:
-            raise JumpcadError(f"{name} is given twice: fix it, bound it or choose its values, once")
+            raise JumpcadError(f"{name} is given twice: fix it, bound it or choose its values, only once")
         changed[name] = _parameter(change)
     return changed
 
@@ -134,7 +134,7 @@ def _possible(name: str, value: Any) -> float:
     Raises
     ------
     JumpcadError
-        If it is no number, or no design can have it.
+        If it is not a number, or no design can have it.
     """
     if not isinstance(value, int | float | np.integer | np.floating):
         raise JumpcadError(f"{name} = {described(value)} is not a number")

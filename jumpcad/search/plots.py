@@ -19,7 +19,7 @@ from jumpcad.transforms import Array
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
 ACQUISITION = "log10 of EI × P(feasible)"
 DECADES = 6.0
-"""Decades below its maximum that the acquisition is drawn over."""
+"""The acquisition is drawn down to this many decades below its maximum."""
 
 
 def history(trials: Sequence[Trial], objective: Objective) -> Figure:

@@ -60,7 +60,7 @@ class Pool:
     limit_s
         Timeout per evaluation (s), after which its worker is ended; 0 for none.
     notice
-        Is told of every failure in one line.
+        Called with one line about every failure.
     """
 
     def __init__(
@@ -99,7 +99,7 @@ class Pool:
         JumpcadError
             If the model itself cannot work, whatever the design.
         """
-        sent = cloudpickle.dumps((model, model.versions()))  # once a batch; executors would do it once a task
+        sent = cloudpickle.dumps((model, model.versions()))  # once per batch; executors would do it once per task
         suspects: dict[int, str] = {}
         waiting = deque(self._tasks(len(designs)))
         running: dict[Future[Any], list[int]] = {}
@@ -196,7 +196,7 @@ def open_pool(workers: int | None = None, dask: str | None = None, limit_s: floa
 
 
 def _require_limit(limit_s: float) -> None:
-    if not 0 < limit_s <= LONGEST_S:  # false for what is no number, too
+    if not 0 < limit_s <= LONGEST_S:  # also false for NaN
         raise JumpcadError(
             f"limit = {limit_s:g} s must be more than 0 and at most {LONGEST_S:g}: the timeout per evaluation"
         )

@@ -18,9 +18,9 @@ from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
 
 MOST_EVALUATIONS = 1_000_000
-"""A week at two a second."""
+"""About six days at two evaluations per second."""
 LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
-"""Packages that decide what is proposed next, beside those that decide an evaluation."""
+"""Packages that decide what is proposed next, in addition to those that decide an evaluation."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -30,11 +30,11 @@ class Request:
     Parameters
     ----------
     space, model, objective
-        Where is searched, with which robot, and for what (a name among the objectives).
+        The space that is searched, the robot's model, and the name of the objective.
     method
         One of `jumpcad.search.methods.NAMES`.
     evaluations
-        How many designs are evaluated; the robust pick comes on top.
+        How many designs are evaluated, without those of the robust pick.
     seed
         Random seed.
     preset
@@ -44,7 +44,7 @@ class Request:
     prior
         A study file to learn from.
     tolerance_mm
-        By how much a length may come out wrong, for the robust pick.
+        Error of printed lengths, for the robust pick.
     """
 
     space: Space
@@ -62,9 +62,9 @@ class Request:
     def make(
         cls, space: Space, model: RobotModel, method: str | None = None, objective: str | None = None, **others: Any
     ) -> Self:
-        """Return a request in which method and model decide what is left out.
+        """Return a request with defaults that follow from method and model.
 
-        The method is then `ga+bo`, the objective `fitness` (`range` of a front), the tolerance that of the workshop.
+        The default method is `ga+bo`, the objective `fitness` (`range` of a front), the tolerance that of the workshop.
         """
         aim = objective or ("range" if method in FRONTS else "fitness")
         return cls(space, model, aim, method or DEFAULT, tolerance_mm=model.tolerance_mm, **others)
@@ -103,7 +103,7 @@ class Request:
         return self.method in FRONTS
 
     def identity(self, prior: Sequence[Trial]) -> dict[str, Any]:
-        """Return all that decides the trials of the study, except how many they are."""
+        """Return all that decides the trials of the study, except their number."""
         learned = json.dumps([[trial.key, trial.score] for trial in prior])
         return {
             "model": self.model.describe(),
@@ -119,7 +119,7 @@ class Request:
         }
 
     def default_name(self) -> str:
-        """Return a file name that the same request always has, and no other one."""
+        """Return a file name that is the same for equal requests and different for others."""
         record = [self.identity([]), str(self.prior), self.evaluations if self.method in SEQUENCES else 0]
         digest = hashlib.sha256(json.dumps(record, sort_keys=True).encode()).hexdigest()
         return f"study-{self.method.replace('+', '-')}-{digest[:8]}.db"
@@ -127,7 +127,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Stage:
-    """One method at work: how many evaluations, and how many of them spread evenly first, if it learns."""
+    """One method's share: how many evaluations, and how many of them spread evenly first, if it learns."""
 
     method: str
     evaluations: int
@@ -138,7 +138,7 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     """Return the stages of a request that learns from `prior` earlier trials.
 
     Of a sequence, the second method gets a fifth of the evaluations, at least 50, at most half of all and at most 100:
-    Bayesian optimisation then reaches the top of whatever hill the genetic algorithm found.
+    Bayesian optimisation then reaches the maximum near which the genetic algorithm ended.
     """
     total = request.evaluations
     if request.method in SEQUENCES:

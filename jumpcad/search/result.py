@@ -70,7 +70,7 @@ class Result:
 
     @property
     def front(self) -> list[Trial]:
-        """The trials that no other one beats with less spring energy, by energy."""
+        """The trials that no other one beats with less spring energy, sorted by energy."""
         return front(self.trials)
 
     @property

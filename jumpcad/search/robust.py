@@ -1,4 +1,4 @@
-"""The robust pick: of the best designs, the one whose neighbours jump well too; and the worth of its active bounds.
+"""The robust pick: of the best designs, the one whose neighbours jump well too; and the cost of its active bounds.
 
 Near some designs a thousandth of one parameter decides whether they jump; a printer is not that accurate.
 """
@@ -21,7 +21,7 @@ from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array
 
 TENS = 3
-"""At most so many tens of the best trials are examined."""
+"""Largest number of groups of ten, best first, that are examined."""
 KEPT = 0.9
 """A robust score of this share of the best score ends the examination."""
 SAMPLES = 16
@@ -33,7 +33,7 @@ WIDENING = 0.05
 
 @dataclass(frozen=True, repr=False)
 class Candidate:
-    """A design among the best, and how its neighbours do.
+    """A design among the best, and how well its neighbours jump.
 
     ``parameters_score`` and ``print_score`` are the 10th percentiles of the score when every parameter varies by ±1 %,
     and when every length varies by the tolerance of print and assembly; a rejected neighbour counts 0.
@@ -73,7 +73,7 @@ class Candidate:
 class ActiveBound:
     """A bound of the search on which a design lies.
 
-    ``worth`` is the change of the score if the parameter goes ``beyond`` it, everything else kept; None where that
+    ``worth`` is the change of the score if the parameter goes ``beyond`` it, the others unchanged; None where that
     design is rejected, for ``reason``.
     """
 

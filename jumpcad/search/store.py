@@ -72,7 +72,7 @@ class StudyStore:
         Raises
         ------
         JumpcadError
-            If the file holds another study, is no study, is damaged, or is being written by another run.
+            If the file holds another study, is not a study, is damaged, or is being written by another run.
         """
         claim = None if path is None else lock(path)
         try:
@@ -92,7 +92,7 @@ class StudyStore:
         Raises
         ------
         JumpcadError
-            If there is no such file, or it is no study, is damaged, or cannot be opened.
+            If there is no such file, or it is not a study, is damaged, or cannot be opened.
         """
         if not os.path.isfile(path):  # unlike Path.is_file, False for a name that is too long
             there = os.path.exists(path)
@@ -247,7 +247,7 @@ class StudyStore:
         if version != FORMAT:
             raise JumpcadError(f"{self.path}: is a study of format {version}; this version of jumpcad reads {FORMAT}")
         if _schema(self._connection) != _own_schema():
-            raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: its tables are not ours")
+            raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
 

@@ -100,7 +100,7 @@ def stored_design(record: Mapping[str, Any]) -> Design:
     Raises
     ------
     JumpcadError
-        If a parameter is no number or out of range.
+        If a parameter is not a number or out of range.
     """
     return Design(**{name: record[name] for name in PARAMETERS})
 
@@ -118,14 +118,14 @@ def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
     verdict = stored_text(record, "verdict")
     for name in (verdict, *metrics, *(finding.name for finding in findings)):
         if not WORD.fullmatch(name):
-            raise JumpcadError(f"{shown(name)} is no name of a verdict, a finding or a figure")
+            raise JumpcadError(f"{shown(name)} is not the name of a verdict, a finding or a figure")
     for name, value in metrics.items():
         if not abs(value) <= LARGEST:
-            raise JumpcadError(f"{name} = {value:g} is no plausible figure")
+            raise JumpcadError(f"{name} = {value:g} is not a plausible figure")
     for finding in findings:
         for figure in ("margin", "value", "limit"):
             number = getattr(finding, figure)
-            if number is not None and math.isnan(number):  # infinite it may be: the audit of a run that blew up
+            if number is not None and math.isnan(number):  # infinite is allowed: the audit of a run that diverged
                 raise JumpcadError(f"the {figure} of {finding.name} is not a number")
     return Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
 
@@ -150,14 +150,14 @@ def stored_text(record: Mapping[str, Any], key: str) -> str:
     try:
         return bytes.decode(record[key], "utf-8")
     except (TypeError, UnicodeDecodeError):
-        raise JumpcadError(f"{key} = {shown(record[key])} is no text") from None
+        raise JumpcadError(f"{key} = {shown(record[key])} is not text") from None
 
 
 def stored_count(record: Mapping[str, Any], key: str) -> int:
     """Return a number of a row that counts something."""
     value = record[key]
     if not isinstance(value, int) or value < 0:
-        raise JumpcadError(f"{key} = {shown(value)} is no whole number of at least 0")
+        raise JumpcadError(f"{key} = {shown(value)} is not a whole number of at least 0")
     return value
 
 
@@ -165,7 +165,7 @@ def stored_figure(record: Mapping[str, Any], key: str) -> float:
     """Return a number of a row."""
     value = record[key]
     if not isinstance(value, float) or not abs(value) <= LARGEST:
-        raise JumpcadError(f"{key} = {shown(value)} is no plausible number")
+        raise JumpcadError(f"{key} = {shown(value)} is not a plausible number")
     return value
 
 

@@ -1,4 +1,4 @@
-"""`run_study`: runs the stages of a request, or goes on with them, and picks the winner.
+"""`run_study`: runs the stages of a request, or continues them, and picks the winner.
 
 The same request ends with the same trials, whether or not it was interrupted.
 """
@@ -20,7 +20,7 @@ from jumpcad.search.trial import Trial, best_trial
 
 
 def run_study(request: Request, path: Path | None, pool: Pool, watch: Watch = ignore) -> Result:
-    """Run a study, or go on with the one in a file; None keeps it in memory.
+    """Run a study, or continue the one in a file; None keeps it in memory.
 
     Raises
     ------

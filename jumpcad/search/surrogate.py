@@ -1,7 +1,7 @@
 """Gaussian processes that predict score and constraints of designs not yet evaluated.
 
 One process for the score, fitted to feasible designs only (a rejected design has no score, and a zero in its place
-would put a cliff into a smooth function), and one for the margin of each constraint, fitted wherever it is known.
+would put a step into a smooth function), and one for the margin of each constraint, fitted wherever it is known.
 """
 
 import warnings

@@ -11,7 +11,7 @@ from jumpcad.search.methods import METHODS
 from jumpcad.search.objective import Evaluation
 
 PHASES = (*METHODS, "sample", "sweep", "margin", "bounds", "robust")
-"""All phases, in the order in which a study goes through them; the last three look around the best."""
+"""All phases, in the order in which a study goes through them; the last three examine designs near the best."""
 SEARCH_PHASES = PHASES[:-3]
 LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learns)
 """Phases that, after a first step, start from the hyperparameters of the step before."""

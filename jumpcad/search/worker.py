@@ -28,13 +28,13 @@ class Failure:
 def start_worker() -> None:
     # Ctrl-C is sent to the whole process group; only the parent answers it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Engines print a greeting; the parent may be printing one JSON document.
+    # Engines print a banner; the parent may be printing one JSON document.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
 
 
 def _end_with_parent(parent: int) -> None:
-    """End this process when its parent was killed; else it would wait for ever."""
+    """End this process when its parent was killed; otherwise it would wait forever."""
     while os.getppid() == parent:
         time.sleep(1.0)
     os._exit(1)
@@ -63,7 +63,7 @@ def _unpacked(sent: bytes) -> Model:
 def evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> bytes:
     """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
 
-    Pickled by the executor, which is prepared for functions and classes, it takes four times as long.
+    If the executor pickles it, with its support of functions and classes, that takes four times as long.
     """
     model = _unpacked(sent)
     results: list[tuple[Any, float]] = []
@@ -82,7 +82,7 @@ def evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> byt
 
 @contextlib.contextmanager
 def _alarm(limit_s: float) -> Iterator[None]:
-    """Have the system end this process if the block takes longer, also where Python cannot interrupt."""
+    """Let the system end this process if the block takes longer, also where Python cannot interrupt it."""
     if limit_s <= 0 or not hasattr(signal, "setitimer"):
         yield
         return

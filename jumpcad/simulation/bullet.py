@@ -1,8 +1,8 @@
 """The PyBullet back end: a persistent world in which one robot after another is released.
 
-What makes a run the same in any process and after any other robot: every parameter that outlives a robot is set anew
-for each, and the whole world is made anew every `RESET_EVERY` robots, which also returns the memory that removing a
-robot does not.
+A run is the same in any process and after any other robot: every parameter that persists between robots is set again
+for each, and the whole world is made again every `RESET_EVERY` robots, which also frees the memory that removing a
+robot does not free.
 """
 
 import threading
@@ -36,7 +36,7 @@ BODY_ORDER = [0, 1, 3, 2]
 class BulletEngine:
     """A PyBullet client of its own, without window, that runs one robot at a time.
 
-    A lock makes threads wait for each other; they lose nothing by it, because PyBullet holds the interpreter's lock.
+    A lock makes threads wait for each other; this costs nothing, because PyBullet holds the interpreter's lock.
     """
 
     run = Run
@@ -50,7 +50,7 @@ class BulletEngine:
 
     @contextmanager
     def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["BulletWorld"]:
-        """Put a robot on the ground, ready for release, and take it away afterwards."""
+        """Put a robot on the ground, ready for release, and remove it afterwards."""
         with self._lock:
             self._prepare(settings)
             world = BulletWorld(self._bullet, self._client, self._ground, mechanism, settings)
@@ -121,7 +121,7 @@ class BulletWorld:
         return float(leg[0])
 
     def loaded(self) -> bool:
-        """Say whether the ground carries any of the robot (Bullet also lists contacts that are only near)."""
+        """Tell whether the ground carries any of the robot (Bullet also lists contacts that are only near)."""
         for contact in self._bullet.getContactPoints(self.robot_id, self._ground, physicsClientId=self._client):
             if contact[9] > 0.0:
                 return True
@@ -150,7 +150,7 @@ class BulletWorld:
         )
 
     def blown_up(self) -> bool:
-        """Say whether a body's place or speed is no number any more."""
+        """Tell whether a body's position or velocity is no longer finite."""
         state = self.state()
         return not all(np.isfinite(values).all() for values in (state.com_m, state.velocity_m_s))
 
@@ -218,7 +218,7 @@ class BulletWorld:
             mechanism, -1, linearDamping=settings.drag_per_s, angularDamping=settings.drag_per_s, physicsClientId=client
         )
         bullet.changeDynamics(mechanism, -1, maxJointVelocity=UNCLAMPED_RAD_S, physicsClientId=client)
-        # Every joint is born with a motor that holds it.
+        # Bullet gives every joint a motor that holds it.
         bullet.setJointMotorControlArray(
             mechanism,
             JOINTS,
@@ -228,7 +228,7 @@ class BulletWorld:
         )
 
     def _close_loop(self, mechanism: Mechanism) -> None:
-        """Tie front link and foot together; Bullet wants the points in their principal axes."""
+        """Connect front link and foot; Bullet needs the points in their principal axes."""
         front, foot = mechanism.bodies[FRONT_LINK], mechanism.bodies[FOOT]
         points = {mechanism.loop.body_a: mechanism.loop.point_a_m, mechanism.loop.body_b: mechanism.loop.point_b_m}
         front_axes, foot_axes = self._axes[1 + FRONT], self._axes[1 + FOOT_LINK]
@@ -251,6 +251,6 @@ def _joints(mechanism: Mechanism) -> list[Joint]:
 
 
 def _xyzw_about_y(angle_rad: float) -> list[float]:
-    """Return the quaternion of a turn about y as Bullet wants it: scalar last."""
+    """Return the quaternion of a turn about y in Bullet's order: scalar last."""
     w, *vector = quaternion_about_y(angle_rad)
     return [*vector, w]

@@ -1,4 +1,4 @@
-"""The registry of engines, and what to say where one is not installed. Nothing heavy loads before an engine is used."""
+"""The registry of engines, and messages where one is not installed. An engine's library loads when it is first used."""
 
 import importlib
 import importlib.util
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class EngineEntry:
-    """A line of the registry: module and class of an engine, the package that it needs, a note for the help.
+    """An entry of the registry: module and class of an engine, the package that it needs, a note for the help.
 
     A `general` engine is a rigid-body simulator independent of this project: `--engine both` compares those, and the
     first of them that is installed is the default.
@@ -62,12 +62,12 @@ def engine_named(name: str) -> "Engine":
 
 
 def require_engine(name: str) -> None:
-    """Refuse a name that no engine has.
+    """Reject a name that no engine has.
 
     Raises
     ------
     JumpcadError
-        Saying which ones there are.
+        With a list of the engines.
     """
     if name not in ENGINES:
         known = in_words(ENGINES, "and")
@@ -104,7 +104,7 @@ def in_words(names: Iterable[str], word: str) -> str:
 
 
 def import_pybullet(without_it: str = "--engine mujoco works without it") -> ModuleType:
-    """Return the module `pybullet`, or say in one line how to get it and what works `without_it`."""
+    """Return the module `pybullet`, or raise an error that says how to get it and what works `without_it`."""
     try:
         with _silent_stderr():
             return importlib.import_module("pybullet")
@@ -116,7 +116,7 @@ def import_pybullet(without_it: str = "--engine mujoco works without it") -> Mod
 
 
 def import_mujoco() -> ModuleType:
-    """Return the module `mujoco`, or say in one line how to get it."""
+    """Return the module `mujoco`, or raise an error that says how to get it."""
     try:
         return importlib.import_module("mujoco")
     except ImportError:
@@ -127,7 +127,7 @@ def import_mujoco() -> ModuleType:
 
 @contextmanager
 def _silent_stderr() -> Iterator[None]:
-    """Close the process's standard error for a moment: PyBullet writes a greeting there when it loads."""
+    """Discard the process's standard error for a moment: PyBullet writes a banner there when it loads."""
     kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 2)
     try:

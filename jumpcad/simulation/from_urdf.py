@@ -1,7 +1,7 @@
 """A robot read back from its URDF file and the JSON file beside it: what is simulated is then what was written.
 
-Such files may come from strangers. Both are read strictly, as far as a simulation needs them; whatever no `jumpcad
-build` writes and no mechanism can have is refused, nothing is guessed or set right.
+Such files may come from unknown sources. Both are checked strictly, as far as simulation needs them: whatever `jumpcad
+build` does not write or no mechanism can have is rejected; nothing is guessed or corrected.
 """
 
 import math
@@ -33,7 +33,7 @@ MASS_KG = 1e-6, 1e3
 GYRATION_M = 1e-5, 10.0
 """Radii of gyration that a body may have."""
 TRIANGLE_SHARE = 1e-6
-"""By what share the largest principal moment may exceed the sum of the others, for rounding."""
+"""Share by which rounding may bring the largest principal moment above the sum of the others."""
 LARGEST_EFFORT = 1e6
 """Limit of a joint's torque (N·m) and speed (rad/s)."""
 SAME_M, SAME_RAD = 1e-6, 1e-6
@@ -76,7 +76,7 @@ def robot_from_urdf(path: Path) -> Mechanism:
 
 @contextmanager
 def _named_file(path: Path) -> Iterator[None]:
-    """Put the name of the file that is wrong before what is wrong."""
+    """Put the file's name before the error's message."""
     try:
         yield
     except JumpcadError as error:
@@ -84,7 +84,7 @@ def _named_file(path: Path) -> Iterator[None]:
 
 
 class _NoDoctype(ET.TreeBuilder):
-    """Builds trees of documents without a type declaration, in which alone entities can be declared."""
+    """Builds trees of documents without a document type declaration, the only place where entities can be declared."""
 
     def doctype(self, name: str, pubid: str | None, system: str | None) -> None:
         raise JumpcadError("has a document type declaration, which no URDF needs")
@@ -115,7 +115,7 @@ def _named(root: ET.Element, tag: str, names: Sequence[str]) -> dict[str, ET.Ele
         if name not in names:
             raise JumpcadError(f"{tag} {shown(name)} is none of {', '.join(names)}{did_you_mean(name, names)}")
         if name in found:
-            raise JumpcadError(f"{tag} {name} is there twice")
+            raise JumpcadError(f"{tag} {name} appears twice")
         found[name] = node
     if missing := [name for name in names if name not in found]:
         raise JumpcadError(f"{tag} {missing[0]} is missing")
@@ -141,7 +141,7 @@ def _body(link: ET.Element, surfaces: dict[str, Any]) -> Body:
 
 
 def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:
-    """Refuse a tensor (3, 3) about the centre of mass that no distribution of the mass has.
+    """Reject a tensor (3, 3) about the centre of mass that no distribution of the mass has.
 
     Principal moments are positive, and none exceeds the sum of the others (Featherstone, Rigid Body Dynamics
     Algorithms, section 2.8): a flat body reaches that sum.
@@ -198,7 +198,7 @@ def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> Joint:
 
 
 def _require_mechanism(mechanism: Mechanism) -> None:
-    """Refuse a tree and a loop that are not those of the design, from which the pose at release comes."""
+    """Reject a tree and a loop that are not those of the design, which gives the pose at release."""
     joints, loop, _ = five_bar(mechanism.linkage, (-mechanism.design.compression_rad, 0.0))
     for joint in joints:
         read = mechanism.joint(joint.name)

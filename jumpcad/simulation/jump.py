@@ -12,7 +12,7 @@ from jumpcad.transforms import Array
 class EnergyBudget:
     """Where the springs' energy is at take-off (J).
 
-    `forward_j` and `upward_j` are the kinetic energy of the centre of mass, of which the jump is made; `internal_j` is
+    `forward_j` and `upward_j` are the kinetic energy of the centre of mass, which makes the jump; `internal_j` is
     that of the bodies about it; `lift_j` is the height already gained; `spring_j` is still in the springs;
     `joint_damping_j` is lost in the joints and `contact_j` in sliding, impact and the engine's numerics.
     """
@@ -51,7 +51,7 @@ class Trajectory:
         return table | {"kinetic_j": self.kinetic_j, "potential_j": self.potential_j, "spring_j": self.spring_j}
 
     def rows(self) -> Iterator[dict[str, float]]:
-        """Yield one plain dictionary a moment."""
+        """Yield one plain dictionary per moment."""
         columns = {name: values.tolist() for name, values in self.columns().items()}
         for values in zip(*columns.values(), strict=True):
             yield dict(zip(columns, values, strict=True))
@@ -59,7 +59,7 @@ class Trajectory:
 
 @dataclass(frozen=True)
 class PublishedQuantities:
-    """The published study's measures, of this run: not to be mistaken for those of the jump.
+    """The published study's measures for this run; they are not those of the jump.
 
     `base_distance_m` is where the body is at the first contact later than 0.5 s after release (tumbling included),
     `base_height_m` the greatest absolute height of the body (standing height included).

@@ -1,4 +1,4 @@
-"""The JSON file beside a URDF: what URDF cannot say, as it may be in a file that is read back."""
+"""The JSON file beside a URDF: what URDF cannot express, with the limits for a file that is read."""
 
 from typing import Annotated, Any, Literal
 
@@ -63,5 +63,5 @@ class LoopFile(Record):
             Naming what is missing, unknown, or out of range.
         """
         if not isinstance(data, dict):
-            raise JumpcadError("is no table of values")
+            raise JumpcadError("is not a table of values")
         return cls(**data)

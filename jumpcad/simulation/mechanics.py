@@ -1,4 +1,4 @@
-"""The mechanics of a simulated robot, the same whichever engine moves it: pose at release, energies, ballistics."""
+"""The mechanics of a simulated robot, the same for all engines: pose at release, energies, ballistics."""
 
 import math
 from dataclasses import dataclass
@@ -109,8 +109,8 @@ def ballistics(start_m: Array, takeoff_m: Array, velocity_m_s: Array, gravity_m_
     Notes
     -----
     The range runs along x from release to where the centre of mass falls through its height at release; the rise is
-    that of the apex above that height. A centre of mass that leaves lower than it started and too slowly never gets
-    back up there: it lands at its apex.
+    that of the apex above that height. A centre of mass that leaves lower than it started and too slowly does not come
+    back to that height: it lands at its apex.
     """
     forward, up = float(velocity_m_s[0]), float(velocity_m_s[2])
     lift = float(takeoff_m[2] - start_m[2])

@@ -1,4 +1,4 @@
-"""The MuJoCo back end: it runs the model that is exported, without what is only seen."""
+"""The MuJoCo back end: it runs the exported model, without the visible meshes."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -24,7 +24,7 @@ class MujocoEngine:
 
     def __init__(self) -> None:
         self._mujoco = import_mujoco()
-        # Left alone, it writes a file into the current folder; the audit tells of a run that blew up.
+        # By default it writes a file into the current folder; the audit reports runs that diverge.
         self._mujoco.set_mju_user_warning(lambda text: None)
 
     @contextmanager
@@ -75,7 +75,7 @@ class MujocoWorld:
         return leg_rad
 
     def loaded(self) -> bool:
-        """Say whether the ground carried any of the robot during the last time step."""
+        """Tell whether the ground carried any of the robot during the last time step."""
         return self._loaded
 
     def state(self) -> State:

@@ -1,4 +1,4 @@
-"""The planar engine: the push-off in x-z by a compiled loop, some fifty times as fast as that of a general engine.
+"""The planar engine: the push-off in x-z by a compiled loop, about fifty times as fast as in a general engine.
 
 It holds the mechanism without its left and right, and neglects what the body's spheres touch before take-off (and says
 so where they do). What a run decides is decided in `Run`, but for the take-off: here it is the last contact before the
@@ -53,12 +53,12 @@ class PlanarWorld:
         )
 
     def advance(self, steps: int) -> float:
-        """Go on by a number of time steps; return the leg joint's coordinate before the last of them.
+        """Advance by a number of time steps; return the leg joint's coordinate before the last of them.
 
         Raises
         ------
         JumpcadError
-            If the loop reaches a dead point, beyond which the leg's angle does not say how the links lie.
+            If the loop reaches a dead point, beyond which the leg's angle does not determine the links.
         """
         before = kernel.advance(self.model, self.moment, self.settings.dt_s, steps - 1)
         self.go_to(kernel.advance(self.model, before, self.settings.dt_s, 1))
@@ -70,7 +70,7 @@ class PlanarWorld:
         return before.leg_rad
 
     def loaded(self) -> bool:
-        """Say whether the ground carries the foot, or the body has come down to it."""
+        """Tell whether the ground carries the foot, or the body has come down to it."""
         contact = self.moment.contact
         return contact.first_ns + contact.second_ns > 0.0 or self.moment.belly_gap_m <= 0.0
 
@@ -111,7 +111,7 @@ class PlanarRun(Run):
         return (*super().findings(), touching)
 
     def _push_off(self) -> Takeoff | None:
-        """Go on to the last contact before the robot flies; record on the way if asked for."""
+        """Advance to the last contact before the robot flies; record on the way if asked for."""
         world = self.world
         assert isinstance(world, PlanarWorld)
         found = world.push_off()

@@ -153,7 +153,7 @@ def energy(model: Model, moment: Moment) -> float:
 def forces(
     model: Model, links: Links, inertia: Inertia, turn: complex, leg_rad: float, speed: Motion
 ) -> tuple[complex, float, float]:
-    """Return what gravity, springs, damping and the motion itself do along the coordinates."""
+    """Return the forces of gravity, springs, damping and the motion itself along the coordinates."""
     ankle, foot, leg = 0j, 0.0, 0.0
     squared, mixed = speed.leg * speed.leg, speed.leg * speed.foot
     for index in range(4):
@@ -226,7 +226,7 @@ def arm_m(model: Model, ground: Ground, index: int) -> float:
 
 @compiled
 def least_m_s(model: Model, ground: Ground, index: int) -> float:
-    """Return how fast a sphere may go up at least: what is left of its gap may close until the end of the step."""
+    """Return the least upward speed of a sphere, with which the rest of its gap closes by the end of the step."""
     height = (ground.ankle_m + model.sole_m[index] * ground.turn).imag
     return -max(height - model.sole_radius_m[index], 0.0) / ground.half_s
 
@@ -248,8 +248,8 @@ def contact_in_mode(
 ) -> tuple[bool, Contact]:
     """Return the impulses on one sphere (or two: `second` >= 0) in a mode, and whether they obey all laws.
 
-    The laws: the ground only pushes; no sphere goes down faster than it may; along the ground the foot sticks with
-    less than the friction that there is, or slides against all of it. The spheres touch in one line, so the foot has
+    The laws: the ground only pushes; no sphere goes below the ground; along the ground the foot sticks with
+    less than the full friction, or slides against all of it. The spheres touch in one line, so the foot has
     one velocity and one force along it.
     """
     friction, height = model.friction, ground.ankle_m.imag
@@ -299,7 +299,7 @@ def contact_in_mode(
 
 @compiled
 def contact_of(model: Model, ground: Ground, gains: Gains, free: Motion, last: Contact) -> Contact:
-    """Return the ground's impulses, beginning with the mode of the last step; not a number if no mode obeys."""
+    """Return the ground's impulses, beginning with the mode of the last step; NaN if no mode obeys the laws."""
     count = len(model.sole_m)
     touches = False
     for index in range(count):
@@ -324,7 +324,7 @@ def contact_of(model: Model, ground: Ground, gains: Gains, free: Motion, last: C
 def settle(
     model: Model, ground: Ground, inertia: Inertia, free: Motion, last: Contact, held: bool
 ) -> tuple[Motion, Contact, float]:
-    """Return velocities after a step, the ground's impulses, and what holds the leg joint still if it is held."""
+    """Return velocities after a step, the ground's impulses, and the impulse that holds the leg joint if it is held."""
     by_x, by_z = response(inertia, 1.0 + 0j, 0.0, 0.0), response(inertia, 1j, 0.0, 0.0)
     by_foot, by_leg = response(inertia, 0j, 1.0, 0.0), response(inertia, 0j, 0.0, 1.0)
     gains, hold = Gains(by_x, by_z, by_foot), 0.0
@@ -348,7 +348,7 @@ def settle(
 def settle_with_friction(
     model: Model, ground: Ground, inertia: Inertia, free: Motion, last: Contact, limit_ns: float
 ) -> tuple[Motion, Contact, float]:
-    """Do as `settle`, with dry friction on the leg joint: all of it against the motion, or what holds it still."""
+    """Like `settle`, with dry friction on the leg joint: all of it against the motion, or what holds it still."""
     if limit_ns == 0.0:
         return settle(model, ground, inertia, free, last, False)
     against = -limit_ns if free.leg >= 0.0 else limit_ns
@@ -451,7 +451,7 @@ def advance(model: Model, moment: Moment, dt: float, steps: int) -> Moment:
 def push_off(
     model: Model, moment: Moment, dt: float, airborne_s: float, within_s: float, max_time_s: float, audit_every: int
 ) -> PushOff:
-    """Go on from release to the last contact with the ground before the robot flies.
+    """Advance from release to the last contact with the ground before the robot flies.
 
     It flies once it has been in the air for `airborne_s`, its centre of mass rising, and the springs are spent: the leg
     joint has come to rest, or opens no more. A hop before that is a part of the push-off. A robot on the ground
@@ -486,6 +486,6 @@ def push_off(
 
 @compiled
 def rising(model: Model, moment: Moment) -> bool:
-    """Say whether the centre of mass rises."""
+    """Tell whether the centre of mass rises."""
     turn = complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
     return centre_speed(inertia_at(model, links_at(model, moment.leg_rad), turn), moment.speed).imag > 0.0

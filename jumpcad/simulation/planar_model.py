@@ -1,4 +1,4 @@
-"""What the planar engine knows of a robot: plain numbers, read from it in one place.
+"""The planar engine's model of a robot: plain numbers, all read from the robot here.
 
 The plane is x-z. Points and vectors are complex numbers x + iz, so that a turn by an angle about +y (nose down) is a
 multiplication by exp(-i·angle).

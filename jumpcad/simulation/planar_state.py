@@ -1,4 +1,4 @@
-"""What the planar engine's functions hand to each other: plain tuples, which compiled code reads as fast as locals."""
+"""Data passed between the planar engine's functions: plain tuples, which compiled code reads as fast as locals."""
 
 from typing import NamedTuple
 
@@ -83,7 +83,7 @@ class Losses(NamedTuple):
 
 
 class Moment(NamedTuple):
-    """The state between two steps, and what the last step tells the next."""
+    """The state between two steps, and what the next step needs from the last."""
 
     ankle_m: complex
     foot_rad: float

@@ -37,9 +37,9 @@ class World(Protocol):
     """What the joints' damping has taken so far (J)."""
 
     def advance(self, steps: int) -> float:
-        """Go on by a number of time steps, the springs acting in each.
+        """Advance by a number of time steps, the springs acting in each.
 
-        Return the coordinate of the leg joint before the last of them, which costs nothing to know.
+        Return the coordinate of the leg joint before the last of them, which needs no extra work.
         """
 
     def loaded(self) -> bool:
@@ -55,7 +55,7 @@ class Engine(Protocol):
     run: "type[Run]"
 
     def world(self, mechanism: Mechanism, settings: Settings) -> AbstractContextManager[World]:
-        """Put a robot on the ground, ready for release, and take it away afterwards."""
+        """Put a robot on the ground, ready for release, and remove it afterwards."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ class Run:
 
     @property
     def sound(self) -> bool:
-        """Say whether the run has passed its audit so far."""
+        """Tell whether the run has passed its audit so far."""
         return self.worst_energy_ratio <= ENERGY_RATIO_LIMIT and self.worst_gap_m <= LOOP_GAP_LIMIT_M
 
     def findings(self) -> tuple[Finding, ...]:
@@ -161,7 +161,7 @@ class Run:
         return self._takeoff(*left) if left else None
 
     def _fly(self) -> None:
-        """Go on to the first touchdown, and to the published study's last contact if asked for."""
+        """Advance to the first touchdown, and to the published study's last contact if asked for."""
         world, settings = self.world, self.settings
         distance: float | None = None
         height = self._body_position_m(self.start)[2]
@@ -183,7 +183,7 @@ class Run:
             self.published = PublishedQuantities(distance, float(height))
 
     def _advance(self, steps: int) -> float:
-        """Do as `World.advance`, but stop where the audit or the trajectory wants to look."""
+        """Like `World.advance`, but stop wherever the audit or the trajectory needs a state."""
         goal = self.steps + steps
         while True:
             stop = min(goal, self.steps + self._audit_every - self.steps % self._audit_every)

@@ -26,7 +26,7 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
     Returns
     -------
     Jump
-        With the verdict of the gate, of the push-off, or of the audit. The same robot and settings give the same bits,
+        With the verdict of feasibility, push-off or audit. The same robot and settings give the same bits,
         in any process and after any other robot.
 
     Raises

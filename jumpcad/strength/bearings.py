@@ -1,7 +1,7 @@
-"""The main leg's hub: its bearings' loads with the springs loaded, and which of the catalogue bear them (N, mm).
+"""The main leg's hub: loads of its bearings with the springs loaded, and the bearings that carry them (N, mm).
 
 Two bearings sit at the hub's faces. The springs' arms press evenly on both; the cam pushes beside the leg, where the
-roller is, so that the leg tilts against them and the nearer one bears more than the cam's whole force.
+roller is, so that the leg tilts against them and the nearer one carries more than the cam's whole force.
 """
 
 import math
@@ -17,11 +17,11 @@ from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
 
 ANY = "any"
-"""In a workshop's place for a bearing: the lightest of the catalogue that bears its load."""
+"""Instead of a bearing's name in a workshop: the lightest of the catalogue that carries its load."""
 LONGEST_ARM_MM = 10.0
-"""Springs' torque over a bearing's load; judgement: about the longest of many designs, so that few hubs bear less."""
+"""Springs' torque over a bearing's load; judgement: about the longest of many designs, so that few hubs carry less."""
 SHOULDER_MM = 0.8
-"""Between the seats of both bearings, at least; judgement: four layers of 0.2 mm."""
+"""Least distance between the seats of both bearings; judgement: four layers of 0.2 mm."""
 
 
 def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
@@ -57,7 +57,7 @@ def roller_bearing(workshop: Workshop) -> Bearing:
     roller, screw = workshop.catalogue.bearings[workshop.bought.roller], workshop.catalogue.screws["M3"]
     if roller.bore_mm != screw.diameter_mm:
         raise JumpcadError(
-            f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not sit on the {screw.name} '
+            f'bought.roller = "{roller.name}": its bore of {roller.bore_mm:g} mm does not fit the {screw.name} '
             f"screw that holds it: choose a bearing with a bore of {screw.diameter_mm:g} mm"
         )
     return roller

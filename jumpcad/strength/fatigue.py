@@ -1,6 +1,6 @@
-"""Fatigue of steel that is loaded once a jump, from nothing to its largest stress and back (MPa, jumps).
+"""Fatigue of steel that is loaded once per jump, from zero to its largest stress and back (MPa, jumps).
 
-Printed parts are not here: handbooks have no such figures for them, and the strength factor takes their place.
+Printed parts are not here: handbooks have no such figures for them, and the strength factor covers fatigue.
 """
 
 import itertools
@@ -12,7 +12,7 @@ YIELD_SHARE = 0.78
 """Yield over tensile strength of cold-drawn spring wire in bending (Shigley, 10-12)."""
 SPRING_SHARES = ((LOW_CYCLES, YIELD_SHARE), (1e5, 0.53), (LASTING, 0.50))
 """Jumps, and largest stress at the coil's inner fibre over tensile strength: music wire, not shot-peened, repeated
-bending (Shigley, table 10-10); below 1e5 in a straight line of logarithms to yield."""
+bending (Shigley, table 10-10); below 1e5 on a straight line in logarithms to yield."""
 LOW_CYCLE_SHARE = 0.77
 """Alternating strength at 1e3 cycles over tensile strength, at 1400 MPa and more (Shigley, figure 6-18)."""
 
@@ -36,7 +36,7 @@ def pin_limit_mpa(tensile_mpa: float, jumps: float) -> float:
     """Return the largest bending stress of a thin cold-drawn pin for a number of jumps.
 
     Fatigue strength: half of the tensile strength, at most 700 MPa, times the surface factor 4.51·S^-0.265 for an
-    endless life (Shigley, 6-7 and 6-9), and S-N lines below (6-8). A pin of 3 mm that does not turn needs no factor for
+    infinite life (Shigley, 6-7 and 6-9), and S-N lines below (6-8). A 3 mm pin that does not turn needs no factor for
     its size. Goodman's line for a stress that is half mean and half amplitude (6-12), yield at most.
     """
     endless = min(0.5 * tensile_mpa, 700.0) * min(1.0, 4.51 * math.pow(tensile_mpa, -0.265))

@@ -91,7 +91,7 @@ def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float) -> PushOf
     across = np.stack([along[:, 1], -along[:, 0]], axis=-1)
     shear = torque / design.l2_mm
     front_along = (front - np.array([design.l4_mm, 0.0])) / design.l3_mm
-    # Two unknown forces, three equations; the third holds by itself, or tells the forces of parallel links apart.
+    # Two unknown forces, three equations: the third holds automatically, or separates the forces of parallel links.
     arm = design.l1_mm
     columns = [
         np.column_stack([unit, _moment(pivot - com, unit) / arm])
@@ -130,9 +130,9 @@ def _moment(arm: Array, force: Array) -> Array:
 
 
 def landing_force_n(design: Design, mass_kg: float, stop_mm: float, rise_m: float | None = None) -> float:
-    """Return the mean force that stops a falling robot evenly over a way, m·g·(drop + stop)/stop.
+    """Return the mean force that stops a falling robot over a distance, m·g·(drop + stop)/stop.
 
-    Without the rise of a simulated jump, all of the springs' energy is taken to have become height.
+    Without the rise of a simulated jump, all of the springs' energy is assumed to become height.
     """
     weight = mass_kg * GRAVITY_M_S2
     drop = 1000.0 * design.spring_energy_j if rise_m is None else 1000.0 * weight * rise_m
@@ -140,21 +140,21 @@ def landing_force_n(design: Design, mass_kg: float, stop_mm: float, rise_m: floa
 
 
 def reflected_share(arm_mm: tuple[float, float], gyration_mm: tuple[float, float]) -> float:
-    """Return the share of a body's mass that a vertical blow meets at arms x, y from its centre of mass.
+    """Return the effective share of a body's mass in a vertical impact at arms x, y from its centre of mass.
 
-    The body turns away from the blow: 1/(1 + (x/k_y)² + (y/k_x)²) with the radii of gyration (k_x, k_y) about x and y
+    The body turns away from the impact: 1/(1 + (x/k_y)² + (y/k_x)²) with the radii of gyration (k_x, k_y) about x and y
     (centre of percussion; e.g. Meriam and Kraige, Dynamics, 6/8).
     """
     return 1.0 / (1.0 + (arm_mm[0] / gyration_mm[1]) ** 2 + (arm_mm[1] / gyration_mm[0]) ** 2)
 
 
 def toe_moment_nmm(design: Design, toes_n: float) -> float:
-    """Return the moment at the root of one toe when both tips bear a force together."""
+    """Return the moment at the root of one toe when both tips carry a force together."""
     return 0.5 * toes_n * design.l5_mm
 
 
 def rail_moment_nmm(design: Design, toes_n: float) -> float:
-    """Return the moment in one of the two rails at the ankle when both toe tips bear a force together."""
+    """Return the moment in one of the two rails at the ankle when both toe tips carry a force together."""
     return 0.5 * toes_n * toe_reach_mm(design)[0]
 
 

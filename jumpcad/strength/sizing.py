@@ -23,11 +23,11 @@ TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
 RESERVE = 1.15
 """Factor on every load, since masses, axial forces and lever are not known yet; judgement."""
 THICKNESS_MM, THICK_MM, THICK_FROM_NMM = 6.0, 8.0, 900.0
-"""Thickness of the links, and of those whose springs have more than a torque; judgement: axial play tilts thin eyes."""
+"""Thickness of the links, and a larger one from a spring torque on; judgement: axial play tilts thin eyes."""
 HEIGHT_MIN_MM = 6.0
 """Of legs; judgement: three perimeters of 0.45 mm on either side leave a core."""
 ROOT_MORE_MM = 2.0
-"""By how much the leg's root is higher than `HEIGHT_MIN_MM`, at least; judgement: the pin's hole weakens it there."""
+"""Least difference of the leg's root to `HEIGHT_MIN_MM`; judgement: the pin's hole weakens the leg there."""
 EYE_PLAY_MM = 0.3
 """Allowance for a running fit on the radius of an axle, so that an eye keeps two walls; judgement."""
 ABOVE_GROUND_MM = 1.0
@@ -43,7 +43,7 @@ KEY_MM = 7.0
 GROWTH_STEP = 1.1
 """Factor by which a section grows at a time; judgement: few rounds, little mass more than needed."""
 STIFF_ROUNDS, STIFF_MORE = 12, 1.01
-"""Steps, and the surplus of each, by which a leg's height approaches its share of flexing; judgement."""
+"""Most steps, and factor beyond each, in which the leg's height is raised until it flexes little enough; judgement."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class Growth:
 
 
 def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
-    """Size the links of a mechanism in a workshop, with a hub of at least a width."""
+    """Size the links of a mechanism in a workshop, with a hub of at least a given width."""
     design = linkage.design
     fits, safety, material = workshop.fits, workshop.safety, workshop.material("links")
     shell = Shell.of(workshop.process)
@@ -160,7 +160,7 @@ def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float) -> float:
 def _stiff_mm(
     design: Design, root_mm: float, thickness_mm: float, shell: Shell, modulus_mpa: float, share_max: float
 ) -> float:
-    """Return the height of the leg's root, raised until its flexing is within its share: the energy falls with 1/h³."""
+    """Return the height of the leg's root, raised until it flexes by at most its share: the energy falls with 1/h³."""
     for _ in range(STIFF_ROUNDS):
         heights = np.linspace(root_mm, _leg_tip_mm(root_mm), STATIONS)
         share = leg_flex_share(design, Beam(thickness_mm, heights, shell), modulus_mpa)

@@ -59,7 +59,7 @@ class Beam:
 
     @property
     def area_mm2(self) -> float | Array:
-        """Area that bears."""
+        """Load-carrying area (mm²)."""
         width, height = self._core
         return self.width_mm * self.height_mm - (1.0 - self.shell.core_share) * width * height
 
@@ -82,7 +82,7 @@ class Beam:
 
 
 def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, shell: Shell, upright: bool = False) -> float:
-    """Return the least height of a bar that bears a bending moment; none at all where there is no moment.
+    """Return the least height of a bar for a bending moment; 0 without a moment.
 
     The solid bar's height, the root of 6·M/(b·stress), is the first guess; it grows for the missing part of the core.
     """
@@ -95,9 +95,9 @@ def height_for_mm(moment_nmm: float, width_mm: float, stress_mpa: float, shell: 
 
 
 def tapered_stress_mpa(bar: Beam, moment_nmm: float, axial_n: float = 0.0) -> float:
-    """Return the largest stress of a cantilever whose moment falls evenly from its root to nothing at its tip.
+    """Return the largest stress of a cantilever whose moment falls linearly from its root to zero at its tip.
 
-    `bar` holds the sections (n,) at even distances from root to tip.
+    `bar` holds the sections (n,) at equal distances from root to tip.
     """
     share = np.linspace(1.0, 0.0, len(np.atleast_1d(bar.height_mm)))
     return float(np.max(bar.stress_mpa(moment_nmm * share, axial_n)))
@@ -116,7 +116,7 @@ def bored_stress_mpa(moment_nmm: float, width_mm: float, height_mm: float, bore_
 
 
 def eye_stress_mpa(force_n: float, thickness_mm: float, outer_mm: float, bore_mm: float) -> float:
-    """Return the worse of an eye's bearing pressure and its tear-out beside the pin, as the tension that it equals.
+    """Return the larger of an eye's bearing pressure and its tear-out beside the pin, as an equivalent tension.
 
     The tension across the same ligaments is less than the tear-out by the square root of 3.
     """

@@ -223,11 +223,11 @@ CASES: dict[str, tuple[Design, Workshop, str]] = {
     ),
     "hardly wound": (
         KENAN.model_copy(update={"compression_ratio": 0.001}), changed(),
-        r"wound by 0\.09°, less than 0\.5°: raise compression_ratio",
+        r"loaded by 0\.09°, less than 0\.5°: raise compression_ratio",
     ),
     "weak motor": (
         load_design("best-bo"), changed(bought={"motors": ("n20-30",)}, safety={"motor_stall_share": 0.03}),
-        r"^no motor turns the cam: it takes \d+ mN·m, the strongest allowed motor may give 1 mN·m.*: lower stiffness",
+        r"^no motor turns the cam: it needs \d+ mN·m, the strongest allowed motor may give 1 mN·m.*: lower stiffness",
     ),
     "small bed": (
         KENAN, changed(printer={"bed_mm": (70.0, 70.0, 70.0)}),

@@ -1,4 +1,4 @@
-"""Robots that were sized too weak grow until they hold, or keep what has no room to grow and say so."""
+"""Sections that are too weak grow until the checks pass, or stay where there is no room, which is reported."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What a workshop says reaches the limits of the drive, each figure its own."""
+"""Every figure of a workshop reaches its own limit of the drive."""
 
 import math
 from dataclasses import fields, replace

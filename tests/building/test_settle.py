@@ -1,4 +1,4 @@
-"""What is settled agrees with itself: the drive fits its sections, the bearing bears its drive."""
+"""Settled parts agree with each other: the drive fits its sections, the bearing carries the drive's forces."""
 
 import pytest
 

@@ -39,7 +39,7 @@ def test_the_bill_weighs_what_the_robot_weighs(robot: Robot) -> None:
 
 
 def test_the_bill_counts_every_piece(robot: Robot) -> None:
-    """A roller needs one nut and one washer, two plates two screws a standoff, two springs one of each hand."""
+    """A roller needs one nut and one washer, two plates two screws per standoff, two springs one of each hand."""
     quantity = {row["item"]: int(row["quantity"]) for row in rows(robot)}
     assert quantity["nut M3 ISO 4032"] == 1
     standoffs = sum(count for item, count in quantity.items() if item.startswith("standoff"))
@@ -58,7 +58,7 @@ def test_nothing_costs_anything_unless_the_workshop_says_so(robot: Robot) -> Non
 
 
 def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
-    """1 kg of filament at 25 €; a screw of 10 mm is dearer than the others; two bearings."""
+    """1 kg of filament at 25 €; a screw of 10 mm costs more than the others; two bearings."""
     file = tmp_path / "mine.toml"
     file.write_text("""
         [materials.PETG]

@@ -1,4 +1,4 @@
-"""assembly.md: everything on the bill is in the guide, and the springs ordered are those of the design."""
+"""assembly.md: everything in the bill of materials is in the guide, and the springs ordered are those of the design."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""A manifest is ours and reads as such, or it is none; no path of it leads out of its folder."""
+"""Only jumpcad's own manifests are accepted; no path in one leads out of its folder."""
 
 import json
 import os
@@ -17,7 +17,7 @@ LINE = {"kind": "printed", "name": "foot", "quantity": 1, "material": "PLA", "ma
 
 
 def refused(folder: Path, text: str | bytes) -> str:
-    """Return the one line in which a manifest is refused."""
+    """Return the one line that rejects a manifest."""
     (folder / "manifest.json").write_bytes(text.encode() if isinstance(text, str) else text)
     with pytest.raises(JumpcadError, match=r"manifest\.json") as error:
         open_bundle(folder)

@@ -1,4 +1,4 @@
-"""report.html: valid, complete in itself, and true to the robot."""
+"""report.html: valid, self-contained, and correct for the robot."""
 
 import base64
 import re
@@ -23,7 +23,7 @@ def robot() -> Robot:
 
 
 def parsed(page: str) -> ElementTree.Element:
-    """Return the page's tree; any tag that is not closed, and any stray sign, is an error."""
+    """Return the page's tree; any tag that is not closed, and any stray character, is an error."""
     return ElementTree.fromstring(page.removeprefix("<!DOCTYPE html>"))
 
 

@@ -1,4 +1,4 @@
-"""The stills and the animated jump of a robot."""
+"""The renders and the animated jump of a robot."""
 
 import io
 

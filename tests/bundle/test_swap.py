@@ -1,4 +1,4 @@
-"""Two folders change places, or nothing is done."""
+"""Two folders are exchanged, or nothing is done."""
 
 from pathlib import Path
 

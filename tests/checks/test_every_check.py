@@ -1,6 +1,6 @@
-"""Every limit that `check` knows was seen to fire: what no other file here makes fire does so in this one.
+"""Every limit that `check` knows is violated in a test: here those that no other file violates.
 
-Limits of the drive are those of its synthesis, which keeps them; a finished drive that meets a tighter limit fires.
+Limits of the drive are those of its synthesis, which keeps them; a finished drive violates a tighter limit.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Clearances against solids that are placed and measured; both checks seen to fire."""
+"""Clearances against solids that are placed and measured; both checks fail where they must."""
 
 from dataclasses import replace
 
@@ -15,7 +15,7 @@ from jumpcad.transforms import pose_about_y
 
 
 def lowest_above_ground_mm(robot: Robot, leg_rad: float, without: tuple[str, ...] = (FOOT,)) -> float:
-    """Return the height of the lowest corner of any solid above the ground, but those of some bodies."""
+    """Return the height of the lowest corner of any solid above the ground, except those of some bodies."""
     assert robot.layout is not None
     linkage = Linkage(robot.design)
     pose = linkage.pose([leg_rad])

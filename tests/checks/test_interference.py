@@ -1,4 +1,4 @@
-"""Interference: silent on the templates, and exact on what is pushed into one another."""
+"""Interference: none in the templates, and exact for parts that are pushed into one another."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Every strength check seen to fire, and silent where nothing breaks."""
+"""Every strength check fails where it must, and passes where nothing breaks."""
 
 import math
 from dataclasses import replace

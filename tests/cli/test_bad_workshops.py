@@ -16,7 +16,7 @@ WRONG = {
     "axle without bearing": ("[bought]\naxle_mm = 4", r"bought.axle_mm = 4: change one of them, or run the hub on its"),
     "axle without spacer": (
         '[bought]\naxle_mm = 5\nleg_bearing = ""',
-        r"bought.axle_mm = 5 is more than 4.4, around which spacers of 6.4 mm keep a wall .*: a thinner axle fits",
+        r"bought.axle_mm = 5 is more than 4.4, the most with which spacers of 6.4 mm keep a .*: use a thinner axle",
     ),
 }
 HOPELESS = {
@@ -26,7 +26,7 @@ HOPELESS = {
     ),
     "motor that turns the cam at no ratio": (
         '[bought]\nmotors = ["n20-30"]\n[safety]\nmotor_stall_share = 0.01',
-        r"no motor turns the cam: it takes \d+ mN·m, the strongest allowed motor may give [\d.]+ mN·m, and no .*: "
+        r"no motor turns the cam: it needs \d+ mN·m, the strongest allowed motor may give [\d.]+ mN·m, and no .*: "
         r"lower stiffness_nmm_per_deg or compression_ratio, or allow a stronger motor",
     ),
 }

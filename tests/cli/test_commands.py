@@ -1,4 +1,4 @@
-"""The commands together: exit codes, one line of error, one JSON document, help that is there at once."""
+"""The commands together: exit codes, one line of error, one JSON document, help without delay."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""Whatever stands behind standard output, whatever a file is called, whenever Ctrl-C is pressed: one line, one code."""
+"""Any kind of standard output, any file name, Ctrl-C at any time: one line and one exit code."""
 
 import os
 import subprocess
@@ -23,7 +23,7 @@ needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/
 
 
 def called(*arguments: str, shell: str = "", folder: Path, **environment: str) -> tuple[int, str, str]:
-    """Run the command in a process of its own, redirected by a shell's words."""
+    """Run the command in a separate process, redirected in a shell's syntax."""
     line = f'exec "$@" {shell}'
     env = {**SURROUNDINGS, **environment}
     done = subprocess.run(["sh", "-c", line, "sh", *JUMPCAD, *arguments], capture_output=True, cwd=folder, env=env)

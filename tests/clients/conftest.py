@@ -1,4 +1,4 @@
-"""Bundles for independent programs: those of all templates, and one made of a few parts, lopsided on purpose."""
+"""Bundles for independent programs: those of all templates, and one made of a few parts, asymmetric on purpose."""
 
 import pytest
 from support.clients import Case

@@ -1,4 +1,4 @@
-"""A strict 3MF reader has nothing to say about our plates, and reads the same parts."""
+"""A strict 3MF reader reports nothing about our plates, and reads the same parts."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""From a coupon's readings to fits: what an imagined printer does to holes and teeth, and readings that cannot be."""
+"""From a coupon's readings to fits: what a simulated printer does to holes and teeth, and impossible readings."""
 
 import math
 import tomllib
@@ -22,7 +22,7 @@ def read(text: str, workshop: Workshop = WORKSHOP) -> Workshop:
 
 @pytest.mark.parametrize("shrinkage_mm", [0.03, 0.21, 0.34])
 def test_a_printer_that_narrows_holes_gets_fits_that_fit(shrinkage_mm: float) -> None:
-    """Try the ladder on a printer that narrows every hole by an amount, and print with the fits that come of it."""
+    """Try the ladder on a printer that narrows every hole by an amount, and print with the resulting fits."""
     steps = ladders(coupon_holes(WORKSHOP)).axle_mm
 
     def first_with(play_mm: float) -> float:

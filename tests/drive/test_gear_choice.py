@@ -1,4 +1,4 @@
-"""Choosing gears against a search by force, and against what time is worth."""
+"""Choosing gears against a brute-force search, and against the value of winding time."""
 
 import dataclasses
 import itertools
@@ -49,7 +49,7 @@ def test_no_lighter_single_pair_would_do(name):
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-ga", "best-bo"])
 def test_who_is_in_a_hurry_gets_heavier_gears(name):
-    """What a gram of gears may save of winding time decides between motors and ratios."""
+    """The seconds of winding accepted per gram of gears decide between motors and ratios."""
     hurry, patience = (
         synthesise_train(law_of(name), MOTORS, dataclasses.replace(LIMITS, seconds_per_gram=seconds))
         for seconds in (0.01, 1e6)
@@ -73,7 +73,7 @@ def test_the_least_cam_gear_turns_the_cam_alone_and_none_smaller_does(name):
 
 @pytest.mark.parametrize(("seconds_per_gram", "count"), [(2.0, 1), (0.5, 1), (2.0, 2)])
 def test_gears_come_in_the_order_of_their_mass_and_of_what_time_is_worth(seconds_per_gram, count):
-    """Full discs of PETG, 1.27 g/cm³, as wide as the teeth, over their pitch circles."""
+    """Solid discs of PETG, 1.27 g/cm³, as wide as the teeth, over their pitch circles."""
     law, limits = law_of("best-bo"), dataclasses.replace(LIMITS, seconds_per_gram=seconds_per_gram)
     costs = []
     for motor, stages in itertools.islice(by_cost(law, MOTORS, limits, count), 12):

@@ -1,4 +1,4 @@
-"""Torsion springs against beam theory, Winkler's curved bar, the length of the wire, and a search by force."""
+"""Torsion springs against beam theory, Winkler's curved bar, the length of the wire, and a brute-force search."""
 
 import math
 from dataclasses import replace

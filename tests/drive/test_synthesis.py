@@ -1,4 +1,4 @@
-"""The whole drive over the search's box: it always ends in a drive within its limits or in a named refusal."""
+"""The whole drive over the search bounds: always a drive within its limits, or an error that names the reason."""
 
 import dataclasses
 import math
@@ -60,7 +60,7 @@ def test_what_cannot_be_driven_is_refused_with_a_parameter_to_change():
     with pytest.raises(CannotBuildError, match=r"(compression_ratio|stiffness_nmm_per_deg)"):
         synthesise(design, LIMITS)
     flat = load_design("kenan-2.0").model_copy(update={"c_coef": 0.3, "d_coef": 0.6, "rest_angle_deg": 40.0})
-    with pytest.raises(CannotBuildError, match=r"wound by -3\.9\d°, less than 0\.5°: raise compression_ratio"):
+    with pytest.raises(CannotBuildError, match=r"loaded by -3\.9\d°, less than 0\.5°: raise compression_ratio"):
         synthesise(flat, LIMITS)
     with pytest.raises(CannotBuildError, match=r"no lever from 56\.\d mm .* to 45 mm"):
         synthesise(
@@ -94,7 +94,7 @@ def test_a_fast_motor_is_geared_down_for_the_leg_to_fall_in_time():
 
 
 def test_a_cam_as_large_as_a_hand_is_turned_by_one_pair_or_by_two_whose_axle_passes_it():
-    """Wound far against a strong spring; so large a cam is far from the leg's axle, and so is its gear."""
+    """A large angle against a strong spring: so large a cam is far from the leg's axle, and so is its gear."""
     design = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 28.683, 36.353])
     smaller_gear = dataclasses.replace(LIMITS, train=dataclasses.replace(LIMITS.train, cam_gear_tip_max_mm=40.0))
     for limits, pairs in ((LIMITS, 1), (smaller_gear, 2)):

@@ -1,4 +1,4 @@
-"""Motor and gears against the DC machine simulated step by step, the makers' limits, and a search by force."""
+"""Motor and gears against the DC machine simulated step by step, the makers' limits, and a brute-force search."""
 
 import dataclasses
 import itertools
@@ -84,7 +84,7 @@ def test_the_gears_fit_and_bear_their_load(law, limits):
 
 
 def test_a_jump_costs_electricity_of_the_order_that_was_measured():
-    """The study measured 1.5 J and 1.3 J a jump (10.2 %) at the prototypes' supply.
+    """The study measured 1.5 J and 1.3 J per jump (10.2 %) at the prototypes' supply.
 
     Their figure includes everything that drew current; the drive alone must need less, but not several times less.
     """
@@ -97,7 +97,7 @@ def test_a_jump_costs_electricity_of_the_order_that_was_measured():
 
 def test_a_motor_that_turns_the_cam_at_no_ratio_is_refused():
     weak = [load_catalogue().motors["n20-30"]]
-    with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it takes 164 mN·m.*stronger motor"):
+    with pytest.raises(CannotBuildError, match=r"no motor turns the cam: it needs 164 mN·m.*stronger motor"):
         synthesise_train(law_of("best-bo"), weak, dataclasses.replace(LIMITS, cam_gear_tip_max_mm=15.0))
     with pytest.raises(CannotBuildError, match="no motor is allowed"):
         synthesise_train(law_of("best-bo"), [], LIMITS)

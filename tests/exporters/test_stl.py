@@ -1,4 +1,4 @@
-"""STL files: every printed part once, in its printing orientation, or none that leaks."""
+"""STL files: every printed part once, in its printing orientation; none that is not closed."""
 
 import io
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""XML has no way to write a control character: such a text is refused, by every format."""
+"""XML has no way to write a control character: such a text is rejected, by every format."""
 
 import xml.etree.ElementTree as ET
 from dataclasses import replace

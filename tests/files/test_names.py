@@ -1,4 +1,4 @@
-"""Names and free text of strangers: any script, but nothing that steers a terminal or leads to another file."""
+"""Names and free text from others: any script, but nothing that controls a terminal or leads to another file."""
 
 import pytest
 from pydantic import TypeAdapter, ValidationError

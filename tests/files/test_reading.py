@@ -1,4 +1,4 @@
-"""Files that cannot be read, or are no TOML or JSON, are refused in one line."""
+"""Files that cannot be read, or are not TOML or JSON, are rejected in one line."""
 
 import os
 import tomllib

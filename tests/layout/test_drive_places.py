@@ -33,7 +33,7 @@ def test_the_spring_pin_is_in_front_of_the_hub_unless_something_is_there() -> No
 
 
 def test_a_gap_of_a_few_degrees_is_enough_for_the_spring_pin() -> None:
-    """All around but at 62.5° something stands; places 5° apart would miss it."""
+    """Obstacles in all directions except 62.5°; places 5° apart would miss it."""
     angles = np.radians([*range(0, 57, 2), *range(69, 150, 2)])
     things = [disc("leg", HUB + 30.0 * np.array([math.cos(a), math.sin(a)]), 1.0, EVERYWHERE) for a in angles]
     place = spring_pin_place(things, HUB, 30.0, INSIDE)

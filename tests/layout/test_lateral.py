@@ -1,4 +1,4 @@
-"""The stack across the robot: what passes by something has a gap beside it, and the sum is one done by hand."""
+"""The stack across the robot: what moves past something has a gap to it, and the sum agrees with one by hand."""
 
 import itertools
 

@@ -1,4 +1,4 @@
-"""Plans measured with shapely and by the law of cosines: gears mesh, nothing is in the way of what moves."""
+"""Layouts measured with shapely and by the law of cosines: gears mesh, nothing is in the way of what moves."""
 
 import itertools
 import math
@@ -23,7 +23,7 @@ from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop
 
 LARGE_CAM = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 28.683, 36.353])
-"""A robot that nothing finds room above: its cam reaches up to 87 mm."""
+"""A robot with no room above it: its cam reaches up to 87 mm."""
 NARROW = Design.from_vector([192.41447, 0.913403, 0.683251, 0.737175, 0.743193, 64.881978, 28.74928, 25.276114])
 """A robot whose spring pin has a place of a few degrees, between main leg and cam gear."""
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", LONG_TOES]
@@ -31,7 +31,7 @@ NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", LONG_TOES]
 
 @cache
 def plans() -> dict[str, Layout]:
-    """Return the plans of named designs and of some drawn at random from the search's box."""
+    """Return the layouts of named designs and of some drawn at random from the search bounds."""
     found = {name: built(name).layout for name in NAMES} | {"geared": geared().layout}
     rng, workshop = np.random.default_rng(8), load_workshop("default")
     lower, upper = np.transpose([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()])
@@ -52,7 +52,7 @@ def plans() -> dict[str, Layout]:
 
 
 def plan_again(layout: Layout, **changed: Any) -> Layout:
-    """Return a plan made again from what it was made from, or from something else."""
+    """Return a layout made again from its inputs, some of them changed."""
     spring = layout.drive.spring
     assert layout.lateral.cam[1] - layout.lateral.cam[0] == pytest.approx(4.0)  # a 623 bearing
     given = {
@@ -118,7 +118,7 @@ def test_what_stands_in_the_body_stands_clear() -> None:
 
 
 def test_what_moves_passes_what_stands() -> None:
-    """The links' middle lines, as thick as their thinnest place, wound in forty steps."""
+    """The links' middle lines, as thick as their thinnest place, loaded in forty steps."""
     for plan_name, layout in plans().items():
         design, sections = layout.design, layout.sections
         things = {"motor": motor(layout), "electronics": electronics(layout)} | standoffs(layout)
@@ -132,7 +132,7 @@ def test_what_moves_passes_what_stands() -> None:
             for body, (ends, radius) in bars.items():
                 bar = shapely.LineString(in_body(layout, body, wind, np.array(ends)))
                 for name, thing in things.items():
-                    where = f"{plan_name}: {body} meets {name}, wound by {math.degrees(wind):.0f}°"
+                    where = f"{plan_name}: {body} meets {name}, loaded by {math.degrees(wind):.0f}°"
                     assert bar.distance(thing) >= radius, where
 
 
@@ -159,7 +159,7 @@ def test_the_same_plan_twice() -> None:
 
 
 def larger(layout: Layout, what: str) -> dict[str, Any]:
-    """Return what to make a plan from so that one thing is too large for it."""
+    """Return inputs of a layout of which one thing is too large for it."""
     train, carried = layout.drive.train, layout.electronics
     if what == "motor":
         huge = train.motor.model_copy(update={"width_mm": 160.0, "height_mm": 160.0})

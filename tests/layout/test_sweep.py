@@ -51,11 +51,11 @@ def test_a_link_stays_inside_its_sweep_all_the_way(name: str, link: str) -> None
     room = area(swept(robot)[link]).buffer(BETWEEN_MM[link])
     for wind in windings(robot):
         bar = shapely.LineString(in_body(robot, body, wind, np.array(ends))).buffer(radius)
-        assert room.contains(bar), f"{link} wound by {np.degrees(wind):.1f}°"
+        assert room.contains(bar), f"{link} loaded by {np.degrees(wind):.1f}°"
 
 
 def test_the_lever_leads_the_leg_by_its_angle_and_swings_on_past_rest() -> None:
-    """Wound by 53° the lever has turned by 53° with the leg; 5° past rest it is still inside."""
+    """Loaded by 53° the lever has turned by 53° with the leg; 5° past rest it is still inside."""
     robot = built("best-bo")
     layout = robot.layout
     cam = layout.drive.cam
@@ -80,7 +80,7 @@ def test_the_gap_is_added_all_around_and_intervals_are_kept() -> None:
 
 @pytest.mark.parametrize("name", [*NAMES, "kenan-1.0", "best-ga"])
 def test_the_gap_between_the_legs_is_shapelys(name: str) -> None:
-    """Tapered leg and straight link with round eyes, at many more positions than the plan looks at."""
+    """Tapered leg and straight link with round eyes, at many more positions than the layout checks."""
     robot = built(name)
     design, sections = robot.design, robot.layout.sections
     eye, root, tip = sections.eye_radius_mm, sections.leg_root_mm / 2.0, sections.leg_tip_mm / 2.0

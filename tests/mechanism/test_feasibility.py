@@ -1,4 +1,4 @@
-"""The gate: verdicts of the reference table, and a solution of the loop by brute force."""
+"""Feasibility: verdicts of the reference table, and a solution of the loop by brute force."""
 
 import csv
 import math
@@ -26,7 +26,7 @@ def random_designs(number: int) -> list[Design]:
 
 
 def verdict(design: Design) -> str:
-    """The first of `loop`, `below_ground`, `tips`, `too_weak` that the gate gives, or `passes`."""
+    """The first of `loop`, `below_ground`, `tips`, `too_weak` that is violated, or `passes`."""
     refused = errors(geometry_findings(design)) or errors(statics_findings(capsule_robot(design)))
     return refused[0].name if refused else "passes"
 
@@ -117,7 +117,7 @@ def test_support_reaches_back_to_the_toes_and_forward_to_the_front_eye() -> None
 
 
 def test_lifting_work_of_a_parallelogram() -> None:
-    """Body, half of each leg: with c = 1 the centre of mass rises by l2·(sin rest - sin wound)·(body + legs / 2)."""
+    """Body, half of each leg: with c = 1 the centre of mass rises by l2·(sin rest - sin loaded)·(body + legs / 2)."""
     design = load_design("kenan-2.0")
     robot = capsule_robot(design)
     weak = statics_findings(robot)[1]
@@ -128,7 +128,7 @@ def test_lifting_work_of_a_parallelogram() -> None:
 
 
 def test_a_robot_tips_over_its_nose_as_well_as_over_its_toes() -> None:
-    """A body whose centre is moved half a metre forwards or backwards takes the whole past either end of the feet."""
+    """A body whose centre is moved half a metre forwards or backwards moves the robot's past either end of the feet."""
     robot = capsule_robot(load_design("kenan-2.0"))
     body = robot.bodies["body"]
     assert statics_findings(robot)[0].margin > 0.0

@@ -42,7 +42,7 @@ def test_lever_and_leg_make_the_angle_of_the_cam(robot: Robot) -> None:
 
 
 def test_leg_tapers_with_the_moment_that_it_carries() -> None:
-    """Between hub and ankle the bar's height falls evenly, and is the sized one at the root."""
+    """Between hub and ankle the bar's height falls linearly, and is the sized one at the root."""
     robot = built("best-bo")
     sections, l2 = robot.layout.sections, robot.design.l2_mm
     mesh = placed(robot, "main_leg")

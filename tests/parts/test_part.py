@@ -10,7 +10,7 @@ from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left, lying_on
 from jumpcad.solids.outline import rectangle
 
 WEDGE = [(2.0, 5.0, rectangle((8.0, 3.0), (4.0, 1.5))), (5.0, 7.0, rectangle((2.0, 3.0), (1.0, 1.5)))]
-"""Lopsided in every direction: 8 x 3 mm below, 2 x 3 mm above, over y from 2 to 7."""
+"""Asymmetric in every direction: 8 x 3 mm below, 2 x 3 mm above, over y from 2 to 7."""
 
 
 @pytest.mark.parametrize("face", ["left", "right"])

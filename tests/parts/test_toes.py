@@ -1,4 +1,4 @@
-"""Toes that are parts of their own, and holes that print lying."""
+"""Separate toes, and holes that print lying."""
 
 import math
 

@@ -212,7 +212,7 @@ def test_the_roller_touches_the_cam_at_every_winding_angle(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_rolling_on_the_cam_winds_with_constant_torque(name: str) -> None:
-    """Wound until the roller touches, the springs' energy grows evenly with the cam's turn after the ramp."""
+    """With the roller on the cam, the springs' energy grows linearly with the cam's turn after the ramp."""
     robot = built(name)
     gap = roller_gap(robot)
     law, wound = robot.layout.drive.cam.law, robot.design.compression_rad

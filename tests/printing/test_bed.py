@@ -1,4 +1,4 @@
-"""How parts lie on the bed: along it, or askew, against the diagonal's geometry."""
+"""How parts lie on the bed: parallel to it or turned, against the diagonal's geometry."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What is seen of a robot: each copy of each part once, where its mass is."""
+"""The visible things of a robot: each copy of each part once, where its mass is."""
 
 from collections import Counter
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The SQLite file of a study: one writer, locks of other programs, what is no file."""
+"""The SQLite file of a study: one writer, locks of other programs, what is not a file."""
 
 import os
 import sqlite3

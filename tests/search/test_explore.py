@@ -1,4 +1,4 @@
-"""Looking around: facts of the hill come out."""
+"""Views of the space show the known facts of the hill."""
 
 import numpy as np
 import pytest

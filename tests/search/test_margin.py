@@ -1,4 +1,4 @@
-"""Proposals that keep off an edge."""
+"""Proposals at a distance from a constraint."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ from jumpcad.transforms import Array
 
 @dataclass(frozen=True)
 class Cliff(Hill):
-    """Fitness grows with the compression ratio up to 0.7, above which designs are refused (`loop`)."""
+    """Fitness grows with the compression ratio up to 0.7, above which designs are rejected (`loop`)."""
 
     def __call__(self, design):
         evaluation = super().__call__(design)

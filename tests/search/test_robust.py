@@ -1,4 +1,4 @@
-"""The final pick: neighbours count."""
+"""The robust pick: the scores of the neighbours decide."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The study file: whole, shared, and never taken for another."""
+"""The study file: complete, readable while it is written, and never mistaken for another."""
 
 import os
 import random
@@ -158,15 +158,15 @@ def read_all(path):
     ("column", "value", "reason"),
     [
         ("phase", "'x'", r"row 'x' 0 2: phase = 'x' is none of ga, bo"),
-        ("phase", "x'ff'", r"row '\\xff' 0 2: phase = b'\\xff' is no text"),
-        ("step", "'one'", r"step = 'one' is no whole number"),
-        ("place", "-1", r"place = -1 is no whole number of at least 0"),
+        ("phase", "x'ff'", r"row '\\xff' 0 2: phase = b'\\xff' is not text"),
+        ("step", "'one'", r"step = 'one' is not a whole number"),
+        ("place", "-1", r"place = -1 is not a whole number of at least 0"),
         ("c_coef", "'x'", r"row 'ga' 0 2: c_coef = 'x': must be a valid number"),
         ("c_coef", "9e9", r"c_coef = 9000000000.0: must be at most 3"),
-        ("verdict", "char(27) || '[31m'", r"'\\x1b\[31m' is no name of a verdict"),
-        ("score", "'x'", r"score = 'x' is no plausible number"),
-        ("score", "9e999", r"score = inf is no plausible number"),
-        ("metrics", "'{\"fitness\": NaN}'", r"fitness = nan is no plausible figure"),
+        ("verdict", "char(27) || '[31m'", r"'\\x1b\[31m' is not the name of a verdict"),
+        ("score", "'x'", r"score = 'x' is not a plausible number"),
+        ("score", "9e999", r"score = inf is not a plausible number"),
+        ("metrics", "'{\"fitness\": NaN}'", r"fitness = nan is not a plausible figure"),
         ("metrics", '\'{"fitness": "x"}\'', r"metrics.fitness: Input should be a valid number"),
         ("metrics", "'{'", r"metrics: Invalid JSON"),
         ("metrics", "'[]'", r"metrics: Input should be an object"),
@@ -174,10 +174,10 @@ def read_all(path):
         ("findings", "'[{\"name\": 1}]'", r"findings.0.name: Input should be a valid string"),
         ("findings", "replace(findings, 'unit', 'init')", r"findings.0.(unit|init): "),
         ("findings", "replace(findings, 'info', 'fine')", r"findings.0.severity: Input should be 'info'"),
-        ("findings", "replace(findings, 'loop', '=1+1')", r"'=1\+1' is no name of a verdict, a finding"),
+        ("findings", "replace(findings, 'loop', '=1+1')", r"'=1\+1' is not the name of a verdict, a finding"),
         ("proposal", '\'{"theta": {"score": [1.0]}}\'', r"proposal.theta: must be lists of 9 hyperparameters"),
         ("proposal", "'5'", r"proposal: Input should be an object"),
-        ("duration_s", "'x'", r"duration_s = 'x' is no plausible number"),
+        ("duration_s", "'x'", r"duration_s = 'x' is not a plausible number"),
     ],
 )
 def test_a_damaged_row_is_named(tmp_path, column, value, reason):
@@ -204,9 +204,9 @@ def test_a_damaged_row_is_named(tmp_path, column, value, reason):
             "CREATE VIEW endless AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n FROM r) SELECT n FROM r",
             "tables",
         ),
-        ("CREATE TRIGGER t AFTER INSERT ON notes BEGIN DELETE FROM evaluations; END", "tables are not ours"),
-        ("ALTER TABLE evaluations RENAME COLUMN metrics TO m", "tables are not ours"),
-        ("DROP TABLE notes", "tables are not ours"),
+        ("CREATE TRIGGER t AFTER INSERT ON notes BEGIN DELETE FROM evaluations; END", "unknown tables"),
+        ("ALTER TABLE evaluations RENAME COLUMN metrics TO m", "unknown tables"),
+        ("DROP TABLE notes", "unknown tables"),
     ],
 )
 def test_a_study_that_another_program_changed(tmp_path, statement, reason):

@@ -25,7 +25,7 @@ SCRIPT = TESTS / "support" / "study_script.py"
 
 
 def contents(path):
-    """Return all trials of a study but for how long they took."""
+    """Return all trials of a study without their durations."""
     with StudyStore.read(path) as store:
         return [replace(trial, duration_s=0.0) for trial in store.trials()]
 

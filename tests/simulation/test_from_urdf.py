@@ -1,4 +1,4 @@
-"""URDF and loop files from strangers: read as they were written, or refused in one line."""
+"""URDF and loop files from unknown sources: read as they were written, or rejected in one line."""
 
 import json
 import os
@@ -68,7 +68,7 @@ def element(tag: str, **attributes: str) -> str:
         (element("dynamics", damping="NaN"), "damping = 'NaN': must be 1 finite number"),
         (element("parent", link="foot"), "joint leg: must lead from body to main_leg"),
         (URDF.replace('link name="foot"', 'link name="fot"'), r"link 'fot' is none of .*did you mean foot\?"),
-        (URDF.replace('link name="foot"', 'link name="body"'), "link body is there twice"),
+        (URDF.replace('link name="foot"', 'link name="body"'), "link body appears twice"),
         (re.sub(r'<joint name="ankle".*?</joint>', "", URDF, flags=re.DOTALL), "joint ankle is missing"),
         (re.sub(r"<inertial>.*?</inertial>", "", URDF, count=1, flags=re.DOTALL), "body: has no inertial, needs one"),
         (re.sub(r'<joint name="leg" type="revolute">\s*<origin xyz="-0\.0', r"\g<0>1", URDF), "origin is not that"),
@@ -118,7 +118,7 @@ def changed(value: Any, *path: str | int) -> str:
         (changed("ice", "surfaces", "back"), "surfaces.back = 'ice': must be 'foot' or 'body'"),
         (changed({}, "surfaces"), "collision 'back_pivot': has no surface"),
         (changed(1, "self"), "self: unknown key"),
-        ("[]", "is no table of values"),
+        ("[]", "is not a table of values"),
         ("[" * 5000 + "]" * 5000, "nested deeper than 20 levels"),
         ("9" * 6000, "not valid JSON"),
         (b"\xff", "not a text file in UTF-8"),

@@ -1,4 +1,4 @@
-"""What the joints' damping takes until take-off: the work of a torque against the speeds, whichever engine moves."""
+"""Energy lost in joint damping until take-off: the work of a torque against the speeds, in every engine."""
 
 import numpy as np
 import pytest

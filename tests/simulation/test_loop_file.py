@@ -1,4 +1,4 @@
-"""The file beside a URDF: what is written is read, and what no robot has is refused."""
+"""The file beside a URDF: what is written is read, and what no robot has is rejected."""
 
 import json
 from typing import Any
@@ -37,5 +37,5 @@ def test_what_no_robot_has_is_refused(kenan: Robot, change: dict[str, Any], mess
 
 
 def test_a_list_is_no_table(kenan: Robot) -> None:
-    with pytest.raises(JumpcadError, match="is no table of values"):
+    with pytest.raises(JumpcadError, match="is not a table of values"):
         LoopFile.of([])

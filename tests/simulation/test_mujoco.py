@@ -1,4 +1,4 @@
-"""The MuJoCo back end: what it does not have is refused."""
+"""The MuJoCo back end: settings that it does not have are rejected."""
 
 import pytest
 

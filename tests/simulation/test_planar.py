@@ -145,7 +145,7 @@ def test_gate_and_limits_are_those_of_all_engines(kenan: Robot) -> None:
 
 
 def test_a_body_that_comes_down_is_said(flights: list[Flight]) -> None:
-    """A robot that the gate calls too weak, simulated all the same: it rises a little and sits down on its body."""
+    """A robot that is too weak, simulated all the same: it rises a little and comes down on its body."""
     robot = next(flight.robot for flight in flights if flight.name == "random-00")
     with PlanarEngine().world(robot, Settings()) as world:
         run = PlanarRun(world, robot, Settings())

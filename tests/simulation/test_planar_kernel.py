@@ -230,7 +230,7 @@ def test_a_one_sided_spring_does_not_pull_back(kenan: Robot) -> None:
 
 
 def test_a_stop_holds_the_leg_and_keeps_momentum(kenan: Robot) -> None:
-    """In the air: the leg stops at its stop; the blow takes energy, but no momentum and no spin of the robot."""
+    """In the air: the leg stops at its stop; the impact takes energy, but no momentum and no spin of the robot."""
     stop, seconds = math.radians(5.0), 0.02
     effects = Effects(one_sided_spring=True, stop_rad=stop)
     world = world_at(kenan, moving(model_of(kenan), -0.05), replace_damping(FINE), effects)

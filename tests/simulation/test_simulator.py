@@ -1,4 +1,4 @@
-"""The gate and the verdict of a simulated jump."""
+"""Feasibility and verdict of a simulated jump."""
 
 import pytest
 
@@ -31,7 +31,7 @@ def test_refused_designs_are_not_simulated(vector: list[float], verdict: str) ->
 
 
 def test_a_robot_that_only_stands_up_does_not_take_off() -> None:
-    """1.4 times the work of standing up passes the gate, and is lost before the feet leave the ground."""
+    """1.4 times the work of standing up is feasible, and is lost before the feet leave the ground."""
     design = Design.from_vector([171.289, 1.139, 0.66, 1.043, 0.436, 67.926, 12.932, 38.146])
     jump = simulate(capsule_robot(design))
     assert jump.verdict == "no_takeoff"

@@ -1,4 +1,4 @@
-"""Take-off, told from the ground's force alone: a foot that chatters is on the ground, one that stays away has left."""
+"""Take-off, found from the ground's force alone: a foot that chatters is on the ground, one that stays up has left."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

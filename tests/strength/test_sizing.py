@@ -1,4 +1,4 @@
-"""Sections that hold: judged with a solid rectangle's textbook formula, and against the issue's own example."""
+"""Sections that hold: checked with a solid rectangle's textbook formula, and against the issue's own example."""
 
 import math
 

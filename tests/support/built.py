@@ -1,4 +1,4 @@
-"""Built robots, and rulers for their meshes: sections by trimesh and shapely, without the package's own geometry."""
+"""Built robots, and measurements of their meshes by trimesh and shapely, without the package's own geometry."""
 
 from functools import lru_cache
 
@@ -77,7 +77,7 @@ def hole_centres(segments: np.ndarray) -> dict[tuple[float, float], float]:
 
 
 def body_in_plane(robot: Robot, body: str, wind_rad: float) -> np.ndarray:
-    """Return the pose (3, 3) of a body in the body frame's x-z plane with the springs wound by an angle (mm).
+    """Return the pose (3, 3) of a body in the body frame's x-z plane with the springs loaded by an angle (mm).
 
     By the law of cosines from the four lengths alone, not by the package's own solution.
     """
@@ -103,6 +103,6 @@ def body_in_plane(robot: Robot, body: str, wind_rad: float) -> np.ndarray:
 
 
 def in_body(robot: Robot, body: str, wind_rad: float, points_mm: np.ndarray) -> np.ndarray:
-    """Return points (..., 2) of a body's x-z plane in the body's frame with the springs wound by an angle."""
+    """Return points (..., 2) of a body's x-z plane in the body's frame with the springs loaded by an angle."""
     pose = body_in_plane(robot, body, wind_rad)
     return points_mm @ pose[:2, :2].T + pose[:2, 2]

@@ -19,7 +19,7 @@ REST = [
 
 
 class Bump:
-    """A bump at a compression ratio of 0.5 and a rest angle of 50°, refused beyond 0.7."""
+    """A bump at a compression ratio of 0.5 and a rest angle of 50°, rejected beyond 0.7."""
 
     digest = "bump"
 

@@ -1,4 +1,4 @@
-"""Gears as a hand tries them: how far one turns while the other is held."""
+"""Play of gears, as by hand: how far one turns while the other is held."""
 
 from collections.abc import Callable
 
@@ -25,7 +25,7 @@ def turning_play_deg(held: CrossSection, turned: CrossSection, distance_mm: floa
 
 
 def _last_free(touches: Callable[[float], bool], free_deg: float, step_deg: float) -> float:
-    """Return the angle at which the flanks meet, going on from a free one."""
+    """Return the angle at which the flanks touch, starting from a free one."""
     while not touches(free_deg + step_deg):
         free_deg += step_deg
     for _ in range(12):

@@ -21,7 +21,7 @@ SMALL = Space.parse(fix=FIXED)
 
 @dataclass(frozen=True)
 class Hill:
-    """One smooth hill of height 10 at `TOP`, refused (`loop`) where the compression ratio is above 0.7.
+    """One smooth hill of height 10 at `TOP`, rejected (`loop`) where the compression ratio is above 0.7.
 
     Every evaluation is one line in `log`, if given.
     """

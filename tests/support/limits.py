@@ -12,7 +12,7 @@ from jumpcad.workshop import load_workshop
 
 
 def default_limits(name: str = "kenan-2.0") -> DriveLimits:
-    """Return the limits of a drive in the default workshop, beside a template's links with the lightest hub bearing."""
+    """Return the limits of a drive in the default workshop, for a template's links with the lightest hub bearing."""
     workshop = load_workshop()
     bearing, *_ = hub_bearings(workshop)
     sizes = sections(Linkage(load_design(name)), workshop, hub_width_mm(bearing))

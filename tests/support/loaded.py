@@ -36,7 +36,7 @@ class LoadedWorld(BulletWorld):
 
 
 def loaded_range_m(urdf: Path) -> float:
-    """Return the ballistic range of a robot that PyBullet loads; the robot itself serves masses for the measuring."""
+    """Return the ballistic range of a robot that PyBullet loads; its masses, for the centre of mass, are read by us."""
     engine, settings, robot = BulletEngine(), Settings(), robot_from_urdf(urdf)
     world_class = type("World", (LoadedWorld,), {"urdf": urdf})
     with engine._lock:

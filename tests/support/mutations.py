@@ -1,4 +1,4 @@
-"""Named ways to spoil a file: texts, JSON documents, bytes. Seeded, so that a case is the same in every run."""
+"""Named ways to damage a file: texts, JSON documents, bytes. Seeded, so that a case is the same in every run."""
 
 import copy
 import json
@@ -30,7 +30,7 @@ JSON_VALUES = {
     "object": "{}",
     "deep": "[" * NESTED + "]" * NESTED,
 }
-"""Values that hardly a place expects, as JSON text."""
+"""Values that are right in hardly any place, as JSON text."""
 
 NUMBERS = {
     "nan": "nan",
@@ -49,7 +49,7 @@ NUMBERS = {
 }
 """Numbers as attributes of XML."""
 NO_NUMBERS = {"nan", "infinity", "minus-infinity", "empty", "words", "pair", "hexadecimal", "overflow", "digits"}
-"""Those that are no finite numbers."""
+"""Those that are not finite numbers."""
 
 Spoil = Callable[[bytes], bytes]
 DOCUMENTS: dict[str, Spoil] = {
@@ -65,11 +65,11 @@ DOCUMENTS: dict[str, Spoil] = {
     "twice": lambda data: data + data,
     "long-tail": lambda data: data + b"x" * 1_000_000,
 }
-"""Ways to spoil any text file as a whole."""
+"""Ways to damage any text file as a whole."""
 
 
 def flipped(data: bytes, seed: int, count: int = 3) -> bytes:
-    """Return data with some bits turned over, as a bad disk or a bad line does."""
+    """Return data with some bits flipped, as by a faulty disk or line."""
     generator = np.random.default_rng(seed)
     spoilt = bytearray(data)
     for place in generator.integers(len(spoilt), size=count):
@@ -78,7 +78,7 @@ def flipped(data: bytes, seed: int, count: int = 3) -> bytes:
 
 
 def cut(data: bytes, seed: int) -> bytes:
-    """Return the beginning of data, as a broken copy leaves it."""
+    """Return the beginning of data, as after an interrupted copy."""
     return data[: int(np.random.default_rng(seed).integers(1, len(data)))]
 
 

@@ -14,9 +14,9 @@ from typing import Any
 from xml.etree import ElementTree
 
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
-"""Characters that no text may hold: all control characters but tab and line feed, line separators, half characters."""
+"""Characters that no text may hold: all control characters but tab and line feed, line separators, surrogates."""
 FORMULA = re.compile(r"\s*[=+\-@]")
-"""How a cell begins that a spreadsheet computes."""
+"""Beginning of a cell that a spreadsheet computes."""
 TEXTS = (".csv", ".html", ".json", ".md", ".sdf", ".toml", ".urdf", ".xml")
 XMLS = (".sdf", ".urdf", ".xml")
 
@@ -97,7 +97,7 @@ def file_faults(path: Path) -> Iterator[str]:
 
 
 def formulas(text: str) -> Iterator[str]:
-    """Yield the cells of a CSV table that a spreadsheet computes; signed numbers are none."""
+    """Yield the cells of a CSV table that a spreadsheet computes; signed numbers are not among them."""
     csv.field_size_limit(10_000_000)
     for row in csv.reader(text.splitlines()):
         yield from (f"a formula: {cell[:60]!a}" for cell in row if FORMULA.match(cell) and not _is_number(cell))

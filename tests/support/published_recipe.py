@@ -1,4 +1,4 @@
-"""The published simulation once more, written straight down from its description and apart from `jumpcad.published`.
+"""The published simulation a second time, written from its description and independent of `jumpcad.published`.
 
 One flat program on plain numbers: no class, no default and no formula of the package is used. Angles in rad, lengths in
 m unless a name says otherwise; the jump goes along +y.
@@ -75,7 +75,7 @@ def recipe_jump(parameters: Sequence[float]) -> tuple[float, float]:
 
 
 def _run(world: BulletClient, robot: int, ground: int, delta: float, k_nm_per_deg: float) -> tuple[float, float]:
-    """Settle 0.5 s, hold the wound pose 0.5 s, let go, look for contacts again after 0.5 s; at most 10 s in all."""
+    """Settle 0.5 s, hold the loaded pose 0.5 s, release, look for contacts again after 0.5 s; at most 10 s in all."""
     clock = near_clock = free_clock = start_y = top = 0.0
     near = free = False
     while clock < 10:

@@ -11,7 +11,7 @@ GIVEN_UP_S = 0.3
 
 
 def last_contact_range_m(robot: Robot, settings: Settings, engine: str) -> float | None:
-    """Return the ballistic range after the last contact before the springs are spent; None if the robot stays down."""
+    """Return the ballistic range after the last contact before the springs are spent; None if it does not fly."""
     mechanics = Mechanics(robot, settings.gravity_m_s2)
     hold = round(AIRBORNE_S / settings.dt_s)
     with engine_named(engine).world(robot, settings) as world:
@@ -29,7 +29,7 @@ def last_contact_range_m(robot: Robot, settings: Settings, engine: str) -> float
 
 
 def softer_mujoco_range_m(robot: Robot, settings: Settings, softness_steps: float) -> float | None:
-    """Do as `last_contact_range_m` in MuJoCo, contacts and loop with another time constant (of MuJoCo's own steps).
+    """Like `last_contact_range_m` in MuJoCo, contacts and loop with another time constant (of MuJoCo's own steps).
 
     At the usual 2 steps a sliding foot chatters; longer ones give way under it. Only many short steps avoid both.
     """

@@ -1,4 +1,4 @@
-"""Robots for the tests of several rooms."""
+"""Robots for the tests of several packages."""
 
 from collections import defaultdict
 
@@ -19,7 +19,7 @@ DENSITY_G_CM3 = 1.24
 
 
 def make_small_robot(name: str = "kenan-2.0") -> Robot:
-    """Return a robot of a few printed and bought parts, lopsided on purpose; its bodies follow from its parts."""
+    """Return a robot of a few printed and bought parts, asymmetric on purpose; its bodies follow from its parts."""
     design = load_design(name)
     capsules = capsule_robot(design)
     l1, l2, l3, l4 = design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm

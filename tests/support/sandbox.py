@@ -1,7 +1,7 @@
-"""A user's folders with a command running in them, and the rules that hold whatever it is given.
+"""A user's folders with a command running in them, and the rules that hold for all arguments.
 
 Rules: a known exit code; one line on standard error where it is 2, and nothing changed; no traceback, no control
-character; strict JSON; no file made, changed or removed but where the command was told to write; no hang.
+character; strict JSON; no file made, changed or removed except where the command may write; no hang.
 """
 
 import contextlib
@@ -29,11 +29,11 @@ from support.outputs import CONTROL, Snapshot, changes, file_faults, snapshot, s
 ANY = (0, 1, 2)
 """Exit codes of a request that may be good or bad; a bug's 3 is never among them."""
 LONGEST = 4000
-"""Characters that a complaint may have at most: ten clauses of a path, a key, a value and a reason."""
+"""Largest number of characters of a message: ten clauses of a path, a key, a value and a reason."""
 ALARM_S = 60
-"""After which a command counts as hanging; none takes a tenth of it."""
+"""Time after which a command counts as hanging; none takes a tenth of it."""
 MEMORY = 2**30
-"""Bytes that a command may take beside what this process has; a process of its own may have four times as many."""
+"""Bytes that a command may take in addition to this process's; a separate process may have four times as many."""
 DECOYS = {
     "home/.bashrc": "alias ll='ls -l'\n",
     "home/.config/settings.json": "{}\n",
@@ -54,7 +54,7 @@ class Hang(BaseException):
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a command ended and what it said."""
+    """Exit code and output of a command."""
 
     code: int
     out: str
@@ -69,7 +69,7 @@ class Outcome:
 class Sandbox:
     """Folders `work` (the current one), `home`, `outside` and `tmp`, each with files that nobody may touch.
 
-    `tries` counts the commands and calls that were judged; `case` is said where one of them breaks a rule.
+    `tries` counts the commands and calls that were checked; `case` is named if one of them breaks a rule.
     """
 
     def __init__(self, root: Path, patch: pytest.MonkeyPatch, capture: pytest.CaptureFixture[str]) -> None:
@@ -125,7 +125,7 @@ class Sandbox:
         leaves: Collection[str] = (),
         encoding: str = "utf-8",
     ) -> Outcome:
-        """Run a command in this process and judge it.
+        """Run a command in this process and check it.
 
         Parameters
         ----------
@@ -134,11 +134,11 @@ class Sandbox:
         writes
             Files and folders in `work` that it may make or change.
         keeps
-            Files and folders within those that it may not.
+            Files and folders within those that it may not change.
         leaves
-            Files and folders that it may make or change even where it refuses.
+            Files and folders that it may make or change even if its exit code is 2.
         encoding
-            Of standard output and standard error.
+            Encoding of standard output and standard error.
         """
         with self._judged(arguments, exits, writes, keeps, leaves) as judge, bounded():
             return judge(self.call(*arguments, encoding=encoding))
@@ -154,7 +154,7 @@ class Sandbox:
         environment: dict[str, str] | None = None,
         **streams: Any,
     ) -> Outcome:
-        """Run a command in a process of its own and judge it; `prepare` runs in it beforehand."""
+        """Run a command in a separate process and check it; `prepare` runs in it beforehand."""
 
         def start() -> None:
             resource.setrlimit(resource.RLIMIT_AS, (4 * MEMORY, 4 * MEMORY))
@@ -191,7 +191,7 @@ class Sandbox:
         keeps: Collection[str],
         leaves: Collection[str],
     ) -> Iterator[Callable[[Outcome], Outcome]]:
-        """Count a try, and yield what asserts that its outcome obeys the rules."""
+        """Count a try, and yield a function that asserts that its outcome obeys the rules."""
         self.tries += 1
         before = snapshot(self.root)
 
@@ -224,7 +224,7 @@ class Sandbox:
 
 
 def stream_faults(outcome: Outcome, exits: Collection[int], arguments: tuple[str, ...]) -> Iterator[str]:
-    """Yield what breaks the rules in an exit code and in what was said; what was asked may be said again."""
+    """Yield what breaks the rules in exit code and output, which may quote the arguments."""
     code, out, err = outcome.code, outcome.out, outcome.err
     lines, asked, as_json = err.splitlines(), sum(map(len, arguments)), "--json" in arguments
     if code not in exits:
@@ -249,7 +249,7 @@ def stream_faults(outcome: Outcome, exits: Collection[int], arguments: tuple[str
 
 @contextlib.contextmanager
 def bounded() -> Iterator[None]:
-    """Fail what hangs, and refuse memory to what takes it without end."""
+    """Fail if the block hangs, and limit its memory."""
 
     def ring(*_: object) -> None:
         raise Hang(f"still running after {ALARM_S} s")

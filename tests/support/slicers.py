@@ -22,7 +22,7 @@ with open(value("--output"), "w") as gcode:
     gcode.write("M83\\n;HEIGHT:0.2\\n;TYPE:Perimeter\\nG1 X0 Y0\\nG1 X10 Y0 E100\\n")
     gcode.writelines(f"; {key} = {value}\\n" for key, value in settings.items())
 """
-"""Takes every setting over; what replaces `TAMPER` may change them."""
+"""Copies every setting; what replaces `TAMPER` may change them."""
 
 
 def pretend_slicer(program: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

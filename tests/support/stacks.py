@@ -1,4 +1,4 @@
-"""Stacks with the usual trouble: shared, nearly shared and crossing outlines, pockets, bores and chamfers."""
+"""Stacks with the usual difficulties: shared, nearly shared and crossing outlines, pockets, bores, chamfers."""
 
 import numpy as np
 

@@ -23,7 +23,7 @@ def written(tmp_path: Path) -> Callable[..., Path]:
 
 @pytest.fixture
 def refusal(written: Callable[..., Path]) -> Callable[[str], str]:
-    """Return a function that returns the one line in which a workshop is refused."""
+    """Return a function that returns the one line that rejects a workshop."""
 
     def refuse(text: str) -> str:
         with pytest.raises(JumpcadError) as caught:

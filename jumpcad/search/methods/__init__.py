@@ -1,7 +1,7 @@
 """The methods that propose designs: one module each, and one line in `METHODS`.
 
-A method is a function that takes an `Evaluator` and a `Task` and returns when the task's evaluations are spent. All
-else follows from its line: the choices and help of `jumpcad optimize`, the plan of a study, what its file may hold.
+A method is a function that takes an `Evaluator` and a `Task` and returns when the task's evaluations are used up. All
+else follows from its entry: the choices and help of `jumpcad optimize`, the plan of a study, what its file may hold.
 """
 
 import importlib
@@ -39,16 +39,16 @@ class Task:
 
 @dataclass(frozen=True)
 class Method:
-    """A line of the registry.
+    """An entry of the registry.
 
     Parameters
     ----------
     name
-        On the command line; also the phase of the method's trials in a study file.
+        Name on the command line; also the phase of the method's trials in a study file.
     function
         Where it is: `module.function` in this package. The module is imported when the method runs.
     meaning
-        What the help says of it.
+        Description in the help.
     front
         Whether it searches a front of score against spring energy, not one best design.
     learns

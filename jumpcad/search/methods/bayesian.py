@@ -62,7 +62,7 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
 
 
 def run_steps(evaluator: Evaluator, phase: str, task: Task, proposer: Proposer) -> None:
-    """Evaluate the initial designs, then what `proposer` proposes, a batch a step."""
+    """Evaluate the initial designs, then what `proposer` proposes, one batch per step."""
     space = evaluator.space
     if task.initial:
         points = space.spread(task.initial, np.random.default_rng([task.seed, 1]))
@@ -93,7 +93,7 @@ def run_steps(evaluator: Evaluator, phase: str, task: Task, proposer: Proposer) 
 
 
 def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[[Design], bool]:
-    """Return the test whether a design may be proposed together with these."""
+    """Return a function that tells whether a design may be proposed together with these."""
     taken = {tuple(proposal.design.to_vector()) for proposal in proposals}
 
     def admits(design: Design) -> bool:

@@ -1,7 +1,7 @@
 """Fronts of score against spring energy.
 
 The energy of the loaded springs is a closed form of the design, so only the score is unknown. For each of a few caps on
-the energy, the expected improvement over the best design below that cap proposes one design a step (ε-constraint).
+the energy, the expected improvement over the best design below that cap proposes one design per step (ε-constraint).
 """
 
 import itertools
@@ -33,7 +33,7 @@ def energy_caps_j(space: Space) -> Array:
 
 
 def run_pareto(evaluator: Evaluator, task: Task) -> None:
-    """Search the front by constrained expected improvement, one proposal for each cap on the energy a step."""
+    """Search the front by constrained expected improvement; each step has one proposal per cap on the energy."""
     space = evaluator.space
     caps = energy_caps_j(space)
 
