@@ -1,4 +1,4 @@
-"""The tables of a workshop: printer, process, materials, fits, bought parts, body, safety, masses."""
+"""The tables of a workshop: printer, process, materials, fits, bought parts, body, ground, pins, safety, masses."""
 
 from typing import Annotated, Literal
 
@@ -100,6 +100,30 @@ class BodyPlates(TomlTable):
     """The two plates of the body."""
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
+
+
+class Ground(TomlTable):
+    """The floor that the robot jumps on, and the pad under nose and toes; coefficients of dry friction on that floor.
+
+    `friction` is the pad's; without a pad (an empty name) the feet have `bare_friction`, that of what is printed, as
+    the body has.
+    """
+
+    surface: Text
+    pad: OptionalName
+    friction: Annotated[float, Field(gt=0, le=2)]
+    bare_friction: Annotated[float, Field(gt=0, le=2)]
+
+    @property
+    def foot_friction(self) -> float:
+        """Friction of the feet on the floor."""
+        return self.friction if self.pad else self.bare_friction
+
+
+class Pins(TomlTable):
+    """The pins that the links turn on, dry."""
+
+    friction: Annotated[float, Field(ge=0, le=2)]
 
 
 class Safety(TomlTable):

@@ -1,4 +1,4 @@
-"""`Workshop`: printer, process, materials, fits, bought parts, safety and masses, checked against each other.
+"""`Workshop`: printer, process, materials, fits, bought parts, ground, safety and masses, checked against each other.
 
 A workshop file gives any subset; what it leaves out comes from its `base` (the shipped `default` unless named).
 `printer = "mini"` takes a shipped printer whole; the names under `[roles]` choose materials, shipped or the file's own.
@@ -29,8 +29,10 @@ from jumpcad.workshop.tables import (
     BodyPlates,
     BoughtParts,
     Fits,
+    Ground,
     Masses,
     Material,
+    Pins,
     Positive,
     Printer,
     Process,
@@ -58,6 +60,8 @@ class Workshop(Record):
     fits: Fits
     bought: BoughtParts
     body: BodyPlates
+    ground: Ground
+    pins: Pins
     safety: Safety
     mass: Masses
     prices_eur: dict[Name, Positive]
