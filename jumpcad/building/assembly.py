@@ -8,8 +8,10 @@ import numpy as np
 from jumpcad.building.settle import settle
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
+from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout
 from jumpcad.mechanism.linkage import toe_tip_mm
@@ -27,6 +29,8 @@ from jumpcad.workshop import Workshop
 
 NOT_IN_EVERY_ROBOT = ("idler", "cam_spacer_left", "idler_spacer_right", "toe_left", "toe_right")
 """Parts that only some designs have: a workshop with their weights serves the other designs too."""
+PIN_ROUNDS = 5
+"""In which springs for another direction of their pin are tried."""
 
 
 def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
@@ -38,7 +42,8 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
         drawing.require_bed(workshop.printer.bed_mm)
     parts = tuple(_printed(drawing, workshop) for drawing in drawn)
     hardware = tuple(shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought))
-    joints, loop, spring = five_bar(layout.linkage, (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
+    spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
+    joints, loop, _ = five_bar(layout.linkage, (-design.compression_rad, 0.0), spring.peak_torque_nm)
     return Robot(
         name=name,
         design=design,
@@ -55,9 +60,27 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
 
 
 def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> tuple[Layout, HoleSizes]:
-    """Return the layout of a design in a workshop, and the hole sizes of its parts."""
+    """Return the layout of a design in a workshop, and the hole sizes of its parts.
+
+    Where something stands in the way of the springs' pin, springs for a free direction take their place.
+    """
     small.require_axle(workshop)
-    settled = settle(design, workshop, growth)
+    directions = PLATE_PINS_RAD
+    for _ in range(PIN_ROUNDS):
+        try:
+            return _laid_out(design, workshop, growth, directions)
+        except NoPinRoomError as refusal:
+            if not refusal.free_rad:
+                raise
+            directions = refusal.free_rad
+    return _laid_out(design, workshop, growth, directions)
+
+
+def _laid_out(
+    design: Design, workshop: Workshop, growth: Growth, plate_pins_rad: tuple[float, ...]
+) -> tuple[Layout, HoleSizes]:
+    """Return layout and hole sizes with springs for one of the directions of the plates' pin."""
+    settled = settle(design, workshop, growth, plate_pins_rad)
     catalogue, chosen = workshop.catalogue, workshop.bought
     electronics = Electronics(
         catalogue.batteries[chosen.battery], catalogue.boards[chosen.controller], catalogue.boards[chosen.driver]

@@ -5,29 +5,45 @@ import math
 from jumpcad.catalogue import Bearing
 from jumpcad.dimensions import CLEAR_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
+from jumpcad.layout.drive_places import PLATE_PINS_RAD
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.fatigue import spring_share
 from jumpcad.strength.sizing import Sections
 from jumpcad.workshop import Workshop
 
 
-def drive_limits(workshop: Workshop, roller: Bearing, sections: Sections, holes: HoleSizes) -> DriveLimits:
-    """Return the limits of the drive in a workshop, with a roller of the catalogue, beside a main leg of some size."""
+def drive_limits(
+    workshop: Workshop,
+    roller: Bearing,
+    sections: Sections,
+    holes: HoleSizes,
+    plate_pins_rad: tuple[float, ...] = PLATE_PINS_RAD,
+) -> DriveLimits:
+    """Return the limits of the drive in a workshop, with a roller of the catalogue, beside a main leg of some size.
+
+    `plate_pins_rad` are the directions of the plates' pin that the springs may have, the preferred one first.
+    """
     return DriveLimits(
-        spring=_spring_limits(workshop, sections, holes),
+        spring=_spring_limits(workshop, sections, holes, plate_pins_rad),
         cam=_cam_limits(workshop, roller, sections),
         train=_train_limits(workshop, sections),
         motors=workshop.bought.motors,
+        stock_spring=workshop.stock_spring,
+        preload_rad=math.radians(workshop.spring.preload_deg),
     )
 
 
-def _spring_limits(workshop: Workshop, sections: Sections, holes: HoleSizes) -> SpringLimits:
+def _spring_limits(
+    workshop: Workshop, sections: Sections, holes: HoleSizes, plate_pins_rad: tuple[float, ...]
+) -> SpringLimits:
     """Return the limits of the springs: a bushing around the leg's axle, and a pin that passes hub and leg."""
     fits, safety, axle = workshop.fits, workshop.safety, workshop.bought.axle_mm
     hub_radius = max(holes.hub_radius_mm, sections.leg_root_mm / 2.0)
     return SpringLimits(
         mandrel_min_mm=2.0 * (axle / 2.0 + fits.sliding_mm + fits.wall_min_mm),
         pin_radius_min_mm=hub_radius + CLEAR_MM + axle / math.sqrt(2.0),
+        pin_mm=axle,
+        plate_pins_rad=plate_pins_rad,
         stress_share=min(safety.spring_stress_share, spring_share(safety.jumps)),
     )
 

@@ -14,6 +14,7 @@ from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive, DriveLimits, synthesise
 from jumpcad.errors import CannotBuildError
+from jumpcad.layout.drive_places import PLATE_PINS_RAD
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.bearings import (
@@ -40,10 +41,13 @@ class Settled:
     roller: Bearing
 
 
-def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
+def settle(
+    design: Design, workshop: Workshop, growth: Growth, plate_pins_rad: tuple[float, ...] = PLATE_PINS_RAD
+) -> Settled:
     """Return linkage, sections, holes and drive with the lightest hub bearing that bears its load.
 
-    Where none does, it is the strongest one, of which `jumpcad.checks` then warns.
+    Where none does, it is the strongest one, of which `jumpcad.checks` then warns. `plate_pins_rad` are the directions
+    of the plates' pin that the springs may have, the preferred one first.
 
     Raises
     ------
@@ -60,7 +64,7 @@ def settle(design: Design, workshop: Workshop, growth: Growth) -> Settled:
     def with_bearing(bearing: Bearing | None) -> Settled:
         sizes = sections(linkage, workshop, hub_width_mm(bearing), growth)
         holes = HoleSizes.of(workshop, bearing)
-        drive = drive_within(drive_limits(workshop, roller, sizes, holes))
+        drive = drive_within(drive_limits(workshop, roller, sizes, holes, plate_pins_rad))
         return Settled(linkage, sizes, holes, drive, roller)
 
     number = first_guess(bearings, design, workshop)

@@ -14,6 +14,7 @@ from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures
+from jumpcad.bundle.springs import spring_facts
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.robot import Robot, require_name
 
@@ -75,4 +76,5 @@ def _facts(robot: Robot) -> dict[str, Any]:
             }
             for name, body in robot.bodies.items()
         },
+        "drive": {"springs": spring_facts(robot)},
     }

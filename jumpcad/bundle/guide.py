@@ -1,11 +1,11 @@
 """assembly.md: what to print, what to buy, which springs to order, and how it goes together."""
 
-import math
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials, euros
+from jumpcad.bundle.springs import spring_order
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
@@ -21,7 +21,7 @@ def write_guide(robot: Robot, pictures: bool = True) -> str:
         "",
         f"{1000.0 * robot.mass_kg:.1f} g. Left and right are the robot's own, seen from above with the jump ahead.",
         *_tables(bill_of_materials(robot)),
-        *_springs(robot),
+        *spring_order(robot),
         *_steps(robot, pictures),
     ]
     return "\n".join(lines) + "\n"
@@ -63,26 +63,6 @@ def _table(head: str, items: Sequence[BillLine], printed: bool) -> Iterator[str]
         row += [duration(item.time_s) if item.time_s is not None else ""] * timed
         row += [euros(item.total_eur)] * priced
         yield f"| {' | '.join(row)} |"
-
-
-def _springs(robot: Robot) -> Iterator[str]:
-    """Yield the order for the spring maker."""
-    spring = robot.layout.drive.spring
-    rate = 1000.0 * spring.stiffness_nm_per_rad * math.pi / 180.0
-    wind = math.degrees(robot.spring.wind_rad)
-    yield from (
-        "",
-        "## Springs to order",
-        "",
-        "Two torsion springs, one wound left-hand and one right-hand, close-coiled, of patented spring steel wire:",
-        "",
-        f"- wire {spring.wire_mm:g} mm, inside diameter {spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, "
-        f"body at most {spring.body_length_mm:.1f} mm long when wound",
-        f"- two straight arms of {spring.arm_length_mm:.1f} mm, {math.degrees(spring.free_arm_angle_rad):.0f}° apart "
-        "when relaxed",
-        f"- {rate:.2f} N·mm/° each; works from 0° to {wind:.1f}°, closing; {spring.stress_mpa:.0f} MPa at most "
-        f"({spring.allowable_mpa:.0f} MPa allowed)",
-    )
 
 
 def _steps(robot: Robot, pictures: bool) -> Iterator[str]:

@@ -15,6 +15,8 @@ from jumpcad.files.names import Name, Text
 
 STEEL_G_CM3 = 7.85
 """Density of steel (EN 1991-1-1, table A.4: 77 to 78.5 kN/m³)."""
+TURNS_OFF = 0.1
+"""By how much a spring's turns may differ from what its arms' angle says; judgement: makers round to a quarter."""
 RINGS_MM = 2.0
 """Least outside of a bearing over its bore: the smallest of ISO 15, 1 x 3 mm, have it."""
 
@@ -131,7 +133,11 @@ class Board(Article):
 
 
 class StockSpring(Article):
-    """A torsion spring from stock: two arms at an angle to each other when it is free, and the torque a degree."""
+    """A torsion spring from stock, of which shops keep both hands: its arms are tangents of the coil.
+
+    `arm_angle_deg` is the angle between the relaxed arms, 180 where they point in opposite directions; loading in the
+    closing direction lowers it. `rate_nmm_per_deg` is the torque a degree.
+    """
 
     wire_mm: Annotated[Length, Field(le=10)]
     inside_diameter_mm: Length
@@ -145,6 +151,16 @@ class StockSpring(Article):
         if self.wire_mm >= self.inside_diameter_mm:
             reason = f"must be less than inside_diameter_mm = {self.inside_diameter_mm:g}"
             yield ("wire_mm",), self.wire_mm, reason
+        if abs(self.wound_turns - self.turns) > TURNS_OFF:
+            angle = (180.0 - 360.0 * self.turns) % 360.0
+            reason = f"{self.turns:g} turns with tangent arms have {angle:.0f}° between them: correct one of the two"
+            yield ("arm_angle_deg",), self.arm_angle_deg, reason
+
+    @property
+    def wound_turns(self) -> float:
+        """Turns of the relaxed body with which tangent arms have their angle: those nearest to `turns`."""
+        fraction = (0.5 - self.arm_angle_deg / 360.0) % 1.0
+        return fraction + round(self.turns - fraction)
 
 
 AnyArticle = TypeVar("AnyArticle", bound=Article)

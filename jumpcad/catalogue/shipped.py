@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 
 from pydantic import PositiveFloat
 
-from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor
+from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor, StockSpring
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 
@@ -71,6 +71,13 @@ class Wire(Record):
     diameters_mm: list[PositiveFloat]
     tensile_strength_mpa: list[PositiveFloat]
 
+    def tensile_mpa(self, diameter_mm: float) -> float:
+        """Return the least tensile strength at a diameter (MPa): straight lines between those kept, and beyond them."""
+        known = list(zip(self.diameters_mm, self.tensile_strength_mpa, strict=True))
+        above = next((index for index, (d, _) in enumerate(known) if d >= diameter_mm), len(known) - 1)
+        (d0, s0), (d1, s1) = known[max(above, 1) - 1], known[max(above, 1)]
+        return s0 + (s1 - s0) * (diameter_mm - d0) / (d1 - d0)
+
 
 Thing = TypeVar("Thing", bound=TomlTable)
 
@@ -109,6 +116,7 @@ class Catalogue:
     bearings: Shelf[Bearing]
     batteries: Shelf[Battery]
     boards: Shelf[Board]
+    springs: Shelf[StockSpring]
     screws: Shelf[Screw]
     nuts: Shelf[Nut]
     washers: Shelf[Washer]
@@ -122,6 +130,7 @@ class Catalogue:
         bearings: Mapping[str, Bearing],
         batteries: Mapping[str, Battery],
         boards: Mapping[str, Board],
+        springs: Mapping[str, StockSpring],
     ) -> "Catalogue":
         """Return the catalogue with a user's own parts beside the shipped ones."""
         return replace(
@@ -130,6 +139,7 @@ class Catalogue:
             bearings=self.bearings.with_own(bearings),
             batteries=self.batteries.with_own(batteries),
             boards=self.boards.with_own(boards),
+            springs=self.springs.with_own(springs),
         )
 
     def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
@@ -141,8 +151,8 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    motors, bearings, electronics, fasteners = (
-        read_toml(folder / f"{name}.toml")[0] for name in ("motors", "bearings", "electronics", "fasteners")
+    motors, bearings, electronics, fasteners, springs = (
+        read_toml(folder / f"{name}.toml")[0] for name in ("motors", "bearings", "electronics", "fasteners", "springs")
     )
     defaults = motors.pop("defaults")
     return Catalogue(
@@ -150,6 +160,7 @@ def load_catalogue() -> Catalogue:
         bearings=_articles("bearing", Bearing, bearings),
         batteries=_articles("battery", Battery, electronics["batteries"] | {"source": electronics["source"]}),
         boards=_articles("board", Board, electronics["boards"] | {"source": electronics["source"]}),
+        springs=_articles("spring", StockSpring, springs),
         screws=_shelf("screw", Screw, fasteners["screws"]),
         nuts=_shelf("nut", Nut, fasteners["nuts"]),
         washers=_shelf("washer", Washer, fasteners["washers"]),

@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import Finding, at_most
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
@@ -14,7 +15,7 @@ from jumpcad.robot import Robot
 from jumpcad.strength.bearings import loaded_forces_n
 from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_reach_mm
 from jumpcad.strength.stress import Shell, pin_stress_mpa
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
 
 
@@ -36,7 +37,7 @@ class LoadCase:
 
     @cached_property
     def torque_nmm(self) -> float:
-        return 1000.0 * self.robot.design.peak_spring_torque_nm
+        return 1000.0 * self.robot.spring.peak_torque_nm
 
     @cached_property
     def shell(self) -> Shell:
@@ -59,7 +60,7 @@ class LoadCase:
         body = self.robot.bodies[BODY]
         gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
         mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
-        return push_off(self.robot.linkage, mass, self.layout.sections.foot_depth_mm)
+        return push_off(self.robot.linkage, mass, self.layout.sections.foot_depth_mm, self.robot.spring)
 
     @cached_property
     def ankle_n(self) -> float:
@@ -71,7 +72,9 @@ class LoadCase:
 
     @cached_property
     def landing_n(self) -> float:
-        return landing_force_n(self.robot.design, self.robot.mass_kg, self.workshop.safety.landing_stop_mm)
+        mass = self.robot.mass_kg
+        rise_m = self.robot.spring.energy_j / (mass * GRAVITY_M_S2)
+        return landing_force_n(self.robot.design, mass, self.workshop.safety.landing_stop_mm, rise_m)
 
     @cached_property
     def toe_blow_n(self) -> float:
@@ -87,13 +90,12 @@ class LoadCase:
         span = (sum(lateral.left_plate) - sum(lateral.right_plate)) / 2.0
         arms, cam = self.wound_forces_n
         at = sum(lateral.cam) / 2.0 - sum(lateral.right_plate) / 2.0
-        arm = self.torque_nmm / layout.leg_pin_mm / 2.0
         thickness, lug = layout.sections.thickness_mm, layout.sections.lug_thickness_mm
         lever = lateral.lug_left[0] - thickness / 2.0 + lug / 2.0 + thickness / 4.0
         moments = {
             "leg_axle": leg_axle_moment_nmm(arms, cam, span, sum(lateral.spring_left) / 2.0),
             "cam_axle": layout.drive.cam.peak_contact_n * at * (span - at) / span,
-            "spring_pin": arm * (span / 2.0 - lateral.spring_left[1]),
+            "spring_pin": layout.drive.spring.pin_force_n * (span / 2.0 - lateral.spring_left[1]),
             "foot_pin": max(self.ankle_n, self.front_n, self.landing_n) / 2.0 * lever,
         }
         return {name: pin_stress_mpa(moment, layout.axle_mm) for name, moment in moments.items()}
@@ -104,10 +106,9 @@ class LoadCase:
 
         In the body's frame, springs loaded, roller at the end of the lift; both springs together.
         """
-        layout = self.layout
-        on_leg, on_lever = loaded_forces_n(self.robot.design, layout.drive)
-        pin = (layout.spring_pin_mm - layout.hub_mm) / layout.leg_pin_mm
-        on_pin = self.torque_nmm / layout.leg_pin_mm * np.array([-pin[1], pin[0]])
+        spring = self.layout.drive.spring
+        on_leg, on_lever = loaded_forces_n(self.robot.design, self.layout.drive)
+        on_pin = 2.0 * spring.pin_force_n * direction(-(spring.plate_pin_rad + spring.arms.turn_rad))
         return (on_leg, on_pin), on_lever
 
 

@@ -69,7 +69,7 @@ def _leg(case: LoadCase) -> Iterator[Finding]:
     along = cam.peak_contact_n * math.sin(cam.max_pressure_angle_rad)
     stress = tapered_stress_mpa(lever, torque, along)
     yield stress_finding("lever_strength", "lever in bending, wound", stress, case.allowable_mpa, WEAKER, "lever")
-    share = leg_flex_share(layout.design, leg, case.workshop.material("links").modulus_mpa)
+    share = leg_flex_share(layout.design, leg, case.workshop.material("links").modulus_mpa, case.robot.spring)
     allowed = case.workshop.safety.leg_flex_share
     yield limit(
         "leg_flex", 100.0 * (allowed - share), "%",

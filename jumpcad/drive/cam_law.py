@@ -23,17 +23,25 @@ class CamLaw:
         Stiffness of both springs together.
     lift_rad, ramp_rad
         Cam angle of the whole lift, and of the ramp at its beginning.
+    preload_rad
+        How far the springs are loaded at the beginning of the lift.
     """
 
     compression_rad: float
     stiffness_nm_per_rad: float
     lift_rad: float
     ramp_rad: float
+    preload_rad: float = 0.0
 
     @property
     def energy_j(self) -> float:
-        """Energy of the loaded springs (J)."""
-        return 0.5 * self.stiffness_nm_per_rad * self.compression_rad**2
+        """Energy that the lift brings into the springs, k·((δ + p)² - p²)/2 (J)."""
+        return 0.5 * self.stiffness_nm_per_rad * self.compression_rad * (self.compression_rad + 2 * self.preload_rad)
+
+    @property
+    def spring_torque_nm(self) -> float:
+        """Torque of both springs together at the end of the lift (N·m)."""
+        return self.stiffness_nm_per_rad * (self.compression_rad + self.preload_rad)
 
     @property
     def peak_torque_nm(self) -> float:
@@ -47,9 +55,12 @@ class CamLaw:
     def derivatives(self, cam_rad: npt.ArrayLike) -> tuple[Array, Array, Array]:
         """Return leg angle (n,) and its first and second derivative by the cam angle, at cam angles (n,) of the lift.
 
-        E(phi) = k·theta²/2 is a parabola in the ramp, so that theta is linear there, and linear after it.
+        E(phi) = k·theta²/2 is a parabola in the ramp, so that theta is linear there, and linear after it. With a
+        preload p it is k·((theta + p)² - p²)/2, and theta + p follows from it.
         """
         phi = np.asarray(cam_rad, dtype=float)
+        if self.preload_rad > 0.0:
+            return self._preloaded(phi)
         span = self.lift_rad - self.ramp_rad / 2
         slope = self.compression_rad / math.sqrt(2 * self.ramp_rad * span)
         beyond = np.maximum(phi - self.ramp_rad / 2, self.ramp_rad / 2)
@@ -57,6 +68,15 @@ class CamLaw:
         in_ramp = phi < self.ramp_rad
         first = np.where(in_ramp, slope, late / (2 * beyond))
         return np.where(in_ramp, slope * phi, late), first, np.where(in_ramp, 0.0, -first / (2 * beyond))
+
+    def _preloaded(self, phi: Array) -> tuple[Array, Array, Array]:
+        """Return leg angle (n,) and its derivatives, with a preload."""
+        in_ramp, stiffness = phi < self.ramp_rad, self.stiffness_nm_per_rad
+        energy = self.peak_torque_nm * np.where(in_ramp, phi**2 / (2 * self.ramp_rad), phi - self.ramp_rad / 2)
+        loaded = np.sqrt(self.preload_rad**2 + 2 * energy / stiffness)
+        first = self.torque_nm(phi) / (stiffness * loaded)
+        rise = np.where(in_ramp, self.peak_torque_nm / (self.ramp_rad * stiffness), 0.0)
+        return loaded - self.preload_rad, first, (rise - first**2) / loaded
 
     def wind_rad(self, cam_rad: npt.ArrayLike) -> Array:
         """Return the leg angle (n,) at cam angles (n,) of the lift."""

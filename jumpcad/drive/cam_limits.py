@@ -137,7 +137,7 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
     cos_pressure = axis * direction.imag / length
     turning = arm**2 * first - axis * (lever * second * direction.imag + arm * first * direction.real)
     curvature = 1 / length + turning / length**3
-    force = 1000 * law.stiffness_nm_per_rad * wind / (lever * np.maximum(cos_pressure, 1e-3))
+    force = 1000 * law.stiffness_nm_per_rad * (wind + law.preload_rad) / (lever * np.maximum(cos_pressure, 1e-3))
     # Hertz, line contact of a steel roller (stiff) on a profile of radius 1/curvature - roller.
     flatness = roller * np.maximum(1 - roller * curvature, 1e-3)
     modulus = limits.modulus_mpa / (1 - limits.poisson**2)

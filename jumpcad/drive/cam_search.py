@@ -80,7 +80,7 @@ def _refusal(law: CamLaw, margin: Array) -> str:
     missed = ", ".join(f"{LIMITS[i].message} ({-margin[i]:.2g} {LIMITS[i].unit} short)" for i in binding)
     return (
         f"no cam winds the leg by {math.degrees(law.compression_rad):.1f}° against "
-        f"{law.stiffness_nm_per_rad * law.compression_rad:.2f} N·m; the nearest one misses: {missed}: "
+        f"{law.spring_torque_nm:.2f} N·m; the nearest one misses: {missed}: "
         f"{LIMITS[binding[0]].remedy}"
     )
 

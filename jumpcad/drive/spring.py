@@ -1,8 +1,13 @@
-"""Torsion springs, made to order: one left-hand and one right-hand, half of the stiffness each.
+"""Torsion springs: two mirror images, half of the stiffness each, made to order or from stock.
 
-Formulas: Shigley, Mechanical Engineering Design, 10-12 (helical torsion springs): stiffness k = E·d⁴/(10.8·D·N) per
-turn with the arms counted as (l1 + l2)/(3·pi·D) turns; bending stress K·32·M/(pi·d³) with K of the inner fibre;
-D·N/(N + turns loaded) when loaded in the closing direction. Static strength: 0.78 of the tensile strength.
+Formulas: EN 13906-3 (cold coiled torsion springs of round wire, 3 turns at least, 4 <= D/d <= 20). Rate
+k = E·d⁴/(64·D·n) per radian; n counts the arms, which bend as beams held at the coil, as a third of their length of
+wire. Stress q·32·M/(pi·d³) with q = (w + 0.07)/(w - 0.75), w = D/d, at the coil's inner fibre, where fatigue begins;
+0.7 of the tensile strength at most. Loading in the closing direction leaves D·n/(n + turns loaded) of the diameter.
+
+The product D·n follows from the stiffness, the fraction of a turn from the pins: the arms' tangents meet them at rest
+(`jumpcad.drive.spring_arms`), so that n is the largest number that the limits allow of those one turn apart. A
+stock spring's turns are given: there the arms' length is what makes them meet the pins.
 """
 
 import math
@@ -10,16 +15,28 @@ from dataclasses import dataclass
 from typing import Literal
 
 from jumpcad.catalogue import Wire
+from jumpcad.drive.spring_arms import (
+    ARM_BEYOND_MM,
+    FULL_TURN_RAD,
+    Arms,
+    between_pins_rad,
+    free_arm_angle_rad,
+)
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, at_most
+from jumpcad.mechanism.model import Spring
 
-TURNS_MIN, INDEX_MIN, INDEX_MAX = 2.0, 4.0, 16.0
-"""Least turns, and least and largest diameter of coil over wire; judgement: what makers of springs offer."""
+TURNS_MIN, INDEX_MIN, INDEX_MAX = 3.0, 4.0, 16.0
+"""Least turns and index D/d (scope of EN 13906-3), and the largest index; judgement: what makers of springs offer."""
+ROUNDS = 20
+"""Of the fixed points below, which gain a digit or more a round."""
+DIAMETER_DIGITS = 6
+"""Diameters are found to a nanometre: arctangents differ between processors."""
 
 
 @dataclass(frozen=True)
 class SpringLimits:
-    """Room and strength of the springs (mm). Values that a workshop gives have no default here.
+    """Room and strength of the springs (mm, rad). Values that a workshop gives have no default here.
 
     Attributes
     ----------
@@ -27,8 +44,12 @@ class SpringLimits:
         The smallest bushing that can carry a coil.
     pin_radius_min_mm
         From the axle to the pins that hold the arms, at least: the body's pin crosses the plane of the main leg.
+    pin_mm
+        Diameter of these pins.
     stress_share
         Allowable bending stress over tensile strength.
+    plate_pins_rad
+        Directions of the plates' pin that are tried, the preferred one first.
     mandrel_clearance_mm
         Gap that a loaded coil leaves around its bushing, on the diameter; judgement: it must not bind.
     outer_max_mm, body_lengths_max_mm
@@ -36,141 +57,241 @@ class SpringLimits:
         The lengths are tried in this order: a long, thin spring widens the robot, a short one is
         larger around the leg's axle. Judgement: the room beside the cam, and between leg and gears.
     arm_reach_mm
-        From the outside of the coil to the pins; judgement: pin, its eye and a gap.
+        From the outside of the coil to the pins; judgement: the longer the arms, the smaller their forces, which bend
+        the leg's axle; with 5 mm the axle of the strongest templates yields, with 12 mm coils have to be longer.
+    lever_max_mm
+        Of a stock spring's arms, from the coil to where they touch their pins; judgement: longer ones bend more than
+        the coil's rate says, and their pins leave the body.
     """
 
     mandrel_min_mm: float
     pin_radius_min_mm: float
+    pin_mm: float
     stress_share: float
+    plate_pins_rad: tuple[float, ...]
     mandrel_clearance_mm: float = 0.3
     outer_max_mm: float = 18.0
     body_lengths_max_mm: tuple[float, ...] = (10.0, 13.0)
-    arm_reach_mm: float = 5.0
+    arm_reach_mm: float = 8.0
+    lever_max_mm: float = 35.0
+
+    def pin_radius_mm(self, outer_mm: float) -> float:
+        """Return the least distance of the pins from the hub beside a coil of an outer diameter."""
+        return max(outer_mm / 2 + self.arm_reach_mm, self.pin_radius_min_mm)
 
 
 @dataclass(frozen=True)
 class TorsionSpring:
-    """One of the two springs; the other is its mirror image. Lengths in mm.
+    """One of the two springs; the other is its mirror image. Lengths in mm, angles counter-clockwise from forward.
 
     Attributes
     ----------
+    arms
+        Coil, wire and pins where the arms touch them, at rest.
     turns
-        Turns of the body at rest, which its maker winds; real-valued, so that the stiffness is the design's exactly.
+        Turns of the body when relaxed, which its maker winds; real-valued, so that rate and pins are met exactly.
+    stiffness_nm_per_rad
+        Of this one spring.
+    preload_rad, wound_rad
+        How far it is loaded in the rest pose, and when wound.
+    plate_pin_rad, leg_pin_rad
+        Directions of the pins from the hub, in the rest pose.
     body_length_mm
         Length of the close-coiled body when loaded.
     mandrel_mm
         Largest bushing that clears the loaded coil.
-    arm_length_mm
-        Of each arm, from the coil to its pin.
-    stiffness_nm_per_rad
-        Of this one spring.
     stress_mpa, allowable_mpa
         Bending stress when loaded, at the inner fibre, and its limit.
     tensile_mpa
         Tensile strength of the wire, at least.
+    stock
+        Name of the stock spring; empty where it is made to order.
     """
 
-    wire_mm: float
-    inside_diameter_mm: float
-    outer_diameter_mm: float
+    arms: Arms
     turns: float
+    stiffness_nm_per_rad: float
+    preload_rad: float
+    wound_rad: float
+    plate_pin_rad: float
+    leg_pin_rad: float
     body_length_mm: float
     mandrel_mm: float
-    arm_length_mm: float
-    stiffness_nm_per_rad: float
     stress_mpa: float
     allowable_mpa: float
     tensile_mpa: float
     mass_g: float
     findings: tuple[Finding, ...]
-    hands: tuple[Literal["left"], Literal["right"]] = ("left", "right")
+    stock: str = ""
+
+    @property
+    def wire_mm(self) -> float:
+        """Diameter of the wire (mm)."""
+        return self.arms.wire_mm
+
+    @property
+    def inside_diameter_mm(self) -> float:
+        """Of the relaxed coil (mm)."""
+        return self.arms.mean_mm - self.arms.wire_mm
+
+    @property
+    def outer_diameter_mm(self) -> float:
+        """Of the relaxed coil (mm)."""
+        return self.arms.mean_mm + self.arms.wire_mm
 
     @property
     def pin_radius_mm(self) -> float:
-        """From the axle to the pins that hold the arms, which are tangents of the coil (mm)."""
-        return math.hypot((self.inside_diameter_mm + self.wire_mm) / 2, self.arm_length_mm)
+        """From the axle to the pins that hold the arms (mm)."""
+        return self.arms.pin_radius_mm
+
+    @property
+    def arm_length_mm(self) -> float:
+        """Of each arm, from the coil to its end a little beyond the pin (mm)."""
+        return self.arms.lever_mm + ARM_BEYOND_MM
 
     @property
     def free_arm_angle_rad(self) -> float:
-        """Angle between the two arms at rest, as the body's part of a turn (rad)."""
-        return 2 * math.pi * (self.turns % 1.0)
+        """Angle between the two relaxed arms (rad)."""
+        return free_arm_angle_rad(self.turns)
+
+    @property
+    def rate_nmm_per_deg(self) -> float:
+        """Of this one spring (N·mm/°)."""
+        return 1000.0 * self.stiffness_nm_per_rad * math.pi / 180.0
+
+    @property
+    def torque_nmm(self) -> float:
+        """Of this one spring when wound (N·mm)."""
+        return 1000.0 * self.stiffness_nm_per_rad * self.wound_rad
+
+    @property
+    def pin_force_n(self) -> float:
+        """Of one arm on its pin when wound, square to the arm (N).
+
+        With the lever at rest: that of the wound, narrower coil is a little longer and the force smaller.
+        """
+        return self.torque_nmm / self.arms.lever_mm
+
+    @property
+    def hands(self) -> tuple[Literal["right"], Literal["left"]]:
+        """Hands of the left and the right spring: from plate to leg the left one's wire nears a viewer on the right."""
+        return ("right", "left")
 
 
-def synthesise_spring(
-    stiffness_nm_per_rad: float, compression_rad: float, wire: Wire, limits: SpringLimits
-) -> TorsionSpring:
-    """Find the pair of springs with the smallest outer diameter.
+def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: SpringLimits) -> TorsionSpring:
+    """Find the pair of springs with the smallest outer diameter whose arms meet their pins.
 
     Parameters
     ----------
-    stiffness_nm_per_rad, compression_rad
-        Of both springs together, and how far they are turned from rest without preload.
+    on_leg
+        Both springs together.
+    leg_pin_rad
+        Direction of the leg's pin in the rest pose.
 
     Raises
     ------
     CannotBuildError
         If no wire is strong enough in the available room.
     """
-    torque_nmm = 1000 * stiffness_nm_per_rad * compression_rad / 2
     for length in limits.body_lengths_max_mm:
-        springs = [
-            spring
-            for d, tensile in zip(wire.diameters_mm, wire.tensile_strength_mpa, strict=True)
-            if (spring := _of_wire(d, tensile, stiffness_nm_per_rad / 2, compression_rad, wire, limits, length))
-        ]
-        if springs:
-            return min(springs, key=lambda spring: (spring.outer_diameter_mm, spring.mass_g))
+        for plate_pin in limits.plate_pins_rad:
+            between = between_pins_rad(plate_pin, leg_pin_rad)
+            springs = [
+                _finished(arms, on_leg, tensile, wire, limits, (plate_pin, leg_pin_rad))
+                for d, tensile in zip(wire.diameters_mm, wire.tensile_strength_mpa, strict=True)
+                if (arms := _arms_of_wire(d, tensile, on_leg, between, wire, limits, length))
+            ]
+            if springs:
+                return min(springs, key=lambda spring: (spring.outer_diameter_mm, spring.mass_g))
+    torque_nmm, wound = 500.0 * on_leg.peak_torque_nm, math.degrees(on_leg.wind_rad + on_leg.preload_rad)
     raise CannotBuildError(
         f"no wire of {wire.diameters_mm[0]:g} to {wire.diameters_mm[-1]:g} mm makes a torsion spring for "
-        f"{torque_nmm:.0f} N·mm at {math.degrees(compression_rad):.1f}° in {limits.outer_max_mm:g} mm diameter and "
+        f"{torque_nmm:.0f} N·mm at {wound:.1f}° in {limits.outer_max_mm:g} mm diameter and "
         f"{max(limits.body_lengths_max_mm):g} mm length: lower stiffness_nmm_per_deg or compression_ratio, or give the "
         "springs more room"
     )
 
 
-def _of_wire(
+def _arms_of_wire(
     d: float,
     tensile_mpa: float,
-    stiffness: float,
-    compression_rad: float,
+    on_leg: Spring,
+    between_rad: float,
     wire: Wire,
     limits: SpringLimits,
     length_max_mm: float,
-) -> TorsionSpring | None:
-    """Return the smallest spring of one wire, or nothing where none fits."""
-    loaded = compression_rad / (2 * math.pi)
-    allowable = limits.stress_share * tensile_mpa
-    plain_stress = 32 * 1000 * stiffness * compression_rad / (math.pi * d**3)
-    index = _least_index(allowable / plain_stress)
-    # Mean diameter times active turns follows from the stiffness.
-    product = wire.modulus_mpa * d**4 / (10.8 * 1000 * stiffness * 2 * math.pi)
-    arm = 2 * limits.arm_reach_mm
-    mean = 0.0
-    for _ in range(20):
-        body = product - 2 * arm / (3 * math.pi)
-        longest = length_max_mm / d - 1 - loaded
-        loaded_mean = limits.mandrel_min_mm + limits.mandrel_clearance_mm + d
-        if body <= 0 or longest <= 0 or 1 / loaded_mean <= loaded / body:
+) -> Arms | None:
+    """Return the smallest coil of one wire whose arms meet pins an angle apart, or nothing where none fits."""
+    loaded = (on_leg.wind_rad + on_leg.preload_rad) / FULL_TURN_RAD
+    index = _least_index(limits.stress_share * tensile_mpa / plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d))
+    product = _product_mm(d, on_leg, wire)
+    loaded_mean = limits.mandrel_min_mm + limits.mandrel_clearance_mm + d
+    longest = length_max_mm / d - 1 - loaded
+
+    def arms_of(mean: float) -> Arms:
+        return Arms.to_pins(mean, d, limits.pin_mm, limits.pin_radius_mm(mean + d))
+
+    mean = max(index, INDEX_MIN) * d
+    if not (longest > 0 and mean < INDEX_MAX * d):
+        return None
+    for _ in range(ROUNDS):  # the least diameter that strength, length and bushing allow
+        body = product - mean * arms_of(mean).arm_turns
+        if body <= 0 or 1 / loaded_mean <= loaded / body:
             return None
         mean = max(index * d, body / longest, 1 / (1 / loaded_mean - loaded / body))
-        pin = max(mean / 2 + d / 2 + limits.arm_reach_mm, limits.pin_radius_min_mm)
-        arm = math.sqrt(pin**2 - (mean / 2) ** 2)
-    turns = product / mean - 2 * arm / (3 * math.pi * mean)
-    if turns < TURNS_MIN or mean > INDEX_MAX * d or mean + d > limits.outer_max_mm:
-        return None
-    length = d * (turns + 1 + loaded)
-    inside_loaded = mean * turns / (turns + loaded) - d
-    stress = plain_stress * _inner_fibre(mean / d)
-    volume = math.pi / 4 * d**2 * (math.pi * mean * turns + 2 * arm)
+    arms = arms_of(mean)
+    turns = product / mean - arms.arm_turns
+    # What the pins ask for is left when whole turns are taken away; fewer turns make the coil wider.
+    asked = between_rad - on_leg.preload_rad
+    whole = math.floor((FULL_TURN_RAD * turns + 2 * arms.turn_rad - asked) / FULL_TURN_RAD + 1e-9)
+    for _ in range(ROUNDS):
+        turns = whole + (asked - 2 * arms.turn_rad) / FULL_TURN_RAD
+        if turns < TURNS_MIN:
+            return None
+        arms = arms_of(round(product / (turns + arms.arm_turns), DIAMETER_DIGITS))
+    fits = arms.mean_mm <= INDEX_MAX * d and arms.mean_mm + d <= limits.outer_max_mm
+    return arms if fits else None
+
+
+def _product_mm(d: float, on_leg: Spring, wire: Wire) -> float:
+    """Return the mean diameter times the turns, arms counted, that give one spring half of the stiffness."""
+    return wire.modulus_mpa * d**4 / (64 * 500 * on_leg.stiffness_nm_per_rad)
+
+
+def _finished(
+    arms: Arms, on_leg: Spring, tensile_mpa: float, wire: Wire, limits: SpringLimits, pins_rad: tuple[float, float]
+) -> TorsionSpring:
+    """Return the spring of a coil, its turns from the stiffness."""
+    turns = _product_mm(arms.wire_mm, on_leg, wire) / arms.mean_mm - arms.arm_turns
+    return torsion_spring(arms, turns, on_leg, tensile_mpa, wire, limits, pins_rad)
+
+
+def torsion_spring(
+    arms: Arms,
+    turns: float,
+    on_leg: Spring,
+    tensile_mpa: float,
+    wire: Wire,
+    limits: SpringLimits,
+    pins_rad: tuple[float, float],
+    stock: str = "",
+) -> TorsionSpring:
+    """Return one spring with what its loading does to it; `pins_rad` are the plate's and the leg's."""
+    d, wound = arms.wire_mm, on_leg.wind_rad + on_leg.preload_rad
+    loaded_turns = turns + wound / FULL_TURN_RAD
+    stress = inner_fibre(arms.mean_mm / d) * plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d)
+    allowable = limits.stress_share * tensile_mpa
+    volume = math.pi / 4 * d**2 * (math.pi * arms.mean_mm * turns + 2 * (arms.lever_mm + ARM_BEYOND_MM))
     return TorsionSpring(
-        wire_mm=d,
-        inside_diameter_mm=mean - d,
-        outer_diameter_mm=mean + d,
+        arms=arms,
         turns=turns,
-        body_length_mm=length,
-        mandrel_mm=inside_loaded - limits.mandrel_clearance_mm,
-        arm_length_mm=arm,
-        stiffness_nm_per_rad=stiffness,
+        stiffness_nm_per_rad=on_leg.stiffness_nm_per_rad / 2,
+        preload_rad=on_leg.preload_rad,
+        wound_rad=wound,
+        plate_pin_rad=pins_rad[0],
+        leg_pin_rad=pins_rad[1],
+        body_length_mm=d * (loaded_turns + 1),
+        mandrel_mm=arms.mean_mm * turns / loaded_turns - d - limits.mandrel_clearance_mm,
         stress_mpa=stress,
         allowable_mpa=allowable,
         tensile_mpa=tensile_mpa,
@@ -179,21 +300,26 @@ def _of_wire(
             at_most(
                 "spring_stress", stress, allowable, "MPa",
                 f"the wound springs' wire of {d:g} mm bears {stress:.0f} of {allowable:.0f} MPa",
-                "lower stiffness_nmm_per_deg or compression_ratio",
+                "lower stiffness_nmm_per_deg or compression_ratio" if not stock else
+                "lower compression_ratio, or choose another bought.spring with thicker wire",
             ),
         ),
+        stock=stock,
     )  # fmt: skip
 
 
-def _inner_fibre(index: float) -> float:
-    """Return the stress correction of the coil's inner fibre at an index D/d."""
-    return (4 * index**2 - index - 1) / (4 * index * (index - 1))
+def plain_stress_mpa(torque_nmm: float, d: float) -> float:
+    """Return the bending stress of a straight wire."""
+    return 32 * torque_nmm / (math.pi * d**3)
 
 
-def _least_index(correction: float) -> float:
-    """Return the smallest index D/d whose inner-fibre correction is at most what the strength allows."""
-    if correction <= 1:
+def inner_fibre(index: float) -> float:
+    """Return the stress factor q of a coil's inner fibre at an index D/d (EN 13906-3)."""
+    return (index + 0.07) / (index - 0.75)
+
+
+def _least_index(factor: float) -> float:
+    """Return the smallest index D/d whose inner-fibre factor is at most what the strength allows."""
+    if factor <= 1:
         return math.inf
-    b = 4 * correction - 1
-    root = (b + math.sqrt(b**2 - 16 * (correction - 1))) / (8 * (correction - 1))
-    return max(INDEX_MIN, root)
+    return max(INDEX_MIN, (0.75 * factor + 0.07) / (factor - 1))

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from jumpcad.catalogue import Catalogue, Motor, load_catalogue
+from jumpcad.catalogue import Catalogue, Motor, StockSpring, load_catalogue
 from jumpcad.design import Design
 from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive.cam import Cam
@@ -13,6 +13,7 @@ from jumpcad.drive.cam_limits import CamLimits
 from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.drive.gear_choice import least_tip_mm
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, synthesise_spring
+from jumpcad.drive.stock_spring import fitted_spring, rate_finding, springs_on_leg
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
 from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
@@ -33,6 +34,8 @@ class DriveLimits:
     ----------
     motors
         Names in the catalogue; none stands for every one.
+    stock_spring, preload_rad
+        The springs from stock, None where they are made to order; how far they are loaded at rest.
     gap_mm
         Gap between things that pass each other.
     axle_radius_mm
@@ -53,6 +56,8 @@ class DriveLimits:
     cam: CamLimits
     train: TrainLimits
     motors: tuple[str, ...]
+    stock_spring: StockSpring | None = None
+    preload_rad: float = 0.0
     gap_mm: float = CLEAR_MM
     axle_radius_mm: float = SPACER_RADIUS_MM
     fall_s: float = 0.03
@@ -83,14 +88,15 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
         If one of them is not possible; the message names the limit and what to change.
     """
     catalogue = catalogue or load_catalogue()
-    stiffness, compression = design.stiffness_nm_per_rad, design.compression_rad
+    compression = design.compression_rad
     if compression < LEAST_COMPRESSION_RAD:
         raise CannotBuildError(
             f"the springs are loaded by {math.degrees(compression):.2f}°, less than "
             f"{math.degrees(LEAST_COMPRESSION_RAD):g}°: raise compression_ratio, rest_angle_deg or c_coef"
         )
-    spring = synthesise_spring(stiffness, compression, catalogue.wire, limits.spring)
-    law = CamLaw(compression, stiffness, limits.cam.lift_rad, limits.cam.ramp_rad)
+    spring = _spring(design, limits, catalogue)
+    stiffness = 2.0 * spring.stiffness_nm_per_rad
+    law = CamLaw(compression, stiffness, limits.cam.lift_rad, limits.cam.ramp_rad, spring.preload_rad)
     motors = [catalogue.motors[name] for name in limits.motors or tuple(catalogue.motors)]
     refusal: CannotBuildError | None = None
     for width in limits.face_widths_mm:
@@ -101,6 +107,16 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
             refusal = error
     assert refusal is not None
     raise refusal
+
+
+def _spring(design: Design, limits: DriveLimits, catalogue: Catalogue) -> TorsionSpring:
+    """Find the springs, from stock or made to order; the leg's pin stands on its middle line."""
+    stock, leg_pin = limits.stock_spring, -math.radians(design.rest_angle_deg)
+    on_leg = springs_on_leg(design, stock, limits.preload_rad)
+    if stock is None:
+        return synthesise_spring(on_leg, leg_pin, catalogue.wire, limits.spring)
+    spring = fitted_spring(stock, on_leg, leg_pin, catalogue.wire, limits.spring)
+    return replace(spring, findings=(*spring.findings, rate_finding(design, stock)))
 
 
 def _cam_and_train(law: CamLaw, motors: Sequence[Motor], coil_mm: float, limits: DriveLimits) -> tuple[Cam, GearTrain]:

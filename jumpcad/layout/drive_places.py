@@ -4,12 +4,13 @@ In-plane places are in the body frame's x-z plane.
 """
 
 import math
+from typing import Literal
 
 import numpy as np
 
 from jumpcad.catalogue import Motor
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
-from jumpcad.drive import Drive
+from jumpcad.drive import Drive, TorsionSpring
 from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import Interval, Lateral
@@ -17,46 +18,78 @@ from jumpcad.layout.places import around, best_place, ring_candidates
 from jumpcad.layout.room import Obstacle, bar, box_obstacle, clearance, disc
 from jumpcad.transforms import Array
 
-PIN_RADIUS_MM = 1.5
-"""Of the pin that holds the springs' body arms: half of a 3 mm rod."""
 PIN_FROM_DEG, PIN_UP_TO_DEG, PIN_WANTED_DEG = 20.0, 131.0, 40.0
 """Directions of that pin from the hub, counter-clockwise from forward; judgement: between leg and cam."""
 PIN_STEPS_DEG = (5.0, 1.0)
 """Between the directions tried, the second where the first finds no room; judgement."""
-ARM_RADIUS_MM = 1.5
-"""Of a spring's arm: half of the catalogue's thickest wire, 2.5 mm, rounded up."""
-ARM_BEYOND_MM = 2.0
-"""How far a spring's arm reaches beyond its pin; judgement."""
 MOTOR_WANTED_MM = np.array([0.0, 14.0])
 """Where the motor is wanted in the body frame; judgement: between the pivots, its socket just above their line."""
 IDLER_STEP = 2
 """Every second free place of an idler is tried: 10° apart; judgement."""
 
 
-def spring_pin_place(obstacles: list[Obstacle], hub: Array, radius_mm: float, inside: Interval) -> Array:
-    """Return the place (2,) of the pin that holds the springs' body arms: across both plates, in front of the hub."""
+def pin_directions_rad(step_deg: float) -> tuple[float, ...]:
+    """Return directions of the springs' pin in the plates, the nearest to the wanted one first."""
+    degrees = np.arange(PIN_FROM_DEG, PIN_UP_TO_DEG, step_deg).tolist()
+    return tuple(math.radians(angle) for angle in sorted(degrees, key=lambda angle: abs(angle - PIN_WANTED_DEG)))
 
-    def place(step_deg: float) -> Array:
-        angles = np.radians(np.arange(PIN_FROM_DEG, PIN_UP_TO_DEG, step_deg))
-        places = around(hub, radius_mm, angles)
-        index = best_place(
-            "spring pin", obstacles, places, (PIN_RADIUS_MM, PIN_RADIUS_MM), 0.0, inside,
-            lambda p: np.abs(np.arctan2(p[:, 1] - hub[1], p[:, 0] - hub[0]) - math.radians(PIN_WANTED_DEG)),
-            "lower stiffness_nmm_per_deg (a smaller spring) or raise carrying_link_mm",
-        )  # fmt: skip
-        return np.asarray(places[index])
 
-    coarse, fine = PIN_STEPS_DEG
+PLATE_PINS_RAD = pin_directions_rad(PIN_STEPS_DEG[0])
+"""The directions that are tried at first."""
+
+
+class NoPinRoomError(CannotBuildError):
+    """Something stands where the springs want their pin; `free_rad` are directions in which nothing does."""
+
+    def __init__(self, message: str, free_rad: tuple[float, ...]) -> None:
+        super().__init__(message)
+        self.free_rad = free_rad
+
+
+def spring_pin_place(obstacles: list[Obstacle], hub: Array, spring: TorsionSpring, inside: Interval) -> Array:
+    """Return the place (2,) of the pin that holds the springs' body arms: across both plates, in front of the hub.
+
+    The springs' turns fit one direction only.
+
+    Raises
+    ------
+    NoPinRoomError
+        With the other directions that are free: springs for one of them may fit.
+    """
+    half, radius = (spring.arms.pin_mm / 2.0,) * 2, spring.pin_radius_mm
+    (place,) = places = around(hub, radius, np.array([spring.plate_pin_rad]))
+    remedy = "lower stiffness_nmm_per_deg (a smaller spring) or raise carrying_link_mm"
     try:
-        return place(coarse)
-    except CannotBuildError:
-        return place(fine)
+        best_place("spring pin", obstacles, places, half, 0.0, inside, lambda p: np.zeros(len(p)), remedy)
+    except CannotBuildError as refusal:
+        free: list[float] = []
+        for step in PIN_STEPS_DEG:
+            directions = np.array(pin_directions_rad(step))
+            room = clearance(obstacles, around(hub, radius, directions), half, 0.0, inside)
+            free = free or directions[room >= 0.0].tolist()
+        raise NoPinRoomError(str(refusal), tuple(free)) from None
+    return np.asarray(place)
 
 
-def spring_arm(hub: Array, pin: Array, radius_mm: float, inside: Interval) -> Obstacle:
-    """Return the springs' arm from the hub to a little beyond its pin, which is a radius away."""
-    points = bar(hub, hub + (pin - hub) * (1.0 + ARM_BEYOND_MM / radius_mm))
-    return Obstacle("spring arm", points, ARM_RADIUS_MM + CLEAR_MM, inside)
+def spring_obstacles(hub: Array, pin: Array, spring: TorsionSpring, inside: Interval) -> list[Obstacle]:
+    """Return the springs' body arms, from their coils to a little beyond their pin, and the pin."""
+    arm = bar(*arm_line(hub, spring, "plate"))
+    return [
+        Obstacle("spring arm", arm, spring.wire_mm / 2.0 + CLEAR_MM, inside),
+        disc("spring pin", pin, spring.arms.pin_mm / 2.0 + CLEAR_MM, inside),
+    ]
+
+
+def arm_line(hub: Array, spring: TorsionSpring, pin: Literal["plate", "leg"]) -> tuple[Array, Array]:
+    """Return where an arm's middle line leaves its coil (2,) and where it ends (2,), at rest.
+
+    For the leg's arm in a frame whose x axis points to its pin.
+    """
+    sign = 1.0 if pin == "plate" else -1.0
+    angle = sign * spring.arms.turn_rad + (spring.plate_pin_rad if pin == "plate" else 0.0)
+    outwards, along = np.array([math.cos(angle), math.sin(angle)]), np.array([math.sin(angle), -math.cos(angle)])
+    start = hub + spring.arms.mean_mm / 2.0 * outwards
+    return np.round(start, 6), np.round(start + sign * spring.arm_length_mm * along, 6)
 
 
 def require_shaft(motor: Motor, lateral: Lateral) -> None:

@@ -13,7 +13,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
     require_gear_room,
     require_shaft,
-    spring_arm,
+    spring_obstacles,
     spring_pin_place,
     train_obstacles,
     train_places,
@@ -111,8 +111,9 @@ def make_layout(
     cam_things = _cam_obstacles(cam_axis, drive, lateral)
     wheel = drive.train.stages[-1].wheel
     require_gear_room([*beside_hub, front_axle], cam_axis, wheel.tip_radius_mm, lateral.gears[0])
-    spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, pin_radius, inside)
-    obstacles = [*moving, *beside_hub, front_axle, *cam_things, spring_arm(hub, spring_pin, pin_radius, inside)]
+    spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
+    obstacles = [*moving, *beside_hub, front_axle, *cam_things]
+    obstacles += spring_obstacles(hub, spring_pin, drive.spring, inside)
     idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis)
     obstacles += train_obstacles(motor, angle, idler, drive, lateral)
     tray = tray_place(obstacles, electronics, linkage.l1, inside)

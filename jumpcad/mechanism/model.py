@@ -108,6 +108,11 @@ class Spring:
         """Energy that the springs give from the loaded to the rest pose, ½·k·((δ + p)² - p²) (J)."""
         return 0.5 * self.stiffness_nm_per_rad * self.wind_rad * (self.wind_rad + 2.0 * self.preload_rad)
 
+    @property
+    def peak_torque_nm(self) -> float:
+        """Torque in the loaded pose, k·(δ + p) (N·m)."""
+        return self.stiffness_nm_per_rad * (self.wind_rad + self.preload_rad)
+
     def torque_nm(self, joint_rad: float) -> float:
         """Return the torque on the joint at a coordinate of it (N·m)."""
         torque = self.stiffness_nm_per_rad * (self.preload_rad - joint_rad)

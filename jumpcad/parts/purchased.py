@@ -5,12 +5,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
+import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.parts.part import UNSEEN_MM, laid, lying_on_left
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Slab, Stack
+from jumpcad.solids.tube import Wire, tube
 from jumpcad.transforms import Array, chained, in_metres, pose_about_z
 
 if TYPE_CHECKING:
@@ -23,7 +25,8 @@ class BoughtPart:
 
     `article` is what to order and `units` how many of it this piece counts for: 0 for a piece of one that is counted
     elsewhere (a motor's shaft, a spring's second arm). `shape` lies in its own frame, placed by `T_body_part` (4, 4) in
-    mm in the frame of `body`; `mass` is given in that body's frame (kg, m).
+    mm in the frame of `body`; `mass` is given in that body's frame (kg, m). What is bent of wire is seen as its `wire`
+    in the body's frame, and `shape` is the room that it takes.
     """
 
     name: str
@@ -33,6 +36,7 @@ class BoughtPart:
     T_body_part: Array
     mass: MassProperties
     units: int = 1
+    wire: Wire | None = None
 
     @property
     def mass_kg(self) -> float:
@@ -44,6 +48,10 @@ class BoughtPart:
         T_body_part = chained(T_body_frame, self.T_body_part)
         return replace(self, T_body_part=T_body_part, mass=self.mass.placed(in_metres(T_body_frame)))
 
+    def seen_as(self, wire: Wire) -> "BoughtPart":
+        """Return the part with a wire to be seen in its place."""
+        return replace(self, wire=wire)
+
     @cached_property
     def solid(self) -> Manifold:
         """The part's envelope in its own frame (mm)."""
@@ -51,8 +59,11 @@ class BoughtPart:
 
     @cached_property
     def look(self) -> "trimesh.Trimesh":
-        """The mesh of the envelope in its own frame, without detail that eyes miss (mm)."""
-        return _look(self.shape)
+        """The mesh that is seen, in its own frame, without detail that eyes miss (mm)."""
+        if self.wire is None:
+            return _look(self.shape)
+        rotation, origin = self.T_body_part[:3, :3], self.T_body_part[:3, 3]
+        return tube(np.einsum("ji,nj->ni", rotation, self.wire.points_mm - origin), self.wire.diameter_mm)
 
 
 def bought(

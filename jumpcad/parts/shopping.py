@@ -8,6 +8,7 @@ import numpy as np
 
 from jumpcad.catalogue import Bearing, Catalogue, Screw
 from jumpcad.dimensions import GAP_MM, ROLLER_WASHER_MM, TRAY_MM
+from jumpcad.layout.drive_places import arm_line
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
@@ -16,6 +17,7 @@ from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.parts.small import COLLAR_MM
+from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
 from jumpcad.parts.train import gear_turns
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, ring, stadium
 from jumpcad.transforms import Array
@@ -113,40 +115,28 @@ def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: 
 def _springs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     """Yield both springs, each as coil with body arm and as leg arm, and the pins in the plates.
 
-    The springs push their arms apart: the leg's arm lies on the upper side of the leg's pin, the body's arm on the
-    lower side of the pin that both plates hold: a pin in one plate alone would tilt in it.
+    Each shape is the room that wire takes, a ring and a bar; what is seen is the wire. Both plates hold the body arms'
+    pin: in one plate alone it would tilt.
     """
-    spring, lateral, wire = layout.drive.spring, layout.lateral, layout.drive.spring.wire_mm
+    spring, lateral, d = layout.drive.spring, layout.lateral, layout.drive.spring.wire_mm
     coil = ring(spring.outer_diameter_mm, spring.inside_diameter_mm, layout.hub_mm)
-    offset = (layout.axle_mm + wire) / 2.0
-    pin = layout.spring_pin_mm
-    body_arm = _arm(layout.hub_mm, pin, spring.outer_diameter_mm, wire, -offset)
-    leg_arm = _arm(np.zeros(2), np.array([layout.leg_pin_mm, 0.0]), spring.outer_diameter_mm, wire, offset)
-    arm_share = 0.1  # of a spring's wire; a turn is some 30 mm long, an arm some 10 mm
-    for side, sign, hand in (("left", 1.0, "left"), ("right", -1.0, "right")):
+    body_arm = stadium(*arm_line(layout.hub_mm, spring, "plate"), d)
+    leg_arm = stadium(*arm_line(np.zeros(2), spring, "leg"), d)
+    arm_mass = math.pi / 4.0 * d**2 * spring.arm_length_mm * catalogue.wire.density_g_cm3 / 1000.0
+    for side, sign, hand in zip(("left", "right"), (1.0, -1.0), spring.hands, strict=True):
         inner, outer = lateral.spring_left if side == "left" else lateral.spring_right[::-1]
-        order = (
-            f"torsion spring, wire {wire:g} mm, inside diameter {spring.inside_diameter_mm:.1f} mm, "
-            f"{spring.turns:.2f} turns, {hand} hand"
-        )
-        arm_y = _sorted(outer - sign * wire, outer)
-        slabs = [(*_sorted(inner, outer), coil), (*arm_y, body_arm)]
-        yield bought(f"spring_{side}", order, BODY, (1.0 - arm_share) * spring.mass_g, slabs)
-        leg_slabs = [(*_sorted(inner, inner + sign * wire), leg_arm)]
-        yield bought(f"spring_{side}_leg_arm", order, MAIN_LEG, arm_share * spring.mass_g, leg_slabs, units=0)
-    yield _rod("spring_pin", BODY, pin, lateral.outside, layout.axle_mm, catalogue)
+        order = spring_article(spring, hand)
+        slabs = [(*_sorted(inner, outer), coil), (*_sorted(outer - sign * d, outer), body_arm)]
+        wire = coil_with_arm(layout.hub_mm, spring, (outer - sign * d / 2.0, inner + sign * d / 2.0))
+        yield bought(f"spring_{side}", order, BODY, spring.mass_g - arm_mass, slabs).seen_as(wire)
+        wire = leg_arm_wire(spring, inner + sign * d / 2.0)
+        leg_slabs = [(*_sorted(inner, inner + sign * d), leg_arm)]
+        yield bought(f"spring_{side}_leg_arm", order, MAIN_LEG, arm_mass, leg_slabs, units=0).seen_as(wire)
+    yield _rod("spring_pin", BODY, layout.spring_pin_mm, lateral.outside, layout.axle_mm, catalogue)
 
 
 def _sorted(a: float, b: float) -> Interval:
     return (a, b) if a < b else (b, a)
-
-
-def _arm(hub: Array, pin: Array, coil_mm: float, wire_mm: float, offset_mm: float) -> Region:
-    """Return a spring's arm: from its coil past a pin, at an offset counter-clockwise from the pin."""
-    along = (pin - hub) / np.linalg.norm(pin - hub)
-    shift = offset_mm * np.array([-along[1], along[0]])
-    start, end = hub + along * (coil_mm / 2.0 - wire_mm) + shift, pin + along * 2.0 + shift
-    return stadium(start, end, wire_mm)
 
 
 def _motor_things(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:

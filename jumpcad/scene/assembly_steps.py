@@ -46,9 +46,10 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Springs and legs",
         r"spring_(left|right)|spring_(left|right)_leg_arm|spring_bushing_.*|front_spacer_.*",
-        "On the leg axle go, from the plate on: the right spring on its bushing with its body arm below the plate's "
-        "pin, the main leg with its pin behind the spring's other arm, the left spring on its bushing. On the front "
-        "axle go spacer, front link, spacer. The springs are relaxed as drawn.",
+        "On the leg axle go, from the plate on: the right spring, which is the left-hand one, on its bushing with its "
+        "outer arm below the plate's pin, the main leg with its pin below the spring's other arm, the left spring, the "
+        "right-hand one, on its bushing with its inner arm above the leg's pin. On the front axle go spacer, front "
+        "link, spacer. Winding turns the leg's pin towards the plate's pin and closes the coils.",
     ),
     (
         "Cam and gears",

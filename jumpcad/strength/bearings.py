@@ -12,6 +12,7 @@ from jumpcad.catalogue import Bearing
 from jumpcad.design import Design
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.drive import Drive
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
@@ -65,7 +66,8 @@ def roller_bearing(workshop: Workshop) -> Bearing:
 
 def first_guess(bearings: list[Bearing | None], design: Design, workshop: Workshop) -> int:
     """Return the number of the bearing to try first; those before it are hardly ever strong enough."""
-    load = 1000.0 * design.peak_spring_torque_nm / LONGEST_ARM_MM
+    springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
+    load = 1000.0 * springs.peak_torque_nm / LONGEST_ARM_MM
     enough = (bearing is None or load <= allowed_n(bearing, workshop) for bearing in bearings[:-1])
     return next((number for number, good in enumerate(enough) if good), len(bearings) - 1)
 
@@ -78,11 +80,12 @@ def hub_width_mm(bearing: Bearing | None) -> float:
 def loaded_forces_n(design: Design, drive: Drive) -> tuple[Array, Array]:
     """Return the forces (2,) of both springs' arms on the leg, and of the cam on the lever, springs loaded.
 
-    In the body's x-z plane, with the roller at the end of the lift.
+    In the body's x-z plane, with the roller at the end of the lift. An arm pushes its pin away from the hub, square to
+    the arm.
     """
-    along = direction(math.radians(design.rest_angle_deg) - design.compression_rad)
-    strength = 1000.0 * design.peak_spring_torque_nm / drive.spring.pin_radius_mm
-    on_leg = strength * np.array([along[1], -along[0]])  # downwards: towards rest
+    spring = drive.spring
+    outwards = direction(-(spring.leg_pin_rad + design.compression_rad - spring.arms.turn_rad))
+    on_leg = 2.0 * spring.pin_force_n * outwards
     lever = drive.cam.lever_start_rad + design.compression_rad
     return on_leg, drive.cam.peak_contact_n * np.array([-math.sin(lever), math.cos(lever)])
 

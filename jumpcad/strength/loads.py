@@ -11,7 +11,9 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
+from jumpcad.mechanism.model import Spring
 from jumpcad.transforms import Array, turned_about_y
 
 POSITIONS = 17
@@ -56,16 +58,18 @@ class PushOff:
     residual_n: Array
 
 
-def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float) -> PushOff:
+def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float, springs: Spring | None = None) -> PushOff:
     """Return the forces of a push-off from a flat foot that does not slip.
 
     With compression δ, mass m, centre of mass c(q), turn t(q), radius of gyration k and J = |c'|² + k² t'², energy
-    gives m·J·q̇²/2 = K·(δ² - q²)/2 - m·g·(rise), and its derivative by q gives q̈.
+    gives m·J·q̇²/2 = K·((δ + p)² - (q - p)²)/2 - m·g·(rise), and its derivative by q gives q̈; K and the preload p are
+    those of the springs, without any the design's.
     """
     design = linkage.design
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
     pose = linkage.pose(leg)
-    stiffness, weight = 1000.0 * design.stiffness_nm_per_rad, mass.mass_kg * GRAVITY_M_S2
+    springs = springs or springs_on_leg(design)
+    stiffness, weight = 1000.0 * springs.stiffness_nm_per_rad, mass.mass_kg * GRAVITY_M_S2
 
     def on_foot(point_mm: Array) -> Array:
         return turned_about_y(point_mm - pose.ankle_mm, -pose.foot_rad)
@@ -79,9 +83,10 @@ def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float) -> PushOf
     com_2, turn_2 = by_leg(com_1), by_leg(turn_1)
     arm_square = mass.gyration_mm**2
     reflected = (com_1**2).sum(axis=1) + arm_square * turn_1**2
-    energy = 0.5 * stiffness * (leg[0] ** 2 - leg**2) - weight * (com[:, 1] - com[0, 1])
+    loaded = springs.preload_rad - leg
+    energy = 0.5 * stiffness * (loaded[0] ** 2 - loaded**2) - weight * (com[:, 1] - com[0, 1])
     speed_square = np.maximum(2.0 * energy, 0.0) / reflected  # times the mass, as is the next
-    torque = -stiffness * leg
+    torque = stiffness * loaded
     reflected_1 = 2.0 * ((com_1 * com_2).sum(axis=1) + arm_square * turn_1 * turn_2)
     acceleration = (torque - weight * com_1[:, 1] - 0.5 * reflected_1 * speed_square) / reflected
     ground = acceleration[:, None] * com_1 + speed_square[:, None] * com_2 + np.array([0.0, weight])

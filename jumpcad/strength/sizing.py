@@ -13,7 +13,9 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import Spring
 from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
 from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm
 from jumpcad.workshop import Workshop
@@ -117,14 +119,15 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     allowable = material.strength_in_plane_mpa / safety.strength_factor
     eye = workshop.bought.axle_mm / 2.0 + EYE_PLAY_MM + 2.0 * fits.wall_mm
     lug = growth.lug * LUG_MM
-    torque = RESERVE * 1000.0 * design.peak_spring_torque_nm
+    springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
+    torque = RESERVE * 1000.0 * springs.peak_torque_nm
     thickness = growth.thickness * max(THICKNESS_MM if torque < THICK_FROM_NMM else THICK_MM, hub_width_mm)
     root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, height_for_mm(torque, thickness, allowable, shell))
-    stiff = _stiff_mm(design, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
+    stiff = _stiff_mm(design, springs, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
     leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
     depth = max(eye, leg_tip / 2.0) + ABOVE_GROUND_MM
-    toes = RESERVE * float(push_off(linkage, TYPICAL_BODY, depth).toes_n.max())
+    toes = RESERVE * float(push_off(linkage, TYPICAL_BODY, depth, springs).toes_n.max())
     toe = height_for_mm(toe_moment_nmm(design, toes), TOE_WIDTH_MM, allowable, shell, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
     toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
@@ -147,23 +150,30 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     )
 
 
-def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float) -> float:
+def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float, springs: Spring | None = None) -> float:
     """Return the energy that bends the leg at release as a share of the springs'.
 
     The moment is taken to fall evenly from the hub to the ankle: an upper bound, since the springs' arms press on the
-    leg a little beyond the hub.
+    leg a little beyond the hub. Without springs they are the design's.
     """
-    energy = tapered_energy_nmm(leg, 1000.0 * design.peak_spring_torque_nm, design.l2_mm, modulus_mpa)
-    return energy / (1000.0 * design.spring_energy_j)
+    springs = springs or springs_on_leg(design)
+    energy = tapered_energy_nmm(leg, 1000.0 * springs.peak_torque_nm, design.l2_mm, modulus_mpa)
+    return energy / (1000.0 * springs.energy_j)
 
 
 def _stiff_mm(
-    design: Design, root_mm: float, thickness_mm: float, shell: Shell, modulus_mpa: float, share_max: float
+    design: Design,
+    springs: Spring,
+    root_mm: float,
+    thickness_mm: float,
+    shell: Shell,
+    modulus_mpa: float,
+    share_max: float,
 ) -> float:
     """Return the height of the leg's root, raised until it flexes by at most its share: the energy falls with 1/h³."""
     for _ in range(STIFF_ROUNDS):
         heights = np.linspace(root_mm, _leg_tip_mm(root_mm), STATIONS)
-        share = leg_flex_share(design, Beam(thickness_mm, heights, shell), modulus_mpa)
+        share = leg_flex_share(design, Beam(thickness_mm, heights, shell), modulus_mpa, springs)
         if share <= share_max:
             break
         root_mm *= STIFF_MORE * (share / share_max) ** (1.0 / 3.0)

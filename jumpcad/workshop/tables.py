@@ -84,7 +84,8 @@ class Fits(TomlTable):
 class BoughtParts(TomlTable):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
-    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none.
+    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
+    springs of the design's stiffness are made to order.
     """
 
     motors: Annotated[tuple[Name, ...], Field(strict=False)]
@@ -93,6 +94,7 @@ class BoughtParts(TomlTable):
     battery: Name
     controller: Name
     driver: Name
+    spring: OptionalName
     axle_mm: Positive
 
 
@@ -126,6 +128,12 @@ class Pins(TomlTable):
     friction: Annotated[float, Field(ge=0, le=2)]
 
 
+class SpringTable(TomlTable):
+    """How the springs sit: loaded by `preload_deg` already in the rest pose."""
+
+    preload_deg: Annotated[float, Field(ge=0, le=45)]
+
+
 class Safety(TomlTable):
     """How far the parts are kept from what they could just bear."""
 
@@ -134,6 +142,7 @@ class Safety(TomlTable):
     motor_torque_max_nm: Positive
     gear_efficiency: Share
     spring_stress_share: Share
+    spring_rate_scatter: Annotated[float, Field(ge=0, le=0.5)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Positive
     leg_flex_share: Share

@@ -38,12 +38,13 @@ from jumpcad.workshop.tables import (
     Process,
     Roles,
     Safety,
+    SpringTable,
 )
 
 Role = Literal["links", "body", "gears"]
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
 OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs")
-"""Tables of the user's own parts; `springs` are kept for reference, since the generator winds its own."""
+"""Tables of the user's own parts."""
 
 
 class Workshop(Record):
@@ -62,6 +63,7 @@ class Workshop(Record):
     body: BodyPlates
     ground: Ground
     pins: Pins
+    spring: SpringTable
     safety: Safety
     mass: Masses
     prices_eur: dict[Name, Positive]
@@ -74,7 +76,12 @@ class Workshop(Record):
     @property
     def catalogue(self) -> Catalogue:
         """The shipped catalogue with the user's own parts."""
-        return load_catalogue().with_own(self.motors, self.bearings, self.batteries, self.boards)
+        return load_catalogue().with_own(self.motors, self.bearings, self.batteries, self.boards, self.springs)
+
+    @property
+    def stock_spring(self) -> StockSpring | None:
+        """The springs from stock, or None where they are made to order."""
+        return self.catalogue.springs[self.bought.spring] if self.bought.spring else None
 
     def __repr__(self) -> str:
         materials = ", ".join(f"{role} {name[:20]}" for role, name in self.roles.model_dump().items())

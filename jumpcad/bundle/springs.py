@@ -1,0 +1,84 @@
+"""The springs of a robot in words, for who orders and fits them, and as facts of the manifest."""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from jumpcad.drive import TorsionSpring
+from jumpcad.robot import Robot
+
+DIGITS = 6
+
+
+def spring_facts(robot: Robot) -> list[dict[str, Any]]:
+    """Return what the manifest says of the left and the right spring; pins (x, z) from the hub in the rest pose (mm).
+
+    `turns` are those of the relaxed body; `arm_length_mm` is from the tangent point to the arm's end.
+    """
+    spring = robot.layout.drive.spring
+    plate, leg = (
+        [round(spring.pin_radius_mm * math.cos(angle), DIGITS), round(spring.pin_radius_mm * math.sin(angle), DIGITS)]
+        for angle in (spring.plate_pin_rad, spring.leg_pin_rad)
+    )
+    return [
+        {
+            "side": side,
+            "hand": hand,
+            "wire_mm": spring.wire_mm,
+            "inside_diameter_mm": round(spring.inside_diameter_mm, DIGITS),
+            "turns": round(spring.turns, DIGITS),
+            "arm_length_mm": round(spring.arm_length_mm, DIGITS),
+            "rate_nmm_per_deg": round(spring.rate_nmm_per_deg, DIGITS),
+            "preload_deg": round(math.degrees(spring.preload_rad), DIGITS),
+            "plate_pin_mm": plate,
+            "leg_pin_mm": leg,
+            "pin_diameter_mm": spring.arms.pin_mm,
+        }
+        for side, hand in zip(("left", "right"), spring.hands, strict=True)
+    ]
+
+
+def spring_order(robot: Robot) -> Iterator[str]:
+    """Yield the guide's lines on the springs: what to order, and which one goes where."""
+    spring = robot.layout.drive.spring
+    yield from ("", "## Springs to order" if not spring.stock else "## Springs", "")
+    yield from (_stock_lines if spring.stock else _made_lines)(robot, spring)
+    yield (
+        f"- loaded from {math.degrees(spring.preload_rad):.1f}° to {math.degrees(spring.wound_rad):.1f}°, closing, to "
+        f"{spring.torque_nmm:.0f} N·mm each; {spring.stress_mpa:.0f} MPa at most ({spring.allowable_mpa:.0f} MPa "
+        "allowed; EN 13906-3, inner fibre)"
+    )
+    if spring.preload_rad > 0.0:
+        without = 1000.0 * spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)
+        yield f"- the preload adds {spring.torque_nmm - without:.0f} N·mm to the wound torque of each"
+    yield (
+        "- the right-hand one goes on the robot's left, the left-hand one on its right: wound the other way, a spring "
+        "would be bent open"
+    )
+
+
+def _made_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
+    yield from (
+        "Two torsion springs, mirror images, one wound right-hand and one left-hand, close-coiled, of patented spring "
+        "steel wire EN 10270-1 SM. What counts is the rate: let the maker change the diameter to meet it, not the "
+        "turns or the arms.",
+        "",
+        f"- rate {spring.rate_nmm_per_deg:.2f} N·mm/° each, ±{100.0 * robot.workshop.safety.spring_rate_scatter:.0f} %",
+        f"- wire {spring.wire_mm:g} mm, inside diameter {spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, "
+        f"body at most {spring.body_length_mm:.1f} mm long when wound",
+        f"- two straight arms, tangents of the coil, {spring.arm_length_mm:.1f} mm from the coil to their ends, "
+        f"{math.degrees(spring.free_arm_angle_rad):.0f}° apart when relaxed (180° is opposite directions, as after "
+        "whole turns); loading lowers the angle",
+    )
+
+
+def _stock_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
+    yield from (
+        f"Two torsion springs {spring.stock}, one of each hand, from stock:",
+        "",
+        f"- {spring.rate_nmm_per_deg:.2f} N·mm/° each, ±{100.0 * robot.workshop.safety.spring_rate_scatter:.0f} %; the "
+        f"design asks for {robot.design.stiffness_nmm_per_deg / 2.0:.2f} N·mm/°, and the robot is computed with what "
+        "the springs have",
+        f"- cut both arms to {spring.arm_length_mm:.1f} mm from the coil; they are "
+        f"{math.degrees(spring.free_arm_angle_rad):.0f}° apart when relaxed",
+    )

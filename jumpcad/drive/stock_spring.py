@@ -1,0 +1,92 @@
+"""Springs from stock: what they make of a design's stiffness, and where pins stand that fit their arms (mm, rad)."""
+
+import math
+
+from jumpcad.catalogue import StockSpring, Wire
+from jumpcad.design import Design
+from jumpcad.drive.spring import SpringLimits, TorsionSpring, torsion_spring
+from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, beside_mm, between_pins_rad
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding
+from jumpcad.mechanism.model import Spring
+
+
+def springs_on_leg(design: Design, stock: StockSpring | None = None, preload_rad: float = 0.0) -> Spring:
+    """Return both springs of a printed robot together: the design's, or two from stock with the rate that they have."""
+    stiffness = design.stiffness_nm_per_rad
+    if stock is not None:
+        stiffness = 2.0 * stock.rate_nmm_per_deg / 1000.0 * 180.0 / math.pi
+    return Spring("leg", stiffness, design.compression_rad, preload_rad, one_sided=True)
+
+
+def rate_finding(design: Design, stock: StockSpring) -> Finding:
+    """Return `spring_rate`: the stiffness that a design asks for and the one that two springs from stock have."""
+    asked, have = design.stiffness_nmm_per_deg, 2.0 * stock.rate_nmm_per_deg
+    return Finding(
+        "spring_rate", "info", have - asked, "N·mm/°",
+        f"two springs {stock.name} have {have:.2f} N·mm/°, with which the robot is built and simulated; the design "
+        f"asks for {asked:.2f}",
+        'bought.spring = "" has springs of the design\'s stiffness made to order', value=have,
+    )  # fmt: skip
+
+
+def fitted_spring(
+    stock: StockSpring, on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: SpringLimits
+) -> TorsionSpring:
+    """Return a stock spring with arms of such a length that their tangents meet the pins at rest.
+
+    Raises
+    ------
+    CannotBuildError
+        If the arms reach no pin in any direction that is tried, or if the loaded coil grips its bushing; with the
+        number that misses.
+    """
+    d, mean, turns = stock.wire_mm, stock.inside_diameter_mm + stock.wire_mm, stock.wound_turns
+    beside, (shortest, longest) = beside_mm(mean, d, limits.pin_mm), _arm_turns_rad(stock, limits)
+    found: list[tuple[Arms, float]] = []
+    for plate_pin in limits.plate_pins_rad:
+        between = between_pins_rad(plate_pin, leg_pin_rad)
+        arm_turn = ((between - on_leg.preload_rad - FULL_TURN_RAD * turns) % FULL_TURN_RAD) / 2.0
+        if shortest <= arm_turn <= longest:
+            found.append((Arms(mean, d, limits.pin_mm, beside * math.tan(arm_turn)), plate_pin))
+    if not found:
+        raise CannotBuildError(_no_pins(stock, on_leg, leg_pin_rad, limits))
+    arms, plate_pin = min(found, key=lambda pair: pair[0].lever_mm)
+    tensile = wire.tensile_mpa(d)
+    spring = torsion_spring(arms, turns, on_leg, tensile, wire, limits, (plate_pin, leg_pin_rad), stock.name)
+    if spring.mandrel_mm < limits.mandrel_min_mm:
+        raise CannotBuildError(
+            f"bought.spring = {stock.name!r}: wound, its coil leaves a bushing of {spring.mandrel_mm:.2f} mm; "
+            f"{limits.mandrel_min_mm:.2f} mm go around the axle: choose one with a larger inside diameter, or lower "
+            "compression_ratio"
+        )
+    return spring
+
+
+def _arm_turns_rad(stock: StockSpring, limits: SpringLimits) -> tuple[float, float]:
+    """Return the least and the largest angle at the hub between an arm's tangent point and its pin."""
+    mean = stock.inside_diameter_mm + stock.wire_mm
+    beside, least = beside_mm(mean, stock.wire_mm, limits.pin_mm), limits.pin_radius_mm(mean + stock.wire_mm)
+    lever = min(stock.arm_length_mm - ARM_BEYOND_MM, limits.lever_max_mm)
+    return math.acos(min(1.0, beside / least)), math.atan2(lever, beside)
+
+
+def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: SpringLimits) -> str:
+    """Say which directions of the plate's pin a stock spring's arms reach, and which there are."""
+    shortest, longest = _arm_turns_rad(stock, limits)
+    if longest < shortest:
+        needed = math.tan(shortest) * beside_mm(stock.inside_diameter_mm + stock.wire_mm, stock.wire_mm, limits.pin_mm)
+        return (
+            f"bought.spring = {stock.name!r}: its arms of {stock.arm_length_mm:g} mm do not reach the pins; "
+            f"{needed + ARM_BEYOND_MM:.1f} mm do: choose one with longer arms"
+        )
+    first, last = min(limits.plate_pins_rad), max(limits.plate_pins_rad)
+    ends = [
+        math.degrees(leg_pin_rad - on_leg.preload_rad - FULL_TURN_RAD * stock.wound_turns - 2.0 * turn) % 360.0
+        for turn in (longest, shortest)
+    ]
+    return (
+        f"bought.spring = {stock.name!r}: arms {stock.arm_angle_deg:g}° apart want the plate's pin between "
+        f"{ends[0]:.0f}° and {ends[1]:.0f}° from forward; there is room from {math.degrees(first):.0f}° to "
+        f"{math.degrees(last):.0f}°: choose a spring with another arm angle, or change rest_angle_deg"
+    )

@@ -1,0 +1,49 @@
+"""The wire of a torsion spring as it is seen, and what to order (mm)."""
+
+import math
+
+import numpy as np
+
+from jumpcad.drive import TorsionSpring
+from jumpcad.drive.spring_arms import FULL_TURN_RAD
+from jumpcad.layout.drive_places import arm_line
+from jumpcad.solids.tube import Wire
+from jumpcad.transforms import Array
+
+STEPS_A_TURN = 24
+"""Of a drawn coil; judgement: chords 0.9 % of the radius inside the circle."""
+STEPS_MAX = 400
+"""Of a whole coil, so that its mesh stays light."""
+
+
+def spring_article(spring: TorsionSpring, hand: str) -> str:
+    """Return what to order: a name from stock, or the figures that a maker of springs asks for."""
+    if spring.stock:
+        return f"torsion spring {spring.stock}, {hand} hand, arms cut to {spring.arm_length_mm:.1f} mm"
+    return (
+        f"torsion spring, {spring.rate_nmm_per_deg:.2f} N·mm/°, wire {spring.wire_mm:g} mm, inside diameter "
+        f"{spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, {hand} hand"
+    )
+
+
+def coil_with_arm(hub_mm: Array, spring: TorsionSpring, y_mm: tuple[float, float]) -> Wire:
+    """Return body arm and coil in the body's frame at rest, the wire's middle from the outer y to the inner one.
+
+    Seen from the robot's right the wire turns counter-clockwise from the body's arm to the leg's; with a preload the
+    coil at rest is closed by it.
+    """
+    turn = FULL_TURN_RAD * spring.turns + spring.preload_rad
+    steps = min(STEPS_MAX, math.ceil(STEPS_A_TURN * turn / FULL_TURN_RAD))
+    share = np.linspace(0.0, 1.0, steps + 1)
+    angle = spring.plate_pin_rad + spring.arms.turn_rad + share * turn
+    radius, (outer, inner) = spring.arms.mean_mm / 2.0, y_mm
+    coil = np.column_stack(
+        [hub_mm[0] + radius * np.cos(angle), outer + share * (inner - outer), hub_mm[1] + radius * np.sin(angle)]
+    )
+    _, end = arm_line(hub_mm, spring, "plate")
+    return Wire(np.vstack([[end[0], outer, end[1]], coil]), spring.wire_mm)
+
+
+def leg_arm_wire(spring: TorsionSpring, y_mm: float) -> Wire:
+    """Return the leg's arm in the leg's frame."""
+    return Wire(np.array([[x, y_mm, z] for x, z in arm_line(np.zeros(2), spring, "leg")]), spring.wire_mm)
