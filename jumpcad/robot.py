@@ -10,6 +10,7 @@ from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.strength.stop import StopBlow
 from jumpcad.workshop import Workshop
 
 NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
@@ -21,13 +22,15 @@ LONGEST_NAME = 200
 class Robot(Mechanism):
     """One printed robot; its bodies have the mass and inertia of its parts.
 
-    `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with.
+    `parts` are printed, `hardware` is bought, `layout` says where everything goes, `workshop` what it is made with, and
+    `stop_blow` what the rest stop takes.
     """
 
     parts: tuple[Part, ...]
     hardware: tuple[BoughtPart, ...]
     workshop: Workshop
     layout: Layout
+    stop_blow: StopBlow
 
 
 def require_name(name: str) -> None:

@@ -1,7 +1,9 @@
 """From eight numbers and a workshop to a `Robot`: layout, parts, bought parts, bodies."""
 
+import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,16 +16,19 @@ from jumpcad.files import did_you_mean
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout
+from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Surface, five_bar
-from jumpcad.parts import body_plate, foot, links, shopping, small, toes, train
+from jumpcad.parts import body_plate, foot, links, shopping, small, stop, toes, train
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.pads import pads
 from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
+from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
@@ -41,21 +46,30 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
     parts = tuple(_printed(drawing, workshop) for drawing in drawn)
-    hardware = tuple(shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought))
+    hardware = (
+        *shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought),
+        *pads(layout, workshop.foot_pad),
+    )
+    bodies = _bodies(layout, parts, hardware)
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
-    joints, loop, _ = five_bar(layout.linkage, (-design.compression_rad, 0.0), spring.peak_torque_nm)
+    blow = leg_blow(bodies, layout.linkage, spring, layout.stop.angle_rad)
+    held = _held(layout, blow)
+    leg_range = (-design.compression_rad, held.stop.angle_rad + held.give_rad)
+    joints, loop, _ = five_bar(layout.linkage, leg_range, spring.peak_torque_nm)
     return Robot(
         name=name,
         design=design,
-        bodies=_bodies(layout, parts, hardware),
+        bodies=bodies,
         joints=joints,
         loop=loop,
         spring=spring,
-        foot_depth_m=layout.sections.foot_depth_mm / 1000.0,
+        foot_depth_m=layout.sections.ground_mm / 1000.0,
         parts=parts,
         hardware=hardware,
         workshop=workshop,
         layout=layout,
+        stop_blow=held,
+        stop=held.stop,
     )
 
 
@@ -95,8 +109,21 @@ def _laid_out(
         plate_mm=growth.plate * workshop.body.plate_mm,
         roller_width_mm=settled.roller.width_mm,
         axle_mm=chosen.axle_mm,
+        stop_rad=math.radians(workshop.body.stop_deg),
+        stop_pad=workshop.stop_pad,
+        stop_more=growth.stop,
     )
     return layout, settled.holes
+
+
+def _held(layout: Layout, blow: Blow) -> StopBlow:
+    """Return the leg's blow on its stop, rounded: what small steps of time add up to differs between processors."""
+    stop = layout.stop
+    held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
+    return replace(
+        held,
+        **{name: float(f"{getattr(held, name):.5g}") for name in ("energy_j", "torque_nm", "force_n", "give_rad", "give_mm")},
+    )
 
 
 def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
@@ -123,6 +150,7 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
         small.spacer(layout, holes, "cam_spacer_right", [cam_right]),
         small.collars(layout, holes),
         small.trays(layout, holes),
+        stop.stop_bar(layout, holes),
     ]
     if layout.idler_mm is not None:
         cam_left = (layout.cam_axis_mm, lateral.gears[0][1] + GAP_MM / 2.0, high - GAP_MM / 2.0)

@@ -6,6 +6,7 @@ from jumpcad.catalogue import Bearing
 from jumpcad.dimensions import CLEAR_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
+from jumpcad.layout.stop import GIVE_ROOM_RAD
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.fatigue import spring_share
 from jumpcad.strength.sizing import Sections
@@ -58,6 +59,7 @@ def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamL
         gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
         core_radius_mm=sections.key_mm / math.sqrt(3.0) + workshop.fits.wall_min_mm,
         modulus_mpa=workshop.material("gears").modulus_mpa,
+        overshoot_rad=math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD,
     )
 
 

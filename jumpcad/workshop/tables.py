@@ -99,9 +99,11 @@ class BoughtParts(TomlTable):
 
 
 class BodyPlates(TomlTable):
-    """The two plates of the body."""
+    """The two plates of the body, and the stop between them: how far past rest the leg meets which pad."""
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
+    stop_deg: Annotated[float, Field(ge=3, le=8)]
+    stop_pad: Name
 
 
 class Ground(TomlTable):
