@@ -122,7 +122,10 @@ def _held(layout: Layout, blow: Blow) -> StopBlow:
     held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
     return replace(
         held,
-        **{name: float(f"{getattr(held, name):.5g}") for name in ("energy_j", "torque_nm", "force_n", "give_rad", "give_mm")},
+        **{
+            name: float(f"{getattr(held, name):.5g}")
+            for name in ("energy_j", "torque_nm", "force_n", "give_rad", "give_mm")
+        },
     )
 
 

@@ -120,7 +120,9 @@ def make_layout(
     wheel = drive.train.stages[-1].wheel
     require_gear_room([*beside_hub, front_axle], cam_axis, wheel.tip_radius_mm, lateral.gears[0])
     around_leg = [*moving[1:], *beside_hub, front_axle, *cam_things]  # without the leg, which meets the stop
-    stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, stop_more * DEPTH_MM, inside, lateral.left_plate)
+    stop = stop_place(
+        around_leg, linkage, sections, stop_rad, stop_pad, stop_more * DEPTH_MM, inside, lateral.left_plate
+    )
     beside_hub += stop_obstacles(stop, inside)
     spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
     obstacles = [*moving, *beside_hub, front_axle, *cam_things]
@@ -153,15 +155,11 @@ def make_layout(
     )
 
 
-def _moving(
-    linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral, reach_rad: float
-) -> list[Obstacle]:
+def _moving(linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral, reach_rad: float) -> list[Obstacle]:
     """Return the room that the links sweep, with the usual clearance."""
     lever_y = (-sections.thickness_mm / 2.0 - LEVER_NUT_MM, lateral.cam[1] + LEVER_HEAD_MM)
     cam = drive.cam
-    return link_obstacles(
-        linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, CLEAR_MM, reach_rad
-    )
+    return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, CLEAR_MM, reach_rad)
 
 
 def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:

@@ -22,8 +22,8 @@ from jumpcad.transforms import Array, direction
 LEAST_DEG, STEP_DEG = 3.0, 0.5
 """Least angle past rest, and between those tried below the one asked for; judgement: less is within play and bending.
 """
-GIVE_ROOM_RAD = math.radians(4.0)
-"""Kept free beyond the stop for the pad's give; judgement, checked by `stop_clearance`."""
+GIVE_ROOM_RAD = math.radians(3.0)
+"""Kept free, with the usual clearances, beyond the stop for the pad's give; judgement, checked by `stop_clearance`."""
 PAD_MIN_MM = 1.5
 """Least thickness of its pad (a bench review of the printed robot)."""
 PAD_LENGTH_MM = 8.0

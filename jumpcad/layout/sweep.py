@@ -14,6 +14,8 @@ from jumpcad.transforms import Array, direction
 
 POSITIONS = 13
 """Number of leg angles of the travel; judgement: the notches between bars at so many are less than the gaps."""
+FOOT_SPACING_MM = 2.0
+"""Distance between the points of toes and rails: notches of 0.2 mm between discs of 3 mm radius."""
 ALONG = 41
 """Points along a link at which its gap to another is computed."""
 
@@ -78,9 +80,12 @@ def _foot(linkage: Linkage, sections: Sections, ankle_mm: Array, foot_rad: Array
     toes, depth = toe_tip_mm(linkage.design)[0], sections.foot_depth_mm
     eyes = np.concatenate([ankle_mm, ankle_mm + linkage.l4 * along])
     points, radii = [eyes], [np.full(len(eyes), depth + gap_mm)]
-    ends = (toes, sections.toe_root_mm, sections.toe_tip_height_mm), (linkage.l4, sections.rail_root_mm, sections.rail_tip_mm)
+    ends = (
+        (toes, sections.toe_root_mm, sections.toe_tip_height_mm),
+        (linkage.l4, sections.rail_root_mm, sections.rail_tip_mm),
+    )
     for reach, root, tip in ends:
         start, end = ankle_mm + (root / 2.0 - depth) * up, ankle_mm + reach * along + (tip / 2.0 - depth) * up
-        points.append(bar(start, end))
+        points.append(bar(start, end, FOOT_SPACING_MM))
         radii.append(np.tile(np.linspace(root, tip, len(points[-1]) // len(start)) / 2.0 + gap_mm, len(start)))
     return Obstacle("foot", np.concatenate(points), np.concatenate(radii), EVERYWHERE)

@@ -34,9 +34,7 @@ def stop_bar(layout: Layout, holes: HoleSizes) -> Drawing:
     )
     tabs = _box(outer_low, outer_high, -TAB_MM[1], 0.0)
     seat = _box(-pad / 2.0, pad / 2.0, -SEAT_MM, 1.0)
-    shape = Stack.of(
-        [(0.0, TAB_MM[0], union([body, tabs]) - seat), (TAB_MM[0], PAD_LENGTH_MM, body - seat)]
-    )
+    shape = Stack.of([(0.0, TAB_MM[0], union([body, tabs]) - seat), (TAB_MM[0], PAD_LENGTH_MM, body - seat)])
     return Drawing("stop_bar", "links", holes.chamfered(shape), (Placement(BODY, _pose(layout)),))
 
 
