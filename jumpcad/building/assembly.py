@@ -203,11 +203,11 @@ def _bodies(layout: Layout, parts: tuple[Part, ...], hardware: tuple[BoughtPart,
 
 
 def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
-    """Return the spheres that may touch the ground: the foot's nose, both toe tips, the plates' corners."""
+    """Return the spheres that may touch the ground: the pads of the foot's nose and toe tips, the plates' corners."""
     sections = layout.sections
-    depth, tip_radius = sections.foot_depth_mm, sections.toe_tip_height_mm / 2.0
+    tip_radius = sections.toe_tip_height_mm / 2.0
     tip_x, tip_y = toe_tip_mm(layout.design)
-    tip_z = tip_radius - depth
+    tip_z = tip_radius - sections.foot_depth_mm
 
     def sphere(name: str, x: float, y: float, z: float, radius: float, surface: Surface) -> ContactSphere:
         return ContactSphere(name, np.array([x, y, z]) / 1000.0, radius / 1000.0, surface)
@@ -215,9 +215,9 @@ def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
     pad = layout.axle_mm / 2.0 + PAD_WALL_MM
     return {
         FOOT: (
-            sphere("front_eye", layout.design.l4_mm, 0.0, 0.0, depth, "foot"),
-            sphere("left_toe", tip_x, tip_y, tip_z, tip_radius, "foot"),
-            sphere("right_toe", tip_x, -tip_y, tip_z, tip_radius, "foot"),
+            sphere("front_eye", layout.design.l4_mm, 0.0, 0.0, sections.ground_mm, "foot"),
+            sphere("left_toe", tip_x, tip_y, tip_z, tip_radius + sections.pad_mm, "foot"),
+            sphere("right_toe", tip_x, -tip_y, tip_z, tip_radius + sections.pad_mm, "foot"),
         ),
         BODY: (
             sphere("back", layout.hub_mm[0], 0.0, layout.hub_mm[1], pad, "body"),

@@ -26,8 +26,8 @@ GIVE_ROOM_RAD = math.radians(3.0)
 """Kept free, with the usual clearances, beyond the stop for the pad's give; judgement, checked by `stop_clearance`."""
 PAD_MIN_MM = 1.5
 """Least thickness of its pad (a bench review of the printed robot)."""
-PAD_LENGTH_MM = 8.0
-"""Length along the leg of pad and bar; judgement: the usual width of a strip."""
+PAD_LENGTH_MM = 7.5
+"""Length along the leg of pad and bar; judgement: between the springs and the folded foot."""
 HEEL_MM = 0.2
 """By how much the leg's heel stands out beyond its boss, so that a flat face meets the pad; one layer."""
 SEAT_MM = 0.6
@@ -37,7 +37,7 @@ DEPTH_MM = 6.0
 TAB_MM = (5.0, 4.0)
 """Size of the bar's tabs in the plates, along the leg and in the direction of the blow; judgement. They lie at the
 bar's edge nearest to the hub, so that the plates reach down no further than the bar."""
-NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.5
+NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.25
 """Distances of the pad's middle from the hub, along the leg; judgement: a pad near the hub lets the leg turn far."""
 
 

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.layout.room import EVERYWHERE, Obstacle, bar
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.strength.sizing import Sections
@@ -77,7 +78,7 @@ def legs_apart_mm(linkage: Linkage, sections: Sections, reach_rad: float = 0.0) 
 def _foot(linkage: Linkage, sections: Sections, ankle_mm: Array, foot_rad: Array, gap_mm: float) -> Obstacle:
     """Return the foot from toe tips to nose: its lugs, and toes and rails on the sole."""
     along, up = direction(foot_rad), direction(foot_rad - math.pi / 2.0)
-    toes, depth = toe_tip_mm(linkage.design)[0], sections.foot_depth_mm
+    toes, depth = toe_tip_mm(linkage.design)[0] - TOE_TIP_WIDTH_MM / 2.0, sections.foot_depth_mm
     eyes = np.concatenate([ankle_mm, ankle_mm + linkage.l4 * along])
     points, radii = [eyes], [np.full(len(eyes), depth + gap_mm)]
     ends = (

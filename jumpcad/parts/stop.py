@@ -15,6 +15,8 @@ END_SHARE = 0.6
 """Depth of the bar at the plates over that in its middle, where the blow bends it most; judgement."""
 SEAT_PLAY_MM = 0.2
 """Play of the pad in its seat, either side; judgement."""
+GLUE_MM = 0.02
+"""Between pad and seat."""
 
 
 def stop_bar(layout: Layout, holes: HoleSizes) -> Drawing:
@@ -33,7 +35,7 @@ def stop_bar(layout: Layout, holes: HoleSizes) -> Drawing:
         ]
     )
     tabs = _box(outer_low, outer_high, -TAB_MM[1], 0.0)
-    seat = _box(-pad / 2.0, pad / 2.0, -SEAT_MM, 1.0)
+    seat = _box(-pad / 2.0, pad / 2.0, -SEAT_MM - GLUE_MM, 1.0)
     shape = Stack.of([(0.0, TAB_MM[0], union([body, tabs]) - seat), (TAB_MM[0], PAD_LENGTH_MM, body - seat)])
     return Drawing("stop_bar", "links", holes.chamfered(shape), (Placement(BODY, _pose(layout)),))
 
