@@ -3,7 +3,6 @@
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -120,12 +119,12 @@ def _held(layout: Layout, blow: Blow) -> StopBlow:
     """Return the leg's blow on its stop, rounded: what small steps of time add up to differs between processors."""
     stop = layout.stop
     held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
-    return replace(
-        held,
-        **{
-            name: float(f"{getattr(held, name):.5g}")
-            for name in ("energy_j", "torque_nm", "force_n", "give_rad", "give_mm")
-        },
+    return StopBlow(
+        held.stop,
+        *(
+            float(f"{value:.5g}")
+            for value in (held.energy_j, held.torque_nm, held.force_n, held.give_rad, held.give_mm)
+        ),
     )
 
 

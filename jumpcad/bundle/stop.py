@@ -9,7 +9,7 @@ DIGITS = 6
 
 
 def stop_facts(robot: Robot) -> dict[str, Any]:
-    """Return what the manifest says of the stop: the leg's angle past rest, the blow, its pad and how far that gives."""
+    """Return what the manifest says of the stop: the leg's angle past rest, the blow, the pad and its give."""
     stop, blow = robot.layout.stop, robot.stop_blow
     return {
         "angle_deg": round(math.degrees(stop.angle_rad), DIGITS),

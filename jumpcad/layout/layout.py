@@ -119,7 +119,9 @@ def make_layout(
     cam_things = _cam_obstacles(cam_axis, drive, lateral)
     wheel = drive.train.stages[-1].wheel
     require_gear_room([*beside_hub, front_axle], cam_axis, wheel.tip_radius_mm, lateral.gears[0])
-    around_leg = [*moving[1:], *beside_hub, front_axle, *cam_things]  # without the leg, which meets the stop
+    # close to the springs and to what moves, and without the leg, which meets the stop
+    around_leg = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
+    around_leg += [*_hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
     stop = stop_place(
         around_leg, linkage, sections, stop_rad, stop_pad, stop_more * DEPTH_MM, inside, lateral.left_plate
     )
@@ -155,11 +157,13 @@ def make_layout(
     )
 
 
-def _moving(linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral, reach_rad: float) -> list[Obstacle]:
-    """Return the room that the links sweep, with the usual clearance."""
+def _moving(
+    linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral, reach_rad: float, gap_mm: float = CLEAR_MM
+) -> list[Obstacle]:
+    """Return the room that the links sweep, with a clearance."""
     lever_y = (-sections.thickness_mm / 2.0 - LEVER_NUT_MM, lateral.cam[1] + LEVER_HEAD_MM)
     cam = drive.cam
-    return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, CLEAR_MM, reach_rad)
+    return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, gap_mm, reach_rad)
 
 
 def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
@@ -171,9 +175,9 @@ def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
         )
 
 
-def _hub_obstacles(hub: Array, drive: Drive, lateral: Lateral) -> list[Obstacle]:
-    """Return both springs and the axle that they are on."""
-    coil = drive.spring.outer_diameter_mm / 2.0 + CLEAR_MM
+def _hub_obstacles(hub: Array, drive: Drive, lateral: Lateral, gap_mm: float = CLEAR_MM) -> list[Obstacle]:
+    """Return both springs, with a gap all around, and the axle that they are on."""
+    coil = drive.spring.outer_diameter_mm / 2.0 + gap_mm
     return [
         disc("left spring", hub, coil, lateral.spring_left),
         disc("right spring", hub, coil, lateral.spring_right),

@@ -26,7 +26,7 @@ GIVE_ROOM_RAD = math.radians(3.0)
 """Kept free, with the usual clearances, beyond the stop for the pad's give; judgement, checked by `stop_clearance`."""
 PAD_MIN_MM = 1.5
 """Least thickness of its pad (a bench review of the printed robot)."""
-PAD_LENGTH_MM = 7.5
+PAD_LENGTH_MM = 8.0
 """Length along the leg of pad and bar; judgement: between the springs and the folded foot."""
 HEEL_MM = 0.2
 """By how much the leg's heel stands out beyond its boss, so that a flat face meets the pad; one layer."""

@@ -62,7 +62,7 @@ def leg_blow(bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_
 
 @dataclass(frozen=True)
 class _State:
-    """Leg angle and foot's angle with their rates; where the foot turns (None: it stands flat)."""
+    """Leg angle and foot's angle with their rates, and the end of the foot that stays on the ground."""
 
     leg_rad: float
     foot_rad: float
@@ -81,7 +81,12 @@ class _Chain:
         self.leg = np.linspace(linkage.travel_rad[0], stop_rad, POSITIONS)
         pose = linkage.pose(self.leg)
         ankle = _points(pose.ankle_mm) / 1000.0
-        origin = {BODY: 0j, MAIN_LEG: _points(linkage.back_pivot_mm), FRONT_LINK: _points(linkage.front_pivot_mm)}
+        origin = {
+            BODY: np.zeros(1, complex),
+            MAIN_LEG: _points(linkage.back_pivot_mm) / 1000.0,
+            FRONT_LINK: _points(linkage.front_pivot_mm) / 1000.0,
+            FOOT: ankle,
+        }
         turn = {
             BODY: np.zeros(POSITIONS),
             MAIN_LEG: linkage.rest_rad + self.leg,
@@ -90,27 +95,32 @@ class _Chain:
         }
         places = []
         for name in BODY_NAMES:
-            at = ankle if name == FOOT else origin[name] / 1000.0
-            seen = at + _points(bodies[name].com_m[[0, 2]]) * np.exp(-1j * turn[name])
+            seen = origin[name] + _points(bodies[name].com_m[[0, 2]]) * np.exp(-1j * turn[name])
             places.append((seen - ankle) * np.exp(1j * pose.foot_rad))
         self.place = np.stack(places, axis=-1)
         self.place1, self.place2 = self._rates(self.place)
-        self.turn1, self.turn2 = self._rates(np.stack([turn[name] - pose.foot_rad for name in BODY_NAMES], axis=-1))
+        turns = np.stack([turn[name] - pose.foot_rad for name in BODY_NAMES], axis=-1)
+        rates, rates_2 = self._rates(turns.astype(complex))
+        self.turn1, self.turn2 = rates.real, rates_2.real
 
-    def _rates(self, values: Array | Complex) -> tuple[Array | Complex, Array | Complex]:
-        first = np.gradient(values, self.leg, axis=0, edge_order=2)
-        return first, np.gradient(first, self.leg, axis=0, edge_order=2)
+    def _rates(self, values: Complex) -> tuple[Complex, Complex]:
+        first = np.asarray(np.gradient(values, self.leg, axis=0, edge_order=2))
+        return first, np.asarray(np.gradient(first, self.leg, axis=0, edge_order=2))
 
-    def at(self, leg_rad: float) -> list[Array]:
+    def at(self, leg_rad: float) -> tuple[Complex, Complex, Complex, Array, Array]:
         """Return place, its two rates, and the two rates of the turn, (4,) each, at a leg angle."""
         steps = (leg_rad - self.leg[0]) / (self.leg[1] - self.leg[0])
         low = min(max(int(steps), 0), POSITIONS - 2)
         share = steps - low
-        tables = (self.place, self.place1, self.place2, self.turn1, self.turn2)
-        return [(1.0 - share) * table[low] + share * table[low + 1] for table in tables]
 
-    def equations(self, state: _State) -> tuple[Array, Array, "tuple[Complex, Complex, Complex]"]:
-        """Return inertia (2, 2) and force (2,) for leg and foot, and what gives accelerations: by leg, by foot, rest."""
+        def here(table: Complex) -> Complex:
+            return np.asarray((1.0 - share) * table[low] + share * table[low + 1])
+
+        turns = here(self.turn1 + 1j * self.turn2)
+        return here(self.place), here(self.place1), here(self.place2), turns.real, turns.imag
+
+    def equations(self, state: _State) -> tuple[Array, Array, tuple[Complex, Complex, Complex]]:
+        """Return inertia (2, 2) and force (2,) for leg and foot, and what gives accelerations: by each, rest."""
         place, place1, place2, turn1, turn2 = self.at(state.leg_rad)
         spin = np.exp(-1j * state.foot_rad)
         centre = state.pivot.centre_m

@@ -53,8 +53,9 @@ class Sections:
     """Outer dimensions of legs and foot (mm).
 
     `thickness_mm` is across the robot (y); heights are in the plane of motion. `foot_depth_mm` is the distance from
-    the line of ankle and front eye down to the printed sole, under which a pad of `pad_mm` is glued. `lug_thickness_mm` is that of lugs and rails, `key_mm` the
-    distance across the flats of the hexagon that turns the cam.
+    the line of ankle and front eye down to the printed sole, under which a pad of `pad_mm` is glued (0 without one).
+    `lug_thickness_mm` is that of lugs and rails, `key_mm` the distance across the flats of the hexagon that turns the
+    cam.
     """
 
     thickness_mm: float
