@@ -48,6 +48,8 @@ COLLAR_RADIUS_MM = 3.6
 """Outside of the collars that keep axles in place; judgement."""
 STANDOFF_PAD_MM = 9.0
 """Diameter of the plates' pads under the standoffs' screws: a head of 5.7 mm (ISO 7380-1 M3) and a wall."""
+STOP_EDGE_MM = 2.5
+"""Material of the body plates around the rest stop's tabs; judgement, as around the trays'."""
 LEVER_EYE_RADIUS_MM = 4.5
 """Of the lever's eye for the roller's screw: a washer of 7 mm (ISO 7089 M3) and an edge of 1 mm."""
 

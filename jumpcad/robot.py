@@ -11,6 +11,7 @@ from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.strength.stop import StopBlow
 from jumpcad.workshop import Workshop
 
 NAME = re.compile(r"\w([\w .+-]*[\w+-])?")
@@ -23,7 +24,7 @@ class Robot(Mechanism):
     """One printed robot; its bodies have the mass and inertia of its parts.
 
     `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with;
-    `release` is what the springs keep when the roller leaves the cam.
+    `release` is what the springs keep when the roller leaves the cam, `stop_blow` what the rest stop takes.
     """
 
     parts: tuple[Part, ...]
@@ -31,6 +32,7 @@ class Robot(Mechanism):
     workshop: Workshop
     layout: Layout
     release: Release
+    stop_blow: StopBlow
 
 
 def require_name(name: str) -> None:

@@ -1,5 +1,6 @@
 """From eight numbers and a workshop to a `Robot`: layout, parts, bought parts, bodies."""
 
+import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 
@@ -15,16 +16,19 @@ from jumpcad.files import did_you_mean
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout
+from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface, five_bar
-from jumpcad.parts import body_plate, foot, links, shopping, small, toes, train
+from jumpcad.parts import body_plate, foot, links, shopping, small, stop, toes, train
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.pads import pads
 from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
+from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
@@ -42,11 +46,17 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm)
     parts = tuple(_printed(drawing, workshop) for drawing in drawn)
-    hardware = tuple(shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought))
-    spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
-    joints, loop, _ = five_bar(layout.linkage, (-design.compression_rad, 0.0), spring.peak_torque_nm)
+    hardware = (
+        *shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought),
+        *pads(layout, workshop.foot_pad),
+    )
     bodies = _bodies(layout, parts, hardware)
+    spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
     release = release_of(layout, workshop, holes, parts, hardware, bodies, spring)
+    blow = leg_blow(bodies, layout.linkage, spring, layout.stop.angle_rad)
+    held = _held(layout, blow)
+    leg_range = (-design.compression_rad, held.stop.angle_rad + held.give_rad)
+    joints, loop, _ = five_bar(layout.linkage, leg_range, spring.peak_torque_nm)
     return Robot(
         name=name,
         design=design,
@@ -54,7 +64,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
         joints=joints,
         loop=loop,
         spring=spring,
-        foot_depth_m=layout.sections.foot_depth_mm / 1000.0,
+        foot_depth_m=layout.sections.ground_mm / 1000.0,
         friction=_friction(layout, workshop),
         parts=parts,
         hardware=hardware,
@@ -62,6 +72,8 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
         layout=layout,
         release=release,
         roller_off=release.off,
+        stop_blow=held,
+        stop=held.stop,
     )
 
 
@@ -109,8 +121,24 @@ def _laid_out(
         plate_mm=growth.plate * workshop.body.plate_mm,
         roller_width_mm=settled.roller.width_mm,
         axle_mm=chosen.axle_mm,
+        stop_rad=math.radians(workshop.body.stop_deg),
+        stop_pad=workshop.stop_pad,
+        stop_more=growth.stop,
     )
     return layout, settled.holes
+
+
+def _held(layout: Layout, blow: Blow) -> StopBlow:
+    """Return the leg's blow on its stop, rounded: what small steps of time add up to differs between processors."""
+    stop = layout.stop
+    held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
+    return StopBlow(
+        held.stop,
+        *(
+            float(f"{value:.5g}")
+            for value in (held.energy_j, held.torque_nm, held.force_n, held.give_rad, held.give_mm)
+        ),
+    )
 
 
 def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
@@ -137,6 +165,7 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
         small.spacer(layout, holes, "cam_spacer_right", [cam_right]),
         small.collars(layout, holes),
         small.trays(layout, holes),
+        stop.stop_bar(layout, holes),
     ]
     if layout.idler_mm is not None:
         cam_left = (layout.cam_axis_mm, lateral.gears[0][1] + GAP_MM / 2.0, high - GAP_MM / 2.0)
@@ -186,11 +215,11 @@ def _bodies(layout: Layout, parts: tuple[Part, ...], hardware: tuple[BoughtPart,
 
 
 def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
-    """Return the spheres that may touch the ground: the foot's nose, both toe tips, the plates' corners."""
+    """Return the spheres that may touch the ground: the pads of the foot's nose and toe tips, the plates' corners."""
     sections = layout.sections
-    depth, tip_radius = sections.foot_depth_mm, sections.toe_tip_height_mm / 2.0
+    tip_radius = sections.toe_tip_height_mm / 2.0
     tip_x, tip_y = toe_tip_mm(layout.design)
-    tip_z = tip_radius - depth
+    tip_z = tip_radius - sections.foot_depth_mm
 
     def sphere(name: str, x: float, y: float, z: float, radius: float, surface: Surface) -> ContactSphere:
         return ContactSphere(name, np.array([x, y, z]) / 1000.0, radius / 1000.0, surface)
@@ -198,9 +227,9 @@ def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
     pad = layout.axle_mm / 2.0 + PAD_WALL_MM
     return {
         FOOT: (
-            sphere("front_eye", layout.design.l4_mm, 0.0, 0.0, depth, "foot"),
-            sphere("left_toe", tip_x, tip_y, tip_z, tip_radius, "foot"),
-            sphere("right_toe", tip_x, -tip_y, tip_z, tip_radius, "foot"),
+            sphere("front_eye", layout.design.l4_mm, 0.0, 0.0, sections.ground_mm, "foot"),
+            sphere("left_toe", tip_x, tip_y, tip_z, tip_radius + sections.pad_mm, "foot"),
+            sphere("right_toe", tip_x, -tip_y, tip_z, tip_radius + sections.pad_mm, "foot"),
         ),
         BODY: (
             sphere("back", layout.hub_mm[0], 0.0, layout.hub_mm[1], pad, "body"),

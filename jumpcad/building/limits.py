@@ -7,6 +7,7 @@ from jumpcad.dimensions import CLEAR_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
 from jumpcad.drive.release import ReleaseLimits
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
+from jumpcad.layout.stop import GIVE_ROOM_RAD
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.fatigue import spring_share
 from jumpcad.strength.sizing import Sections
@@ -61,6 +62,7 @@ def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamL
         core_radius_mm=sections.dog_mm / 2.0,
         modulus_mpa=workshop.material("gears").modulus_mpa,
         play_rad=workshop.release.play_rad,
+        overshoot_rad=math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD,
     )
 
 

@@ -15,10 +15,10 @@ from jumpcad.catalogue import Bearing
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive, DriveLimits, synthesise
-from jumpcad.drive.cam_limits import OVERSHOOT_RAD
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
+from jumpcad.layout.stop import GIVE_ROOM_RAD
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
 from jumpcad.mechanism.reflected import reflected_mass
@@ -63,7 +63,7 @@ def settle(
     linkage, roller = Linkage(design), roller_bearing(workshop)
     bearings = hub_bearings(workshop)
     springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
-    falls_s = fall_s(linkage, springs)
+    falls_s = fall_s(linkage, springs, math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD)
 
     @cache
     def drive_within(limits: DriveLimits) -> Drive:
@@ -89,15 +89,15 @@ def settle(
         number = stronger
 
 
-def fall_s(linkage: Linkage, spring: Spring) -> float:
-    """Return how long the leg falls with the body's usual mass, with a reserve (s)."""
+def fall_s(linkage: Linkage, spring: Spring, past_rad: float) -> float:
+    """Return how long the leg falls, to an angle past rest, with the body's usual mass and a reserve (s)."""
     body, still = TYPICAL_BODY, np.zeros((3, 3))
     inertia = still.copy()
     inertia[1, 1] = body.mass_kg * (body.gyration_mm / 1000.0) ** 2
     com = np.array([body.com_mm[0], 0.0, body.com_mm[1]]) / 1000.0
     bodies = {BODY: Body(BODY, body.mass_kg, com, inertia)}
     bodies |= {name: Body(name, 0.0, np.zeros(3), still) for name in (MAIN_LEG, FRONT_LINK)}
-    return RESERVE * reflected_mass(bodies, linkage).push_off_s(spring, OVERSHOOT_RAD)
+    return RESERVE * reflected_mass(bodies, linkage).push_off_s(spring, past_rad)
 
 
 def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:

@@ -16,6 +16,7 @@ from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures
 from jumpcad.bundle.springs import spring_facts
+from jumpcad.bundle.stop import stop_facts
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.robot import Robot, require_name
 
@@ -78,4 +79,10 @@ def _facts(robot: Robot) -> dict[str, Any]:
             for name, body in robot.bodies.items()
         },
         "drive": {"springs": spring_facts(robot), "release": release_facts(robot.release)},
+        "stop": stop_facts(robot),
+        "ground": {
+            "friction": robot.workshop.ground.foot_friction,
+            "pad": robot.workshop.ground.pad,
+            "surface": robot.workshop.ground.surface,
+        },
     }

@@ -1,6 +1,6 @@
-"""Bought parts: motors, bearings, batteries, boards, springs, fasteners and wire, shipped and the user's own."""
+"""Bought parts: motors, bearings, batteries, boards, springs, pads, fasteners and wire, shipped and the user's own."""
 
-from jumpcad.catalogue.articles import Article, Battery, Bearing, Board, Motor, OwnParts, StockSpring
+from jumpcad.catalogue.articles import Article, Battery, Bearing, Board, Motor, OwnParts, Pad, StockSpring
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "Motor",
     "Nut",
     "OwnParts",
+    "Pad",
     "PartsByName",
     "Screw",
     "Standoff",

@@ -17,6 +17,8 @@ STEEL_G_CM3 = 7.85
 """Density of steel (EN 1991-1-1, table A.4: 77 to 78.5 kN/m³)."""
 TURNS_OFF = 0.1
 """By how much a spring's turns may differ from what its arms' angle says; judgement: makers round to a quarter."""
+GENT = 0.64
+"""Factor of the shape of a rubber block's free sides, of Shore A 60 to 70 (Gent)."""
 RINGS_MM = 2.0
 """Least difference of outside diameter and bore of a bearing: that of the smallest of ISO 15, 1 x 3 mm."""
 
@@ -161,6 +163,35 @@ class StockSpring(Article):
         """Turns of the relaxed body with which tangent arms have their angle: those nearest to `turns`."""
         fraction = (0.5 - self.arm_angle_deg / 360.0) % 1.0
         return fraction + round(self.turns - fraction)
+
+
+class Pad(Article):
+    """A soft strip, glued under nose and toes or on the rest stop: `description` is what to order.
+
+    `modulus_mpa` is Young's modulus for small strains, as hardness gives it; `friction_min` and `friction_max` are
+    coefficients of dry friction that are found on a clean floor.
+    """
+
+    description: Source
+    thickness_mm: Annotated[Length, Field(ge=0.3, le=6)]
+    density_g_cm3: Annotated[float, Field(ge=0.1, le=3)]
+    modulus_mpa: Annotated[float, Field(ge=0.2, le=200)]
+    friction_min: Annotated[float, Field(gt=0, le=2)]
+    friction_max: Annotated[float, Field(gt=0, le=2)]
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield a range of friction that is upside down."""
+        if self.friction_max < self.friction_min:
+            yield ("friction_max",), self.friction_max, f"must be at least friction_min = {self.friction_min:g}"
+
+    def rate_n_per_mm(self, width_mm: float, length_mm: float) -> float:
+        """Return the stiffness of a block pressed flat: E·(1 + 2·φ·S²)·A/t with φ = 0.64, S = loaded over free area.
+
+        Gent, Engineering with Rubber, for a block that both faces hold; one that slips is softer.
+        """
+        area = width_mm * length_mm
+        shape = area / (2.0 * (width_mm + length_mm) * self.thickness_mm)
+        return self.modulus_mpa * (1.0 + 2.0 * GENT * shape**2) * area / self.thickness_mm
 
 
 AnyArticle = TypeVar("AnyArticle", bound=Article)

@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 
 from pydantic import PositiveFloat
 
-from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor, StockSpring
+from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor, Pad, StockSpring
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 
@@ -117,6 +117,7 @@ class Catalogue:
     batteries: PartsByName[Battery]
     boards: PartsByName[Board]
     springs: PartsByName[StockSpring]
+    pads: PartsByName[Pad]
     screws: PartsByName[Screw]
     nuts: PartsByName[Nut]
     washers: PartsByName[Washer]
@@ -131,6 +132,7 @@ class Catalogue:
         batteries: Mapping[str, Battery],
         boards: Mapping[str, Board],
         springs: Mapping[str, StockSpring],
+        pads: Mapping[str, Pad],
     ) -> "Catalogue":
         """Return the catalogue with a user's own parts beside the shipped ones."""
         return replace(
@@ -140,6 +142,7 @@ class Catalogue:
             batteries=self.batteries.with_own(batteries),
             boards=self.boards.with_own(boards),
             springs=self.springs.with_own(springs),
+            pads=self.pads.with_own(pads),
         )
 
     def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
@@ -151,8 +154,9 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    motors, bearings, electronics, fasteners, springs = (
-        read_toml(folder / f"{name}.toml")[0] for name in ("motors", "bearings", "electronics", "fasteners", "springs")
+    motors, bearings, electronics, fasteners, springs, pads = (
+        read_toml(folder / f"{name}.toml")[0]
+        for name in ("motors", "bearings", "electronics", "fasteners", "springs", "pads")
     )
     defaults = motors.pop("defaults")
     return Catalogue(
@@ -161,6 +165,7 @@ def load_catalogue() -> Catalogue:
         batteries=_articles("battery", Battery, electronics["batteries"] | {"source": electronics["source"]}),
         boards=_articles("board", Board, electronics["boards"] | {"source": electronics["source"]}),
         springs=_articles("spring", StockSpring, springs),
+        pads=_articles("pad", Pad, pads),
         screws=_by_name("screw", Screw, fasteners["screws"]),
         nuts=_by_name("nut", Nut, fasteners["nuts"]),
         washers=_by_name("washer", Washer, fasteners["washers"]),

@@ -9,7 +9,8 @@ eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, 
 cam_dog_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
 roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
 motor_torque, release_*; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins,
-overhangs, bridges, solid; `interference` interference; `engraving` engraving.
+overhangs, bridges, solid; `interference` interference; `stop` stop_strength, stop_pad, stop_clearance; `engraving`
+engraving.
 """
 
 from collections.abc import Callable, Iterable
@@ -21,6 +22,7 @@ from jumpcad.checks.engraving import engraving_findings
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import bed_findings, printability_findings
+from jumpcad.checks.stop import stop_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.findings import Finding
 from jumpcad.mechanism.feasibility import feasibility_findings
@@ -46,6 +48,7 @@ class Check:
 CHECKS = (
     Check(feasibility_findings, needs=Mechanism, cheap=True),
     Check(strength_findings, cheap=True),
+    Check(stop_findings, cheap=True),
     Check(drive_findings, cheap=True),
     Check(ground_findings, cheap=True),
     Check(bed_findings, cheap=True),

@@ -1,11 +1,14 @@
 """Clearance of body, legs and lever above the ground, and of the body above the foot, while the legs move (mm)."""
 
+import math
+
 import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
-from jumpcad.dimensions import COLLAR_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM
+from jumpcad.dimensions import COLLAR_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM
 from jumpcad.findings import Finding, at_least, limit
+from jumpcad.layout.stop import PAD_LENGTH_MM, TAB_MM
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array, direction
@@ -32,7 +35,7 @@ def ground_findings(robot: Robot) -> list[Finding]:
         "the legs' ends": np.full(POSITIONS, -sections.eye_radius_mm),
     }
     name, lowest = min(((what, float(height.min())) for what, height in heights.items()), key=lambda item: item[1])
-    clearance = lowest + sections.foot_depth_mm
+    clearance = lowest + sections.ground_mm
     return [
         at_least(
             "ground_clearance", clearance, GROUND_GAP_MM, "mm",
@@ -81,6 +84,8 @@ def _body_discs(robot: Robot) -> tuple[Array, Array]:
     pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, COLLAR_RADIUS_MM)
     discs = [(place, pad) for place in layout.axles.values()]
     discs += [(place, STANDOFF_PAD_MM / 2.0) for place in layout.standoffs_mm]
+    discs.append((layout.stop.tab_mm, math.hypot(*TAB_MM) / 2.0 + STOP_EDGE_MM))
+    discs.append((layout.stop.middle_mm, math.hypot(PAD_LENGTH_MM, layout.stop.depth_mm) / 2.0))
     discs.append((layout.hub_mm, layout.drive.spring.outer_diameter_mm / 2.0))
     discs.append((layout.cam_axis_mm, layout.drive.cam.outer_radius_mm))
     discs.append((layout.cam_axis_mm, layout.drive.train.stages[-1].wheel.tip_radius_mm))

@@ -1,4 +1,4 @@
-"""Interference: exact intersection volumes of solids over the cam's lift and the roller's drop (mm).
+"""Interference: exact intersection volumes of solids over the cam's lift, the roller's drop and up to the stop (mm).
 
 Nearly every part is extruded along y, as all motion is in planes parallel to x-z, so most pairs are compared as flat
 regions over common intervals of y; the others as solids.
@@ -24,6 +24,11 @@ from jumpcad.transforms import Array, pose_about_y
 
 WINDING_POSITIONS = 13
 DROP_POSITIONS = 13
+PAST_POSITIONS = 3
+PAST_CAM_RAD = (0.0, math.radians(8.0), math.radians(16.0))
+"""Leg positions from rest to the end of the stop's give, each with the cam as far beyond where it lets the roller fall:
+what a dog's free play and the running motor may add (judgement; `jumpcad.drive` says how far the roller's way is free).
+"""
 TOLERANCE_MM3 = 0.05
 """Facets of two circles that touch share less than this."""
 TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
@@ -32,6 +37,7 @@ INTENDED = (
     ("standoff", "standoff", "thread"),
     ("toe", "foot", "thread"),
     ("spring", "spring", "coil and arm are one wire"),
+    ("stop_pad", "main_leg", "the pad gives"),
 )
 """Pairs of name prefixes that may share volume, and why."""
 
@@ -80,9 +86,9 @@ def components(robot: Robot) -> list[Component]:
     return printed + [Component(item.name, item.body, item.shape, item.T_body_part) for item in robot.hardware]
 
 
-def moments(layout: Layout) -> list[Moment]:
-    """Return the positions that are checked: the cam's lift, and the roller's drop, at last with the cam run ahead."""
-    cam, wound = layout.drive.cam, layout.design.compression_rad
+def moments(robot: Robot) -> list[Moment]:
+    """Return the positions that are checked: the cam's lift, the roller's drop, the cam run ahead, and past rest."""
+    cam, wound = robot.layout.drive.cam, robot.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [
         Moment(f"loaded by {math.degrees(wind):.1f}°", -float(wind), float(turn))
@@ -91,13 +97,20 @@ def moments(layout: Layout) -> list[Moment]:
     falls = np.linspace(wound, 0.0, DROP_POSITIONS)
     free = float(cam.wind_rad(cam.free_rad - 1e-6))
     drop = [Moment(f"dropping, at {math.degrees(w):.1f}°", -float(w), cam.free_rad) for w in falls if w <= free]
-    play = layout.drive.dog.play_rad
+    play = robot.layout.drive.dog.play_rad
     ahead = [
         Moment(f"dropping, the cam ahead, at {math.degrees(w):.1f}°", -float(w), cam.law.lift_rad, play)
         for w in falls[:: len(falls) - 1]
         if play > 0.0
     ]
-    return winding + drop + ahead
+    stop = robot.layout.stop
+    past = [
+        Moment(f"{math.degrees(leg):.1f}° past rest", float(leg), cam.free_rad + turn)
+        for leg in np.linspace(0.0, stop.angle_rad + robot.stop_blow.give_rad, PAST_POSITIONS)[1:]
+        for turn in PAST_CAM_RAD
+    ]
+    at_stop = Moment("at the stop", stop.angle_rad, cam.free_rad)
+    return [*winding, *drop, *ahead, *past, at_stop]
 
 
 def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
@@ -107,7 +120,7 @@ def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
     pieces = components(robot)
     worst: dict[tuple[int, int], tuple[float, str]] = {}
     settled: set[tuple[int, int]] = set()
-    for moment in moments(layout):
+    for moment in moments(robot):
         poses = [pose_of(piece, layout, linkage, moment) for piece in pieces]
         boxes = [_box(piece, pose) for piece, pose in zip(pieces, poses, strict=True)]
         for i, j in _near(boxes):
@@ -132,7 +145,7 @@ def interference_findings(robot: Robot) -> list[Finding]:
         )
         for a, b, label, volume in overlaps(robot)
     ]  # fmt: skip
-    positions = f"{WINDING_POSITIONS} positions of winding and {DROP_POSITIONS} of the drop"
+    positions = f"{WINDING_POSITIONS} positions of winding and {DROP_POSITIONS} of the drop, and past rest to the stop"
     return found or [
         Finding(
             "interference",

@@ -60,7 +60,7 @@ class LoadCase:
         body = self.robot.bodies[BODY]
         gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
         mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
-        return push_off(self.robot.linkage, mass, self.layout.sections.foot_depth_mm, self.robot.spring)
+        return push_off(self.robot.linkage, mass, self.layout.sections.ground_mm, self.robot.spring)
 
     @cached_property
     def ankle_n(self) -> float:

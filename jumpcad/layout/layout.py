@@ -5,7 +5,7 @@ In-plane places are in the body frame's x-z plane; intervals of y come from the 
 
 from dataclasses import dataclass
 
-from jumpcad.catalogue import Bearing
+from jumpcad.catalogue import Bearing, Pad
 from jumpcad.design import Design
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive
@@ -21,6 +21,7 @@ from jumpcad.layout.drive_places import (
 from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
 from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.room import Obstacle, disc
+from jumpcad.layout.stop import DEPTH_MM, GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import Sections
@@ -59,6 +60,7 @@ class Layout:
     leg_pin_mm: float
     tray_mm: Array
     standoffs_mm: tuple[Array, ...]
+    stop: StopPlace
 
     @property
     def design(self) -> Design:
@@ -83,8 +85,13 @@ def make_layout(
     plate_mm: float,
     roller_width_mm: float,
     axle_mm: float,
+    stop_rad: float,
+    stop_pad: Pad,
+    stop_more: float = 1.0,
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
+
+    `stop_rad` is how far past rest the leg shall meet its stop, `stop_more` the factor by which that is stronger.
 
     Raises
     ------
@@ -104,13 +111,21 @@ def make_layout(
     inside, pin_radius = lateral.inside, drive.spring.pin_radius_mm
     hub, front = linkage.back_pivot_mm, linkage.front_pivot_mm
     cam_axis = hub + drive.cam.cam_axis_mm
-    moving = _moving(linkage, sections, drive, lateral)
     _require_legs_apart(linkage, sections)
+    stop_rad = stop_angle_rad(linkage, sections, stop_rad)
+    moving = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD)
     require_shaft(drive.train.motor, lateral)
     beside_hub, front_axle = _hub_obstacles(hub, drive, lateral), _axle("front axle", front, lateral)
     cam_things = _cam_obstacles(cam_axis, drive, lateral)
     wheel = drive.train.stages[-1].wheel
     require_gear_room([*beside_hub, front_axle], cam_axis, wheel.tip_radius_mm, lateral.gears[0])
+    # close to the springs and to what moves, and without the leg, which meets the stop
+    around_leg = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
+    around_leg += [*_hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
+    stop = stop_place(
+        around_leg, linkage, sections, stop_rad, stop_pad, stop_more * DEPTH_MM, inside, lateral.left_plate
+    )
+    beside_hub += stop_obstacles(stop, inside)
     spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
     obstacles = [*moving, *beside_hub, front_axle, *cam_things]
     obstacles += spring_obstacles(hub, spring_pin, drive.spring, inside)
@@ -138,13 +153,17 @@ def make_layout(
         leg_pin_mm=pin_radius,
         tray_mm=tray,
         standoffs_mm=standoffs,
+        stop=stop,
     )
 
 
-def _moving(linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral) -> list[Obstacle]:
-    """Return the room that the links sweep, with the usual clearance."""
+def _moving(
+    linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral, reach_rad: float, gap_mm: float = CLEAR_MM
+) -> list[Obstacle]:
+    """Return the room that the links sweep, with a clearance."""
     lever_y = (-sections.thickness_mm / 2.0 - LEVER_NUT_MM, lateral.cam[1] + LEVER_HEAD_MM)
-    return link_obstacles(linkage, sections, drive.cam.lever_length_mm, drive.cam.lever_start_rad, lever_y, CLEAR_MM)
+    cam = drive.cam
+    return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, gap_mm, reach_rad)
 
 
 def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
@@ -156,9 +175,9 @@ def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
         )
 
 
-def _hub_obstacles(hub: Array, drive: Drive, lateral: Lateral) -> list[Obstacle]:
-    """Return both springs and the axle that they are on."""
-    coil = drive.spring.outer_diameter_mm / 2.0 + CLEAR_MM
+def _hub_obstacles(hub: Array, drive: Drive, lateral: Lateral, gap_mm: float = CLEAR_MM) -> list[Obstacle]:
+    """Return both springs, with a gap all around, and the axle that they are on."""
+    coil = drive.spring.outer_diameter_mm / 2.0 + gap_mm
     return [
         disc("left spring", hub, coil, lateral.spring_left),
         disc("right spring", hub, coil, lateral.spring_right),

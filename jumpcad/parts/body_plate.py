@@ -9,11 +9,12 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial import Delaunay
 
-from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF_PAD_MM, TAB_MM, TRAY_MM
+from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, TAB_MM, TRAY_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, laid
+from jumpcad.parts.stop import stop_slot
 from jumpcad.solids.outline import (
     SAGITTA_MM,
     Region,
@@ -117,7 +118,7 @@ def _outline(layout: Layout) -> Region:
     """Return the hull of all pads, with pockets between an edge, the pads and ribs that join their middles.
 
     The pockets' corners are round: what stands between them is drawn thicker by their radius, and they are widened by
-    it again. All ribs end within pads.
+    it again. All ribs end within pads. The rest stop's slot hangs on the leg's axle, outside that hull.
     """
     pads = _pads(layout)
     around = hull(pads)
@@ -131,16 +132,19 @@ def _outline(layout: Layout) -> Region:
         strips(layout.hub_mm, layout.front_mm, layout.axle_mm + 2.0 * PAD_WALL_MM + more),
     ]
     pockets = (grown(around, -EDGE_MM - POCKET_RADIUS_MM) - union(solid)).simplify(2.0 * SAGITTA_MM)
-    return rounded(around, 2.0) - grown(pockets, POCKET_RADIUS_MM)
+    hub = disc(layout.axle_mm + 2.0 * PAD_WALL_MM, layout.hub_mm)
+    stop = hull([hub, rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)])
+    return rounded(around, 2.0) - (grown(pockets, POCKET_RADIUS_MM) - stop) + stop
 
 
 def _openings(layout: Layout, holes: HoleSizes) -> Region:
-    """Return the holes of both plates: axles, standoff screws, spring pin, tray slots."""
+    """Return the holes of both plates: axles, standoff screws, spring pin, slots of trays and stop."""
     play = 2.0 * holes.fits.sliding_mm
     cut = [hole(holes.running(layout.axle_mm), place) for place in layout.axles.values()]
     cut += [hole(holes.m3_clearance_mm, place) for place in layout.standoffs_mm]
     cut.append(hole(holes.press(layout.axle_mm), layout.spring_pin_mm))
     cut += [rectangle((TAB_MM + play, TRAY_MM + play), slot) for slot in tray_slots(layout)]
+    cut.append(stop_slot(layout, 2.0 * holes.fits.press_mm))
     return union(cut)
 
 

@@ -1,6 +1,6 @@
 """The foot: two rails with lugs for ankle and front eye, and its toes or their stubs; prints flat on its sole.
 
-Drawn in the foot's frame: origin at the ankle, x towards the front eye, the ground at z = -foot_depth (mm).
+Drawn in the foot's frame: origin at the ankle, x towards the front eye, the printed sole at z = -foot_depth (mm).
 """
 
 import math
@@ -63,6 +63,11 @@ def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     )
     shape = Blocks(added, (Bar(_on_bed(layout, pins), ((-reach, reach),)), *cuts))
     return Drawing("foot", "links", shape, (Placement(FOOT, upright(-depth)),))
+
+
+def nose_outline(depth_mm: float) -> Region:
+    """Return the outline of a lug of the nose about the front eye."""
+    return _lug(depth_mm, 0.0, NOSE_AHEAD * depth_mm)
 
 
 def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float]) -> bool:

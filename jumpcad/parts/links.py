@@ -6,17 +6,23 @@ import numpy as np
 
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.layout.layout import Layout
+from jumpcad.layout.stop import PAD_LENGTH_MM
 from jumpcad.mechanism.model import FRONT_LINK, MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, laid
-from jumpcad.solids.outline import disc, filleted, hole, stadium, tapered_bar, union
+from jumpcad.solids.outline import disc, filleted, hole, rectangle, stadium, tapered_bar, union
 
+HEEL_MORE_MM = 0.5
+"""By how much the heel that meets the stop is longer than its pad, at either end; judgement: the bar's play."""
 FILLET_MM = 3.0
 """Radius between eyes and beam; judgement: half of the least height."""
 
 
 def main_leg(layout: Layout, holes: HoleSizes) -> Drawing:
-    """Return the main leg: hub on the leg axle, beam to the ankle, lever with the roller's screw, springs' pin."""
+    """Return the main leg: hub on the leg axle, beam to the ankle, lever with the roller's screw, springs' pin, heel.
+
+    The heel is a flat behind the beam that meets the rest stop's pad.
+    """
     sections, cam = layout.sections, layout.drive.cam
     half = sections.thickness_mm / 2.0
     ankle = (layout.design.l2_mm, 0.0)
@@ -24,7 +30,7 @@ def main_leg(layout: Layout, holes: HoleSizes) -> Drawing:
     lever_angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
     lever = cam.lever_length_mm * np.array([math.cos(lever_angle), math.sin(lever_angle)])
     pin = (layout.leg_pin_mm, 0.0)
-    hub_radius = holes.hub_radius_mm
+    hub_radius, stop = holes.hub_radius_mm, layout.stop
     outline = union(
         [
             disc(2.0 * hub_radius),
@@ -32,6 +38,7 @@ def main_leg(layout: Layout, holes: HoleSizes) -> Drawing:
             disc(2.0 * sections.eye_radius_mm, ankle),
             disc(max(sections.leg_root_mm, 2.0 * sections.eye_radius_mm), pin),
             tapered_bar((0.0, 0.0), lever, sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM),
+            rectangle((PAD_LENGTH_MM + 2.0 * HEEL_MORE_MM, stop.heel_mm), (stop.radius_mm, -stop.heel_mm / 2.0)),
         ]
     )
     beam = filleted(outline, FILLET_MM) - union(

@@ -88,7 +88,7 @@ def on_the_foot(layout: Layout, holes: HoleSizes) -> tuple[list[Block], list[Blo
             removed.append(Turned(_holes(layout, holes, holes.fits.m3_tap_mm, 0.0), toe.angle_rad, toe.root_mm))
         else:
             added.append(Turned(_finger(layout, np.zeros(2), toe.length_mm), toe.angle_rad, toe.root_mm))
-            removed.append(Turned(_grip(toe), toe.angle_rad, toe.root_mm))
+            removed += [Turned(cut, toe.angle_rad, toe.root_mm) for cut in _grip(layout, toe)]
     return added, removed
 
 
@@ -120,7 +120,7 @@ def _drawing(layout: Layout, holes: HoleSizes, toe: Toe) -> Drawing:
     start, end = np.array([JOINT_MM[0] + width / 2.0, y]), np.array([JOINT_MM[1], y])
     joint = Finger(start, width, height, end, width, height)
     cut = _holes(layout, holes, holes.m3_clearance_mm, y)
-    shape = Blocks((joint, _finger(layout, end, toe.length_mm)), (cut, _grip(toe)))
+    shape = Blocks((joint, _finger(layout, end, toe.length_mm)), (cut, *_grip(layout, toe)))
     pose = toe.pose_mm @ upright(-layout.sections.foot_depth_mm)
     return Drawing(toe.name, "links", shape, (Placement(FOOT, pose),))
 
@@ -147,8 +147,10 @@ def _holes(layout: Layout, holes: HoleSizes, diameter_mm: float, y_mm: float) ->
     return Bar(union(lying_hole(diameter_mm, (x, middle)) for x in SCREWS_MM), ((y_mm - half, y_mm + half),))
 
 
-def _grip(toe: Toe) -> Bar:
-    """Return grooves across the sole under a toe's tip."""
+def _grip(layout: Layout, toe: Toe) -> list[Block]:
+    """Return grooves across the sole under a toe's tip, where no pad is glued on."""
+    if layout.sections.pad_mm:
+        return []
     places = [(toe.length_mm + step * GRIP_PITCH_MM, 0.0) for step in (-0.5, 0.5)]
     half = TOE_TIP_WIDTH_MM / 2.0 - GRIP_EDGE_MM
-    return Bar(union(rectangle((GRIP_WIDTH_MM, 2.0 * GRIP_MM), place) for place in places), ((-half, half),))
+    return [Bar(union(rectangle((GRIP_WIDTH_MM, 2.0 * GRIP_MM), place) for place in places), ((-half, half),))]

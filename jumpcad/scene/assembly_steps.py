@@ -26,16 +26,18 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     ),
     (
         "Foot",
-        r"foot|toe_.*|front_link|ankle_pin|front_eye_pin",
+        r"foot|toe_.*|nose_pad_.*|front_link|ankle_pin|front_eye_pin",
         "Toes that are parts of their own are screwed to the foot from outside first. Set the main leg between the "
         "lugs where the toes meet and push the ankle pin through. Do the same with the front link at the nose. Both "
-        "must swing freely; the pins sit tight in the lugs.",
+        "must swing freely; the pins sit tight in the lugs. Degrease the soles and glue the pads "
+        "under the toes' tips and around the nose, from the sole up its round front.",
     ),
     (
         "Right plate",
-        r"body_plate_right|motor|motor_shaft|motor_cap|cap_screw_\d+",
+        r"body_plate_right|motor|motor_shaft|motor_cap|cap_screw_\d+|stop_bar|stop_pad",
         "Push the motor into the plate's socket, its shaft away from the plate, and close the socket with the cap and "
-        "its screws. Solder the motor's wires now.",
+        "its screws. Solder the motor's wires now. Glue the rest stop's pad into its seat in the bar, and push one of "
+        "the bar's tabs into the right plate, the pad towards the leg.",
     ),
     (
         "Axles",
@@ -67,9 +69,9 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Left plate",
         r"body_plate_left|standoff_.*|collar.*",
-        "Screw the standoffs to the right plate. Lower the left plate over axles, spring pin and tabs, with the left "
-        "spring's body arm below the pin, and screw it to the standoffs. Push a collar onto either end of every axle, "
-        "leaving it play enough to turn.",
+        "Screw the standoffs to the right plate. Lower the left plate over axles, spring pin, stop bar and tabs, with "
+        "the left spring's body arm below the pin, and screw it to the standoffs. Push a collar onto either end of "
+        "every axle, leaving it play enough to turn.",
     ),
 )
 """Title, names of the parts that are added, text."""

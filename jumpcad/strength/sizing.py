@@ -59,8 +59,8 @@ class Sections:
     """Outer dimensions of legs and foot (mm).
 
     `thickness_mm` is across the robot (y); heights are in the plane of motion. `foot_depth_mm` is the distance from
-    the line of ankle and front eye down to the ground. `lug_thickness_mm` is that of lugs and rails, `dog_mm` the
-    diameter of the dog that turns the cam.
+    the line of ankle and front eye down to the printed sole, under which a pad of `pad_mm` is glued (0 without one).
+    `lug_thickness_mm` is that of lugs and rails, `dog_mm` the diameter of the dog that turns the cam.
     """
 
     thickness_mm: float
@@ -77,6 +77,12 @@ class Sections:
     toe_root_mm: float
     toe_tip_height_mm: float
     dog_mm: float
+    pad_mm: float = 0.0
+
+    @property
+    def ground_mm(self) -> float:
+        """From the line of ankle and front eye down to the ground on a flat foot."""
+        return self.foot_depth_mm + self.pad_mm
 
     def leg(self, shell: Shell) -> Beam:
         """Return the main leg's sections from hub to ankle."""
@@ -111,6 +117,7 @@ class Growth:
     rail: float = 1.0
     plate: float = 1.0
     dog: float = 1.0
+    stop: float = 1.0
 
     def more(self, weak: Iterable[str]) -> "Growth":
         """Return the factors with those of weak sections one step larger."""
@@ -134,7 +141,8 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     leg_root = _in_hundredths(growth.leg * stiff)
     leg_tip = _leg_tip_mm(leg_root)
     depth = max(eye, leg_tip / 2.0) + ABOVE_GROUND_MM
-    toes = RESERVE * float(push_off(linkage, TYPICAL_BODY, depth, springs).toes_n.max())
+    pad = workshop.foot_pad.thickness_mm if workshop.foot_pad else 0.0
+    toes = RESERVE * float(push_off(linkage, TYPICAL_BODY, depth + pad, springs).toes_n.max())
     toe = height_for_mm(toe_moment_nmm(design, toes), TOE_WIDTH_MM, allowable, shell, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
     toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
@@ -154,6 +162,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         toe_root_mm=toe_root,
         toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
         dog_mm=_in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
+        pad_mm=pad,
     )
 
 

@@ -103,15 +103,11 @@ class BoughtParts(TomlTable):
 
 
 class BodyPlates(TomlTable):
-    """The two plates of the body."""
+    """The two plates of the body, and the stop between them: how far past rest the leg meets which pad."""
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
-
-
-class SpringTable(TomlTable):
-    """How the springs sit: loaded by `preload_deg` already in the rest pose."""
-
-    preload_deg: Annotated[float, Field(ge=0, le=45)]
+    stop_deg: Annotated[float, Field(ge=3, le=8)]
+    stop_pad: Name
 
 
 class Ground(TomlTable):
@@ -136,6 +132,12 @@ class Pins(TomlTable):
     """The pins that the links turn on, dry."""
 
     friction: Annotated[float, Field(ge=0, le=2)]
+
+
+class SpringTable(TomlTable):
+    """How the springs sit: loaded by `preload_deg` already in the rest pose."""
+
+    preload_deg: Annotated[float, Field(ge=0, le=45)]
 
 
 class Safety(TomlTable):

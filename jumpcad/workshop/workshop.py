@@ -20,6 +20,7 @@ from jumpcad.catalogue import (
     Catalogue,
     Motor,
     OwnParts,
+    Pad,
     StockSpring,
     load_catalogue,
 )
@@ -45,8 +46,7 @@ from jumpcad.workshop.tables import (
 
 Role = Literal["links", "body", "gears"]
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
-OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs")
-"""Tables of the user's own parts; `springs` are kept for reference, since springs are computed."""
+OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs", "pads")
 """Tables of the user's own parts."""
 
 
@@ -54,7 +54,7 @@ class Workshop(Record):
     """Everything that a robot depends on besides its eight numbers.
 
     `prices_eur` holds prices of one piece by the beginning of the article's name in the bill of materials. `motors`,
-    `bearings`, `batteries`, `boards` and `springs` are the user's own parts alone.
+    `bearings`, `batteries`, `boards`, `springs` and `pads` are the user's own parts alone.
     """
 
     printer: Printer
@@ -64,9 +64,9 @@ class Workshop(Record):
     fits: Fits
     bought: BoughtParts
     body: BodyPlates
-    spring: SpringTable
     ground: Ground
     pins: Pins
+    spring: SpringTable
     release: ReleaseTable
     safety: Safety
     mass: Masses
@@ -76,16 +76,29 @@ class Workshop(Record):
     batteries: OwnParts[Battery] = Field(default_factory=dict)
     boards: OwnParts[Board] = Field(default_factory=dict)
     springs: OwnParts[StockSpring] = Field(default_factory=dict)
+    pads: OwnParts[Pad] = Field(default_factory=dict)
 
     @property
     def catalogue(self) -> Catalogue:
         """The shipped catalogue with the user's own parts."""
-        return load_catalogue().with_own(self.motors, self.bearings, self.batteries, self.boards, self.springs)
+        return load_catalogue().with_own(
+            self.motors, self.bearings, self.batteries, self.boards, self.springs, self.pads
+        )
 
     @property
     def stock_spring(self) -> StockSpring | None:
         """The springs from stock, or None where they are made to order."""
         return self.catalogue.springs[self.bought.spring] if self.bought.spring else None
+
+    @property
+    def foot_pad(self) -> Pad | None:
+        """The pad under nose and toes, or None where the feet are bare."""
+        return self.catalogue.pads[self.ground.pad] if self.ground.pad else None
+
+    @property
+    def stop_pad(self) -> Pad:
+        """The pad of the rest stop."""
+        return self.catalogue.pads[self.body.stop_pad]
 
     def __repr__(self) -> str:
         materials = ", ".join(f"{role} {name[:20]}" for role, name in self.roles.model_dump().items())

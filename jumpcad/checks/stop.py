@@ -1,0 +1,48 @@
+"""The rest stop: does its bar bear the blow, does its pad, and does it give no more than there is room for?
+
+The bar is taken as a beam on both plates with the pad's force in its middle. It prints lying, so that the blow bends it
+along its layers.
+"""
+
+import math
+from collections.abc import Iterator
+
+from jumpcad.checks.load_case import LoadCase, stress_finding
+from jumpcad.findings import Finding, at_most
+from jumpcad.layout.stop import GIVE_ROOM_RAD, PAD_LENGTH_MM, SEAT_MM
+from jumpcad.robot import Robot
+from jumpcad.strength.stress import Beam
+
+BLOW_FACTOR = 2.0
+"""On the peak force, which holds without friction (bench review of the printed robot: plates for twice the peak)."""
+PAD_STRAIN = 0.5
+"""Largest give of a pad over its thickness; judgement: rubber bumpers are pressed to half."""
+SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
+
+
+def stop_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `stop_strength`, `stop_pad` and `stop_clearance`."""
+    case, blow, stop = LoadCase(robot), robot.stop_blow, robot.layout.stop
+    low, high = robot.layout.lateral.inside
+    span, width = high - low, robot.layout.sections.thickness_mm
+    moment = BLOW_FACTOR * blow.force_n * (span - width / 2.0) / 4.0
+    stress = float(Beam(PAD_LENGTH_MM, stop.depth_mm - SEAT_MM, case.shell).stress_mpa(moment))
+    strength = robot.workshop.material("links").strength_in_plane_mpa
+    remedy = f"choose a softer body.stop_pad, or {SOFTER.partition(', or ')[2]}"
+    yield stress_finding("stop_strength", "the rest stop's bar at twice the blow", stress, strength, remedy, "stop")
+    give, most = blow.give_mm, PAD_STRAIN * stop.pad.thickness_mm
+    yield at_most(
+        "stop_pad", give, most, "mm",
+        f"the rest stop's pad gives {give:.2f} mm at {1000.0 * blow.energy_j:.0f} mJ; {most:.2f} mm, "
+        f"half of its thickness, are allowed",
+        SOFTER,
+    )  # fmt: skip
+    cam = robot.layout.drive.cam
+    free = GIVE_ROOM_RAD + cam.geometry.clearance_mm / cam.lever_length_mm
+    degrees, room = math.degrees(blow.give_rad), math.degrees(free)
+    yield at_most(
+        "stop_clearance", degrees, room, "°",
+        f"the leg goes {degrees:.1f}° beyond its stop at {math.degrees(stop.angle_rad):.1f}° past rest; the cam "
+        f"leaves the roller {room:.1f}°",
+        "choose a stiffer body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio",
+    )  # fmt: skip

@@ -1,0 +1,193 @@
+"""The rest stop: a bar between the plates behind the main leg, with a pad that the leg's heel meets (mm).
+
+Until then nothing else may meet: the room that the links sweep reaches as far past rest as stop and pad let them go.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.catalogue import Pad
+from jumpcad.dimensions import CLEAR_MM, GAP_MM, STOP_EDGE_MM
+from jumpcad.errors import CannotBuildError
+from jumpcad.layout.lateral import Interval
+from jumpcad.layout.room import Obstacle, box_obstacle, clearance
+from jumpcad.layout.sweep import legs_apart_mm
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.strength.sizing import Sections
+from jumpcad.transforms import Array, direction
+
+LEAST_DEG, STEP_DEG = 3.0, 0.5
+"""Least angle past rest, and between those tried below the one asked for; judgement: less is within play and bending.
+"""
+GIVE_ROOM_RAD = math.radians(3.0)
+"""Kept free, with the usual clearances, beyond the stop for the pad's give; judgement, checked by `stop_clearance`."""
+PAD_MIN_MM = 1.5
+"""Least thickness of its pad (a bench review of the printed robot)."""
+PAD_LENGTH_MM = 8.0
+"""Length along the leg of pad and bar; judgement: between the springs and the folded foot."""
+HEEL_MM = 0.2
+"""By how much the leg's heel stands out beyond its boss, so that a flat face meets the pad; one layer."""
+SEAT_MM = 0.6
+"""Depth of the pad's seat in the bar; judgement: it keeps a strip from creeping, and the blow from peeling it."""
+DEPTH_MM = 6.0
+"""Least depth of the bar in the direction of the blow; judgement."""
+TAB_MM = (5.0, 4.0)
+"""Size of the bar's tabs in the plates, along the leg and in the direction of the blow; judgement. They lie at the
+bar's edge nearest to the hub, so that the plates reach down no further than the bar."""
+NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.25
+"""Distances of the pad's middle from the hub, along the leg; judgement: a pad near the hub lets the leg turn far."""
+
+
+@dataclass(frozen=True)
+class StopPlace:
+    """Where the stop is, in the body frame's x-z plane (mm).
+
+    Attributes
+    ----------
+    angle_rad
+        Of the leg past rest when its heel meets the pad.
+    direction_rad
+        Direction of the leg then, below the x axis: the pad's face is parallel to it.
+    radius_mm, heel_mm
+        From the hub to the pad's middle, along the leg; from the leg's middle line to its heel.
+    face_mm
+        Middle (2,) of the pad's free face.
+    depth_mm
+        Of the bar, in the direction of the blow.
+    pad
+        What is glued on.
+    """
+
+    angle_rad: float
+    direction_rad: float
+    radius_mm: float
+    heel_mm: float
+    face_mm: Array
+    depth_mm: float
+    pad: Pad
+
+    @property
+    def reach_rad(self) -> float:
+        """How far past rest the links have room: stop and give of the pad."""
+        return self.angle_rad + GIVE_ROOM_RAD
+
+    @property
+    def behind(self) -> Array:
+        """Unit vector (2,) of the blow, from the pad's face into the bar."""
+        return np.round(direction(self.direction_rad + math.pi / 2.0), 9)
+
+    @property
+    def seat_mm(self) -> Array:
+        """Middle (2,) of the bar's face, at the edge of the pad's seat."""
+        return self.face_mm + (self.pad.thickness_mm - SEAT_MM) * self.behind
+
+    @property
+    def along(self) -> Array:
+        """Unit vector (2,) along the pad's face, away from the hub."""
+        return np.round(direction(self.direction_rad), 9)
+
+    @property
+    def middle_mm(self) -> Array:
+        """Middle (2,) of the bar."""
+        return self.seat_mm + self.depth_mm / 2.0 * self.behind
+
+    @property
+    def tab_mm(self) -> Array:
+        """Middle (2,) of the bar's tabs and of the slots for them."""
+        return self.seat_mm + tab_offset_mm(self.along, self.behind)
+
+    @property
+    def turn_rad(self) -> float:
+        """Turn of the bar's box in x-z, counter-clockwise: its first side lies along the leg."""
+        return -self.direction_rad
+
+    def pad_n_per_mm(self, width_mm: float) -> float:
+        """Return the stiffness of the pad, pressed flat by a leg of some thickness."""
+        return self.pad.rate_n_per_mm(width_mm, PAD_LENGTH_MM)
+
+
+def tab_offset_mm(along: Array, behind: Array) -> Array:
+    """Return the middle (2,) of the tabs from that of the bar's face."""
+    return (TAB_MM[0] - PAD_LENGTH_MM) / 2.0 * along + TAB_MM[1] / 2.0 * behind
+
+
+def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> float:
+    """Return the angle past rest of the stop: the one asked for, or the largest below it that the links can reach.
+
+    Raises
+    ------
+    CannotBuildError
+        If the loop does not close, or leg and front link meet, before the least angle with the pad's give.
+    """
+    least = math.radians(LEAST_DEG)
+    angle = wanted_rad
+    while True:
+        missing = _missing(linkage, sections, angle + GIVE_ROOM_RAD)
+        if not missing:
+            return angle
+        if angle <= least:
+            raise CannotBuildError(
+                f"no rest stop: {missing} with the leg {math.degrees(angle + GIVE_ROOM_RAD):.1f}° past rest, as far as "
+                f"a stop at {LEAST_DEG:g}° and its pad let it go: lower rest_angle_deg, or raise d_coef or c_coef"
+            )
+        angle = max(angle - math.radians(STEP_DEG), least)
+
+
+def _missing(linkage: Linkage, sections: Sections, reach_rad: float) -> str:
+    """Return what keeps the links from turning that far past rest, or nothing."""
+    short = float(linkage.diagonal_mm(reach_rad)) - linkage.l3 - linkage.l4
+    if short > 0.0:
+        return f"foot and front link are {short:.1f} mm too short to close the loop"
+    room = legs_apart_mm(linkage, sections, reach_rad) - GAP_MM
+    return f"main leg and front link come {-room:.1f} mm nearer than {GAP_MM:g} mm" if room < 0.0 else ""
+
+
+def stop_place(
+    obstacles: list[Obstacle],
+    linkage: Linkage,
+    sections: Sections,
+    angle_rad: float,
+    pad: Pad,
+    depth_mm: float,
+    inside: Interval,
+    plate: Interval,
+) -> StopPlace:
+    """Return the place of the stop behind the leg, across both plates: the free one nearest to the wanted radius.
+
+    Raises
+    ------
+    CannotBuildError
+        If the pad is too thin, or there is no room behind the leg.
+    """
+    if pad.thickness_mm < PAD_MIN_MM:
+        raise CannotBuildError(
+            f"body.stop_pad = {pad.name} is {pad.thickness_mm:g} mm thick; the rest stop needs at least "
+            f"{PAD_MIN_MM:g} mm: choose a thicker pad"
+        )
+    below = linkage.rest_rad + angle_rad
+    heel = max(sections.leg_root_mm / 2.0, sections.eye_radius_mm) + HEEL_MM
+    along, behind = np.round(direction(below), 9), np.round(direction(below + math.pi / 2.0), 9)
+    radii = np.arange(NEAREST_MM, FARTHEST_MM + STEP_MM, STEP_MM)
+    radii = radii[np.argsort(np.abs(radii - WANTED_MM), kind="stable")]
+    faces = linkage.back_pivot_mm + radii[:, None] * along + heel * behind
+    half = (PAD_LENGTH_MM / 2.0, (pad.thickness_mm - SEAT_MM + depth_mm) / 2.0)
+    room = clearance(obstacles, faces + half[1] * behind, half, -below, inside)
+    slots = faces + (pad.thickness_mm - SEAT_MM) * behind + tab_offset_mm(along, behind)
+    edge = (TAB_MM[0] / 2.0 + STOP_EDGE_MM, TAB_MM[1] / 2.0 + STOP_EDGE_MM)
+    room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate))
+    if not (room >= 0.0).any():
+        raise CannotBuildError(
+            f"no room for the rest stop behind the main leg: {-room.max():.1f} mm too little: lower compression_ratio, "
+            "or raise rest_angle_deg"
+        )
+    best = int(np.argmax(room >= 0.0))
+    return StopPlace(angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), depth_mm, pad)
+
+
+def stop_obstacles(stop: StopPlace, inside: Interval) -> Iterable[Obstacle]:
+    """Yield the bar as an obstacle for what is placed after it."""
+    half = (PAD_LENGTH_MM / 2.0 + CLEAR_MM, stop.depth_mm / 2.0 + CLEAR_MM)
+    yield box_obstacle("rest stop", stop.middle_mm, half, stop.turn_rad, inside)

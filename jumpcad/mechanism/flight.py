@@ -1,0 +1,231 @@
+"""The leg from release to its rest stop: what the stop must take (numpy only; kg, m, s, rad, J).
+
+The foot stands flat, rolls on its toes' tips or on its nose without slipping, and leaves the ground where this no
+longer pushes; then the links move about the common centre of mass, whose momenta stay. There is no friction and no
+damping, so that the blow is not underestimated. Points in x-z are complex numbers x + iz; angles are below x.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.mechanism.linkage import Complex, Linkage
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Spring
+from jumpcad.transforms import Array
+
+POSITIONS = 241
+"""Leg angles at which the bodies' places are known; straight lines lie between them."""
+STEP_S = 1e-3
+"""Time step of the push-off; with half of it, blows of the template designs change by 0.5 % at most."""
+GIVEN_UP_S = 0.4
+"""A robot that stands on the ground this long after release does not jump."""
+
+
+@dataclass(frozen=True)
+class Blow:
+    """What the stop takes: leg angle at take-off, leg rate at the stop, inertia there about the leg's joint.
+
+    `inertia_kg_m2` is that of the links in free flight, with which the leg's rate alone makes up their motion about
+    the common centre of mass: ½·I·ω² is lost when the leg comes to a stand.
+    """
+
+    takeoff_rad: float
+    stop_rad_s: float
+    inertia_kg_m2: float
+
+    @property
+    def energy_j(self) -> float:
+        """Energy of the blow (J)."""
+        return 0.5 * self.inertia_kg_m2 * self.stop_rad_s**2
+
+
+def leg_blow(bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_rad: float) -> Blow:
+    """Return the blow of the leg at a stop past rest, after a push-off from loaded springs.
+
+    In flight ½·I·q̇² + ½·H²/J + V stays, with the angular momentum H and the inertia J of all about their centre, and
+    the springs' energy V.
+
+    Raises
+    ------
+    CannotBuildError
+        If the loop does not close up to the stop.
+    """
+    chain = _Chain(bodies, linkage, spring, stop_rad)
+    state = _push_off(chain, bodies[FOOT].contacts)
+    momentum, energy = chain.about_common(state)
+    inertia, whole = chain.in_flight(stop_rad)
+    left = energy + spring.stored_j(state.leg_rad) - spring.stored_j(stop_rad) - 0.5 * momentum**2 / whole
+    return Blow(state.leg_rad, (2.0 * max(left, 0.0) / inertia) ** 0.5, inertia)
+
+
+@dataclass(frozen=True)
+class _State:
+    """Leg angle and foot's angle with their rates, and the end of the foot that stays on the ground."""
+
+    leg_rad: float
+    foot_rad: float
+    leg_rad_s: float
+    foot_rad_s: float
+    pivot: ContactSphere
+
+
+class _Chain:
+    """The bodies' centres and angles by leg angle, in the foot's frame."""
+
+    def __init__(self, bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_rad: float) -> None:
+        self.spring = spring
+        self.mass = np.array([bodies[name].mass_kg for name in BODY_NAMES])
+        self.inertia = np.array([bodies[name].inertia_kg_m2[1, 1] for name in BODY_NAMES])
+        self.leg = np.linspace(linkage.travel_rad[0], stop_rad, POSITIONS)
+        pose = linkage.pose(self.leg)
+        ankle = _points(pose.ankle_mm) / 1000.0
+        origin = {
+            BODY: np.zeros(1, complex),
+            MAIN_LEG: _points(linkage.back_pivot_mm) / 1000.0,
+            FRONT_LINK: _points(linkage.front_pivot_mm) / 1000.0,
+            FOOT: ankle,
+        }
+        turn = {
+            BODY: np.zeros(POSITIONS),
+            MAIN_LEG: linkage.rest_rad + self.leg,
+            FRONT_LINK: linkage.rest_rad + pose.front_rad,
+            FOOT: pose.foot_rad,
+        }
+        places = []
+        for name in BODY_NAMES:
+            seen = origin[name] + _points(bodies[name].com_m[[0, 2]]) * np.exp(-1j * turn[name])
+            places.append((seen - ankle) * np.exp(1j * pose.foot_rad))
+        self.place = np.stack(places, axis=-1)
+        self.place1, self.place2 = self._rates(self.place)
+        turns = np.stack([turn[name] - pose.foot_rad for name in BODY_NAMES], axis=-1)
+        rates, rates_2 = self._rates(turns.astype(complex))
+        self.turn1, self.turn2 = rates.real, rates_2.real
+
+    def _rates(self, values: Complex) -> tuple[Complex, Complex]:
+        first = np.asarray(np.gradient(values, self.leg, axis=0, edge_order=2))
+        return first, np.asarray(np.gradient(first, self.leg, axis=0, edge_order=2))
+
+    def at(self, leg_rad: float) -> tuple[Complex, Complex, Complex, Array, Array]:
+        """Return place, its two rates, and the two rates of the turn, (4,) each, at a leg angle."""
+        steps = (leg_rad - self.leg[0]) / (self.leg[1] - self.leg[0])
+        low = min(max(int(steps), 0), POSITIONS - 2)
+        share = steps - low
+
+        def here(table: Complex) -> Complex:
+            return np.asarray((1.0 - share) * table[low] + share * table[low + 1])
+
+        turns = here(self.turn1 + 1j * self.turn2)
+        return here(self.place), here(self.place1), here(self.place2), turns.real, turns.imag
+
+    def equations(self, state: _State) -> tuple[Array, Array, tuple[Complex, Complex, Complex]]:
+        """Return inertia (2, 2) and force (2,) for leg and foot, and what gives accelerations: by each, rest."""
+        place, place1, place2, turn1, turn2 = self.at(state.leg_rad)
+        spin = np.exp(-1j * state.foot_rad)
+        centre = state.pivot.centre_m
+        arm = (place - complex(centre[0], centre[2])) * spin
+        by_leg, by_foot = place1 * spin, state.pivot.radius_m - 1j * arm
+        leg, foot = state.leg_rad_s, state.foot_rad_s
+        rest = (place2 * leg**2 - 2j * place1 * leg * foot) * spin - arm * foot**2
+        pull = -1j * GRAVITY_M_S2 - rest
+        mass, inertia = self.mass, self.inertia
+        mixed = float((mass * _dot(by_leg, by_foot) + inertia * turn1).sum())
+        matrix = np.array(
+            [
+                [float((mass * _dot(by_leg, by_leg) + inertia * turn1**2).sum()), mixed],
+                [mixed, float((mass * _dot(by_foot, by_foot) + inertia).sum())],
+            ]
+        )
+        swing = inertia * turn2 * leg**2
+        torque = self.spring.torque_nm(state.leg_rad)
+        force = np.array(
+            [
+                torque + float((mass * _dot(by_leg, pull) - swing * turn1).sum()),
+                float((mass * _dot(by_foot, pull) - swing).sum()),
+            ]
+        )
+        return matrix, force, (by_leg, by_foot, rest)
+
+    def about_common(self, state: _State) -> tuple[float, float]:
+        """Return angular momentum and kinetic energy of all bodies about their common centre."""
+        place, place1, _, turn1, _ = self.at(state.leg_rad)
+        velocity = place1 * state.leg_rad_s - 1j * place * state.foot_rad_s
+        return self._about(place, velocity, turn1 * state.leg_rad_s + state.foot_rad_s)[:2]
+
+    def in_flight(self, leg_rad: float) -> tuple[float, float]:
+        """Return the inertia that the leg meets in free flight, and that of all bodies about their common centre."""
+        place, place1, _, turn1, _ = self.at(leg_rad)
+        momentum, energy, whole = self._about(place, place1, turn1)
+        return 2.0 * energy - momentum**2 / whole, whole
+
+    def _about(self, place: Complex, velocity: Complex, turning: Array) -> tuple[float, float, float]:
+        share = self.mass / self.mass.sum()
+        arm, velocity = place - (share * place).sum(), velocity - (share * velocity).sum()
+        momentum = self.mass * _dot(-1j * arm, velocity) + self.inertia * turning
+        double = self.mass * _dot(velocity, velocity) + self.inertia * turning**2
+        whole = self.mass * _dot(arm, arm) + self.inertia
+        return float(momentum.sum()), 0.5 * float(double.sum()), float(whole.sum())
+
+
+def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:
+    """Return the state at take-off, or at the end of the leg's travel where the robot does not leave the ground."""
+    nose, toe = (max(contacts, key=lambda sphere: sign * sphere.centre_m[0]) for sign in (1.0, -1.0))
+    state, flat = _State(float(chain.leg[0]), 0.0, 0.0, 0.0, toe), True
+    for _ in range(round(GIVEN_UP_S / STEP_S)):
+        if flat:
+            state, flat = _on_the_sole(chain, state, nose, toe)
+        rates, up = _accelerations(chain, state, flat)
+        if up <= 0.0 or state.leg_rad >= chain.leg[-1]:
+            break
+        half = _moved(state, rates, 0.5 * STEP_S, state)
+        rates, _ = _accelerations(chain, half, flat)
+        state = _moved(state, rates, STEP_S, half)
+        lifted = state.foot_rad if state.pivot is nose else -state.foot_rad
+        if not flat and lifted < 0.0:  # the foot comes down flat, its other end without rebound
+            matrix, _, _ = chain.equations(state)
+            leg = state.leg_rad_s + matrix[0, 1] / matrix[0, 0] * state.foot_rad_s
+            state, flat = _State(state.leg_rad, 0.0, float(leg), 0.0, toe), True
+    return state
+
+
+def _on_the_sole(chain: _Chain, state: _State, nose: ContactSphere, toe: ContactSphere) -> tuple[_State, bool]:
+    """Return a standing foot's state with the end on which it stays, and whether the other end stays too."""
+    for pivot, sign in ((toe, 1.0), (nose, -1.0)):
+        tried = _State(state.leg_rad, 0.0, state.leg_rad_s, 0.0, pivot)
+        matrix, force, _ = chain.equations(tried)
+        if sign * (matrix[0, 1] * force[0] / matrix[0, 0] - force[1]) > 0.0:  # the ground would have to pull
+            return tried, False
+    return state, True
+
+
+def _accelerations(chain: _Chain, state: _State, flat: bool) -> tuple[tuple[float, float], float]:
+    """Return leg's and foot's acceleration, and the ground's push."""
+    matrix, force, (by_leg, by_foot, rest) = chain.equations(state)
+    if flat:
+        leg, foot = float(force[0] / matrix[0, 0]), 0.0
+    else:
+        size = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] ** 2
+        leg = float((matrix[1, 1] * force[0] - matrix[0, 1] * force[1]) / size)
+        foot = float((matrix[0, 0] * force[1] - matrix[0, 1] * force[0]) / size)
+    up = (by_leg * leg + by_foot * foot + rest).imag + GRAVITY_M_S2
+    return (leg, foot), float((chain.mass * up).sum())
+
+
+def _moved(start: _State, rates: tuple[float, float], time_s: float, at: _State) -> _State:
+    """Return the state a time later, with the rates and accelerations of another moment."""
+    return _State(
+        start.leg_rad + time_s * at.leg_rad_s,
+        start.foot_rad + time_s * at.foot_rad_s,
+        start.leg_rad_s + time_s * rates[0],
+        start.foot_rad_s + time_s * rates[1],
+        start.pivot,
+    )
+
+
+def _points(vector: Array) -> Complex:
+    return np.asarray(vector[..., 0] + 1j * vector[..., 1])
+
+
+def _dot(a: Complex, b: Complex) -> Array:
+    return np.asarray((a * b.conjugate()).real)

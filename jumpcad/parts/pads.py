@@ -1,0 +1,79 @@
+"""Pads that are cut from strip and glued on: under nose and toes, and on the rest stop (mm)."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from jumpcad.catalogue import Pad
+from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
+from jumpcad.layout.layout import Layout
+from jumpcad.layout.stop import PAD_LENGTH_MM
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.parts import toes
+from jumpcad.parts.foot import nose_outline
+from jumpcad.parts.purchased import BoughtPart, bought
+from jumpcad.solids.outline import Region, grown, rectangle
+
+NOSE_BEHIND_SHARE, NOSE_UP_SHARE = 0.9, 0.7
+"""How far the nose's pad reaches behind the front eye and, around the nose, up to below it, in depths of the foot;
+judgement: the robot leaves the ground and lands over the nose, which rolls."""
+TOE_BACK_MM, TOE_AHEAD_MM = 8.0, 1.5
+"""How far a toe's pad reaches from the tip's middle towards the root, and beyond; judgement."""
+
+
+def pads(layout: Layout, foot_pad: Pad | None) -> Iterator[BoughtPart]:
+    """Yield the rest stop's pad and, where the feet are not bare, those under nose and toes."""
+    yield _stop_pad(layout)
+    if foot_pad is not None:
+        yield from _nose_pads(layout, foot_pad)
+        yield from _toe_pads(layout, foot_pad)
+
+
+def _stop_pad(layout: Layout) -> BoughtPart:
+    """Return the stop's pad: as wide as the leg, in its seat."""
+    stop, width = layout.stop, layout.sections.thickness_mm
+    box = rectangle((PAD_LENGTH_MM, stop.pad.thickness_mm)).rotate(float(np.degrees(stop.turn_rad)))
+    middle = stop.face_mm + stop.pad.thickness_mm / 2.0 * stop.behind
+    slabs = [(-width / 2.0, width / 2.0, box)]
+    return _pad("stop_pad", stop.pad, BODY, slabs, (width, PAD_LENGTH_MM), (middle[0], 0.0, middle[1]))
+
+
+def _nose_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
+    """Yield the pads around both lugs of the nose, from the sole up the round front."""
+    sections = layout.sections
+    depth, lug = sections.foot_depth_mm, sections.lug_thickness_mm
+    nose, inner = nose_outline(depth), sections.thickness_mm / 2.0 + GAP_MM
+    reach = 2.0 * depth + pad.thickness_mm
+    low, high, back = -depth - pad.thickness_mm, -NOSE_UP_SHARE * depth, -NOSE_BEHIND_SHARE * depth
+    around = rectangle((reach - back, high - low), ((reach + back) / 2.0, (high + low) / 2.0))
+    region = (grown(nose, pad.thickness_mm) - nose) ^ around
+    length = region.area() / pad.thickness_mm
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        y = sorted((sign * inner, sign * (inner + lug)))
+        at = (layout.design.l4_mm, 0.0, 0.0)
+        yield _pad(f"nose_pad_{side}", pad, FOOT, [(y[0], y[1], region)], (lug, length), at)
+
+
+def _toe_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
+    """Yield the pads under the toes' tips."""
+    length = TOE_BACK_MM + TOE_AHEAD_MM
+    half, bottom = TOE_TIP_WIDTH_MM / 2.0, -layout.sections.foot_depth_mm - pad.thickness_mm / 2.0
+    for toe in toes.toes(layout):
+        x = toe.length_mm + (TOE_AHEAD_MM - TOE_BACK_MM) / 2.0
+        slabs = [(-half, half, rectangle((length, pad.thickness_mm)))]
+        part = _pad(f"{toe.name}_pad", pad, FOOT, slabs, (TOE_TIP_WIDTH_MM, length), (x, 0.0, bottom))
+        yield part.moved(toe.pose_mm)
+
+
+def _pad(
+    name: str,
+    pad: Pad,
+    body: str,
+    slabs: list[tuple[float, float, Region]],
+    size_mm: tuple[float, float],
+    at_mm: tuple[float, float, float],
+) -> BoughtPart:
+    """Return a pad with the size to cut, its mass from its volume."""
+    volume = sum((y1 - y0) * region.area() for y0, y1, region in slabs)
+    article = f"{pad.description}, cut {size_mm[0]:.1f} x {size_mm[1]:.1f} mm"
+    return bought(name, article, body, pad.density_g_cm3 * volume / 1000.0, slabs, at_mm)

@@ -1,0 +1,37 @@
+"""What the rest stop's pad makes of the leg's blow (numpy only; SI, but for the pad in N and mm)."""
+
+import math
+from dataclasses import dataclass
+
+from jumpcad.mechanism.flight import Blow
+from jumpcad.mechanism.model import Stop
+
+PEAK_SHARE = 0.82
+"""Peak force of a pad without rebound over that of a spring without loss (bench review of the printed robot)."""
+
+
+@dataclass(frozen=True)
+class StopBlow:
+    """The leg's blow on its stop.
+
+    `energy_j` is what the pad takes, `torque_nm` its peak about the leg's joint, `force_n` the peak force on the pad,
+    `give_rad` and `give_mm` how far the pad gives: as much as a spring of its stiffness without loss.
+    """
+
+    stop: Stop
+    energy_j: float
+    torque_nm: float
+    force_n: float
+    give_rad: float
+    give_mm: float
+
+
+def stop_blow(blow: Blow, angle_rad: float, radius_mm: float, pad_n_per_mm: float) -> StopBlow:
+    """Return the blow on a pad of some stiffness at a radius from the leg's joint: F = 0.82·v·sqrt(k·I)/r."""
+    radius = radius_mm / 1000.0
+    stiffness = 1000.0 * pad_n_per_mm * radius**2
+    torque = PEAK_SHARE * blow.stop_rad_s * math.sqrt(stiffness * blow.inertia_kg_m2)
+    give = blow.stop_rad_s * math.sqrt(blow.inertia_kg_m2 / stiffness)
+    return StopBlow(
+        Stop("leg", angle_rad, stiffness), blow.energy_j, torque, torque / radius, give, 1000.0 * give * radius
+    )
