@@ -17,7 +17,7 @@ from jumpcad.layout.layout import Layout, make_layout
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface, five_bar
-from jumpcad.parts import body_plate, foot, links, shopping, small, toes, train
+from jumpcad.parts import axles, body_plate, foot, links, shopping, small, toes, train
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import BoughtPart
@@ -74,6 +74,7 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> 
     Where something stands in the way of the springs' pin, springs for a free direction take their place.
     """
     small.require_axle(workshop)
+    axles.require_retention(workshop.catalogue, workshop.bought)
     directions = PLATE_PINS_RAD
     for _ in range(PIN_ROUNDS):
         try:
@@ -100,10 +101,14 @@ def _laid_out(
         settled.drive,
         electronics,
         hub_bearing=settled.holes.bearing,
-        toes_apart=not foot.in_one_piece(design, settled.sections, workshop.printer.bed_mm),
+        toes_apart=not foot.in_one_piece(
+            design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm
+        ),
         plate_mm=growth.plate * workshop.body.plate_mm,
         roller_width_mm=settled.roller.width_mm,
         axle_mm=chosen.axle_mm,
+        retention=chosen.retention,
+        toe_half_width_mm=workshop.body.toe_half_width_mm,
     )
     return layout, settled.holes
 
@@ -130,7 +135,6 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
         small.spacer(layout, holes, "front_spacer_left", [front_left]),
         small.spacer(layout, holes, "front_spacer_right", [front_right]),
         small.spacer(layout, holes, "cam_spacer_right", [cam_right]),
-        small.collars(layout, holes),
         small.trays(layout, holes),
     ]
     if layout.idler_mm is not None:
@@ -184,7 +188,7 @@ def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
     """Return the spheres that may touch the ground: the foot's nose, both toe tips, the plates' corners."""
     sections = layout.sections
     depth, tip_radius = sections.foot_depth_mm, sections.toe_tip_height_mm / 2.0
-    tip_x, tip_y = toe_tip_mm(layout.design)
+    tip_x, tip_y = float(toe_tip_mm(layout.design)[0]), layout.toe_half_width_mm
     tip_z = tip_radius - depth
 
     def sphere(name: str, x: float, y: float, z: float, radius: float, surface: Surface) -> ContactSphere:

@@ -4,7 +4,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
-from jumpcad.dimensions import COLLAR_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM
+from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM
 from jumpcad.findings import Finding, at_least, limit
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot import Robot
@@ -78,7 +78,7 @@ def _along(vector: Array, unit: Array) -> Array:
 def _body_discs(robot: Robot) -> tuple[Array, Array]:
     """Return what hangs lowest on the body as discs: middles (n, 2) in its frame and radii (n,)."""
     layout = robot.layout
-    pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, COLLAR_RADIUS_MM)
+    pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, AXLE_END_RADIUS_MM)
     discs = [(place, pad) for place in layout.axles.values()]
     discs += [(place, STANDOFF_PAD_MM / 2.0) for place in layout.standoffs_mm]
     discs.append((layout.hub_mm, layout.drive.spring.outer_diameter_mm / 2.0))

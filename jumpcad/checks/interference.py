@@ -31,6 +31,7 @@ INTENDED = (
     ("cap_screw", "body_plate_right", "thread"),
     ("standoff", "standoff", "thread"),
     ("toe", "foot", "thread"),
+    ("motor_pinion", "motor_shaft", "crush ribs"),
     ("spring", "spring", "coil and arm are one wire"),
 )
 """Pairs of name prefixes that may share volume, and why."""

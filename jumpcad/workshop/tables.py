@@ -63,6 +63,8 @@ class Fits(TomlTable):
     """
 
     press_mm: Annotated[float, Field(ge=-0.2, le=0.5)]
+    rib_mm: Annotated[float, Field(ge=0, le=0.3)]
+    eye_mm: Annotated[float, Field(ge=0, le=0.8)]
     sliding_mm: Annotated[float, Field(ge=0, le=0.8)]
     loose_mm: Annotated[float, Field(ge=0, le=1)]
     hole_allowance_diameter_mm: Annotated[float, Field(ge=-0.4, le=1)]
@@ -87,6 +89,8 @@ class BoughtParts(TomlTable):
     `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none.
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
+    `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
+    in grooves, or screws as axles with lock nuts; pins of foot and leg have clips too, or are clevis pins.
     """
 
     motors: Annotated[tuple[Name, ...], Field(strict=False)]
@@ -97,12 +101,15 @@ class BoughtParts(TomlTable):
     driver: Name
     spring: OptionalName
     axle_mm: Positive
+    axle: Name
+    retention: Literal["plates", "clips", "nuts"]
 
 
 class BodyPlates(TomlTable):
-    """The two plates of the body."""
+    """The two plates of the body, and how far from the middle the toes reach at least (0: as far as the design's)."""
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
+    toe_half_width_mm: Annotated[float, Field(ge=0, le=200)]
 
 
 class SpringTable(TomlTable):
@@ -146,6 +153,7 @@ class Safety(TomlTable):
     spring_rate_scatter: Annotated[float, Field(ge=0, le=0.5)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Positive
+    roll_reserve_deg: Annotated[float, Field(ge=0, le=45)]
     leg_flex_share: Share
     steel_yield_mpa: Positive
     steel_factor: Annotated[float, Field(ge=1, le=20)]
