@@ -33,10 +33,11 @@ def ground_findings(robot: Robot) -> list[Finding]:
     }
     name, lowest = min(((what, float(height.min())) for what, height in heights.items()), key=lambda item: item[1])
     clearance = lowest + sections.foot_depth_mm
+    needed = GROUND_GAP_MM + robot.workshop.safety.gap_reserve_mm
     return [
         at_least(
-            "ground_clearance", clearance, GROUND_GAP_MM, "mm",
-            f"{name} passes {clearance:.1f} mm above the ground; {GROUND_GAP_MM:g} mm are kept",
+            "ground_clearance", clearance, needed, "mm",
+            f"{name} passes {clearance:.1f} mm above the ground; {needed:g} mm are kept",
             "lower compression_ratio, or raise rest_angle_deg",
         )
     ]  # fmt: skip

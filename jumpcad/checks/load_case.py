@@ -50,7 +50,7 @@ class LoadCase:
 
     @cached_property
     def allowable_mpa(self) -> float:
-        return self.workshop.material("links").strength_in_plane_mpa / self.workshop.safety.strength_factor
+        return self.workshop.material("links").strength_in_plane_mpa / self.workshop.safety.printed_factor
 
     @cached_property
     def bars(self) -> dict[str, RoundBar]:

@@ -36,11 +36,11 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
         "leg_pin": "the leg's pin that the springs' arms push",
     }
     for name, stress in case.steel_stresses_mpa.items():
-        allowed = case.bars[name].yield_mpa / case.workshop.safety.steel_factor
+        allowed = case.bars[name].yield_mpa / case.workshop.safety.metal_factor
         yield stress_finding(f"{name}_strength", names[name], stress, allowed, remedy)
     lever = ROLLER_WASHER_MM + (lateral.cam[1] - lateral.cam[0]) / 2.0
     stress = pin_stress_mpa(layout.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
-    allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.steel_factor
+    allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
     yield stress_finding(
         "roller_screw_strength", "the roller's screw, wound", stress, allowed, "a narrower bought.roller"
     )
@@ -71,7 +71,7 @@ def _fatigue(case: LoadCase) -> Iterator[Finding]:
         "lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip
     name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / case.bars[item[0]].yield_mpa)
-    allowed = pin_limit_mpa(case.bars[name].yield_mpa / YIELD_SHARE, safety.jumps)
+    allowed = pin_limit_mpa(case.bars[name].yield_mpa / YIELD_SHARE, safety.jumps) / safety.load_factor
     yield at_most(
         "axle_fatigue", stress, allowed, "MPa",
         f"the {name.replace('_', ' ')} bears {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
@@ -90,6 +90,6 @@ def _bearings(case: LoadCase) -> Iterator[Finding]:
     yield at_most(
         "hub_bearing_load", force, allowed, "N",
         f"the {hub.name} at the cam's side of the leg's hub bears {force:.0f} of {allowed:.0f} N, its static rating "
-        f"over {case.workshop.safety.bearing_factor:g}",
+        f"over {case.workshop.safety.bearing_factor:g} and the reserves",
         'bought.leg_bearing = "any" for a stronger one, or "" for none', "warning",
     )  # fmt: skip

@@ -86,7 +86,7 @@ def _front_link(case: LoadCase) -> Iterator[Finding]:
         "front_link_strength", "front link along its length at release", stress, case.allowable_mpa, WEAKER, "front"
     )
     load = buckling_load_n(bar, case.layout.design.l3_mm, case.workshop.material("links").modulus_mpa)
-    allowed = load / case.workshop.safety.strength_factor
+    allowed = load / case.workshop.safety.printed_factor
     yield at_most(
         "front_link_buckling", case.landing_n, allowed, "N",
         f"front link under the whole landing: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
@@ -108,7 +108,7 @@ def _eyes(case: LoadCase) -> Iterator[Finding]:
     pull = max(case.ankle_n, case.front_n) / 2.0
     bore = holes.press(case.layout.axle_mm)
     stress = eye_stress_mpa(pull, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, bore)
-    interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.strength_factor
+    interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.printed_factor
     yield stress_finding(
         "foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER, "lug"
     )
@@ -186,13 +186,13 @@ def _seats(case: LoadCase) -> Iterator[Finding]:
     loads = ((cam - arms[1], seat + case.layout.boss_mm), (cam, seat), (arms[1], seat))
     worst = max(float(np.linalg.norm(force)) / depth for force, depth in loads) / 2.0
     stress = worst / case.layout.axle_mm
-    allowable = body.strength_in_plane_mpa / safety.strength_factor
+    allowable = body.strength_in_plane_mpa / safety.printed_factor
     yield stress_finding("plate_seat", "plates under axles and pins", stress, allowable, "raise body.plate_mm", "plate")
     gears = case.workshop.material("gears")
     torque = 1000.0 * case.layout.drive.cam.peak_torque_nm
     bore = case.holes.running(case.layout.axle_mm)
     stress = VON_MISES * tube_shear_mpa(torque, case.layout.sections.key_mm, bore)
-    allowable = gears.strength_interlayer_mpa / safety.strength_factor
+    allowable = gears.strength_interlayer_mpa / safety.printed_factor
     remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
     yield stress_finding(
         "cam_key_strength", "the cam's key, twisted across its layers", stress, allowable, remedy, "key"

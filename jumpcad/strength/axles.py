@@ -33,13 +33,13 @@ def axle_bar(workshop: Workshop) -> RoundBar:
     """Return an axle across the plates; a rod between them comes out where it shears its bore's floor off."""
     bought, safety, catalogue = workshop.bought, workshop.safety, workshop.catalogue
     if bought.retention == "nuts":
-        return RoundBar(SCREW_SHANK_MM, 0.0, SCREW_YIELD_MPA, SCREW_AREA_MM2 * SCREW_YIELD_MPA / safety.steel_factor)
+        return RoundBar(SCREW_SHANK_MM, 0.0, SCREW_YIELD_MPA, SCREW_AREA_MM2 * SCREW_YIELD_MPA / safety.metal_factor)
     rod, diameter = catalogue.rods[bought.axle], bought.axle_mm
     limit_mpa = min(rod.yield_mpa, safety.steel_yield_mpa)
     if bought.retention == "clips":
-        axial = catalogue.clip_for(diameter).load_n / safety.steel_factor
+        axial = catalogue.clip_for(diameter).load_n / safety.metal_factor
     else:
-        shear = workshop.material("body").strength_in_plane_mpa / VON_MISES / safety.strength_factor
+        shear = workshop.material("body").strength_in_plane_mpa / VON_MISES / safety.printed_factor
         axial = math.pi * diameter * AXLE_FLOOR_MM * shear
     return RoundBar(diameter, rod.bore_share * diameter, limit_mpa, axial)
 
@@ -50,4 +50,4 @@ def pin_bar(workshop: Workshop) -> RoundBar:
     if bought.retention == "clips":
         return axle_bar(workshop)
     pin = workshop.catalogue.clevis_pin_for(bought.axle_mm)
-    return RoundBar(pin.diameter_mm, 0.0, min(pin.yield_mpa, safety.steel_yield_mpa), pin.load_n / safety.steel_factor)
+    return RoundBar(pin.diameter_mm, 0.0, min(pin.yield_mpa, safety.steel_yield_mpa), pin.load_n / safety.metal_factor)

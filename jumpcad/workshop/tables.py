@@ -143,7 +143,11 @@ class Pins(TomlTable):
 
 
 class Safety(TomlTable):
-    """Safety factors, and what springs, motor and legs may be loaded with."""
+    """Safety factors, what springs, motor and legs may be loaded with, and reserves for what differs from a drawing.
+
+    Loads are taken as those of the stiffest springs within `spring_rate_scatter`, and more by `stress_reserve`. Other
+    reserves are kept below the motor's torque and the cam's pressure angle, and above gaps.
+    """
 
     strength_factor: Annotated[float, Field(ge=1, le=20)]
     motor_stall_share: Share
@@ -151,6 +155,10 @@ class Safety(TomlTable):
     gear_efficiency: Share
     spring_stress_share: Share
     spring_rate_scatter: Annotated[float, Field(ge=0, le=0.5)]
+    stress_reserve: Annotated[float, Field(ge=0, le=1)]
+    motor_torque_reserve: Annotated[float, Field(ge=0, le=0.9)]
+    pressure_angle_reserve_deg: Annotated[float, Field(ge=0, le=20)]
+    gap_reserve_mm: Annotated[float, Field(ge=0, le=1)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Positive
     roll_reserve_deg: Annotated[float, Field(ge=0, le=45)]
@@ -158,6 +166,26 @@ class Safety(TomlTable):
     steel_yield_mpa: Positive
     steel_factor: Annotated[float, Field(ge=1, le=20)]
     bearing_factor: Annotated[float, Field(ge=0.4, le=20)]
+
+    @property
+    def load_factor(self) -> float:
+        """By how much loads may be larger than those computed."""
+        return (1.0 + self.spring_rate_scatter) * (1.0 + self.stress_reserve)
+
+    @property
+    def printed_factor(self) -> float:
+        """Safety factor of printed parts, with the reserves."""
+        return self.strength_factor * self.load_factor
+
+    @property
+    def metal_factor(self) -> float:
+        """Safety factor of axles, pins and screws, with the reserves."""
+        return self.steel_factor * self.load_factor
+
+    @property
+    def motor_share(self) -> float:
+        """Share of a motor's allowed torque that the computed springs may need."""
+        return (1.0 - self.motor_torque_reserve) / (1.0 + self.spring_rate_scatter)
 
 
 class Masses(TomlTable):

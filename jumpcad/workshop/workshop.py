@@ -124,7 +124,7 @@ class Workshop(Record):
         if 2.0 * fits.first_layer_chamfer_mm >= fits.wall_mm:
             reason = f"leaves nothing of a wall of {fits.wall_mm:g}: must be less than {fits.wall_mm / 2.0:g}"
             yield ("fits", "first_layer_chamfer_mm"), fits.first_layer_chamfer_mm, reason
-        yield from _not_ascending(fits, ("press_mm", "eye_mm", "sliding_mm", "loose_mm"))
+        yield from _not_ascending(fits, ("press_mm", "sliding_mm", "loose_mm"))
         yield from _not_ascending(fits, ("m2_tap_mm", "m2_clearance_mm"))
         yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
         for role, name in self.roles.model_dump().items():
