@@ -85,10 +85,10 @@ def play_rad(layout: Layout, holes: HoleSizes) -> float:
     Ball bearings' own tilt is neglected, and so is the bending of pins and links.
     """
     pin, width = layout.axle_mm, layout.sections.thickness_mm
-    eye, loose, press = (size(pin) - pin for size in (holes.eye, holes.running, holes.press))
+    eye, loose, lug = (size(pin) - pin for size in (holes.eye, holes.running, holes.lying))
     outside = layout.lateral.outside
     axle = loose / (outside[1] - outside[0] - 2.0 * layout.floor_mm)
     hub = loose / width if layout.hub_bearing is None else 0.0
-    leg = eye / width + press / (2.0 * layout.ankle_face_mm) + hub + axle
-    front = 2.0 * eye / width + press / (2.0 * layout.lateral.lug_left[1]) + axle
+    leg = eye / width + lug / (2.0 * layout.ankle_face_mm) + hub + axle
+    front = 2.0 * eye / width + lug / (2.0 * layout.lateral.lug_left[1]) + axle
     return min(leg, front)

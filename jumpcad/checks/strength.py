@@ -106,7 +106,7 @@ def _eyes(case: LoadCase) -> Iterator[Finding]:
         "eye_strength", "eyes of main leg and front link", stress, case.allowable_mpa, WEAKER, "thickness"
     )
     pull = max(case.ankle_n, case.front_n) / 2.0
-    bore = holes.press(case.layout.axle_mm)
+    bore = holes.lying(case.layout.axle_mm)
     stress = eye_stress_mpa(pull, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, bore)
     interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.printed_factor
     yield stress_finding(

@@ -50,7 +50,7 @@ def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     height = sections.rail_root_mm
     rail = polygon([(0.0, -depth), (l4, -depth), (l4, sections.rail_tip_mm - depth), (0.0, height - depth)])
     lugs = [_lug(depth, 0.0, SOLE_LENGTH * depth), _lug(depth, l4, NOSE_AHEAD * depth)]
-    pins = union(lying_hole(holes.press(layout.axle_mm), (x, 0.0)) for x in (0.0, l4))
+    pins = union(lying_hole(holes.lying(layout.axle_mm), (x, 0.0)) for x in (0.0, l4))
     side = union([rail, *lugs]) ^ rectangle((4.0 * l4, 4.0 * depth), (0.0, depth))
     webs = [
         rectangle((end - start, web_height), ((start + end) / 2.0, web_height / 2.0 - depth))
@@ -118,7 +118,7 @@ def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:
 def _ankle_boss(layout: Layout, holes: HoleSizes) -> Region:
     """Return what carries the ankle's pin out to the toes' outer sides, down to the ground, so that it prints."""
     depth = layout.sections.foot_depth_mm
-    outer = max(PIN_END_MM + 1.0, holes.press(layout.axle_mm) + 4.0 * holes.fits.wall_mm)
+    outer = max(PIN_END_MM + 1.0, holes.lying(layout.axle_mm) + 4.0 * holes.fits.wall_mm)
     return hull([disc(outer), rectangle((outer, SOLE_HEIGHT_MM), (0.0, SOLE_HEIGHT_MM / 2.0 - depth))])
 
 

@@ -102,12 +102,12 @@ def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes)
     return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, region)]))
 
 
-def ribbed_d_bore(shaft_mm: float, flat_mm: float, holes: HoleSizes) -> Region:
-    """Return the hole for a D-shaft with a press fit around it and five crush ribs, `fits.rib_mm` into the shaft.
+def ribbed_d_bore(shaft_mm: float, flat_mm: float, holes: HoleSizes, rib_mm: float | None = None) -> Region:
+    """Return the hole for a D-shaft with a press fit around it and five crush ribs, by default `fits.rib_mm` into the shaft.
 
     Two ribs bear on the flat, which faces +x and takes the torque, and three on the round side.
     """
-    press, rib = holes.fits.press_mm, holes.fits.rib_mm
+    press, rib = holes.fits.press_mm, holes.fits.rib_mm if rib_mm is None else rib_mm
     bore = d_bore(shaft_mm + 2.0 * press, flat_mm + 2.0 * press)
     depth = press + rib + RIB_ROOT_MM
     edge = flat_mm - shaft_mm / 2.0 - rib + depth / 2.0

@@ -65,6 +65,7 @@ class Fits(TomlTable):
     press_mm: Annotated[float, Field(ge=-0.2, le=0.5)]
     rib_mm: Annotated[float, Field(ge=0, le=0.3)]
     eye_mm: Annotated[float, Field(ge=0, le=0.8)]
+    lying_mm: Annotated[float, Field(ge=-0.2, le=0.8)]
     sliding_mm: Annotated[float, Field(ge=0, le=0.8)]
     loose_mm: Annotated[float, Field(ge=0, le=1)]
     hole_allowance_diameter_mm: Annotated[float, Field(ge=-0.4, le=1)]
