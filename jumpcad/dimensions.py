@@ -44,8 +44,14 @@ TOE_TIP_WIDTH_MM = 5.0
 """Width of a toe's tip; judgement: wider than high, so that a landing does not turn it over."""
 PAD_WALL_MM = 3.0
 """Material around an axle in the body plates; judgement: 2.5 recommended walls (`fits.wall_mm`)."""
-COLLAR_RADIUS_MM = 3.6
-"""Outside of the collars that keep axles in place; judgement."""
+AXLE_END_RADIUS_MM = 3.6
+"""Room around an axle's end for clip, screw head or nut: half of a clip of 6.3 mm (DIN 6799), and the plate's play."""
+AXLE_FLOOR_MM = 0.8
+"""What closes the plates' bores over the axles' ends, outside; judgement: four layers of 0.2 mm."""
+AXLE_BOSS_MM = 1.2
+"""By how much the plates are thicker, inside, around the leg's axle, whose seat bears the most; judgement."""
+AXLE_END_PLAY_MM = 0.2
+"""Between an axle's end and what keeps it, and between a clip or nut and its seat; judgement: rods cut by hand."""
 STANDOFF_PAD_MM = 9.0
 """Diameter of the plates' pads under the standoffs' screws: a head of 5.7 mm (ISO 7380-1 M3) and a wall."""
 STOP_EDGE_MM = 2.5

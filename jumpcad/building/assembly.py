@@ -20,7 +20,7 @@ from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface, five_bar
-from jumpcad.parts import body_plate, foot, links, shopping, small, stop, toes, train
+from jumpcad.parts import axles, body_plate, foot, links, shopping, small, stop, toes, train
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.pads import pads
 from jumpcad.parts.part import Drawing, Part
@@ -91,6 +91,7 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> 
     Where something stands in the way of the springs' pin, springs for a free direction take their place.
     """
     small.require_axle(workshop)
+    axles.require_retention(workshop.catalogue, workshop.bought)
     directions = PLATE_PINS_RAD
     for _ in range(PIN_ROUNDS):
         try:
@@ -117,13 +118,17 @@ def _laid_out(
         settled.drive,
         electronics,
         hub_bearing=settled.holes.bearing,
-        toes_apart=not foot.in_one_piece(design, settled.sections, workshop.printer.bed_mm),
+        toes_apart=not foot.in_one_piece(
+            design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm
+        ),
         plate_mm=growth.plate * workshop.body.plate_mm,
         roller_width_mm=settled.roller.width_mm,
         axle_mm=chosen.axle_mm,
         stop_rad=math.radians(workshop.body.stop_deg),
         stop_pad=workshop.stop_pad,
         stop_more=growth.stop,
+        retention=chosen.retention,
+        toe_half_width_mm=workshop.body.toe_half_width_mm,
     )
     return layout, settled.holes
 
@@ -163,7 +168,6 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
         small.spacer(layout, holes, "front_spacer_left", [front_left]),
         small.spacer(layout, holes, "front_spacer_right", [front_right]),
         small.spacer(layout, holes, "cam_spacer_right", [cam_right]),
-        small.collars(layout, holes),
         small.trays(layout, holes),
         stop.stop_bar(layout, holes),
     ]
@@ -218,7 +222,7 @@ def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
     """Return the spheres that may touch the ground: the pads of the foot's nose and toe tips, the plates' corners."""
     sections = layout.sections
     tip_radius = sections.toe_tip_height_mm / 2.0
-    tip_x, tip_y = toe_tip_mm(layout.design)
+    tip_x, tip_y = float(toe_tip_mm(layout.design)[0]), layout.toe_half_width_mm
     tip_z = tip_radius - sections.foot_depth_mm
 
     def sphere(name: str, x: float, y: float, z: float, radius: float, surface: Surface) -> ContactSphere:

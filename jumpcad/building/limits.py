@@ -3,7 +3,7 @@
 import math
 
 from jumpcad.catalogue import Bearing
-from jumpcad.dimensions import CLEAR_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
+from jumpcad.dimensions import CLEAR_MM, GAP_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
 from jumpcad.drive.release import ReleaseLimits
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
@@ -53,16 +53,21 @@ def _spring_limits(
 
 def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamLimits:
     """Return the limits of the cam: its roller, the lever's eye beside its axle, and its dog."""
-    lever_eye = max(LEVER_EYE_RADIUS_MM, sections.lever_root_mm / 2.0)
+    lever_eye, safety = max(LEVER_EYE_RADIUS_MM, sections.lever_root_mm / 2.0), workshop.safety
     return CamLimits(
         roller_radius_mm=roller.outer_mm / 2.0,
-        roller_load_n=roller.static_load_n,
+        roller_load_n=roller.static_load_n / safety.load_factor,
         cam_width_mm=roller.width_mm,
         gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
         core_radius_mm=sections.dog_mm / 2.0,
         modulus_mpa=workshop.material("gears").modulus_mpa,
         play_rad=workshop.release.play_rad,
         overshoot_rad=math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD,
+        pressure_mpa=CamLimits.pressure_mpa
+        / math.sqrt(safety.load_factor),  # of a line contact, with the root of force
+        clearance_mm=GAP_MM + safety.gap_reserve_mm,
+        pressure_angle_rad=CamLimits.pressure_angle_rad - math.radians(safety.pressure_angle_reserve_deg),
+        undercut_margin_mm=CamLimits.undercut_margin_mm + safety.gap_reserve_mm,
     )
 
 
@@ -70,11 +75,11 @@ def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
     """Return the limits of motor and gears: the motor maker's, and the strength of the printed material."""
     fits, safety = workshop.fits, workshop.safety
     return TrainLimits(
-        stall_share=safety.motor_stall_share,
-        torque_max_nm=safety.motor_torque_max_nm,
+        stall_share=safety.motor_share * safety.motor_stall_share,
+        torque_max_nm=safety.motor_share * safety.motor_torque_max_nm,
         pair_efficiency=safety.gear_efficiency,
         backlash_circumferential_mm=fits.backlash_circumferential_mm,
-        stress_mpa=workshop.material("gears").strength_in_plane_mpa / safety.strength_factor,
+        stress_mpa=workshop.material("gears").strength_in_plane_mpa / safety.printed_factor,
         tip_min_mm=workshop.process.line_width_mm,
         pinion_root_min_mm=workshop.bought.axle_mm / 2.0 + fits.sliding_mm + fits.wall_mm,
         shaft_wall_mm=fits.press_mm + fits.wall_mm,

@@ -1,6 +1,7 @@
 """Bought parts: motors, bearings, batteries, boards, springs, pads, fasteners and wire, shipped and the user's own."""
 
 from jumpcad.catalogue.articles import Article, Battery, Bearing, Board, Motor, OwnParts, Pad, StockSpring
+from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
 
 __all__ = [
@@ -9,11 +10,14 @@ __all__ = [
     "Bearing",
     "Board",
     "Catalogue",
+    "ClevisPin",
+    "Clip",
     "Motor",
     "Nut",
     "OwnParts",
     "Pad",
     "PartsByName",
+    "Rod",
     "Screw",
     "Standoff",
     "StockSpring",

@@ -9,6 +9,7 @@ from typing import Any, Generic, TypeVar
 from pydantic import PositiveFloat
 
 from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor, Pad, StockSpring
+from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 
@@ -122,6 +123,9 @@ class Catalogue:
     nuts: PartsByName[Nut]
     washers: PartsByName[Washer]
     standoffs: PartsByName[Standoff]
+    rods: PartsByName[Rod]
+    clips: PartsByName[Clip]
+    clevis_pins: PartsByName[ClevisPin]
     wire: Wire
     rod_density_g_cm3: float
 
@@ -149,6 +153,26 @@ class Catalogue:
         """Return the mass of a steel rod (g)."""
         return self.rod_density_g_cm3 * math.pi / 4.0 * diameter_mm**2 * length_mm / 1000.0
 
+    def clip_for(self, shaft_mm: float) -> Clip:
+        """Return the clip for a shaft.
+
+        Raises
+        ------
+        JumpcadError
+            If there is none.
+        """
+        return _of_size("clip", {clip.shaft_mm: clip for clip in self.clips.values()}, shaft_mm)
+
+    def clevis_pin_for(self, diameter_mm: float) -> ClevisPin:
+        """Return the clevis pin of a diameter.
+
+        Raises
+        ------
+        JumpcadError
+            If there is none.
+        """
+        return _of_size("clevis pin", {p.diameter_mm: p for p in self.clevis_pins.values()}, diameter_mm)
+
 
 @lru_cache(maxsize=1)
 def load_catalogue() -> Catalogue:
@@ -158,6 +182,7 @@ def load_catalogue() -> Catalogue:
         read_toml(folder / f"{name}.toml")[0]
         for name in ("motors", "bearings", "electronics", "fasteners", "springs", "pads")
     )
+    axles = read_toml(folder / "axles.toml")[0]
     defaults = motors.pop("defaults")
     return Catalogue(
         motors=_articles("motor", Motor, motors, defaults),
@@ -170,6 +195,9 @@ def load_catalogue() -> Catalogue:
         nuts=_by_name("nut", Nut, fasteners["nuts"]),
         washers=_by_name("washer", Washer, fasteners["washers"]),
         standoffs=_by_name("standoff", Standoff, fasteners["standoffs"]),
+        rods=_by_name("rod", Rod, axles["rods"]),
+        clips=_by_name("clip", Clip, axles["clips"]),
+        clevis_pins=_by_name("clevis pin", ClevisPin, axles["clevis_pins"]),
         wire=Wire.from_toml(folder / "wire.toml"),
         rod_density_g_cm3=fasteners["rods"]["density_g_cm3"],
     )
@@ -185,3 +213,11 @@ def _articles(
 
 def _by_name(kind: str, model: type[Entry], tables: Mapping[str, Mapping[str, Any]]) -> PartsByName[Entry]:
     return PartsByName(kind, {name: model.model_validate({"name": name, **table}) for name, table in tables.items()})
+
+
+def _of_size(kind: str, by_size: Mapping[float, Entry], size_mm: float) -> Entry:
+    """Return the part of a size; an unknown size is an error that names the known ones."""
+    if size_mm not in by_size:
+        sizes = ", ".join(f"{size:g}" for size in by_size)
+        raise JumpcadError(f"bought.axle_mm = {size_mm:g}: no {kind} of that size ({sizes} mm): use one of these")
+    return by_size[size_mm]

@@ -6,11 +6,11 @@ A new check is a function in a file of its own and a line in `CHECKS`. Its findi
 Names of findings by module: `mechanism.feasibility` loop, winding, below_ground, tips, too_weak; `strength`
 leg_strength, hub_strength, lever_strength, leg_flex, leg_sideways, front_link_strength, front_link_buckling,
 eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, rail_strength, plate_seat,
-cam_dog_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
-roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
-motor_torque, release_*; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins,
-overhangs, bridges, solid; `interference` interference; `stop` stop_strength, stop_pad, stop_clearance; `engraving`
-engraving.
+cam_dog_strength, toe_bar_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength,
+leg_pin_strength, foot_pin_strength, roller_screw_strength, axle_retention, pin_retention, spring_fatigue,
+axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque, release_*; `ground`
+ground_clearance, foot_clearance; `sideways` sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs,
+bridges, solid; `interference` interference; `stop` stop_strength, stop_pad, stop_clearance; `engraving` engraving.
 """
 
 from collections.abc import Callable, Iterable
@@ -22,6 +22,7 @@ from jumpcad.checks.engraving import engraving_findings
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import bed_findings, printability_findings
+from jumpcad.checks.sideways import sideways_findings
 from jumpcad.checks.stop import stop_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.findings import Finding
@@ -51,6 +52,7 @@ CHECKS = (
     Check(stop_findings, cheap=True),
     Check(drive_findings, cheap=True),
     Check(ground_findings, cheap=True),
+    Check(sideways_findings, cheap=True),
     Check(bed_findings, cheap=True),
     Check(foot_findings),
     Check(printability_findings),

@@ -6,7 +6,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
-from jumpcad.dimensions import COLLAR_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM
+from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM
 from jumpcad.findings import Finding, at_least, limit
 from jumpcad.layout.stop import PAD_LENGTH_MM, TAB_MM
 from jumpcad.mechanism.model import BODY, FOOT
@@ -36,10 +36,11 @@ def ground_findings(robot: Robot) -> list[Finding]:
     }
     name, lowest = min(((what, float(height.min())) for what, height in heights.items()), key=lambda item: item[1])
     clearance = lowest + sections.ground_mm
+    needed = GROUND_GAP_MM + robot.workshop.safety.gap_reserve_mm
     return [
         at_least(
-            "ground_clearance", clearance, GROUND_GAP_MM, "mm",
-            f"{name} passes {clearance:.1f} mm above the ground; {GROUND_GAP_MM:g} mm are kept",
+            "ground_clearance", clearance, needed, "mm",
+            f"{name} passes {clearance:.1f} mm above the ground; {needed:g} mm are kept",
             "lower compression_ratio, or raise rest_angle_deg",
         )
     ]  # fmt: skip
@@ -81,7 +82,7 @@ def _along(vector: Array, unit: Array) -> Array:
 def _body_discs(robot: Robot) -> tuple[Array, Array]:
     """Return what hangs lowest on the body as discs: middles (n, 2) in its frame and radii (n,)."""
     layout = robot.layout
-    pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, COLLAR_RADIUS_MM)
+    pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, AXLE_END_RADIUS_MM)
     discs = [(place, pad) for place in layout.axles.values()]
     discs += [(place, STANDOFF_PAD_MM / 2.0) for place in layout.standoffs_mm]
     discs.append((layout.stop.tab_mm, math.hypot(*TAB_MM) / 2.0 + STOP_EDGE_MM))

@@ -36,6 +36,7 @@ INTENDED = (
     ("cap_screw", "body_plate_right", "thread"),
     ("standoff", "standoff", "thread"),
     ("toe", "foot", "thread"),
+    ("motor_pinion", "motor_shaft", "crush ribs"),
     ("spring", "spring", "coil and arm are one wire"),
     ("stop_pad", "main_leg", "the pad gives"),
 )

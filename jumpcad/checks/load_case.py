@@ -6,12 +6,13 @@ from functools import cached_property
 
 import numpy as np
 
-from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.dimensions import GAP_MM, GRAVITY_M_S2
 from jumpcad.findings import Finding, at_most
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
+from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM, RoundBar, axle_bar, pin_bar
 from jumpcad.strength.bearings import loaded_forces_n
 from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_reach_mm
 from jumpcad.strength.stress import Shell, pin_stress_mpa
@@ -49,11 +50,13 @@ class LoadCase:
 
     @cached_property
     def allowable_mpa(self) -> float:
-        return self.workshop.material("links").strength_in_plane_mpa / self.workshop.safety.strength_factor
+        return self.workshop.material("links").strength_in_plane_mpa / self.workshop.safety.printed_factor
 
     @cached_property
-    def steel_mpa(self) -> float:
-        return self.workshop.safety.steel_yield_mpa / self.workshop.safety.steel_factor
+    def bars(self) -> dict[str, RoundBar]:
+        """What axles and pins are, by the names of `steel_stresses_mpa`."""
+        axle, pin = axle_bar(self.workshop), pin_bar(self.workshop)
+        return {"leg_axle": axle, "cam_axle": axle, "spring_pin": axle, "foot_pin": pin, "leg_pin": pin}
 
     @cached_property
     def forces(self) -> PushOff:
@@ -85,7 +88,7 @@ class LoadCase:
 
     @cached_property
     def steel_stresses_mpa(self) -> dict[str, float]:
-        """Bending stresses of axles and pins: the leg's and the cam's axle, the springs' pin, the foot's pins."""
+        """Bending stresses of axles and pins: the leg's and the cam's axle, the springs' two pins, the foot's pins."""
         layout, lateral = self.layout, self.layout.lateral
         span = (sum(lateral.left_plate) - sum(lateral.right_plate)) / 2.0
         arms, cam = self.wound_forces_n
@@ -96,9 +99,33 @@ class LoadCase:
             "leg_axle": leg_axle_moment_nmm(arms, cam, span, sum(lateral.spring_left) / 2.0),
             "cam_axle": layout.drive.cam.peak_contact_n * at * (span - at) / span,
             "spring_pin": layout.drive.spring.pin_force_n * (span / 2.0 - lateral.spring_left[1]),
+            "leg_pin": layout.drive.spring.pin_force_n * (GAP_MM + layout.drive.spring.wire_mm / 2.0 + thickness / 4.0),
             "foot_pin": max(self.ankle_n, self.front_n, self.landing_n) / 2.0 * lever,
         }
-        return {name: pin_stress_mpa(moment, layout.axle_mm) for name, moment in moments.items()}
+        stresses = {name: self.bars[name].stress_mpa(moment) for name, moment in moments.items()}
+        if layout.retention == "nuts":
+            self._threads(stresses, moments, span)
+        return stresses
+
+    def _threads(self, stresses: dict[str, float], moments: dict[str, float], span_mm: float) -> None:
+        """Raise the stresses of screws used as axles to those of their thread, near the right plate.
+
+        The moment falls evenly from the middle to the plates; in the springs' pin it is the same between the arms.
+        """
+        lateral = self.layout.lateral
+        leg = next(item for item in self.robot.hardware if item.name == "leg_axle")
+        length = (
+            float(np.ptp(leg.shape.bounds_mm[:, 2])) - self.workshop.catalogue.screws["M3 long"].cylinder_head_height_mm
+        )
+        from_plate = max(0.0, lateral.left_plate[1] - (length - SCREW_THREAD_MM) - sum(lateral.right_plate) / 2.0)
+        share = min(1.0, 2.0 * from_plate / span_mm)
+        for name, part in (("leg_axle", share), ("cam_axle", share), ("spring_pin", 1.0)):
+            stresses[name] = max(stresses[name], pin_stress_mpa(part * moments[name], SCREW_CORE_MM))
+
+    @cached_property
+    def axial_n(self) -> float:
+        """Largest force along an axle or pin (N): all of a landing's friction, sideways, on one of them."""
+        return self.robot.workshop.ground.foot_friction * self.landing_n
 
     @cached_property
     def wound_forces_n(self) -> tuple[tuple[Array, Array], Array]:

@@ -18,14 +18,14 @@ ROLLER_SCREW_YIELD_MPA = 640.0
 
 def steel_findings(case: LoadCase) -> Iterator[Finding]:
     """Yield a finding for every way in which a bought part could break."""
-    yield from (*_pins(case), *_fatigue(case), *_bearings(case))
+    yield from (*_pins(case), *_retention(case), *_fatigue(case), *_bearings(case))
 
 
 def _pins(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of axles, pins and the roller's screw."""
     layout, lateral = case.layout, case.layout.lateral
     remedy = (
-        "raise bought.axle_mm with its bearings, bring the plates closer (a shorter motor, a narrower battery or "
+        "a stronger bought.axle, raise bought.axle_mm with its bearings, bring the plates closer (a shorter motor, a narrower battery or "
         "board), or lower stiffness_nmm_per_deg or compression_ratio"
     )
     names = {
@@ -33,15 +33,30 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
         "cam_axle": "the cam's axle, wound",
         "spring_pin": "the pin that holds the springs' arms",
         "foot_pin": "the foot's pins",
+        "leg_pin": "the leg's pin that the springs' arms push",
     }
     for name, stress in case.steel_stresses_mpa.items():
-        yield stress_finding(f"{name}_strength", names[name], stress, case.steel_mpa, remedy)
+        allowed = case.bars[name].yield_mpa / case.workshop.safety.metal_factor
+        yield stress_finding(f"{name}_strength", names[name], stress, allowed, remedy)
     lever = ROLLER_WASHER_MM + (lateral.cam[1] - lateral.cam[0]) / 2.0
     stress = pin_stress_mpa(layout.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
-    allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.steel_factor
+    allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
     yield stress_finding(
         "roller_screw_strength", "the roller's screw, wound", stress, allowed, "a narrower bought.roller"
     )
+
+
+def _retention(case: LoadCase) -> Iterator[Finding]:
+    """Yield the findings of what keeps axles and pins in place, against the friction of a landing sideways."""
+    kept = {"plates": "the plates over its ends", "clips": "its clips", "nuts": "its nut"}[case.layout.retention]
+    pins = "its clips" if case.layout.retention == "clips" else "its split pin"
+    for name, what, by in (("axle_retention", "an axle", kept), ("pin_retention", "a pin of the foot", pins)):
+        allowed = case.bars["leg_axle" if name == "axle_retention" else "foot_pin"].axial_n
+        yield at_most(
+            name, case.axial_n, allowed, "N",
+            f"a landing sideways pushes {what} along with {case.axial_n:.0f} N; {by} may bear {allowed:.0f} N",
+            'another bought.retention ("plates", "clips", "nuts"), or a stronger material for the body',
+        )  # fmt: skip
 
 
 def _fatigue(case: LoadCase) -> Iterator[Finding]:
@@ -55,8 +70,8 @@ def _fatigue(case: LoadCase) -> Iterator[Finding]:
         f"{'without end' if math.isinf(lasts) else f'about {lasts:.0f}'}",
         "lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip
-    name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1])
-    allowed = pin_limit_mpa(safety.steel_yield_mpa / YIELD_SHARE, safety.jumps)
+    name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / case.bars[item[0]].yield_mpa)
+    allowed = pin_limit_mpa(case.bars[name].yield_mpa / YIELD_SHARE, safety.jumps) / safety.load_factor
     yield at_most(
         "axle_fatigue", stress, allowed, "MPa",
         f"the {name.replace('_', ' ')} bears {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
@@ -75,6 +90,6 @@ def _bearings(case: LoadCase) -> Iterator[Finding]:
     yield at_most(
         "hub_bearing_load", force, allowed, "N",
         f"the {hub.name} at the cam's side of the leg's hub bears {force:.0f} of {allowed:.0f} N, its static rating "
-        f"over {case.workshop.safety.bearing_factor:g}",
+        f"over {case.workshop.safety.bearing_factor:g} and the reserves",
         'bought.leg_bearing = "any" for a stronger one, or "" for none', "warning",
     )  # fmt: skip

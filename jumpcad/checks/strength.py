@@ -14,12 +14,12 @@ import numpy as np
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.checks.steel import steel_findings
-from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
+from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, TOE_TIP_WIDTH_MM
 from jumpcad.drive.dog import JAWS
 from jumpcad.findings import Finding, at_most, limit
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
 from jumpcad.robot import Robot
-from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm, toe_reach_mm
+from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm
 from jumpcad.strength.sizing import dog_inside_mm, leg_flex_share
 from jumpcad.strength.stress import (
     STATIONS,
@@ -88,7 +88,7 @@ def _front_link(case: LoadCase) -> Iterator[Finding]:
         "front_link_strength", "front link along its length at release", stress, case.allowable_mpa, WEAKER, "front"
     )
     load = buckling_load_n(bar, case.layout.design.l3_mm, case.workshop.material("links").modulus_mpa)
-    allowed = load / case.workshop.safety.strength_factor
+    allowed = load / case.workshop.safety.printed_factor
     yield at_most(
         "front_link_buckling", case.landing_n, allowed, "N",
         f"front link under the whole landing: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
@@ -101,16 +101,14 @@ def _eyes(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of printed eyes: links along their layers, the foot's lugs across them."""
     sections, holes = case.layout.sections, case.holes
     force = max(case.ankle_n, case.front_n, case.landing_n)
-    stress = eye_stress_mpa(
-        force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, holes.running(case.layout.axle_mm)
-    )
+    stress = eye_stress_mpa(force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, holes.eye(case.layout.axle_mm))
     yield stress_finding(
         "eye_strength", "eyes of main leg and front link", stress, case.allowable_mpa, WEAKER, "thickness"
     )
     pull = max(case.ankle_n, case.front_n) / 2.0
-    bore = holes.press(case.layout.axle_mm)
+    bore = holes.lying(case.layout.axle_mm)
     stress = eye_stress_mpa(pull, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, bore)
-    interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.strength_factor
+    interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.printed_factor
     yield stress_finding(
         "foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER, "lug"
     )
@@ -131,9 +129,22 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
     blow = case.toe_blow_n
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
     yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, remedy, "toe")
+    if bar := case.layout.toe_bar_mm:
+        stress = _toe_bar_mpa(case, blow * bar)
+        yield stress_finding(
+            "toe_bar_strength", "the bar across a toe's tip", stress, case.allowable_mpa,
+            "lower body.toe_half_width_mm", "toe",
+        )  # fmt: skip
     if case.layout.toes_apart:
         stress = _toe_joint_mpa(case, max(0.5 * toes, blow))
         yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, remedy, "toe")
+
+
+def _toe_bar_mpa(case: LoadCase, moment_nmm: float) -> float:
+    """Return the stress of the bar across a toe's tip, bent by a landing on its end, which twists the toe as well."""
+    width, height = TOE_TIP_WIDTH_MM, case.layout.sections.toe_tip_height_mm
+    bending = float(Beam(width, height, case.shell, upright=True).stress_mpa(moment_nmm))
+    return max(bending, VON_MISES * float(bar_shear_mpa(moment_nmm, width, height)))
 
 
 def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
@@ -156,7 +167,7 @@ def _sideways(case: LoadCase) -> Iterator[Finding]:
     across the leg bends the leg sideways, its part along the leg twists it.
     """
     sections, angle = case.layout.sections, math.radians(case.robot.design.rest_angle_deg)
-    moment = case.toe_blow_n * toe_reach_mm(case.robot.design)[1]
+    moment = case.toe_blow_n * case.layout.toe_half_width_mm
     heights = np.linspace(sections.leg_root_mm, sections.leg_tip_mm, STATIONS)
     bending = Beam(heights, sections.thickness_mm, case.shell, upright=True).stress_mpa(moment * math.sin(angle))
     shear = VON_MISES * bar_shear_mpa(moment * math.cos(angle), heights, sections.thickness_mm)
@@ -171,9 +182,11 @@ def _seats(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of the plates around axles and pins, and of the cam's dog: loaded, and hit by its far end."""
     safety, body = case.workshop.safety, case.workshop.material("body")
     arms, cam = case.wound_forces_n
-    worst = max(float(np.linalg.norm(force)) for force in (cam - arms[1], cam, arms[1])) / 2.0
-    stress = worst / (case.layout.axle_mm * (case.layout.lateral.left_plate[1] - case.layout.lateral.left_plate[0]))
-    allowable = body.strength_in_plane_mpa / safety.strength_factor
+    seat = case.layout.lateral.left_plate[1] - case.layout.lateral.left_plate[0] - case.layout.floor_mm
+    loads = ((cam - arms[1], seat + case.layout.boss_mm), (cam, seat), (arms[1], seat))
+    worst = max(float(np.linalg.norm(force)) / depth for force, depth in loads) / 2.0
+    stress = worst / case.layout.axle_mm
+    allowable = body.strength_in_plane_mpa / safety.printed_factor
     yield stress_finding("plate_seat", "plates under axles and pins", stress, allowable, "raise body.plate_mm", "plate")
     gears = case.workshop.material("gears")
     dog, layout = case.layout.drive.dog, case.layout
@@ -182,7 +195,7 @@ def _seats(case: LoadCase) -> Iterator[Finding]:
     length = layout.lateral.gears[0][1] - layout.lateral.gears[0][0]
     jaw = jaw_stress_mpa(torque, dog.jaw_rad, JAWS, inside, dog.outer_mm, length)
     boss = VON_MISES * tube_shear_mpa(torque, dog.outer_mm, case.holes.running(layout.axle_mm))
-    allowable = gears.strength_interlayer_mpa / safety.strength_factor
+    allowable = gears.strength_interlayer_mpa / safety.printed_factor
     remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
     yield stress_finding(
         "cam_dog_strength", "the cam's dog, across its layers at release", max(jaw, boss), allowable, remedy, "dog"

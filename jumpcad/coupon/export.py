@@ -8,7 +8,9 @@ from pathlib import Path
 
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.manifest import Bundle
-from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, pieces
+from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
+from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
+from jumpcad.coupon.readings import JOINT_KEYS
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.files import templates_folder
 from jumpcad.parts.holes import HoleSizes
@@ -34,7 +36,7 @@ def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -
         If a piece does not fit the bed.
     """
     holes = coupon_holes(workshop)
-    made = pieces(holes, list(workshop.materials), workshop.material_name("gears"))
+    made = pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
     kg = [_mass_kg(piece, workshop) for piece in made]
     masses = [
         {
@@ -83,9 +85,19 @@ def _guide(workshop: Workshop, holes: HoleSizes) -> str:
             axle=f"{holes.axle_mm:g}",
             example=f"{holes.axle_mm + 0.2:g}",
             bearing=bearing,
+            body=workshop.material_name("body"),
+            links=workshop.material_name("links"),
+            lying=" ".join(engraved(step) for step in steps_mm(workshop.fits.lying_mm)),
+            seat=_seat(workshop),
             readings=READINGS,
         )
     )
+
+
+def _seat(workshop: Workshop) -> str:
+    """Return which bearing goes into the separate seats, in words."""
+    names = [bearing.name for bearing in seats(workshop)]
+    return f"the bearing {names[0]}, for stronger designs" if names else "left out: there is no larger bearing"
 
 
 def _template(workshop: Workshop, holes: HoleSizes) -> str:
@@ -105,5 +117,8 @@ def _template(workshop: Workshop, holes: HoleSizes) -> str:
         if holes.bearing:
             lines.append(f"# bearing_press_mm = {fits.press_mm:.2f}")
         lines.append(f"# pegs_mm = [{', '.join(f'{peg:.2f}' for peg in PEGS_MM)}]")
+    lines += ["", "[joints]"]
+    lines += [f"# {key} = {getattr(fits, fit):.2f}" for key, (fit, _) in JOINT_KEYS.items()]
+    lines.append("# floor_n = 70")
     lines += ["", "[gears]", f"# turns_freely_mm = {fits.backlash_circumferential_mm:.2f}", ""]
     return "\n".join(lines)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Shape
 from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
@@ -50,7 +51,7 @@ class Piece:
 
     name: str
     material: str
-    shape: Stack
+    shape: Shape
     quantity: int = 1
 
     @cached_property
@@ -110,9 +111,9 @@ def pieces(holes: HoleSizes, materials: Sequence[str], gear_material: str) -> li
     made.append(Piece("gear_wheel", gear_material, holes.chamfered(wheel)))
     for backlash in steps.backlash_mm:
         gear = Stack.of([(0.0, FACE_MM, polygon(pinion(backlash).profile_mm) - running)])
-        letters = _middled(engraved(backlash), PINION_LETTERS_MM)
+        letters = middled(engraved(backlash), PINION_LETTERS_MM)
         middle = (holes.axle_mm + coupon_pair().pinion.root_radius_mm) / 2.0
-        gear = gear.minus([_cut(FACE_MM, letters.translate((0.0, middle - PINION_LETTERS_MM / 2.0)))])
+        gear = gear.minus([engraving(FACE_MM, letters.translate((0.0, middle - PINION_LETTERS_MM / 2.0)))])
         made.append(Piece(f"pinion_{round(100.0 * backlash):02d}", gear_material, holes.chamfered(gear)))
     return made
 
@@ -158,13 +159,13 @@ def gauge(holes: HoleSizes, steps: Ladders, title: str) -> Stack:
             letters.append(text(row.letter, TITLE_MM).translate((MARGIN_MM, middle - TITLE_MM / 2.0)))
         for column, (label, diameter) in enumerate(row.rungs):
             x = left + across * (column * (2 if row.pegs else 1) + 0.5)  # room for the jaws of callipers
-            letters.append(_middled(label, LETTERS_MM).translate((x, line)))
+            letters.append(middled(label, LETTERS_MM).translate((x, line)))
             (pegs if row.pegs else cut).append((disc if row.pegs else hole)(diameter, (x, middle)))
         y = line - MARGIN_MM
     size = left + COLUMNS * across, -y
     plate = rectangle(size, (size[0] / 2.0, y / 2.0), MARGIN_MM)
     solid = Stack.of([(0.0, GAUGE_MM, plate - union(cut)), (0.0, GAUGE_MM + PEG_HEIGHT_MM, union(pegs))])
-    return solid.minus([_cut(GAUGE_MM, union(letters))])
+    return solid.minus([engraving(GAUGE_MM, union(letters))])
 
 
 def _holder(holes: HoleSizes, centre_distance_mm: float) -> Stack:
@@ -183,13 +184,13 @@ def _ladder(low_mm: float, high_mm: float) -> tuple[float, ...]:
     return tuple(round((first + number) * step, 3) for number in range(count))
 
 
-def _middled(label: str, height_mm: float) -> Region:
+def middled(label: str, height_mm: float) -> Region:
     """Return letters with their middle at x = 0."""
     letters = text(label, height_mm)
     left, _, right, _ = letters.bounds()
     return letters.translate((-(left + right) / 2.0, 0.0))
 
 
-def _cut(top_mm: float, letters: Region) -> tuple[float, float, Region]:
+def engraving(top_mm: float, letters: Region) -> tuple[float, float, Region]:
     """Return letters as a slab to engrave into a top face."""
     return top_mm - ENGRAVED_MM, top_mm, letters

@@ -21,11 +21,14 @@ from typing import Annotated
 
 from pydantic import Field
 
-from jumpcad.coupon.pieces import PEGS_MM, coupon_holes, ladders
+from jumpcad.coupon.joints import TAP_STEP_MM, rib_steps_mm, steps_mm
+from jumpcad.coupon.pieces import PEGS_MM, STEP_MM, coupon_holes, ladders
+from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable
 from jumpcad.files.names import Name
+from jumpcad.strength.stress import VON_MISES
 from jumpcad.workshop import Workshop
 
 LEAST_PLAY_MM = 0.05
@@ -58,10 +61,41 @@ class TriedGears(TomlTable):
     turns_freely_mm: float | None = None
 
 
+JOINT_KEYS = {
+    "m2_tap_mm": ("m2_tap_mm", TAP_STEP_MM),
+    "rib_mm": ("rib_mm", STEP_MM),
+    "lying_mm": ("lying_mm", STEP_MM),
+    "dog_sliding_mm": ("sliding_mm", STEP_MM),
+    "socket_sliding_mm": ("sliding_mm", STEP_MM),
+    "tray_sliding_mm": ("sliding_mm", STEP_MM),
+    "seat_press_mm": ("press_mm", STEP_MM),
+}
+"""Readings of the joints: the fit that each is of, and the step between its three."""
+
+
+class TriedJoints(TomlTable):
+    """Readings of the joints, as engraved; `floor_n` is the force that broke the floor of a blind bore."""
+
+    m2_tap_mm: float | None = None
+    rib_mm: float | None = None
+    lying_mm: float | None = None
+    dog_sliding_mm: float | None = None
+    socket_sliding_mm: float | None = None
+    tray_sliding_mm: float | None = None
+    seat_press_mm: float | None = None
+    floor_n: Annotated[float | None, Field(gt=0, le=1e4)] = None
+
+    @property
+    def sliding_mm(self) -> tuple[float | None, ...]:
+        """The readings of running fits."""
+        return self.dog_sliding_mm, self.socket_sliding_mm, self.tray_sliding_mm
+
+
 class Readings(Record):
-    """Everything read from a coupon: gauges by material, and gears."""
+    """Everything read from a coupon: gauges by material, joints and gears."""
 
     gauge: dict[Name, Tried] = Field(default_factory=dict)
+    joints: TriedJoints = TriedJoints()
     gears: TriedGears = TriedGears()
 
     def contradictions(self) -> Iterator[Contradiction]:
@@ -83,7 +117,9 @@ class Readings(Record):
 
 
 def measured_workshop(readings: Readings, workshop: Workshop, source: str = "readings") -> Workshop:
-    """Return the workshop with the fits that were read from its coupon, and nothing else changed.
+    """Return the workshop with the fits that were read from its coupon, and nothing else changed but a weak floor.
+
+    A floor that broke below what its material's strength says lowers that strength.
 
     Parameters
     ----------
@@ -103,19 +139,32 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
     if wrong := list(_complaints(readings, workshop)):
         raise JumpcadError("; ".join(f"{source}: {complaint}" for complaint in wrong))
     fits = _fits(readings, workshop)
-    if not fits:
+    if not fits and readings.joints.floor_n is None:
         raise JumpcadError(f"{source}: no reading: fill in at least one, such as axle_press_mm under [gauge.PETG]")
     data = workshop.model_dump()
+    if readings.joints.floor_n is not None:
+        body = data["materials"][workshop.material_name("body")]
+        body["strength_in_plane_mpa"] = min(
+            body["strength_in_plane_mpa"], _floor_mpa(readings.joints.floor_n, workshop)
+        )
     return Workshop.from_data(data | {"fits": data["fits"] | fits}, source)
+
+
+def _floor_mpa(force_n: float, workshop: Workshop) -> float:
+    """Return the strength that a floor had which was sheared off around the axle."""
+    sheared = math.pi * workshop.bought.axle_mm * AXLE_FLOOR_MM
+    return round(VON_MISES * force_n / sheared, 1)
 
 
 def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
     """Return the fits that the readings decide."""
-    tried = list(readings.gauge.values())
+    tried, joints = list(readings.gauge.values()), readings.joints
     press = _given(value for gauge in tried for value in (gauge.axle_press_mm, gauge.bearing_press_mm))
-    sliding = _given(gauge.axle_sliding_mm for gauge in tried)
+    press += _given([joints.seat_press_mm])
+    sliding = _given([*(gauge.axle_sliding_mm for gauge in tried), *joints.sliding_mm])
     loose = _given(gauge.axle_loose_mm for gauge in tried)
-    fits: dict[str, float] = {}
+    own = {key: getattr(joints, key) for key in ("m2_tap_mm", "rib_mm", "lying_mm")}
+    fits: dict[str, float] = {key: value for key, value in own.items() if value is not None}
     if press:
         fits |= {"press_mm": min(press), "hole_allowance_diameter_mm": 2.0 * max(press)}
     if sliding:
@@ -144,6 +193,9 @@ def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
         for key in AXLE_KEYS:
             yield from _off_ladder(f"gauge.{name}.{key}", getattr(tried, key), steps.axle_mm)
         yield from _off_ladder(f"gauge.{name}.bearing_press_mm", tried.bearing_press_mm, steps.bearing_mm)
+    for key, (fit, step) in JOINT_KEYS.items():
+        around = rib_steps_mm(workshop.fits) if key == "rib_mm" else steps_mm(getattr(workshop.fits, fit), step)
+        yield from _off_ladder(f"joints.{key}", getattr(readings.joints, key), around)
     yield from _off_ladder("gears.turns_freely_mm", readings.gears.turns_freely_mm, steps.backlash_mm)
 
 

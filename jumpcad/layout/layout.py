@@ -4,10 +4,11 @@ In-plane places are in the body frame's x-z plane; intervals of y come from the 
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 from jumpcad.catalogue import Bearing, Pad
 from jumpcad.design import Design
-from jumpcad.dimensions import CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
+from jumpcad.dimensions import AXLE_BOSS_MM, AXLE_FLOOR_MM, CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
@@ -23,14 +24,18 @@ from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.room import Obstacle, disc
 from jumpcad.layout.stop import DEPTH_MM, GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
-from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array
 
-LEVER_NUT_MM = 2.6
-"""Right of the lever: the nut of the roller's screw, 2.4 mm (ISO 4032 M3), and the screw's end."""
+LEVER_NUT_MM = 4.5
+"""Right of the lever: the lock nut of the roller's screw, 4.0 mm (DIN 985 M3), and the screw's end."""
 LEVER_HEAD_MM = 1.7
 """Left of the roller: the screw's head, 1.65 mm (ISO 7380-1 M3), rounded up."""
+
+
+Retention = Literal["plates", "clips", "nuts"]
+"""What keeps the axles in place: blind bores of the plates, clips in grooves, or screws as axles with lock nuts."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +44,8 @@ class Layout:
 
     The places come with their inputs: linkage, sections, hub bearing (None where the hub runs on its axle)
     and drive. `toes_apart` says whether the foot is too large for the bed with its toes, so that they are
-    separate parts.
+    separate parts. `toe_half_width_mm` is how far from the middle the toes touch the ground: at their tips, or at the
+    ends of bars across them.
     """
 
     linkage: Linkage
@@ -50,6 +56,8 @@ class Layout:
     hub_bearing: Bearing | None
     toes_apart: bool
     axle_mm: float
+    retention: Retention
+    toe_half_width_mm: float
     hub_mm: Array
     front_mm: Array
     cam_axis_mm: Array
@@ -73,6 +81,32 @@ class Layout:
         axles = {"leg": self.hub_mm, "front": self.front_mm, "cam": self.cam_axis_mm}
         return axles if self.idler_mm is None else axles | {"idler": self.idler_mm}
 
+    @property
+    def toe_bar_mm(self) -> float:
+        """Length of the bars across the toes' tips, outwards; 0 without."""
+        return self.toe_half_width_mm - float(toe_tip_mm(self.design)[1])
+
+    @property
+    def floor_mm(self) -> float:
+        """Thickness of what closes the plates' bores outside; 0 where axles pass the plates."""
+        return AXLE_FLOOR_MM if self.retention == "plates" else 0.0
+
+    @property
+    def boss_mm(self) -> float:
+        """By how much the plates are thicker, inside, around the leg's axle."""
+        return AXLE_BOSS_MM if self.retention == "plates" else 0.0
+
+    @property
+    def spring_bore_room_mm(self) -> float:
+        """Diameter of what may be around the leg's axle inside the springs' coils."""
+        return min(2.0 * SPACER_RADIUS_MM, self.drive.spring.mandrel_mm)
+
+    @property
+    def ankle_face_mm(self) -> float:
+        """How far from the middle the foot's outer faces at the ankle are, where its pin is kept: beside the toes' roots."""
+        sections = self.sections
+        return sections.thickness_mm / 2.0 + GAP_MM + max(sections.lug_thickness_mm, sections.toe_width_mm)
+
 
 def make_layout(
     linkage: Linkage,
@@ -88,6 +122,8 @@ def make_layout(
     stop_rad: float,
     stop_pad: Pad,
     stop_more: float = 1.0,
+    retention: Retention = "plates",
+    toe_half_width_mm: float = 0.0,
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
@@ -143,6 +179,8 @@ def make_layout(
         hub_bearing=hub_bearing,
         toes_apart=toes_apart,
         axle_mm=axle_mm,
+        retention=retention,
+        toe_half_width_mm=max(toe_half_width_mm, float(toe_tip_mm(linkage.design)[1])),
         hub_mm=hub,
         front_mm=front,
         cam_axis_mm=cam_axis,

@@ -24,6 +24,7 @@ from jumpcad.solids.outline import (
     hole,
     hull,
     rectangle,
+    ring,
     rounded,
     strips,
     union,
@@ -47,18 +48,25 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     """
     label = engravable(name).strip()
     motor, lateral = layout.drive.train.motor, layout.lateral
-    common = _outline(layout) - _openings(layout, holes)
+    floor = layout.floor_mm
+    closed = _outline(layout) - _openings(layout, holes)
+    common = closed - _bores(layout, holes)
     y0, y1 = lateral.left_plate
-    region = common - hole(holes.loose(motor.shaft_mm), layout.motor_mm)
-    left = _drawing(
-        "body_plate_left", holes, [(y0, y1, region)], (y1 - ENGRAVING_MM, y1), name and f"{label} L".strip(), "left"
-    )
+    shaft = hole(holes.loose(motor.shaft_mm), layout.motor_mm)
+    slabs = [(y0, y1 - floor, common - shaft), *_floor(y1 - floor, y1, closed - shaft)]
+    slabs += _boss(layout, holes, y0 - layout.boss_mm, y0)
+    left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), name and f"{label} L".strip(), "left")
     y0, y1 = lateral.right_plate
     play = 2.0 * holes.fits.sliding_mm
     cavity = _motor_box(layout, motor.width_mm + play, motor.height_mm + play)
     window = _motor_box(layout, motor.width_mm - 2.0, motor.height_mm - 2.0)
     taps = union(hole(holes.fits.m2_tap_mm, place) for place in ear_places(layout))
-    slabs = [(y0, y1, common - window), (y1, lateral.motor[1], socket_outline(layout) - cavity - taps)]
+    socket = socket_outline(layout) - cavity - taps
+    boss = _boss(layout, holes, y1, y1 + layout.boss_mm)
+    beside = union([socket, *(region for *_, region in boss)])
+    slabs = [(y0 + floor, y1, common - window), *_floor(y0, y0 + floor, closed - window)]
+    slabs += [(y1, y1 + layout.boss_mm, beside)] if boss else []
+    slabs.append((y1 + layout.boss_mm, lateral.motor[1], socket))
     right = _drawing("body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), name and f"{label} R".strip(), "right")
     return [left, right]
 
@@ -138,14 +146,28 @@ def _outline(layout: Layout) -> Region:
 
 
 def _openings(layout: Layout, holes: HoleSizes) -> Region:
-    """Return the holes of both plates: axles, standoff screws, spring pin, slots of trays and stop."""
+    """Return the holes that pass both plates: standoff screws, slots of trays and stop."""
     play = 2.0 * holes.fits.sliding_mm
-    cut = [hole(holes.running(layout.axle_mm), place) for place in layout.axles.values()]
-    cut += [hole(holes.m3_clearance_mm, place) for place in layout.standoffs_mm]
-    cut.append(hole(holes.press(layout.axle_mm), layout.spring_pin_mm))
+    cut = [hole(holes.m3_clearance_mm, place) for place in layout.standoffs_mm]
     cut += [rectangle((TAB_MM + play, TRAY_MM + play), slot) for slot in tray_slots(layout)]
     cut.append(stop_slot(layout, 2.0 * holes.fits.press_mm))
     return union(cut)
+
+
+def _bores(layout: Layout, holes: HoleSizes) -> Region:
+    """Return the plates' bores for the axles and the springs' pin."""
+    return union(hole(holes.running(layout.axle_mm), place) for place in (*layout.axles.values(), layout.spring_pin_mm))
+
+
+def _floor(y0: float, y1: float, region: Region) -> list[tuple[float, float, Region]]:
+    """Return what closes the bores outside, if anything does."""
+    return [(y0, y1, region)] if y1 > y0 else []
+
+
+def _boss(layout: Layout, holes: HoleSizes, y0: float, y1: float) -> list[tuple[float, float, Region]]:
+    """Return the longer seat of the leg's axle, inside, if there is one."""
+    bore = holes.running(layout.axle_mm)
+    return [(y0, y1, ring(layout.spring_bore_room_mm, bore, layout.hub_mm))] if y1 > y0 else []
 
 
 def _drawing(

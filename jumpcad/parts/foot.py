@@ -36,6 +36,8 @@ LINK_GAP_MM = 1.0
 SOLE_LENGTH, NOSE_AHEAD = 1.6, 0.42
 """How far a lug's sole reaches behind (and ahead of the ankle) and ahead of the front eye, in depths of the foot.
 Judgement for the first; a flank of 45° that touches the round nose reaches the sole 0.42 depths ahead."""
+PIN_END_MM = 7.0
+"""Diameter cut out of the toes around the ends of the ankle's pin: a clip of 6.3 mm (DIN 6799), or a head of 5 mm."""
 SOLE_HEIGHT_MM = 1.0
 """Height of a lug's straight sole; judgement."""
 
@@ -48,20 +50,23 @@ def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     height = sections.rail_root_mm
     rail = polygon([(0.0, -depth), (l4, -depth), (l4, sections.rail_tip_mm - depth), (0.0, height - depth)])
     lugs = [_lug(depth, 0.0, SOLE_LENGTH * depth), _lug(depth, l4, NOSE_AHEAD * depth)]
-    pins = union(lying_hole(holes.press(layout.axle_mm), (x, 0.0)) for x in (0.0, l4))
+    pins = union(lying_hole(holes.lying(layout.axle_mm), (x, 0.0)) for x in (0.0, l4))
     side = union([rail, *lugs]) ^ rectangle((4.0 * l4, 4.0 * depth), (0.0, depth))
     webs = [
         rectangle((end - start, web_height), ((start + end) / 2.0, web_height / 2.0 - depth))
         for start, end, web_height in _webs(layout, height)
     ]
-    reach = inner + max(lug, sections.toe_width_mm) + 1.0
+    face = layout.ankle_face_mm
+    reach = face + 2.0 * sections.toe_width_mm
+    ends = Bar(_on_bed(layout, lying_hole(PIN_END_MM, (0.0, 0.0))), ((face, reach), (-reach, -face)))
     toes, cuts = on_the_foot(layout, holes)
     added: tuple[Block, ...] = (
         Bar(_on_bed(layout, side), ((inner, inner + lug), (-inner - lug, -inner))),
         Bar(_on_bed(layout, union(webs)), ((-inner - lug / 2.0, inner + lug / 2.0),)),
+        Bar(_on_bed(layout, _ankle_boss(layout, holes)), ((inner, face), (-face, -inner))),
         *toes,
     )
-    shape = Blocks(added, (Bar(_on_bed(layout, pins), ((-reach, reach),)), *cuts))
+    shape = Blocks(added, (Bar(_on_bed(layout, pins), ((-reach, reach),)), ends, *cuts))
     return Drawing("foot", "links", shape, (Placement(FOOT, upright(-depth)),))
 
 
@@ -70,11 +75,13 @@ def nose_outline(depth_mm: float) -> Region:
     return _lug(depth_mm, 0.0, NOSE_AHEAD * depth_mm)
 
 
-def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float]) -> bool:
-    """Tell whether a foot with its toes fits the bed."""
+def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float], toe_half_width_mm: float = 0.0) -> bool:
+    """Tell whether a foot with its toes, which reach from the middle as far as said at least, fits the bed."""
     half = sections.thickness_mm / 2.0 + GAP_MM + sections.lug_thickness_mm
     nose = np.array([design.l4_mm, half - sections.foot_depth_mm])
-    ends = [(toe_tip_mm(design), TOE_TIP_WIDTH_MM), (nose, 2.0 * sections.foot_depth_mm)]
+    tip = toe_tip_mm(design)
+    tip = np.array([tip[0], max(tip[1], toe_half_width_mm)])
+    ends = [(tip, TOE_TIP_WIDTH_MM), (nose, 2.0 * sections.foot_depth_mm)]
     outline = np.concatenate(
         [circle_points(diameter, place * (1.0, sign)) for place, diameter in ends for sign in (-1.0, 1.0)]
     )
@@ -109,6 +116,13 @@ def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:
     middle = (x_mm + (ahead_mm - behind) / 2.0, SOLE_HEIGHT_MM / 2.0 - depth_mm)
     sole = rectangle((behind + ahead_mm, SOLE_HEIGHT_MM), middle)
     return hull([disc(2.0 * depth_mm, (x_mm, 0.0)), sole])
+
+
+def _ankle_boss(layout: Layout, holes: HoleSizes) -> Region:
+    """Return what carries the ankle's pin out to the toes' outer sides, down to the ground, so that it prints."""
+    depth = layout.sections.foot_depth_mm
+    outer = max(PIN_END_MM + 1.0, holes.lying(layout.axle_mm) + 4.0 * holes.fits.wall_mm)
+    return hull([disc(outer), rectangle((outer, SOLE_HEIGHT_MM), (0.0, SOLE_HEIGHT_MM / 2.0 - depth))])
 
 
 def _on_bed(layout: Layout, region: Region) -> Region:

@@ -27,6 +27,14 @@ class HoleSizes:
         """Return the diameter of a hole that holds a shaft tightly."""
         return diameter_mm + 2.0 * self.fits.press_mm
 
+    def eye(self, diameter_mm: float) -> float:
+        """Return the diameter of a link's eye that swings on a pin with little play."""
+        return diameter_mm + 2.0 * self.fits.eye_mm
+
+    def lying(self, diameter_mm: float) -> float:
+        """Return the diameter of a hole that prints lying, for a pin that something else keeps."""
+        return diameter_mm + 2.0 * self.fits.lying_mm
+
     def running(self, diameter_mm: float) -> float:
         """Return the diameter of a hole that turns on a shaft."""
         return diameter_mm + 2.0 * self.fits.sliding_mm

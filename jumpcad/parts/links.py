@@ -43,7 +43,7 @@ def main_leg(layout: Layout, holes: HoleSizes) -> Drawing:
     )
     beam = filleted(outline, FILLET_MM) - union(
         [
-            hole(holes.running(layout.axle_mm), ankle),
+            hole(holes.eye(layout.axle_mm), ankle),
             hole(holes.m3_clearance_mm, lever),
             hole(holes.press(layout.axle_mm), pin),
         ]
@@ -64,7 +64,7 @@ def front_link(layout: Layout, holes: HoleSizes) -> Drawing:
             disc(2.0 * sections.eye_radius_mm, eye),
         ]
     )
-    bore = holes.running(layout.axle_mm)
+    bore = holes.eye(layout.axle_mm)
     region = filleted(outline, FILLET_MM) - union([hole(bore), hole(bore, eye)])
     stack, pose = laid([(-half, half, region)])
     return Drawing("front_link", "links", holes.chamfered(stack), (Placement(FRONT_LINK, pose),))

@@ -8,6 +8,7 @@ from jumpcad.catalogue import Pad
 from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.layout.stop import PAD_LENGTH_MM
+from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.parts import toes
 from jumpcad.parts.foot import nose_outline
@@ -55,14 +56,20 @@ def _nose_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
 
 
 def _toe_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
-    """Yield the pads under the toes' tips."""
-    length = TOE_BACK_MM + TOE_AHEAD_MM
-    half, bottom = TOE_TIP_WIDTH_MM / 2.0, -layout.sections.foot_depth_mm - pad.thickness_mm / 2.0
+    """Yield the pads under the toes' tips, or under the bars that make them wider."""
+    length, width = TOE_BACK_MM + TOE_AHEAD_MM, TOE_TIP_WIDTH_MM
+    bottom = -layout.sections.foot_depth_mm - pad.thickness_mm / 2.0
+    tip_x, tip_y = toe_tip_mm(layout.design)
     for toe in toes.toes(layout):
+        name = f"{toe.name}_pad"
+        if layout.toe_bar_mm > 0.0:
+            y = sorted((toe.sign * float(tip_y), toe.sign * (layout.toe_half_width_mm + TOE_AHEAD_MM)))
+            slabs = [(y[0], y[1], rectangle((width, pad.thickness_mm)))]
+            yield _pad(name, pad, FOOT, slabs, (width, y[1] - y[0]), (float(tip_x), 0.0, bottom))
+            continue
+        slabs = [(-width / 2.0, width / 2.0, rectangle((length, pad.thickness_mm)))]
         x = toe.length_mm + (TOE_AHEAD_MM - TOE_BACK_MM) / 2.0
-        slabs = [(-half, half, rectangle((length, pad.thickness_mm)))]
-        part = _pad(f"{toe.name}_pad", pad, FOOT, slabs, (TOE_TIP_WIDTH_MM, length), (x, 0.0, bottom))
-        yield part.moved(toe.pose_mm)
+        yield _pad(name, pad, FOOT, slabs, (width, length), (x, 0.0, bottom)).moved(toe.pose_mm)
 
 
 def _pad(

@@ -7,19 +7,18 @@ from functools import lru_cache
 import numpy as np
 
 from jumpcad.catalogue import Bearing, Catalogue, Screw
-from jumpcad.dimensions import GAP_MM, ROLLER_WASHER_MM, TRAY_MM
+from jumpcad.dimensions import ROLLER_WASHER_MM, TRAY_MM
 from jumpcad.layout.drive_places import arm_line
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
-from jumpcad.parts import toes
+from jumpcad.parts import axles, toes
 from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.purchased import BoughtPart, bought
-from jumpcad.parts.small import COLLAR_MM
 from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
 from jumpcad.parts.train import gear_turns
-from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, ring, stadium
+from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring, stadium
 from jumpcad.transforms import Array
 from jumpcad.workshop import BoughtParts
 
@@ -32,7 +31,8 @@ SCREW_END_MM = 6.0
 def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> list[BoughtPart]:
     """Return every bought part at its place, in the assembled pose."""
     return [
-        *_axles(layout, catalogue),
+        *axles.axles(layout, catalogue, chosen),
+        *axles.pins(layout, catalogue, chosen),
         *_leg_things(layout, holes, catalogue, chosen),
         *_springs(layout, catalogue),
         *_motor_things(layout, catalogue),
@@ -55,9 +55,7 @@ def _box_of(width_mm: float, height_mm: float) -> Region:
 
 @lru_cache(maxsize=64)
 def _hexagon(across_flats_mm: float, bore_mm: float) -> Region:
-    angles = np.arange(6) * math.pi / 3.0
-    corners = across_flats_mm / math.sqrt(3.0) * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    return polygon(corners) - hole(bore_mm)
+    return hexagon(across_flats_mm) - hole(bore_mm)
 
 
 @lru_cache(maxsize=64)
@@ -66,42 +64,19 @@ def _d_shaft(diameter_mm: float, across_flat_mm: float) -> Region:
     return disc(diameter_mm) - flat
 
 
-def _rod(name: str, body: str, centre: Array, y: Interval, diameter_mm: float, catalogue: Catalogue) -> BoughtPart:
-    length = y[1] - y[0]
-    article = f"spring steel rod {diameter_mm:g} x {length:.1f} mm"
-    slabs = [(0.0, length, _round(diameter_mm))]
-    at = (centre[0], y[0], centre[1])
-    return bought(name, article, body, catalogue.rod_mass_g(diameter_mm, length), slabs, at)
-
-
-def _axles(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
-    """Yield the axles across the plates with room for a collar at either end, and the pins of the foot."""
-    low, high = layout.lateral.outside
-    reach = COLLAR_MM + GAP_MM
-    for name, place in layout.axles.items():
-        yield _rod(f"{name}_axle", BODY, place, (low - reach, high + reach), layout.axle_mm, catalogue)
-    lugs = (layout.lateral.lug_right[0], layout.lateral.lug_left[1])
-    yield _rod("ankle_pin", FOOT, np.zeros(2), lugs, layout.axle_mm, catalogue)
-    yield _rod("front_eye_pin", FOOT, np.array([layout.design.l4_mm, 0.0]), lugs, layout.axle_mm, catalogue)
-
-
 def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
-    """Yield what the main leg carries: hub bearings, the springs' pin, the roller with its screw."""
+    """Yield what the main leg carries: hub bearings, the roller with its screw."""
     lateral, cam = layout.lateral, layout.drive.cam
-    spring = layout.drive.spring
     low, high = lateral.leg
     if holes.bearing is not None:
         seats = [(low, low + holes.bearing.width_mm), (high - holes.bearing.width_mm, high)]
         for number, seat in enumerate(seats, start=1):
             yield _bearing(f"hub_bearing_{number}", np.zeros(2), seat, holes.bearing)
-    pin = np.array([layout.leg_pin_mm, 0.0])
-    arm = GAP_MM + 2.0 * spring.wire_mm
-    yield _rod("leg_spring_pin", MAIN_LEG, pin, (low - arm, high + arm), layout.axle_mm, catalogue)
     angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
     end = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
     roller = catalogue.bearings[chosen.roller]
     yield _bearing("roller", end, lateral.cam, roller)
-    washer, nut, screw = catalogue.washers["M3"], catalogue.nuts["M3"], catalogue.screws["M3"]
+    washer, nut, screw = catalogue.washers["M3"], catalogue.nuts["M3 nyloc"], catalogue.screws["M3"]
     slabs = [(0.0, ROLLER_WASHER_MM, _round(washer.outer_mm, washer.bore_mm))]
     yield bought("roller_washer", "washer M3 ISO 7089", MAIN_LEG, washer.mass_g, slabs, (end[0], high, end[1]))
     head = lateral.cam[1]
@@ -109,14 +84,13 @@ def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: 
     shank = (head - length, head)
     yield _screw("roller_screw", MAIN_LEG, end, shank, 1.0, screw, catalogue)
     slabs = [(-nut.height_mm, 0.0, _hexagon(nut.across_flats_mm, screw.diameter_mm))]
-    yield bought("roller_nut", "nut M3 ISO 4032", MAIN_LEG, nut.mass_g, slabs, (end[0], low, end[1]))
+    yield bought("roller_nut", "lock nut M3 DIN 985", MAIN_LEG, nut.mass_g, slabs, (end[0], low, end[1]))
 
 
 def _springs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
-    """Yield both springs, each as coil with body arm and as leg arm, and the pins in the plates.
+    """Yield both springs, each as coil with body arm and as leg arm.
 
-    Each shape is the room that wire takes, a ring and a bar; what is seen is the wire. Both plates hold the body arms'
-    pin: in one plate alone it would tilt.
+    Each shape is the room that wire takes, a ring and a bar; what is seen is the wire.
     """
     spring, lateral, d = layout.drive.spring, layout.lateral, layout.drive.spring.wire_mm
     coil = ring(spring.outer_diameter_mm, spring.inside_diameter_mm, layout.hub_mm)
@@ -133,7 +107,6 @@ def _springs(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
         leg_slabs = [(*_sorted(inner, inner + sign * d), leg_arm)]
         leg = bought(f"spring_{side}_leg_arm", order, MAIN_LEG, arm_mass, leg_slabs, units=0)
         yield leg.seen_as(leg_arm_wire(spring, middles))
-    yield _rod("spring_pin", BODY, layout.spring_pin_mm, lateral.outside, layout.axle_mm, catalogue)
 
 
 def _sorted(a: float, b: float) -> Interval:

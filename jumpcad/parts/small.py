@@ -1,10 +1,10 @@
-"""Small printed parts: motor cap, spring bushings, spacers, collars, electronics trays (mm)."""
+"""Small printed parts: motor cap, spring bushings, spacers, electronics trays (mm)."""
 
 from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.dimensions import COLLAR_RADIUS_MM, GAP_MM, SPACER_RADIUS_MM, STRAP_SLOT_MM, TAB_MM, TRAY_MM
+from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM, STRAP_SLOT_MM, TAB_MM, TRAY_MM
 from jumpcad.errors import JumpcadError
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
@@ -16,7 +16,6 @@ from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z
 from jumpcad.workshop import Workshop
 
-COLLAR_MM = 3.0
 TRAY_EDGE_MM, TRAY_LEDGE_MM = 5.0, 2.0
 """Of a tray's window: distance from the tray's ends, and width left under the narrowest thing on a tray."""
 WINDOW_MIN_MM = 4.0
@@ -50,11 +49,12 @@ def spring_bushing(layout: Layout, holes: HoleSizes, side: str) -> Drawing:
     lateral, spring = layout.lateral, layout.drive.spring
     coil = lateral.spring_left if side == "left" else lateral.spring_right
     inner, outer = (coil[0], coil[1]) if side == "left" else (-coil[1], -coil[0])
-    wall = lateral.inside[1] if side == "left" else -lateral.inside[0]
-    mandrel = disc(spring.mandrel_mm)
-    spacer = disc(min(2.0 * SPACER_RADIUS_MM, spring.mandrel_mm))
+    wall = (lateral.inside[1] if side == "left" else -lateral.inside[0]) - layout.boss_mm
+    mandrel, spacer = disc(spring.mandrel_mm), disc(layout.spring_bore_room_mm)
     bore = hole(holes.running(layout.axle_mm))
-    slabs = [(0.0, outer - inner, mandrel - bore), (outer - inner, wall - GAP_MM / 2.0 - inner, spacer - bore)]
+    end = wall - GAP_MM / 2.0
+    slabs = [(0.0, min(outer, end) - inner, mandrel - bore)]
+    slabs += [(outer - inner, end - inner, spacer - bore)] if end > outer else []
     x, z = layout.hub_mm
     # printed mandrel down; on the left the mandrel lies to the right, on the right to the left
     pose = lying_on_right(inner, x, z) if side == "left" else lying_on_left(-inner, x, z)
@@ -84,17 +84,6 @@ def spacer(layout: Layout, holes: HoleSizes, name: str, places: list[tuple[np.nd
     tube = _tube(2.0 * SPACER_RADIUS_MM, holes.running(layout.axle_mm), length)
     placements = tuple(Placement(BODY, lying_on_right(y0, place[0], place[1])) for place, y0, _ in places)
     return Drawing(name, "body", tube, placements)
-
-
-def collars(layout: Layout, holes: HoleSizes) -> Drawing:
-    """Return the collars that hold the axles from outside: a press fit at either end of each."""
-    low, high = layout.lateral.outside
-    tube = _tube(2.0 * COLLAR_RADIUS_MM, holes.press(layout.axle_mm), COLLAR_MM)
-    places = []
-    for x, z in layout.axles.values():
-        places.append(Placement(BODY, lying_on_right(high + GAP_MM / 2.0, x, z)))
-        places.append(Placement(BODY, lying_on_left(low - GAP_MM / 2.0, x, z)))
-    return Drawing("collar", "links", tube, tuple(places))
 
 
 @lru_cache(maxsize=32)

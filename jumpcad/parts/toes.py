@@ -87,7 +87,8 @@ def on_the_foot(layout: Layout, holes: HoleSizes) -> tuple[list[Block], list[Blo
             added.append(Turned(_stub(layout, holes), toe.angle_rad, toe.root_mm))
             removed.append(Turned(_holes(layout, holes, holes.fits.m3_tap_mm, 0.0), toe.angle_rad, toe.root_mm))
         else:
-            added.append(Turned(_finger(layout, np.zeros(2), toe.length_mm), toe.angle_rad, toe.root_mm))
+            blocks = (_finger(layout, np.zeros(2), toe.length_mm), *_bar(layout, toe))
+            added += [Turned(block, toe.angle_rad, toe.root_mm) for block in blocks]
             removed += [Turned(cut, toe.angle_rad, toe.root_mm) for cut in _grip(layout, toe)]
     return added, removed
 
@@ -120,7 +121,7 @@ def _drawing(layout: Layout, holes: HoleSizes, toe: Toe) -> Drawing:
     start, end = np.array([JOINT_MM[0] + width / 2.0, y]), np.array([JOINT_MM[1], y])
     joint = Finger(start, width, height, end, width, height)
     cut = _holes(layout, holes, holes.m3_clearance_mm, y)
-    shape = Blocks((joint, _finger(layout, end, toe.length_mm)), (cut, *_grip(layout, toe)))
+    shape = Blocks((joint, _finger(layout, end, toe.length_mm), *_bar(layout, toe)), (cut, *_grip(layout, toe)))
     pose = toe.pose_mm @ upright(-layout.sections.foot_depth_mm)
     return Drawing(toe.name, "links", shape, (Placement(FOOT, pose),))
 
@@ -132,6 +133,16 @@ def _finger(layout: Layout, start_mm: Array, length_mm: float) -> Finger:
     return Finger(
         start_mm, sections.toe_width_mm, sections.toe_root_mm, tip, TOE_TIP_WIDTH_MM, sections.toe_tip_height_mm
     )
+
+
+def _bar(layout: Layout, toe: Toe) -> list[Finger]:
+    """Return the bar from a toe's tip outwards, across the robot, if the toes are to reach further than the design's."""
+    if layout.toe_bar_mm <= 0.0:
+        return []
+    height, along = layout.sections.toe_tip_height_mm, np.array([math.sin(toe.angle_rad), math.cos(toe.angle_rad)])
+    tip = np.array([toe.length_mm, 0.0])
+    end = tip + toe.sign * layout.toe_bar_mm * along
+    return [Finger(tip, TOE_TIP_WIDTH_MM, height, end, TOE_TIP_WIDTH_MM, height)]
 
 
 def _stub(layout: Layout, holes: HoleSizes) -> Finger:

@@ -28,6 +28,8 @@ WEB_RIM_MM = 3.0
 WEB_HOLES = 6
 SECTOR_POINTS = 16
 """On the rim of a sector: twice as far out as what it cuts, so that few are enough."""
+RIB_MM, RIB_ROOT_MM = 0.6, 0.2
+"""Width of a crush rib, and how far it reaches into the gear; judgement: little more than a printed line."""
 
 
 def cam(layout: Layout, holes: HoleSizes) -> Drawing:
@@ -55,9 +57,8 @@ def gears(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     stages, motor = layout.drive.train.stages, layout.drive.train.motor
     cam_y, motor_y = layout.lateral.gears[0], layout.lateral.gears[-1]
     turns = gear_turns(layout)
-    shaft_mm = (holes.press(motor.shaft_mm), motor.shaft_flat_mm + 2.0 * holes.fits.press_mm)
     cam_gear = _cam_gear(stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes)
-    pinion = _motor_pinion(stages[0].pinion, *shaft_mm, holes)
+    pinion = _motor_pinion(stages[0].pinion, motor.shaft_mm, motor.shaft_flat_mm, holes)
     made = [
         Drawing("cam_gear", "gears", cam_gear, (_placed(cam_y[1], layout.cam_axis_mm, turns["cam_gear"]),)),
         Drawing("motor_pinion", "gears", pinion, (_placed(motor_y[1], layout.motor_mm, turns["motor_pinion"]),)),
@@ -120,7 +121,24 @@ def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Reg
 
 @lru_cache(maxsize=64)
 def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes) -> Stack:
-    return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, _webbed(gear, d_bore(shaft_mm, flat_mm), 0.0))]))
+    """Return a pinion whose bore has crush ribs: they are narrower than the shaft, which it cuts, so it cannot rock."""
+    region = _webbed(gear, ribbed_d_bore(shaft_mm, flat_mm, holes), 0.0)
+    return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, region)]))
+
+
+def ribbed_d_bore(shaft_mm: float, flat_mm: float, holes: HoleSizes, rib_mm: float | None = None) -> Region:
+    """Return the hole for a D-shaft with a press fit around it and five crush ribs, by default `fits.rib_mm` into the shaft.
+
+    Two ribs bear on the flat, which faces +x and takes the torque, and three on the round side.
+    """
+    press, rib = holes.fits.press_mm, holes.fits.rib_mm if rib_mm is None else rib_mm
+    bore = d_bore(shaft_mm + 2.0 * press, flat_mm + 2.0 * press)
+    depth = press + rib + RIB_ROOT_MM
+    edge = flat_mm - shaft_mm / 2.0 - rib + depth / 2.0
+    ribs = [rectangle((depth, RIB_MM), (edge, side * shaft_mm / 4.0)) for side in (-1.0, 1.0)]
+    middle = shaft_mm / 2.0 - rib + depth / 2.0
+    ribs += [rectangle((depth, RIB_MM), (middle, 0.0)).rotate(angle) for angle in (90.0, 180.0, 270.0)]
+    return bore - union(ribs)
 
 
 @lru_cache(maxsize=64)

@@ -19,18 +19,20 @@ class Step:
 ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Main leg",
-        r"main_leg|hub_bearing_\d+|leg_spring_pin|roller.*",
-        "Press the bearings into the hub. Press the springs' pin through the beam until it stands out as far on either "
-        "side. Screw the roller to the lever's left side with the washer between them and the nut on the right; the "
-        "roller must spin freely.",
+        r"main_leg|hub_bearing_\d+|leg_spring_pin.*|roller.*",
+        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer of 3.1 mm until its pin turns in "
+        "it without rocking. Push the springs' pin through the beam and keep it as the list says: bend the split pin's "
+        "ends, or press the clips into their grooves. Screw the roller to the lever's left side with the washer between "
+        "them and the lock nut on the right; the roller must spin freely.",
     ),
     (
         "Foot",
-        r"foot|toe_.*|nose_pad_.*|front_link|ankle_pin|front_eye_pin",
+        r"foot|toe_.*|nose_pad_.*|front_link|ankle_pin.*|front_eye_pin.*",
         "Toes that are parts of their own are screwed to the foot from outside first. Set the main leg between the "
-        "lugs where the toes meet and push the ankle pin through. Do the same with the front link at the nose. Both "
-        "must swing freely; the pins sit tight in the lugs. Degrease the soles and glue the pads "
-        "under the toes' tips and around the nose, from the sole up its round front.",
+        "lugs where the toes meet and push the ankle pin through. Do the same with the front link at the nose, whose "
+        "eyes are opened like the leg's. Both must swing freely. Bend the split pins' ends around the pins, or press "
+        "the clips into their grooves. Degrease the soles and glue the pads under the toes' tips and around the nose, "
+        "from the sole up its round front.",
     ),
     (
         "Right plate",
@@ -42,8 +44,9 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Axles",
         r"(leg|front|cam|idler)_axle|spring_pin",
-        "Put the axles through the right plate from inside. They stand out of it by a collar's width. Press the pin of "
-        "the springs' body arms into the plate until it is flush with the outside.",
+        "Put the axles and the pin of the springs' body arms into the right plate's bores from inside. Where these are "
+        "closed outside, axles go in to the end. Screws that are axles come from the left plate at the end; until then "
+        "rods of their diameter hold the parts.",
     ),
     (
         "Springs and legs",
@@ -68,10 +71,11 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     ),
     (
         "Left plate",
-        r"body_plate_left|standoff_.*|collar.*",
+        r"body_plate_left|standoff_.*|(leg|front|cam|idler)_axle_.*|spring_pin_.*",
         "Screw the standoffs to the right plate. Lower the left plate over axles, spring pin, stop bar and tabs, with "
-        "the left spring's body arm below the pin, and screw it to the standoffs. Push a collar onto either end of "
-        "every axle, leaving it play enough to turn.",
+        "the left spring's body arm below the pin, and screw it to the standoffs: the plates' closed bores then hold "
+        "the axles. Otherwise press a clip into the groove at either end of every axle, or put in the screws from the "
+        "left and turn their lock nuts until the plates just bear no load.",
     ),
 )
 """Title, names of the parts that are added, text."""

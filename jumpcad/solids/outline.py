@@ -74,6 +74,12 @@ def ring(outer_mm: float, inner_mm: float, centre_mm: Point = ORIGIN) -> Region:
     return disc(outer_mm, centre_mm) - hole(inner_mm, centre_mm)
 
 
+def hexagon(across_flats_mm: float) -> Region:
+    """Return a hexagon about the origin, a corner on +x."""
+    angles = np.arange(6) * math.pi / 3.0
+    return polygon(across_flats_mm / math.sqrt(3.0) * np.stack([np.cos(angles), np.sin(angles)], axis=-1))
+
+
 def d_bore(diameter_mm: float, across_flat_mm: float, centre_mm: Point = ORIGIN) -> Region:
     """Return the hole for a D-shaft, to be subtracted; the flat faces +x, `across_flat_mm` from the far side."""
     depth = diameter_mm - across_flat_mm

@@ -107,5 +107,5 @@ def bearing_load_n(forces_n: tuple[Array, Array], leg_mm: float, roller_mm: floa
 
 
 def allowed_n(bearing: Bearing, workshop: Workshop) -> float:
-    """Return the largest load of a bearing: its static load rating over the static safety factor."""
-    return bearing.static_load_n / workshop.safety.bearing_factor
+    """Return the largest load of a bearing: its static load rating over safety factor and reserves."""
+    return bearing.static_load_n / (workshop.safety.bearing_factor * workshop.safety.load_factor)

@@ -66,6 +66,9 @@ class Fits(TomlTable):
     """
 
     press_mm: Annotated[float, Field(ge=-0.2, le=0.5)]
+    rib_mm: Annotated[float, Field(ge=0, le=0.3)]
+    eye_mm: Annotated[float, Field(ge=0, le=0.8)]
+    lying_mm: Annotated[float, Field(ge=-0.2, le=0.8)]
     sliding_mm: Annotated[float, Field(ge=0, le=0.8)]
     loose_mm: Annotated[float, Field(ge=0, le=1)]
     hole_allowance_diameter_mm: Annotated[float, Field(ge=-0.4, le=1)]
@@ -90,6 +93,8 @@ class BoughtParts(TomlTable):
     `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none.
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
+    `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
+    in grooves, or screws as axles with lock nuts; pins of foot and leg have clips too, or are clevis pins.
     """
 
     motors: Annotated[tuple[Name, ...], Field(strict=False)]
@@ -100,14 +105,21 @@ class BoughtParts(TomlTable):
     driver: Name
     spring: OptionalName
     axle_mm: Positive
+    axle: Name
+    retention: Literal["plates", "clips", "nuts"]
 
 
 class BodyPlates(TomlTable):
-    """The two plates of the body, and the stop between them: how far past rest the leg meets which pad."""
+    """The two plates of the body, the stop between them, and how wide the robot stands.
+
+    The leg meets `stop_pad` at `stop_deg` past rest; the toes reach `toe_half_width_mm` from the middle at least (0: as
+    far as the design's).
+    """
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
     stop_deg: Annotated[float, Field(ge=3, le=8)]
     stop_pad: Name
+    toe_half_width_mm: Annotated[float, Field(ge=0, le=200)]
 
 
 class Ground(TomlTable):
@@ -141,7 +153,11 @@ class SpringTable(TomlTable):
 
 
 class Safety(TomlTable):
-    """Safety factors, and what springs, motor and legs may be loaded with."""
+    """Safety factors, what springs, motor and legs may be loaded with, and reserves for what differs from a drawing.
+
+    Loads are taken as those of the stiffest springs within `spring_rate_scatter`, and more by `stress_reserve`. Other
+    reserves are kept below the motor's torque and the cam's pressure angle, and above gaps.
+    """
 
     strength_factor: Annotated[float, Field(ge=1, le=20)]
     motor_stall_share: Share
@@ -149,12 +165,37 @@ class Safety(TomlTable):
     gear_efficiency: Share
     spring_stress_share: Share
     spring_rate_scatter: Annotated[float, Field(ge=0, le=0.5)]
+    stress_reserve: Annotated[float, Field(ge=0, le=1)]
+    motor_torque_reserve: Annotated[float, Field(ge=0, le=0.9)]
+    pressure_angle_reserve_deg: Annotated[float, Field(ge=0, le=20)]
+    gap_reserve_mm: Annotated[float, Field(ge=0, le=1)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Positive
+    roll_reserve_deg: Annotated[float, Field(ge=0, le=45)]
     leg_flex_share: Share
     steel_yield_mpa: Positive
     steel_factor: Annotated[float, Field(ge=1, le=20)]
     bearing_factor: Annotated[float, Field(ge=0.4, le=20)]
+
+    @property
+    def load_factor(self) -> float:
+        """By how much loads may be larger than those computed."""
+        return (1.0 + self.spring_rate_scatter) * (1.0 + self.stress_reserve)
+
+    @property
+    def printed_factor(self) -> float:
+        """Safety factor of printed parts, with the reserves."""
+        return self.strength_factor * self.load_factor
+
+    @property
+    def metal_factor(self) -> float:
+        """Safety factor of axles, pins and screws, with the reserves."""
+        return self.steel_factor * self.load_factor
+
+    @property
+    def motor_share(self) -> float:
+        """Share of a motor's allowed torque that the computed springs may need."""
+        return (1.0 - self.motor_torque_reserve) / (1.0 + self.spring_rate_scatter)
 
 
 class ReleaseTable(TomlTable):

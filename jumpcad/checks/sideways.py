@@ -1,0 +1,94 @@
+"""Does the robot tip over sideways? Its toes' and nose's width against its height, its joints' play, and its own lean.
+
+On the ground the body hangs on the foot by two chains of joints, leg and front link; the tighter one sets its play. An
+eye of length l whose bore is c wider than its pin tilts by c/l to either side.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.findings import Finding, at_least
+from jumpcad.layout.layout import Layout
+from jumpcad.mechanism.feasibility import centre_of_mass_on_foot_mm
+from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot import Robot
+from jumpcad.transforms import Array
+
+POSITIONS = 9
+LANDING_PLAYS = 2.0
+"""How often the play counts at landing: the body comes down tilted to one side of it and swings to the other one."""
+
+
+@dataclass(frozen=True)
+class Roll:
+    """How far the robot may roll on a state's worst side (°): what its stance allows, and what its joints take of it."""
+
+    state: str
+    stance_deg: float
+    play_deg: float
+
+    @property
+    def margin_deg(self) -> float:
+        """What is left."""
+        return self.stance_deg - self.play_deg
+
+
+def sideways_findings(robot: Robot) -> list[Finding]:
+    """Return `sideways_tipping`: the least roll that is left of standing at rest, wound, and at landing."""
+    worst = min(rolls(robot), key=lambda roll: roll.margin_deg)
+    reserve = robot.workshop.safety.roll_reserve_deg
+    return [
+        at_least(
+            "sideways_tipping", worst.margin_deg, reserve, "°",
+            f"{worst.state}, the robot stands {worst.stance_deg:.1f}° from tipping sideways, of which its joints' play "
+            f"takes {worst.play_deg:.1f}°; {reserve:g}° must be left",
+            "raise body.toe_half_width_mm, or e_coef or ground_link_angle_deg (wider toes), or lower fits.eye_mm",
+        )
+    ]  # fmt: skip
+
+
+def rolls(robot: Robot) -> tuple[Roll, ...]:
+    """Return how far the robot may roll standing at rest, standing wound, and in any pose between them at landing."""
+    linkage = robot.linkage
+    leg = np.linspace(*linkage.travel_rad, POSITIONS)
+    com = centre_of_mass_on_foot_mm(robot, linkage, linkage.pose(leg))
+    aside = 1000.0 * sum(body.mass_kg * float(body.com_m[1]) for body in robot.bodies.values()) / robot.mass_kg
+    stance = stance_deg(robot.layout, com, aside)
+    play = math.degrees(play_rad(robot.layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)))
+    return (
+        Roll("at rest", float(stance[-1]), play),
+        Roll("wound", float(stance[0]), play),
+        Roll("landing", float(stance.min()), LANDING_PLAYS * play),
+    )
+
+
+def stance_deg(layout: Layout, com_mm: Array, aside_mm: float) -> Array:
+    """Return the roll (n,) at which centres of mass (n, 2), x-z in the foot's frame, are above the nearer edge.
+
+    The edge runs from a toe's tip to the nose's lug on the same side.
+    """
+    back, front = float(toe_tip_mm(layout.design)[0]), layout.design.l4_mm
+    wide, narrow = layout.toe_half_width_mm, layout.lateral.lug_left[1]
+    slope = (narrow - wide) / (front - back)
+    half = wide + slope * (com_mm[:, 0] - back) - abs(aside_mm)
+    height = com_mm[:, 1] + layout.sections.foot_depth_mm
+    stance: Array = np.degrees(np.arctan2(half / math.hypot(1.0, slope), height))
+    return stance
+
+
+def play_rad(layout: Layout, holes: HoleSizes) -> float:
+    """Return by how much the body may roll on its foot to either side, as drawn: that of the tighter chain.
+
+    Ball bearings' own tilt is neglected, and so is the bending of pins and links.
+    """
+    pin, width = layout.axle_mm, layout.sections.thickness_mm
+    eye, loose, lug = (size(pin) - pin for size in (holes.eye, holes.running, holes.lying))
+    outside = layout.lateral.outside
+    axle = loose / (outside[1] - outside[0] - 2.0 * layout.floor_mm)
+    hub = loose / width if layout.hub_bearing is None else 0.0
+    leg = eye / width + lug / (2.0 * layout.ankle_face_mm) + hub + axle
+    front = 2.0 * eye / width + lug / (2.0 * layout.lateral.lug_left[1]) + axle
+    return min(leg, front)

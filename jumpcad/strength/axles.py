@@ -1,0 +1,53 @@
+"""Axles and pins as the strength checks see them: section, yield stress, and what keeps them in place (mm, MPa, N)."""
+
+import math
+from dataclasses import dataclass
+
+from jumpcad.dimensions import AXLE_FLOOR_MM
+from jumpcad.strength.stress import VON_MISES
+from jumpcad.workshop import Workshop
+
+SCREW_SHANK_MM, SCREW_CORE_MM, SCREW_THREAD_MM = 2.86, 2.39, 20.5
+"""M3 ISO 4762: least shank, core (ISO 724), and thread with its run-out, from the end, of lengths above 20 mm."""
+SCREW_YIELD_MPA = 1080.0
+"""Property class 12.9 (ISO 898-1)."""
+SCREW_AREA_MM2 = 5.03
+"""Stress area of M3 (ISO 898-1)."""
+
+
+@dataclass(frozen=True)
+class RoundBar:
+    """A round axle or pin, perhaps with a bore, and the load along its axis at which it would come out."""
+
+    diameter_mm: float
+    bore_mm: float
+    yield_mpa: float
+    axial_n: float
+
+    def stress_mpa(self, moment_nmm: float) -> float:
+        """Return its bending stress, 32·M·d/(pi·(d⁴ - b⁴))."""
+        return 32.0 * moment_nmm * self.diameter_mm / (math.pi * (self.diameter_mm**4 - self.bore_mm**4))
+
+
+def axle_bar(workshop: Workshop) -> RoundBar:
+    """Return an axle across the plates; a rod between them comes out where it shears its bore's floor off."""
+    bought, safety, catalogue = workshop.bought, workshop.safety, workshop.catalogue
+    if bought.retention == "nuts":
+        return RoundBar(SCREW_SHANK_MM, 0.0, SCREW_YIELD_MPA, SCREW_AREA_MM2 * SCREW_YIELD_MPA / safety.metal_factor)
+    rod, diameter = catalogue.rods[bought.axle], bought.axle_mm
+    limit_mpa = min(rod.yield_mpa, safety.steel_yield_mpa)
+    if bought.retention == "clips":
+        axial = catalogue.clip_for(diameter).load_n / safety.metal_factor
+    else:
+        shear = workshop.material("body").strength_in_plane_mpa / VON_MISES / safety.printed_factor
+        axial = math.pi * diameter * AXLE_FLOOR_MM * shear
+    return RoundBar(diameter, rod.bore_share * diameter, limit_mpa, axial)
+
+
+def pin_bar(workshop: Workshop) -> RoundBar:
+    """Return a pin of foot or leg: a clevis pin with its split pin, or a rod with clips."""
+    bought, safety = workshop.bought, workshop.safety
+    if bought.retention == "clips":
+        return axle_bar(workshop)
+    pin = workshop.catalogue.clevis_pin_for(bought.axle_mm)
+    return RoundBar(pin.diameter_mm, 0.0, min(pin.yield_mpa, safety.steel_yield_mpa), pin.load_n / safety.metal_factor)
