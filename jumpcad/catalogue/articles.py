@@ -25,9 +25,10 @@ def _not_blank(text: str) -> str:
     return text
 
 
-Length = Annotated[float, Field(gt=0, le=500)]
-Mass = Annotated[float, Field(gt=0, le=5000)]
-Positive = Annotated[float, Field(gt=0, le=1e5)]
+# Lower limits keep quotients finite: they are below the figures of any article.
+Length = Annotated[float, Field(ge=0.01, le=500)]
+Mass = Annotated[float, Field(ge=1e-3, le=5000)]
+Positive = Annotated[float, Field(ge=1e-4, le=1e5)]
 Source = Annotated[Text, AfterValidator(_not_blank)]
 
 
@@ -135,7 +136,7 @@ class StockSpring(Article):
 
     wire_mm: Annotated[Length, Field(le=10)]
     inside_diameter_mm: Length
-    turns: Annotated[float, Field(gt=0, le=100)]
+    turns: Annotated[float, Field(ge=0.1, le=100)]
     arm_angle_deg: Annotated[float, Field(ge=0, le=360)]
     arm_length_mm: Length
     rate_nmm_per_deg: Positive
