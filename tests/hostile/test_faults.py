@@ -319,7 +319,9 @@ def test_odd_surroundings_are_borne(sandbox: Sandbox, monkeypatch: pytest.Monkey
     sandbox.run("study", "study.db", exits=(0,))
 
 
-BEFORE = "import sys; before = set(sys.modules); from jumpcad.cli import main; print(*sorted(set(sys.modules) - before))"
+BEFORE = (
+    "import sys; before = set(sys.modules); from jumpcad.cli import main; print(*sorted(set(sys.modules) - before))"
+)
 
 
 def test_ctrl_c_is_answered_before_anything_is_loaded() -> None:

@@ -1,6 +1,5 @@
 """Every figure of a workshop and of settings, one at a time, at the ends of its range and between."""
 
-import math
 import re
 import warnings
 from typing import Any
@@ -74,7 +73,9 @@ def own(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """Return the data of a workshop in which everything is the user's own."""
     path = tmp_path_factory.mktemp("figures") / "own.toml"
     path.write_text(OWN)
-    return load_workshop(path).model_dump()
+    workshop = load_workshop(path)
+    assert quick_findings(build(DESIGN, workshop))
+    return workshop.model_dump()
 
 
 def with_figure(data: Any, place: Place, value: float) -> Any:
@@ -82,7 +83,9 @@ def with_figure(data: Any, place: Place, value: float) -> Any:
     if not place:
         return value
     if isinstance(data, tuple):
-        return tuple(with_figure(one, place[1:], value) if number == place[0] else one for number, one in enumerate(data))
+        return tuple(
+            with_figure(one, place[1:], value) if number == place[0] else one for number, one in enumerate(data)
+        )
     key = next(iter(data)) if place[0] == "*" else place[0]
     return {**data, key: with_figure(data[key], place[1:], value)}
 
@@ -97,15 +100,16 @@ def test_a_figure_at_its_limits_is_borne_or_refused(own: dict[str, Any], sandbox
         sandbox.tries += 1
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            try:
-                findings = quick_findings(build(DESIGN, Workshop(**with_figure(own, place, value))))
-            except JumpcadError as error:
-                assert not NO_NUMBER.search(str(error)), f"{value}: {error}"
-                continue
-        for found in findings:
-            figures_of = [one for one in (found.margin, found.value, found.limit) if one is not None]
-            assert all(map(math.isfinite, figures_of)), f"{value}: {found}"
-            assert not NO_NUMBER.search(f"{found.message} {found.remedy}"), f"{value}: {found}"
+            said = outcome(with_figure(own, place, value))
+        assert not NO_NUMBER.search(said), f"{value}: {said}"
+
+
+def outcome(data: dict[str, Any]) -> str:
+    """Return what is said of a robot built in a workshop: the findings of the cheap checks, or why there is none."""
+    try:
+        return " ".join(str(found.to_dict()) for found in quick_findings(build(DESIGN, Workshop(**data))))
+    except JumpcadError as error:
+        return str(error)
 
 
 @pytest.mark.parametrize(("place", "model"), [(place, model) for model in MODELS for place, _ in figures(model)])
