@@ -78,7 +78,7 @@ def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str |
     Parameters
     ----------
     outputs, inputs
-        By their options; None where there is none. Inputs that are no files, templates' names and bundles, do not count.
+        By their options; None where there is none. Inputs that are no files, templates and bundles, do not count.
 
     Raises
     ------
