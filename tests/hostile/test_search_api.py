@@ -51,9 +51,8 @@ def test_nonsense_is_refused_by_name(sandbox: Sandbox, name: str) -> None:
 def test_an_odd_option_of_a_search_is_refused_or_borne(sandbox: Sandbox, name: str) -> None:
     """Where it is borne, one design is evaluated."""
     for odd in ODD.values():
-        with sandbox.untouched(writes=["."]):
-            with contextlib.suppress(jumpcad.JumpcadError):
-                jumpcad.optimize(**{"method": "nsga2", "evaluations": 1, "model": "capsule", "workers": 0, name: odd})
+        with sandbox.untouched(writes=["."]), contextlib.suppress(jumpcad.JumpcadError):
+            jumpcad.optimize(**{"method": "nsga2", "evaluations": 1, "model": "capsule", "workers": 0, name: odd})
 
 
 @pytest.mark.parametrize(("option", "path"), [(option, path) for option, some in WRONG_PATHS.items() for path in some])
