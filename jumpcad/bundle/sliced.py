@@ -190,7 +190,8 @@ class _StlPart:
     """An STL file as the mass model sees parts (mm)."""
 
     def __init__(self, stl: Path) -> None:
-        mesh = trimesh.load_mesh(stl, process=False)
+        with np.errstate(all="ignore"):  # of figures that are refused below
+            mesh = trimesh.load_mesh(stl, process=False)
         if not np.all(np.abs(mesh.vertices) <= LARGEST_MM):  # also false for NaN
             raise JumpcadError(f"{stl}: reaches further than {LARGEST_MM:g} mm, so it is no part; build it again")
         mesh.process()
