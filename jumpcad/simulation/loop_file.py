@@ -27,9 +27,9 @@ class SpringSection(TomlTable):
     """Both springs together, see `jumpcad.robot.Spring`."""
 
     joint: Literal["leg"]
-    stiffness_nm_per_rad: Annotated[float, Field(gt=0, le=1e3)]
+    stiffness_nm_per_rad: Annotated[float, Field(ge=1e-4, le=1e3)]
     rest_rad: Annotated[float, Field(ge=0, le=0)]
-    wind_rad: Annotated[float, Field(gt=0, le=3.1416)]
+    wind_rad: Annotated[float, Field(ge=1e-4, le=3.1416)]
 
 
 class ReleaseSection(TomlTable):
@@ -50,7 +50,7 @@ class LoopFile(Record):
         dict[JointName, Annotated[tuple[Angle, Angle], Field(strict=False)]], Field(min_length=3, max_length=3)
     ]
     release: ReleaseSection
-    foot_depth_m: Annotated[float, Field(gt=0, le=1)]
+    foot_depth_m: Annotated[float, Field(ge=1e-5, le=1)]
     surfaces: dict[str, Literal["foot", "body"]]
 
     @classmethod
