@@ -1,13 +1,13 @@
 """From eight numbers to a jumping robot that can be printed, simulated and trusted.
 
-The public names load when they are first used, so that `import jumpcad` and the command line start quickly.
+The public names load when they are first used, so that `import jumpcad` and the command line start quickly: only when
+the latter runs does it answer an interrupt in one line.
 """
-
-from typing import TYPE_CHECKING
 
 from jumpcad.faces import face
 from jumpcad.version import __version__
 
+TYPE_CHECKING = False  # type checkers take it for true; to import typing takes longer than all else here
 if TYPE_CHECKING:
     from jumpcad import search as search
     from jumpcad.api import build as build

@@ -1,12 +1,14 @@
 """Checks what public functions are given; the error says in one line what they take."""
 
+import dataclasses
 import functools
 import inspect
 import types
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar, cast
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import LONGEST, described
@@ -24,13 +26,37 @@ MADE_BY = {
 TEMPLATES = dict.fromkeys(("Design", "Mechanism", "Robot"), "kenan-2.0") | dict.fromkeys(
     ("Settings", "Workshop"), "default"
 )
-WORDS = {"Mechanism": "a Robot", "str": "a text", "bool": "True or False", "Path": "a path"}
+WORDS = {
+    "Mechanism": "a Robot", "str": "a text", "bool": "True or False", "Path": "a path", "int": "a whole number",
+    "float": "a number", "Sequence": "a sequence", "Mapping": "a table", "Callable": "a function",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What an annotation allows: a class, and of a sequence what its items may be, if that is known."""
+
+    of: type
+    items: tuple["Kind", ...] = ()
+
+    def misfit(self, value: Any) -> str:
+        """Return what is wrong with a value, in words: the value itself, or its first wrong item; empty if it fits."""
+        if isinstance(value, bool) and self.of in (int, float):  # True is an int, but no number of anything
+            return described(value)
+        if not _is_instance(value, self.of):
+            return described(value)
+        for item in value if self.items else ():
+            wrong = _misfit(item, self.items)
+            if wrong:
+                return f"one with {wrong}"
+        return ""
 
 
 def typed(function: Callable[P, R]) -> Callable[P, R]:
     """Return a function that checks its arguments against its annotations before it runs.
 
-    Annotations are classes, `Any`, or classes joined by `|`, known in the function's own module.
+    Annotations are classes, `Any`, or classes joined by `|`, known in the function's own module. A `float` may be an
+    int, but no bool is a number. The items of sequences are checked too, those of mappings are not.
 
     Raises
     ------
@@ -38,44 +64,92 @@ def typed(function: Callable[P, R]) -> Callable[P, R]:
         From the returned function: what it takes, what it was given, and how to make what it takes.
     """
     signature = inspect.signature(function)
+    title = function.__qualname__.removesuffix(".__init__")
 
     @functools.cache
-    def kinds() -> dict[str, tuple[type, ...]]:
-        hints = typing.get_type_hints(function)
-        return {name: _classes(hints[name]) for name in signature.parameters}
+    def kinds() -> dict[str, tuple[Kind, ...]]:
+        return {name: _kinds(hint) for name, hint in typing.get_type_hints(function).items()}
 
     @functools.wraps(function)
     def checked(*args: P.args, **kwargs: P.kwargs) -> R:
         try:
             given = signature.bind(*args, **kwargs).arguments
         except TypeError as error:
-            raise JumpcadError(f"{function.__name__}{_shape(signature)}: {error}") from None
-        for name, value in given.items():
-            if not isinstance(value, kinds()[name]):
-                raise JumpcadError(f"{function.__name__}() takes {_refusal(name, kinds()[name], value)}")
+            raise JumpcadError(f"{title}{_shape(signature)}: {error}") from None
+        _require(title, given, kinds())
         return function(*args, **kwargs)
 
     return checked
 
 
-def _classes(hint: Any) -> tuple[type, ...]:
-    """Return the classes that an annotation allows; of a container, only its own class."""
-    if hint is Any:
-        return (object,)
-    if isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union:
-        return tuple(kind for one in typing.get_args(hint) for kind in _classes(one))
-    return (typing.get_origin(hint) or hint,)
+def require_fields(record: Any) -> None:
+    """Check the fields of a dataclass against their annotations; for its `__post_init__`.
+
+    Raises
+    ------
+    JumpcadError
+        As from `typed`.
+    """
+    given = {field.name: getattr(record, field.name) for field in dataclasses.fields(record) if field.init}
+    _require(type(record).__name__, given, _field_kinds(cast(Hashable, type(record))))
 
 
-def _refusal(name: str, kinds: tuple[type, ...], value: Any) -> str:
-    names = [kind.__name__ for kind in kinds if kind is not type(None)]
-    wanted = " or ".join(WORDS.get(one, f"a {one}") for one in names)
-    place = "" if names[0] == name.capitalize() else f" as {name}"
-    made = next((one for one in names if one in MADE_BY), None)
+@functools.cache
+def _field_kinds(kind: Hashable) -> dict[str, tuple[Kind, ...]]:
+    return {name: _kinds(hint) for name, hint in typing.get_type_hints(cast(type, kind)).items()}
+
+
+def _require(title: str, given: Mapping[str, Any], kinds: Mapping[str, tuple[Kind, ...]]) -> None:
+    for name, value in given.items():
+        if name in kinds and (wrong := _misfit(value, kinds[name])):
+            raise JumpcadError(f"{title}() takes {_refusal(name, kinds[name], value, wrong)}")
+
+
+def _misfit(value: Any, kinds: Sequence[Kind]) -> str:
+    """Return why a value is of none of the kinds; empty if it is of one."""
+    wrong = [kind.misfit(value) for kind in kinds]
+    return max(wrong, key=lambda text: text.startswith("one with")) if all(wrong) else ""
+
+
+def _is_instance(value: Any, kind: type) -> bool:
+    if kind is float:
+        return isinstance(value, float | int)
+    if getattr(kind, "_is_protocol", False):
+        return all(hasattr(type(value), name) for name in vars(kind) if name == "__call__" or not name.startswith("_"))
+    return isinstance(value, kind)
+
+
+def _kinds(hint: Any) -> tuple[Kind, ...]:
+    """Return what an annotation allows."""
+    if hint is Any or isinstance(hint, TypeVar):
+        return (Kind(object),)
+    origin, inner = typing.get_origin(hint), typing.get_args(hint)
+    if isinstance(hint, types.UnionType) or origin is typing.Union:
+        return tuple(kind for one in inner for kind in _kinds(one))
+    if origin is None:
+        return (Kind(hint),)
+    if origin is typing.Literal:
+        return tuple({Kind(type(one)) for one in inner})
+    sequence = isinstance(origin, type) and issubclass(origin, Sequence)
+    alike = sequence and (len(inner) == 1 or inner[1:] == (Ellipsis,))
+    return (Kind(origin, _kinds(inner[0]) if alike else ()),)
+
+
+def _refusal(name: str, kinds: Sequence[Kind], value: Any, wrong: str) -> str:
+    names = [_words(kind) for kind in kinds if kind.of is not type(None)]
+    wanted = " or ".join(dict.fromkeys(names))
+    place = "" if kinds[0].of.__name__ == name.capitalize() else f" as {name}"
+    made = next((kind.of.__name__ for kind in kinds if kind.of.__name__ in MADE_BY), None)
     if made is None:
-        return f"{wanted}{place}, not {described(value)}"
+        return f"{wanted}{place}, not {wrong}"
     named = value if isinstance(value, str | Path) and len(str(value)) <= LONGEST else TEMPLATES[made]
-    return f"{wanted}{place}, not {described(value)}: {MADE_BY[made].format(repr(str(named)))}"
+    return f"{wanted}{place}, not {wrong}: {MADE_BY[made].format(repr(str(named)))}"
+
+
+def _words(kind: Kind) -> str:
+    name = kind.of.__name__
+    words = WORDS.get(name, f"{'an' if name[0] in 'AEIOUaeiou' else 'a'} {name}")
+    return f"{words} of {' or '.join(one.of.__name__ for one in kind.items)}" if kind.items else words
 
 
 def _shape(signature: inspect.Signature) -> str:

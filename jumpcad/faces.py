@@ -1,12 +1,14 @@
 """The face of a package: public names that load when they are first used."""
 
-import importlib
 import sys
-from collections.abc import Callable, Mapping
-from typing import Any
+
+TYPE_CHECKING = False  # as in `jumpcad`: nothing is imported before the command line is ready for an interrupt
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any
 
 
-def face(package: str, homes: Mapping[str, str]) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
+def face(package: str, homes: "Mapping[str, str]") -> "tuple[Callable[[str], Any], Callable[[], list[str]]]":
     """Return `__getattr__` and `__dir__` of a package.
 
     Parameters
@@ -17,7 +19,9 @@ def face(package: str, homes: Mapping[str, str]) -> tuple[Callable[[str], Any], 
         Public names, and the module below the package in which each is; a module of the same name is meant itself.
     """
 
-    def load(name: str) -> Any:
+    def load(name: str) -> "Any":
+        import importlib
+
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         module = importlib.import_module(f"{package}.{homes[name]}")

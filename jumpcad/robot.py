@@ -44,6 +44,9 @@ def require_name(name: str) -> None:
         Saying what it may hold.
     """
     if not NAME.fullmatch(name):
-        raise JumpcadError(f"{shown(name)} is used in file names: use letters, digits, spaces, '.', '-', '+' and '_'")
+        wrong = next((f", not U+{ord(letter):04X}" for letter in name if not re.match(r"[\w .+-]", letter)), "")
+        raise JumpcadError(
+            f"{shown(name)} is used in file names: use letters, digits, spaces, '.', '-', '+' and '_'{wrong}"
+        )
     if len(os.fsencode(name)) > LONGEST_NAME:
         raise JumpcadError(f"{shown(name)} is used in file names: use at most {LONGEST_NAME} bytes")

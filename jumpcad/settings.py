@@ -42,7 +42,7 @@ class Settings(Record):
         Literal["ballistic", "simulated"],
         Field(description="after take-off: in closed form, or on to the first touchdown"),
     ] = "ballistic"
-    max_time_s: Annotated[float, Field(gt=0, le=60, description="simulated time at which a run is stopped")] = 3.0
+    max_time_s: Annotated[float, Field(ge=1e-3, le=60, description="simulated time at which a run is stopped")] = 3.0
     trajectory: Annotated[bool, Field(description="record the poses and energies over time")] = False
     trajectory_rate_hz: Annotated[float, Field(ge=0.01, le=1e6, description="poses a second at most")] = 500.0
     published_quantities: Annotated[

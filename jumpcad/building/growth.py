@@ -5,6 +5,7 @@ from jumpcad.building.assembly import assembled
 from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
+from jumpcad.files.names import composed
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import Robot, require_name
@@ -28,6 +29,7 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
     """
+    name = composed(name)
     if name:
         require_name(name)
     workshop = (workshop or load_workshop("default")).revalidated()

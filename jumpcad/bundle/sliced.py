@@ -30,6 +30,8 @@ SMALLEST_MM2 = 1e-2
 """Cross-sections that differ by less do so because STL files hold 32-bit floats."""
 BOM, GUIDE = "bom.csv", "assembly.md"
 PLATE = re.compile(r"print/(plate-\d+-(.+))\.3mf")
+LARGEST_MM = 2000.0
+"""Largest coordinate of a part's file; a stranger's may hold any."""
 
 
 @dataclass(frozen=True)
@@ -188,8 +190,15 @@ class _StlPart:
     """An STL file as the mass model sees parts (mm)."""
 
     def __init__(self, stl: Path) -> None:
-        mesh = trimesh.load_mesh(stl)
-        self._solid = Manifold(Mesh64(np.asarray(mesh.vertices, dtype=float), mesh.faces.astype(np.uint64)))
+        with np.errstate(all="ignore"):  # of figures that are refused below
+            mesh = trimesh.load_mesh(stl, process=False)
+        if not np.all(np.abs(mesh.vertices) <= LARGEST_MM):  # also false for NaN
+            raise JumpcadError(f"{stl}: reaches further than {LARGEST_MM:g} mm, so it is no part; build it again")
+        mesh.process()
+        corners = np.asarray(mesh.vertices, dtype=float)
+        self._solid = Manifold(Mesh64(corners, mesh.faces.astype(np.uint64)))
+        if self._solid.is_empty():
+            raise JumpcadError(f"{stl}: is no closed solid; build it again")
 
     @property
     def bounds_mm(self) -> Array:

@@ -29,9 +29,11 @@ def _not_blank(text: str) -> str:
     return text
 
 
-Length = Annotated[float, Field(gt=0, le=500)]
-Mass = Annotated[float, Field(gt=0, le=5000)]
-Positive = Annotated[float, Field(gt=0, le=1e5)]
+# Lower limits keep quotients finite: they are below the figures of any article.
+Length = Annotated[float, Field(ge=0.01, le=500)]
+Side = Annotated[float, Field(ge=0.5, le=500)]
+Mass = Annotated[float, Field(ge=1e-3, le=5000)]
+Positive = Annotated[float, Field(ge=1e-4, le=1e5)]
 Source = Annotated[Text, AfterValidator(_not_blank)]
 
 
@@ -116,9 +118,9 @@ class Battery(Article):
     """A battery pack: length along the robot, width across it."""
 
     description: Source
-    length_mm: Length
-    width_mm: Length
-    height_mm: Length
+    length_mm: Side
+    width_mm: Side
+    height_mm: Side
     mass_g: Mass
     voltage_v: Positive
     capacity_mah: Positive
@@ -128,9 +130,9 @@ class Board(Article):
     """A circuit board with its components."""
 
     description: Source
-    length_mm: Length
-    width_mm: Length
-    height_mm: Length
+    length_mm: Side
+    width_mm: Side
+    height_mm: Side
     mass_g: Mass
 
 
@@ -143,7 +145,7 @@ class StockSpring(Article):
 
     wire_mm: Annotated[Length, Field(le=10)]
     inside_diameter_mm: Length
-    turns: Annotated[float, Field(gt=0, le=100)]
+    turns: Annotated[float, Field(ge=0.1, le=100)]
     arm_angle_deg: Annotated[float, Field(ge=0, le=360)]
     arm_length_mm: Length
     rate_nmm_per_deg: Positive

@@ -1,11 +1,15 @@
 """The command line: ready for an interrupt before anything else is loaded."""
 
+# All of these are loaded when Python has started; `signal` and `threading` would load much more before an interrupt
+# could be answered, and a handler that loads a module while another one is being loaded breaks that.
+import _signal as signal  # type: ignore[import-not-found]
+import _thread
 import atexit
 import os
-import signal
 import sys
-from typing import TYPE_CHECKING
+import time
 
+TYPE_CHECKING = False  # as in `jumpcad`
 if TYPE_CHECKING:
     from types import FrameType
 
@@ -39,13 +43,14 @@ def _interrupt(number: int, frame: "FrameType | None") -> None:
 
     Compiled modules abort the process then, or take it for a failure of their own.
     """
-    import threading  # late, as is everything that takes a millisecond
-
     while frame is not None and frame.f_code is not main.__code__:
         if frame.f_code.co_filename == "<frozen importlib._bootstrap>":
-            again = threading.Timer(RETRY_S, os.kill, (os.getpid(), number))
-            again.daemon = True
-            again.start()
+            _thread.start_new_thread(_send_again, (number,))
             return
         frame = frame.f_back
     raise KeyboardInterrupt
+
+
+def _send_again(number: int) -> None:
+    time.sleep(RETRY_S)
+    os.kill(os.getpid(), number)

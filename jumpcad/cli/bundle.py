@@ -44,10 +44,12 @@ def build(
     In a folder that holds the robot already, its files are replaced and everything else stays.
     """
     from jumpcad.bundle.export import export
+    from jumpcad.files.outputs import require_apart
     from jumpcad.mechanism.capsule import capsule_robot
     from jumpcad.simulation import simulate
     from jumpcad.simulation.engines import default_engine
 
+    require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
     tell_template(design)
     with progress(f"building {design}"):
         robot = designed(design, workshop)
@@ -78,10 +80,11 @@ def render(
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
     from jumpcad.bundle.folder import change_files, require_unedited
     from jumpcad.bundle.renders import RENDERS, jump_gif, renders
-    from jumpcad.files.outputs import require_free, write_files
+    from jumpcad.files.outputs import require_apart, require_free, write_files
     from jumpcad.simulation import Settings, simulate
     from jumpcad.simulation.engines import default_engine
 
+    require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     tell_template(subject)
     names = [*(f"{name}.png" for name in RENDERS), GIF]
     bundle = bundle_of(subject, workshop) if output is None else None

@@ -29,6 +29,9 @@ def coupon(
     as_json: JsonFlag = False,
 ) -> None:
     """Write a fit coupon to print; with --measured, make a workshop file from its readings."""
+    from jumpcad.files.outputs import require_apart
+
+    require_apart({"--output": output}, {"--measured": measured, "--workshop": workshop})
     if measured is not None:
         facts = _measured(measured, workshop, output or WORKSHOP, force)
     else:

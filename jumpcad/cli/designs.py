@@ -21,8 +21,9 @@ def new(
 ) -> None:
     """Write a new design file, copied from a template."""
     from jumpcad.design import load_design
-    from jumpcad.files.outputs import require_target, write_atomically
+    from jumpcad.files.outputs import require_apart, require_target, write_atomically
 
+    require_apart({"the design file": file}, {"--from": template})
     require_target(file, (".toml",), force)
     design = load_design(template)
     write_atomically(file, design.to_toml())

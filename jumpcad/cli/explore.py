@@ -82,6 +82,7 @@ def explore(
     With --study, evaluations are kept and not repeated.
     """
     from jumpcad.design import load_design
+    from jumpcad.files.outputs import require_apart
     from jumpcad.search.evaluator import Evaluator
     from jumpcad.search.objective import find_objective
     from jumpcad.search.space import Space
@@ -93,6 +94,7 @@ def explore(
         if value is not None and view not in USED_BY[option]:
             raise JumpcadError(f"--{option} {value}: does not apply to {view}, only to {' and '.join(USED_BY[option])}")
     samples, points, over = samples or SAMPLES, points or POINTS, over or OVER
+    require_apart({"--study": options.study, "--plots": plots}, {"--around": around, **options.inputs()})
     require_study(options.study)
     require_plots(plots, force)
     space, robot = Space.parse(options.fix or (), options.bound or (), options.choose or ()), options.robot_model()

@@ -9,7 +9,6 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
 from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
-    require_other_files,
     require_plots,
     require_study,
     watching,
@@ -18,7 +17,9 @@ from jumpcad.cli.searching import (
 from jumpcad.search.methods import METHODS
 
 if TYPE_CHECKING:
+    from jumpcad.search.evaluator import Watch
     from jumpcad.search.result import Result
+    from jumpcad.search.trial import Trial
 
 SHOWN = 10
 """Candidates that are printed; --json has all of them."""
@@ -76,7 +77,7 @@ def optimize(
     code is 1 if every design is rejected.
     """
     from jumpcad.design import load_design
-    from jumpcad.files.outputs import require_target
+    from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.search.request import Request
     from jumpcad.search.space import Space
     from jumpcad.search.study import run_study
@@ -91,14 +92,16 @@ def optimize(
     path = options.study or Path(request.default_name())
     require_study(path)
     design_file = output or path.with_suffix(".toml")
-    require_other_files(path, output=design_file, from_study=from_study)
+    require_apart(
+        {"the study": path, "the design file": design_file, "--plots": plots},
+        {"--from-study": from_study, "--around": around, **options.inputs()},
+    )
     require_target(design_file, (".toml",), force)
     require_plots(plots, force)
+    where = f"{request.method} on the {options.model} robot"
+    heading = f"study {escaped(str(path))}: {where}, free parameters: {space.dimension}"
     with options.pool() as pool, watching(evaluations, as_json) as watch:
-        if not as_json:
-            where = f"{request.method} on the {options.model} robot"
-            print(f"study {escaped(str(path))}: {where}, free parameters: {space.dimension}")
-        result = run_study(request, path, pool, watch)
+        result = run_study(request, path, pool, watch if as_json else _headed(heading, watch))
     if result.winner is not None:
         result.save(design_file, force)
     pictures = _plot(path, plots)
@@ -109,6 +112,18 @@ def optimize(
         _print_result(result, design_file)
     if result.winner is None:
         raise typer.Exit(1)
+
+
+def _headed(heading: str, watch: "Watch") -> "Watch":
+    """Return a watch that prints a line before the first trial: the study then is what was asked for."""
+    waiting = [heading]
+
+    def headed(trial: "Trial", computed: bool) -> None:
+        if waiting:
+            print(waiting.pop(), flush=True)
+        watch(trial, computed)
+
+    return headed
 
 
 def _plot(path: Path, folder: Path | None) -> list[str]:

@@ -47,10 +47,14 @@ class SearchOptions:
         list[str] | None, typer.Option(help="Search a parameter in another range.", metavar="NAME=LO:HI")
     ] = None
     choose: Annotated[list[str] | None, typer.Option(help="Allow some values only.", metavar="NAME=a,b,c")] = None
-    workshop: Annotated[str, typer.Option(help="Workshop of the printed robot: a template's name or a file.")] = (
-        "default"
-    )
-    settings: Annotated[str, typer.Option(help="Settings of the simulation: a template's name or a file.")] = "default"
+    workshop: Annotated[
+        str | None,
+        typer.Option(help="Workshop of the printed robot: a template's name or a file.", show_default="default"),
+    ] = None
+    settings: Annotated[
+        str | None,
+        typer.Option(help="Settings of the simulation: a template's name or a file.", show_default="default"),
+    ] = None
     engine: Annotated[str | None, typer.Option(help=f"{in_words(ENGINES, 'or')}; else the first installed.")] = None
     workers: Annotated[int | None, typer.Option(help="Processes, one for each core unless given; 0 for none.")] = None
     dask: Annotated[
@@ -63,6 +67,10 @@ class SearchOptions:
         from jumpcad.search.models import robot_model
 
         return robot_model(self.model, self.workshop, self.settings, self.engine)
+
+    def inputs(self) -> dict[str, str | None]:
+        """Return the files that are read, by their options."""
+        return {"--workshop": self.workshop, "--settings": self.settings}
 
     def pool(self) -> "Pool":
         """Return the pool that the options describe."""
@@ -113,21 +121,6 @@ def require_study(study: Path | None) -> None:
     require_folder(study)
     if os.path.lexists(study) and not os.path.isfile(study):
         raise JumpcadError(f"{study}: is there already and is no file; choose another name")
-
-
-def require_other_files(study: Path, **others: Path | None) -> None:
-    """Reject, before a search, files that are its study file; `others` are by their options: `output` of `--output`.
-
-    Raises
-    ------
-    JumpcadError
-        Naming the option.
-    """
-    from jumpcad.files.outputs import same_file
-
-    for option, other in others.items():
-        if other is not None and same_file(study, other):
-            raise JumpcadError(f"--{option.replace('_', '-')} {other}: is the study file itself; choose another name")
 
 
 def require_plots(folder: Path | None, force: bool) -> None:

@@ -71,7 +71,7 @@ def simulate(
     The exit code is 0 for a jump and 1 if the design is rejected or does not jump.
     """
     from jumpcad.design import load_design
-    from jumpcad.files.outputs import require_target
+    from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.mechanism.capsule import capsule_robot
 
     if capsule and published:
@@ -80,6 +80,7 @@ def simulate(
         refuse_workshop(workshop, "cannot apply to a robot that is not printed; leave it out")
     if published and (flight or trajectory):
         raise JumpcadError("--flight and --trajectory cannot apply to --published; leave them out")
+    require_apart({"--trajectory": trajectory}, {"the design": design, "--workshop": workshop, "--settings": settings})
     if trajectory:
         require_target(trajectory, TRAJECTORY_SUFFIXES, force)
     tell_template(design)

@@ -37,9 +37,10 @@ def slice_command(
     The times go into the bundle's bill of materials and guide, unless another workshop prints it.
     """
     from jumpcad.bundle.sliced import slice_bundle, write_times
-    from jumpcad.files.outputs import require_target, write_atomically
+    from jumpcad.files.outputs import require_apart, require_target, write_atomically
     from jumpcad.workshop import load_workshop
 
+    require_apart({"--write-masses": write_masses}, {"--workshop": workshop})
     if write_masses is not None:
         require_target(write_masses, (".toml",), force)
     printed_by = load_workshop(workshop) if workshop else None

@@ -35,12 +35,16 @@ def study(
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the trials."""
+    from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.search.store import StudyStore
-    from jumpcad.search.table import write_table
+    from jumpcad.search.table import TABLES, write_table
 
     if len(files) > 1 and (export or plots):
         raise JumpcadError("--export and --plots are for one study; name one file")
+    require_apart({"--export": export, "--plots": plots}, {f"the study {file}": file for file in files})
     require_plots(plots, force)
+    if export is not None:
+        require_target(export, TABLES, force)
     summaries = []
     for file in files:
         with StudyStore.read(file) as store:

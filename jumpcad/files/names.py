@@ -2,7 +2,7 @@
 
 import re
 import unicodedata
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
@@ -22,7 +22,20 @@ def control_character(text: str) -> str:
     return next((f"U+{ord(letter):04X}" for letter in text if unicodedata.category(letter) in CONTROL_CATEGORIES), "")
 
 
+def composed(data: Any) -> Any:
+    """Return texts, and those of nested lists and tables, with their letters composed (NFC).
+
+    Some systems write ä as a and a combining diaeresis; both are the same name.
+    """
+    if isinstance(data, str):
+        return unicodedata.normalize("NFC", data)
+    if isinstance(data, dict):
+        return {composed(key): composed(value) for key, value in data.items()}
+    return [composed(one) for one in data] if isinstance(data, list) else data
+
+
 def _name(value: str) -> str:
+    value = composed(value)
     if not NAME.fullmatch(value):
         raise PydanticCustomError("value_error", NAME_RULE)
     return value

@@ -38,6 +38,7 @@ def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
     JumpcadError
         If the folder or a file cannot be written.
     """
+    require_path(folder)
     made = not folder.is_dir()
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -54,6 +55,48 @@ def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
     return list(paths)
 
 
+def require_path(path: Path) -> None:
+    """Refuse a text that cannot be a path: with a NUL, or a character that no file's name can have.
+
+    Raises
+    ------
+    JumpcadError
+        Naming it.
+    """
+    if "\0" in str(path):
+        raise JumpcadError(f"{path}: cannot be a path: it has a NUL")
+    try:
+        os.fsencode(path)
+    except UnicodeEncodeError as error:
+        wrong = f"U+{ord(error.object[error.start]):04X}"
+        raise JumpcadError(f"{path}: cannot be a path: {wrong} cannot be part of a file's name") from None
+
+
+def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str | Path | None]) -> None:
+    """Refuse, before any work, an output that is another output or an input, by whatever way, or lies below one.
+
+    Parameters
+    ----------
+    outputs, inputs
+        By their options; None where there is none. Inputs that are no files, templates and bundles, do not count.
+
+    Raises
+    ------
+    JumpcadError
+        Naming both options.
+    """
+    there = {name: path for name, path in outputs.items() if path is not None}
+    read = {name: Path(path) for name, path in inputs.items() if path is not None and _is_file(path)}
+    for number, (name, path) in enumerate(there.items()):
+        for other, second in [*list(there.items())[:number], *read.items()]:
+            if same_file(path, second):
+                raise JumpcadError(f"{name} {path}: is {other} itself; choose another name")
+            if second.suffix and not os.path.isdir(second) and _lies_below(path, second):
+                raise JumpcadError(f"{name} {path}: lies below {other} {second}, which is a file; choose another name")
+            if other in there and path.suffix and not os.path.isdir(path) and _lies_below(second, path):
+                raise JumpcadError(f"{other} {second}: lies below {name} {path}, which is a file; choose another name")
+
+
 def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -> None:
     """Refuse an output file with another suffix, in a missing folder, or that would replace a user's own.
 
@@ -62,6 +105,7 @@ def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -
     JumpcadError
         Naming the path and what is wrong.
     """
+    require_path(path)
     if path.suffix not in suffixes:
         raise JumpcadError(f"{path}: must end in {' or '.join(suffixes)}")
     require_folder(path)
@@ -88,6 +132,7 @@ def require_free(path: Path, force: bool = False) -> None:
     JumpcadError
         Naming the path and the way out.
     """
+    require_path(path)
     try:
         mode = os.lstat(path).st_mode
     except (FileNotFoundError, NotADirectoryError):
@@ -121,6 +166,15 @@ def same_file(one: Path, other: Path) -> bool:
         return os.path.samefile(one, other)
     except OSError:
         return False
+
+
+def _is_file(named: str | Path) -> bool:
+    """Tell whether an input is a file: no template's name, and no bundle, whose files its manifest protects."""
+    return not os.path.isdir(named) and (isinstance(named, Path) or named.endswith((".toml", ".urdf")))
+
+
+def _lies_below(path: Path, file: Path) -> bool:
+    return os.path.realpath(path).startswith(os.path.realpath(file) + os.sep)
 
 
 def _is_sealed(path: Path) -> bool:

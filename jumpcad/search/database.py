@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from jumpcad.errors import JumpcadError, without_controls
+from jumpcad.files.outputs import require_path
 
 PATIENCE_S = 5.0
 """How long a reader or writer waits for another one (s)."""
@@ -49,6 +50,7 @@ def lock(path: Path) -> int:
     """
     import fcntl
 
+    require_path(path)
     try:
         descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
     except OSError as error:

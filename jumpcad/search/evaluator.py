@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import QUARANTINED, Model, Objective
@@ -39,6 +40,7 @@ class Evaluator:
         Called with every trial.
     """
 
+    @typed
     def __init__(
         self,
         space: Space,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
@@ -72,6 +73,7 @@ class FeasibilityMap:
     trials: list[list[Trial]]
 
 
+@typed
 def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     """Vary each free parameter alone, over `points` values of its range (or over its choices)."""
     if points < 2:
@@ -84,6 +86,7 @@ def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     return sweeps
 
 
+@typed
 def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
     """Evaluate `count` designs spread evenly over the space."""
     if count < 20:
@@ -92,6 +95,7 @@ def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
     return _all(evaluator, [evaluator.space.to_design(point) for point in points], "sample", 0)
 
 
+@typed
 def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
     """Return the principal components of the free parameters of some trials."""
     from sklearn.decomposition import PCA
@@ -111,6 +115,7 @@ def elite(trials: Sequence[Trial]) -> list[Trial]:
     return feasible[: max(ELITE_LEAST, round(ELITE_SHARE * len(feasible)))]
 
 
+@typed
 def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Importance:
     """Return the permutation importance of the free parameters for the score of designs that jump.
 
@@ -140,6 +145,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
     return Importance(names, np.mean(falls, axis=0), np.std(falls, axis=0), float(np.mean(scores)), len(feasible))
 
 
+@typed
 def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: str, points: int) -> FeasibilityMap:
     """Evaluate a grid over two free parameters, the others as in a design."""
     parameters = {parameter.name: parameter for parameter in evaluator.space.free}

@@ -8,6 +8,7 @@ import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from jumpcad.arguments import typed
 from jumpcad.files.outputs import sealed, write_files
 
 PICTURES = (
@@ -39,12 +40,13 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
     return figure, axes
 
 
-def save_figure(figure: Figure, folder: Path, name: str) -> Path:
+@typed
+def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
     """Write a figure as `folder/name.svg`, marked as jumpcad's, and return the path."""
     stream = io.StringIO()
     with matplotlib.rc_context(STYLE):
         figure.savefig(stream, format="svg", metadata={"Date": None})
-    (path,) = write_files(folder, {f"{name}.svg": sealed(stream.getvalue(), "<!-- {} -->")})
+    (path,) = write_files(Path(folder), {f"{name}.svg": sealed(stream.getvalue(), "<!-- {} -->")})
     return path
 
 

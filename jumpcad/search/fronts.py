@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.search.trial import Trial
@@ -12,6 +13,7 @@ REFERENCE_ENERGY_J = 1.5
 """Energy of the reference point of the hypervolume; its score is 0."""
 
 
+@typed
 def energy_j(design: Design) -> float:
     """Return the energy of a design's loaded springs (J); infinite if it has no assembled pose."""
     try:
@@ -20,6 +22,7 @@ def energy_j(design: Design) -> float:
         return np.inf
 
 
+@typed
 def front(trials: Sequence[Trial]) -> list[Trial]:
     """Return the trials with a positive score that no other one reaches with less energy, sorted by energy."""
     scored = [trial for trial in trials if trial.score is not None]
@@ -31,6 +34,7 @@ def front(trials: Sequence[Trial]) -> list[Trial]:
     return chosen
 
 
+@typed
 def hypervolume(trials: Sequence[Trial], reference_energy_j: float = REFERENCE_ENERGY_J) -> float:
     """Return the area that a front dominates, from score 0 and the reference energy (score units times J)."""
     chosen = [trial for trial in front(trials) if energy_j(trial.design) < reference_energy_j]

@@ -8,9 +8,10 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
+from jumpcad.arguments import require_fields, typed
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.files import did_you_mean, templates_folder
+from jumpcad.files import Record, did_you_mean, templates_folder
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import Evaluation
@@ -48,6 +49,7 @@ class RobotModel:
         return f"<RobotModel {self.name}, {self.describe()['engine']}>"
 
     def __post_init__(self) -> None:
+        require_fields(self)
         if self.name not in MODELS:
             raise JumpcadError(
                 f"{self.name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(self.name, MODELS)}"
@@ -127,10 +129,11 @@ class RobotModel:
         return Evaluation("jump" if jump.distance_m > 0 else "no_takeoff", metrics, tuple(geometry_findings(design)))
 
 
+@typed
 def robot_model(
     name: str = "printed",
-    workshop: Workshop | str | Path = DEFAULT,
-    settings: Settings | str | Path = "default",
+    workshop: Workshop | str | Path | None = None,
+    settings: Settings | str | Path | None = None,
     engine: str | None = None,
 ) -> RobotModel:
     """Return the model of a name; workshop and settings by name, as files, or loaded.
@@ -138,23 +141,33 @@ def robot_model(
     Parameters
     ----------
     name
-        One of `MODELS`; each uses those of the other arguments that it needs.
-    workshop, settings
-        Where `printed` is built; how `printed` and `capsule` are simulated.
-    engine
-        PyBullet or MuJoCo, the first that is installed, if None.
+        One of `MODELS`.
+    workshop
+        Where `printed` is built, the default if None.
+    settings, engine
+        How `printed` and `capsule` are simulated: the default settings, and the first of PyBullet and MuJoCo that is
+        installed, if None.
 
     Raises
     ------
     JumpcadError
-        If there is no such model, engine, workshop or settings.
+        If there is no such model, engine, workshop or settings, or the model does not use what is given.
     """
     if engine is not None:
         require_engine(engine)
+    uses = {"capsule": ("settings",), "published": ()}.get(name, ("workshop", "settings"))
+    for option, value in (("workshop", workshop), ("settings", settings)):
+        if value is not None and option not in uses:
+            named = "" if isinstance(value, Record) else f" {value}"
+            raise JumpcadError(f"{option}{named}: does not apply to the {name} robot; leave it out")
+    if name == "published" and engine not in (None, "pybullet"):
+        raise JumpcadError(f"engine {engine}: the published simulation exists in pybullet alone")
     if name not in MODELS or name == "published":
         return RobotModel(name)
-    built_in = None if name != "printed" else workshop if isinstance(workshop, Workshop) else load_workshop(workshop)
-    how = settings if isinstance(settings, Settings) else load_settings(settings)
+    built_in = None
+    if name == "printed":
+        built_in = workshop if isinstance(workshop, Workshop) else load_workshop(workshop or DEFAULT)
+    how = settings if isinstance(settings, Settings) else load_settings(settings or "default")
     return RobotModel(name, built_in, how, engine or default_engine())
 
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
@@ -116,6 +117,7 @@ OBJECTIVES: dict[str, Objective] = {
 }
 
 
+@typed
 def find_objective(name: str) -> Objective:
     """Return an objective by its name."""
     if name not in OBJECTIVES:

@@ -30,8 +30,8 @@ def optimize(
     around: Design | str | Path | None = None,
     only: Sequence[str] = (),
     within_percent: float | int | None = None,
-    workshop: Workshop | str | Path = "default",
-    settings: Settings | str | Path = "default",
+    workshop: Workshop | str | Path | None = None,
+    settings: Settings | str | Path | None = None,
     engine: str | None = None,
     workers: int | None = None,
     dask: str | None = None,
@@ -63,7 +63,7 @@ def optimize(
     around, only, within_percent
         Free only some parameters, or search near a design; see `Space.make`.
     workshop, settings, engine
-        Where `printed` is built and how it is simulated; see `robot_model`.
+        Where `printed` is built and how it is simulated; see `robot_model`, which refuses what the model does not use.
     workers, dask, limit_s
         Processes (one for each core if None, none if 0) or the address of a Dask scheduler, and the timeout for each
         evaluation (s).

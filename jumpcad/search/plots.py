@@ -7,6 +7,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from jumpcad.arguments import typed
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.fronts import energy_j, front
@@ -22,6 +23,7 @@ DECADES = 6.0
 """The acquisition is drawn down to this many decades below its maximum."""
 
 
+@typed
 def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score of every evaluation, and the best so far."""
     figure, (axes,) = panels(1, 6.4, 3.6)
@@ -37,6 +39,7 @@ def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     return figure
 
 
+@typed
 def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score over each free parameter."""
     figure, all_axes = panels(space.dimension)
@@ -49,6 +52,7 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
     return figure
 
 
+@typed
 def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     """Draw every feasible design as a line over the free parameters, the better the darker."""
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
@@ -63,6 +67,7 @@ def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     return figure
 
 
+@typed
 def pareto(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score against the energy of the springs, and the front."""
     figure, (axes,) = panels(1, 6.4, 3.6)
@@ -76,6 +81,7 @@ def pareto(trials: Sequence[Trial], objective: Objective) -> Figure:
     return figure
 
 
+@typed
 def importance(found: Importance) -> Figure:
     """Draw permutation importances, largest at the top."""
     figure, (axes,) = panels(1, 6.4, 3.2)
@@ -85,6 +91,7 @@ def importance(found: Importance) -> Figure:
     return figure
 
 
+@typed
 def sweeps(found: Sequence[Sweep], objective: Objective) -> Figure:
     """Draw the score over each parameter varied alone; crosses where the design is rejected."""
     figure, all_axes = panels(len(found))
@@ -97,6 +104,7 @@ def sweeps(found: Sequence[Sweep], objective: Objective) -> Figure:
     return figure
 
 
+@typed
 def components(views: Mapping[str, Components]) -> Figure:
     """Draw the shares of variance of principal components, one panel each for sampled designs and the elite."""
     figure, all_axes = panels(len(views), 4.0, 3.0)
@@ -107,6 +115,7 @@ def components(views: Mapping[str, Components]) -> Figure:
     return figure
 
 
+@typed
 def feasibility(found: FeasibilityMap) -> Figure:
     """Draw why designs are rejected, over a grid of two parameters."""
     figure, (axes,) = panels(1, 6.4, 4.2)
@@ -126,6 +135,7 @@ def feasibility(found: FeasibilityMap) -> Figure:
     return figure
 
 
+@typed
 def acquisition(space: Space, trials: Sequence[Trial], posterior: Posterior, objective: Objective) -> Figure:
     """Draw surrogate and expected improvement over the one or two free parameters of a Bayesian search."""
     best = max((trial.score for trial in trials if trial.score is not None), default=0.0)

@@ -18,8 +18,10 @@ from typing import Any
 
 import cloudpickle
 
+from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
+from jumpcad.files.complaints import shown
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model
 from jumpcad.search.worker import Failure, evaluate_task, start_worker
 
@@ -30,8 +32,8 @@ ANSWER_S = 10.0
 """Timeout for a Dask scheduler's answer (s)."""
 
 MOST_WORKERS = 256
-LONGEST_S = 86400.0
-"""The longest timeout per evaluation (s)."""
+SHORTEST_S, LONGEST_S = 0.1, 86400.0
+"""The shortest timeout per evaluation (s), below which none can end, and the longest."""
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 """Environment of a local worker: as many workers as cores, one thread each."""
@@ -63,6 +65,7 @@ class Pool:
         Called with one line about every failure.
     """
 
+    @typed
     def __init__(
         self,
         open_executor: Callable[[], Executor],
@@ -164,6 +167,7 @@ class Pool:
         return f"its worker was lost: {type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"
 
 
+@typed
 def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of processes on this machine, by default one for each core that this process may use.
 
@@ -172,9 +176,11 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     if workers is None:
         workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if workers < 0:
-        raise JumpcadError(f"workers = {workers} must be at least 1 (0 evaluates without worker processes)")
+        raise JumpcadError(f"workers = {shown(workers)} must be at least 1 (0 evaluates without worker processes)")
     if workers > MOST_WORKERS:
-        raise JumpcadError(f"workers = {workers} must be at most {MOST_WORKERS}; more machines take part by Dask")
+        raise JumpcadError(
+            f"workers = {shown(workers)} must be at most {MOST_WORKERS}; more machines take part by Dask"
+        )
     _require_limit(limit_s)
     if workers == 0:
         return Pool(InProcess, InProcess.shutdown, 1)
@@ -188,6 +194,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     return Pool(open_executor, lambda executor: executor.shutdown(kill_workers=True), workers, limit_s)
 
 
+@typed
 def open_pool(workers: int | None = None, dask: str | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`."""
     if dask is not None and workers is not None:
@@ -196,12 +203,14 @@ def open_pool(workers: int | None = None, dask: str | None = None, limit_s: floa
 
 
 def _require_limit(limit_s: float) -> None:
-    if not 0 < limit_s <= LONGEST_S:  # also false for NaN
+    if not SHORTEST_S <= limit_s <= LONGEST_S:  # also false for NaN
         raise JumpcadError(
-            f"limit = {limit_s:g} s must be more than 0 and at most {LONGEST_S:g}: the timeout per evaluation"
+            f"limit = {shown(limit_s)} s must be at least {SHORTEST_S:g} and at most {LONGEST_S:g}: "
+            "the timeout per evaluation"
         )
 
 
+@typed
 def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
     """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad)."""
     _require_limit(limit_s)

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
+from jumpcad.arguments import require_fields
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
+from jumpcad.files.complaints import shown
 from jumpcad.search.methods import DEFAULT, FRONTS, METHODS, NAMES, SEQUENCES
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
@@ -70,6 +72,7 @@ class Request:
         return cls(space, model, aim, method or DEFAULT, tolerance_mm=model.tolerance_mm, **others)
 
     def __post_init__(self) -> None:
+        require_fields(self)
         find_objective(self.objective)
         find_preset(self.preset)
         if self.method not in NAMES:
@@ -82,9 +85,9 @@ class Request:
             ("tolerance_mm", self.tolerance_mm, 0, 100),
         ):
             if value < least:
-                raise JumpcadError(f"{name} = {value:g} must be at least {least}")
+                raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
-                raise JumpcadError(f"{name} = {value} must be at most {most}")
+                raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
         if self.batch > 1 and not any(METHODS[name].learns for name in SEQUENCES.get(self.method, (self.method,))):
             learning = ", ".join(name for name, method in METHODS.items() if method.learns)
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")

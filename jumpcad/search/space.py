@@ -13,6 +13,7 @@ from typing import Any, Self
 import numpy as np
 from scipy.stats import qmc
 
+from jumpcad.arguments import require_fields, typed
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import (
@@ -40,6 +41,7 @@ class Space:
         return f"<Space: {', '.join(p.name for p in self.free)} free>"
 
     def __post_init__(self) -> None:
+        require_fields(self)
         if not any(parameter.free for parameter in self.parameters):
             raise JumpcadError("all eight parameters are fixed: nothing is left to search; free at least one")
 
@@ -49,6 +51,7 @@ class Space:
         return cls(tuple(Parameter(name, limits.lower, limits.upper) for name, limits in SEARCH_BOUNDS.items()))
 
     @classmethod
+    @typed
     def make(
         cls,
         fixed: Mapping[str, float] = NOTHING,
@@ -83,6 +86,7 @@ class Space:
         return cls._changed(changes, around, only, within_percent)
 
     @classmethod
+    @typed
     def parse(
         cls,
         fix: Iterable[str] = (),

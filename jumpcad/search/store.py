@@ -10,14 +10,16 @@ import json
 import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from jumpcad.arguments import typed
 from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
+from jumpcad.files.outputs import require_path
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
 from jumpcad.search.stored import (
     require_remembered,
@@ -32,6 +34,8 @@ from jumpcad.search.trial import LEARNING_PHASES, PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50
 FORMAT = 1
+MOST_NOTES, LONGEST_NOTE = 200, 1000
+"""Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
 _SCHEMA = f"""
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -57,8 +61,11 @@ _TEXTS = ("phase", "model", "verdict", "metrics", "findings", "detail", "proposa
 class StudyStore:
     """An open study file; `StudyStore.write` and `StudyStore.read` open one."""
 
-    def __init__(self, path: Path | None, connection: sqlite3.Connection, claim: int | None = None) -> None:
+    def __init__(
+        self, path: Path | None, connection: sqlite3.Connection, claim: int | None = None, made: bool = False
+    ) -> None:
         self.path = path
+        self._made = made
         self._connection = connection
         self._claim = claim
 
@@ -66,7 +73,8 @@ class StudyStore:
         return f"<StudyStore {str(self.path)[-120:] if self.path else 'in memory'}>"
 
     @classmethod
-    def write(cls, path: Path | None, identity: Mapping[str, Any]) -> "StudyStore":
+    @typed
+    def write(cls, path: str | Path | None, identity: Mapping[str, Any]) -> "StudyStore":
         """Create a study, or continue the one in `path` if it has the same identity; None keeps it in memory.
 
         Raises
@@ -74,10 +82,12 @@ class StudyStore:
         JumpcadError
             If the file holds another study, is not a study, is damaged, or is being written by another run.
         """
+        path = None if path is None else Path(path)
+        made = path is not None and not os.path.lexists(path)
         claim = None if path is None else lock(path)
         try:
             with plain_errors(path):
-                store = cls(path, connect(":memory:" if path is None else os.path.abspath(path)), claim)
+                store = cls(path, connect(":memory:" if path is None else os.path.abspath(path)), claim, made)
                 store._prepare(identity)
             return store
         except BaseException:
@@ -86,7 +96,8 @@ class StudyStore:
             raise
 
     @classmethod
-    def read(cls, path: Path) -> "StudyStore":
+    @typed
+    def read(cls, path: str | Path) -> "StudyStore":
         """Open a study for reading, also while it is being written, and in a folder that may not be written to.
 
         Raises
@@ -94,6 +105,8 @@ class StudyStore:
         JumpcadError
             If there is no such file, or it is not a study, is damaged, or cannot be opened.
         """
+        path = Path(path)
+        require_path(path)
         if not os.path.isfile(path):  # unlike Path.is_file, False for a name that is too long
             there = os.path.exists(path)
             reason = "is a folder, a pipe or a device, not a study file" if there else "no such study file"
@@ -119,8 +132,15 @@ class StudyStore:
     def __enter__(self) -> "StudyStore":
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, _: object) -> None:
+        """Close the file; remove it if it was made for a request that is wrong, and holds no evaluation."""
+        useless = self._made and isinstance(error, JumpcadError) and self._is_empty()
+        if useless and self.path is not None:
+            self.path.unlink(missing_ok=True)
         self.close()
+        if useless and self.path is not None:
+            for suffix in ("-wal", "-shm"):
+                self.path.with_name(f"{self.path.name}{suffix}").unlink(missing_ok=True)
 
     @property
     def identity(self) -> dict[str, Any]:
@@ -169,16 +189,32 @@ class StudyStore:
                 f"INSERT INTO evaluations VALUES ({marks})", [_record(trial) for trial in trials]
             )
 
+    def _is_empty(self) -> bool:
+        with suppress(JumpcadError), plain_errors(self.path):
+            return not self._connection.execute("SELECT EXISTS (SELECT 1 FROM evaluations)").fetchone()[0]
+        return False
+
     def note(self, text: str) -> None:
         """Keep a line about the run: a lost worker, a quarantined design."""
         with self._transaction():
             self._connection.execute("INSERT INTO notes VALUES (?)", (text,))
 
+    def note_once(self, text: str) -> None:
+        """Keep a line about the run, unless it is there already."""
+        with self._transaction():
+            self._connection.execute(
+                "INSERT INTO notes SELECT ? WHERE NOT EXISTS (SELECT 1 FROM notes WHERE text = ?)", (text, text)
+            )
+
     def notes(self) -> list[str]:
-        """Return the lines about the run."""
+        """Return the lines about the run; of very many, how many there are and then the newest."""
         with plain_errors(self.path):
-            notes = self._connection.execute("SELECT text FROM notes ORDER BY rowid").fetchall()
-        return [without_controls(str(text)) for (text,) in notes]
+            (count,) = self._connection.execute("SELECT count(*) FROM notes").fetchone()
+            newest = self._connection.execute(
+                "SELECT substr(text, 1, ?) FROM notes ORDER BY rowid DESC LIMIT ?", (LONGEST_NOTE, MOST_NOTES)
+            ).fetchall()
+        notes = [without_controls(str(text)) for (text,) in reversed(newest)]
+        return notes if count <= MOST_NOTES else [f"{count - MOST_NOTES} earlier notes", *notes]
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:

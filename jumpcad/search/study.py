@@ -7,6 +7,7 @@ import json
 from dataclasses import asdict, replace
 from pathlib import Path
 
+from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.methods import METHODS, Task
@@ -19,7 +20,8 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial, best_trial
 
 
-def run_study(request: Request, path: Path | None, pool: Pool, watch: Watch = ignore) -> Result:
+@typed
+def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watch = ignore) -> Result:
     """Run a study, or continue the one in a file; None keeps it in memory.
 
     Raises
@@ -29,8 +31,8 @@ def run_study(request: Request, path: Path | None, pool: Pool, watch: Watch = ig
     """
     prior, remark = _read_prior(request)
     with StudyStore.write(path, request.identity(prior)) as store:
-        if remark and remark not in store.notes():
-            store.note(remark)
+        if remark:
+            store.note_once(remark)
         stages = _stages(request, store, len(prior))
         objective = find_objective(request.objective)
         evaluator = Evaluator(request.space, objective, request.model, store, pool, prior, watch)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from jumpcad.arguments import typed
 from jumpcad.search import plots
 from jumpcad.search.figures import save_figure
 from jumpcad.search.methods import FRONTS
@@ -16,7 +17,8 @@ from jumpcad.search.surrogate import Posterior
 from jumpcad.search.trial import Trial, searched
 
 
-def plot_study(store: StudyStore, folder: Path) -> list[Path]:
+@typed
+def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
     """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
     trials, identity = searched(store.trials()), store.identity
     space, objective = Space.from_record(identity["space"]), find_objective(identity["objective"])

@@ -5,10 +5,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.files.csv_text import to_csv
 from jumpcad.files.outputs import require_target, write_atomically
 from jumpcad.search.trial import Trial
+
+TABLES = (".csv", ".parquet")
 
 
 def _table(trials: Sequence[Trial]) -> list[dict[str, Any]]:
@@ -18,7 +21,8 @@ def _table(trials: Sequence[Trial]) -> list[dict[str, Any]]:
     return [_record(trial, metrics, margins) for trial in trials]
 
 
-def write_table(trials: Sequence[Trial], path: Path, force: bool = False) -> None:
+@typed
+def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) -> None:
     """Write trials to a `.csv` or `.parquet` file, over an existing one only if forced.
 
     Raises
@@ -26,7 +30,8 @@ def write_table(trials: Sequence[Trial], path: Path, force: bool = False) -> Non
     JumpcadError
         If the file exists, ends otherwise, or cannot be written; for Parquet also if PyArrow is not installed.
     """
-    require_target(path, (".csv", ".parquet"), force)
+    path = Path(path)
+    require_target(path, TABLES, force)
     records = _table(trials)
     if path.suffix == ".csv":
         columns = list(records[0]) if records else ["phase"]

@@ -28,8 +28,9 @@ class SpringSection(TomlTable):
     """Both springs together, see `jumpcad.robot.Spring`."""
 
     joint: Literal["leg"]
-    stiffness_nm_per_rad: Annotated[float, Field(gt=0, le=1e3)]
+    stiffness_nm_per_rad: Annotated[float, Field(ge=1e-4, le=1e3)]
     rest_rad: Annotated[float, Field(ge=0, le=0)]
+<<<<<<< HEAD
     wind_rad: Annotated[float, Field(gt=0, le=3.1416)]
     preload_rad: Annotated[float, Field(ge=0, le=3.1416)] = 0.0
     one_sided: bool = False
@@ -58,6 +59,9 @@ class FrictionSection(TomlTable):
     body: Annotated[float, Field(gt=0, le=2)]
     pin: Annotated[float, Field(ge=0, le=2)]
     pin_radius_m: Annotated[tuple[Radius, Radius, Radius, Radius], Field(strict=False)]
+=======
+    wind_rad: Annotated[float, Field(ge=1e-4, le=3.1416)]
+>>>>>>> main
 
 
 class ReleaseSection(TomlTable):
@@ -78,10 +82,14 @@ class LoopFile(Record):
         dict[JointName, Annotated[tuple[Angle, Angle], Field(strict=False)]], Field(min_length=3, max_length=3)
     ]
     release: ReleaseSection
+<<<<<<< HEAD
     stop: StopSection | None = None
     roller_off: RollerOffSection | None = None
     friction: FrictionSection | None = None
     foot_depth_m: Annotated[float, Field(gt=0, le=1)]
+=======
+    foot_depth_m: Annotated[float, Field(ge=1e-5, le=1)]
+>>>>>>> main
     surfaces: dict[str, Literal["foot", "body"]]
 
     @classmethod

@@ -10,7 +10,7 @@ from jumpcad.catalogue import Article, load_catalogue
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean, find_template, read_toml, template_names
 from jumpcad.files.complaints import place, shown
-from jumpcad.files.names import NAME, NAME_RULE
+from jumpcad.files.names import NAME, NAME_RULE, composed
 from jumpcad.workshop.workshop import OWN_PARTS, Workshop
 
 DEFAULT = "default"
@@ -50,6 +50,7 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], str]
         whole, _ = _assembled(base_path, (*above, real))
     if isinstance(data.get("printer"), str):
         whole["printer"] = read_toml(find_template("printers", data.pop("printer")))[0]
+    data = composed(data)  # after the paths, which are as they are written
     data |= {
         kind: _completed(kind, data[kind], str(path), text) for kind in OWN_PARTS if isinstance(data.get(kind), dict)
     }

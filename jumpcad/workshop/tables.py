@@ -8,17 +8,26 @@ from pydantic import Field
 from jumpcad.files import TomlTable
 from jumpcad.files.names import Name, OptionalName, Text
 
+<<<<<<< HEAD
 Positive = Annotated[float, Field(gt=0, le=1e4)]
 SmallPositive = Annotated[float, Field(gt=0, le=1e-5)]
 Backlash = Annotated[float, Field(ge=0, le=30)]
 Share = Annotated[float, Field(gt=0, le=1)]
+=======
+# Lower limits keep quotients finite: they are below any figure of a robot that is printed and jumps.
+Positive = Annotated[float, Field(ge=1e-4, le=1e4)]
+Length = Annotated[float, Field(ge=0.01, le=1e4)]
+BedSide = Annotated[float, Field(ge=10, le=1e4)]
+Stress = Annotated[float, Field(ge=0.1, le=1e4)]
+Share = Annotated[float, Field(ge=1e-3, le=1)]
+>>>>>>> main
 
 
 class Printer(TomlTable):
     """A machine: usable bed (x, y, z) and nozzle."""
 
     name: Text
-    bed_mm: Annotated[tuple[Positive, Positive, Positive], Field(strict=False)]
+    bed_mm: Annotated[tuple[BedSide, BedSide, BedSide], Field(strict=False)]
     nozzle_mm: Annotated[float, Field(ge=0.1, le=2)]
     source: Text = ""
 
@@ -34,7 +43,7 @@ class Process(TomlTable):
     bottom_layers: Annotated[int, Field(ge=0, le=50)]
     infill: Annotated[float, Field(ge=0, le=1)]
     infill_pattern: Literal["grid", "rectilinear", "gyroid", "triangles", "cubic", "honeycomb"]
-    solid_below_area_mm2: Annotated[float, Field(ge=0)]
+    solid_below_area_mm2: Annotated[float, Field(ge=0, le=1e6)]
     part_spacing_mm: Annotated[float, Field(ge=0, le=50)]
 
 
@@ -42,9 +51,9 @@ class Material(TomlTable):
     """A material: strengths along the layers and between them, and its price where one is entered."""
 
     density_g_cm3: Annotated[float, Field(ge=0.3, le=10)]
-    strength_in_plane_mpa: Positive
-    strength_interlayer_mpa: Positive
-    modulus_mpa: Annotated[float, Field(gt=0, le=1e6)]
+    strength_in_plane_mpa: Stress
+    strength_interlayer_mpa: Stress
+    modulus_mpa: Annotated[float, Field(ge=1, le=1e6)]
     price_eur_per_kg: Positive | None = None
     source: Text = ""
 
@@ -80,11 +89,11 @@ class Fits(TomlTable):
     m3_clearance_mm: Annotated[float, Field(ge=3, le=5)]
     wall_min_mm: Annotated[float, Field(ge=0.1, le=10)]
     wall_mm: Annotated[float, Field(ge=0.1, le=10)]
-    pin_min_mm: Annotated[float, Field(gt=0, le=20)]
-    hole_min_mm: Annotated[float, Field(gt=0, le=20)]
+    pin_min_mm: Annotated[float, Field(ge=0.01, le=20)]
+    hole_min_mm: Annotated[float, Field(ge=0.01, le=20)]
     first_layer_chamfer_mm: Annotated[float, Field(ge=0, le=2)]
     overhang_deg: Annotated[float, Field(ge=0, le=80)]
-    bridge_mm: Annotated[float, Field(gt=0, le=200)]
+    bridge_mm: Annotated[float, Field(ge=0.01, le=200)]
 
 
 class BoughtParts(TomlTable):
@@ -103,10 +112,14 @@ class BoughtParts(TomlTable):
     battery: Name
     controller: Name
     driver: Name
+<<<<<<< HEAD
     spring: OptionalName
     axle_mm: Positive
     axle: Name
     retention: Literal["plates", "clips", "nuts"]
+=======
+    axle_mm: Length
+>>>>>>> main
 
 
 class BodyPlates(TomlTable):
@@ -170,10 +183,14 @@ class Safety(TomlTable):
     pressure_angle_reserve_deg: Annotated[float, Field(ge=0, le=20)]
     gap_reserve_mm: Annotated[float, Field(ge=0, le=1)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
+<<<<<<< HEAD
     landing_stop_mm: Positive
     roll_reserve_deg: Annotated[float, Field(ge=0, le=45)]
+=======
+    landing_stop_mm: Length
+>>>>>>> main
     leg_flex_share: Share
-    steel_yield_mpa: Positive
+    steel_yield_mpa: Stress
     steel_factor: Annotated[float, Field(ge=1, le=20)]
     bearing_factor: Annotated[float, Field(ge=0.4, le=20)]
 

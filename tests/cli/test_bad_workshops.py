@@ -10,7 +10,7 @@ WRONG = {
     "clearance beyond the wall": ("[fits]\nsliding_mm = -0.9", r"w.toml:2: fits.sliding_mm = -0.9: must be at least"),
     "clearances out of order": ("[fits]\nsliding_mm = 0.05", r"must be at least fits.press_mm = 0.1, the tighter fit"),
     "no nozzle": ("[printer]\nnozzle_mm = 0", r"w.toml:2: printer.nozzle_mm = 0: must be at least 0.1"),
-    "no bed": ("[printer]\nbed_mm = [0, 200, 200]", r"printer.bed_mm.0 = 0: must be more than 0"),
+    "no bed": ("[printer]\nbed_mm = [0, 200, 200]", r"printer.bed_mm.0 = 0: must be at least 10"),
     "unknown motor": ('[bought]\nmotors = ["n20-99"]', r"no motor 'n20-99' in the catalogue .*did you mean"),
     "negative backlash": ("[fits]\nbacklash_circumferential_mm = -0.2", r"= -0.2: must be at least 0"),
     "axle without bearing": ("[bought]\naxle_mm = 4", r"bought.axle_mm = 4: change one of them, or run the hub on its"),

@@ -1,0 +1,129 @@
+"""Every figure of a workshop and of settings, one at a time, at the ends of its range and between."""
+
+import re
+import warnings
+from typing import Any
+
+import pytest
+from support.figures import Place, figures
+from support.sandbox import Sandbox
+
+from jumpcad.building import build
+from jumpcad.checks import quick_findings
+from jumpcad.design import Design, load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.files import Record
+from jumpcad.settings import Settings
+from jumpcad.simulation.loop_file import LoopFile
+from jumpcad.workshop import Workshop, load_workshop
+
+DESIGN = load_design("kenan-2.0")
+MODELS = (Design, Workshop, Settings, LoopFile)
+WORKSHOP, SETTINGS = dict(figures(Workshop)), dict(figures(Settings))
+SMALLEST, LARGEST = 1e-6, 1e9
+"""No figure of a robot is smaller (µs, µm, mg) or larger (jumps); their quotients and powers are finite."""
+NO_NUMBER = re.compile(r"\b(nan|inf)\b")
+OWN = """
+[materials.Own]
+density_g_cm3 = 1.2
+strength_in_plane_mpa = 45.0
+strength_interlayer_mpa = 30.0
+modulus_mpa = 2000.0
+price_eur_per_kg = 20.0
+[roles]
+links = "Own"
+body = "Own"
+gears = "Own"
+[bought]
+motors = ["own"]
+leg_bearing = "own"
+roller = "own"
+battery = "own"
+controller = "own"
+driver = "own"
+[motors.own]
+like = "n20-298"
+source = "mine"
+[bearings.own]
+like = "623"
+source = "mine"
+[batteries.own]
+like = "lipo-2s-180"
+source = "mine"
+[boards.own]
+like = "drv8833"
+source = "mine"
+[springs.own]
+source = "mine"
+wire_mm = 1.0
+inside_diameter_mm = 8.0
+turns = 4.5
+arm_angle_deg = 0.0
+arm_length_mm = 20.0
+rate_nmm_per_deg = 5.0
+[prices_eur]
+screw = 0.05
+[mass.weighed_g]
+foot = 3.0
+"""
+
+
+@pytest.fixture(scope="session")
+def own(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """Return the data of a workshop in which everything is the user's own."""
+    path = tmp_path_factory.mktemp("figures") / "own.toml"
+    path.write_text(OWN)
+    workshop = load_workshop(path)
+    assert quick_findings(build(DESIGN, workshop))
+    return workshop.model_dump()
+
+
+def with_figure(data: Any, place: Place, value: float) -> Any:
+    """Return nested data with one figure replaced."""
+    if not place:
+        return value
+    if isinstance(data, tuple):
+        return tuple(
+            with_figure(one, place[1:], value) if number == place[0] else one for number, one in enumerate(data)
+        )
+    key = next(iter(data)) if place[0] == "*" else place[0]
+    return {**data, key: with_figure(data[key], place[1:], value)}
+
+
+def name_of(place: Place) -> str:
+    return ".".join(map(str, place))
+
+
+@pytest.mark.parametrize("place", WORKSHOP, ids=name_of)
+def test_a_figure_at_its_limits_is_borne_or_refused(own: dict[str, Any], sandbox: Sandbox, place: Place) -> None:
+    for value in WORKSHOP[place].values(1):
+        sandbox.tries += 1
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            said = outcome(with_figure(own, place, value))
+        assert not NO_NUMBER.search(said), f"{value}: {said}"
+
+
+def outcome(data: dict[str, Any]) -> str:
+    """Return what is said of a robot built in a workshop: the findings of the cheap checks, or why there is none."""
+    try:
+        return " ".join(str(found.to_dict()) for found in quick_findings(build(DESIGN, Workshop(**data))))
+    except JumpcadError as error:
+        return str(error)
+
+
+@pytest.mark.parametrize(("place", "model"), [(place, model) for model in MODELS for place, _ in figures(model)])
+def test_a_figure_has_two_ends_and_none_near_nothing(place: Place, model: type[Record]) -> None:
+    found = dict(figures(model))[place]
+    assert not found.open
+    assert found.low <= 0.0 or found.low >= SMALLEST
+    assert found.high <= LARGEST
+
+
+@pytest.mark.parametrize("field", SETTINGS, ids=name_of)
+def test_a_setting_at_its_limits_is_borne(sandbox: Sandbox, field: Place) -> None:
+    for value in SETTINGS[field].values(0):
+        if not (field == ("dt_s",) and value < 1e-4):  # takes minutes
+            number = int(value) if SETTINGS[field].whole else value
+            sandbox.write("x.toml", f"{field[0]} = {number}\n")
+            sandbox.run("simulate", "kenan-2.0", "--capsule", "--settings", "x.toml", "--json", exits=(0, 1))

@@ -1,0 +1,91 @@
+"""The search's functions and records in Python, with what they were not made for: what they take is said in a line."""
+
+import contextlib
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from hostile.test_api import ODD
+from support.sandbox import LONGEST, Sandbox
+
+import jumpcad
+from jumpcad import search
+from jumpcad.search import plots
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    **{name: getattr(search, name) for name in search.__all__ if inspect.isfunction(getattr(search, name))},
+    **{f"plots.{name}": one for name, one in inspect.getmembers(plots, inspect.isfunction)
+       if one.__module__ == plots.__name__ and not name.startswith("_")},
+    "Evaluator": search.Evaluator,
+    "Request": search.Request,
+    "RobotModel": search.RobotModel,
+    "Space": search.Space,
+    "StudyStore.read": search.StudyStore.read,
+    "StudyStore.write": search.StudyStore.write,
+}  # fmt: skip
+TAKES_MORE = [name for name in inspect.signature(jumpcad.optimize).parameters if name not in ("workers", "dask")]
+WRONG_PATHS = {"study": ("a\0.db", "a\ud800.db"), "prior": ("a\0.db", "a\ud800.db"), "workshop": ("a\ud800.toml",)}
+
+
+def refused(call: Callable[[], Any]) -> str:
+    with pytest.raises(jumpcad.JumpcadError) as caught:
+        call()
+    said = str(caught.value)
+    assert "\n" not in said
+    assert 0 < len(said) <= LONGEST
+    said.encode()
+    return said
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_nonsense_is_refused_by_name(sandbox: Sandbox, name: str) -> None:
+    needed = [one for one in inspect.signature(FUNCTIONS[name]).parameters.values() if one.default is one.empty]
+    for odd in (ODD["object"], ODD["class"], ODD["bytes"], ODD["nan"]):
+        with sandbox.untouched():
+            said = refused(lambda odd=odd: FUNCTIONS[name](*[odd] * max(1, len(needed))))
+        assert "takes" in said or "robot" in said
+
+
+@pytest.mark.parametrize("name", TAKES_MORE)
+def test_an_odd_option_of_a_search_is_refused_or_borne(sandbox: Sandbox, name: str) -> None:
+    """Where it is borne, one design is evaluated."""
+    for odd in ODD.values():
+        with sandbox.untouched(writes=["."]), contextlib.suppress(jumpcad.JumpcadError):
+            jumpcad.optimize(**{"method": "nsga2", "evaluations": 1, "model": "capsule", "workers": 0, name: odd})
+
+
+@pytest.mark.parametrize(("option", "path"), [(option, path) for option, some in WRONG_PATHS.items() for path in some])
+def test_what_cannot_be_a_path_is_refused(sandbox: Sandbox, option: str, path: str) -> None:
+    with sandbox.untouched():
+        said = refused(lambda: jumpcad.optimize(**{"evaluations": 1, "workers": 0, option: path}))
+    assert "cannot be" in said
+
+
+@pytest.mark.parametrize("odd", [True, 1.5, None, "1"])
+def test_a_seed_is_a_whole_number(odd: object) -> None:
+    assert "takes a whole number as seed" in refused(lambda: jumpcad.optimize(seed=odd))
+
+
+def test_items_of_a_sequence_are_looked_at() -> None:
+    assert refused(lambda: search.hypervolume([(1, 2)])) == (
+        "hypervolume() takes a sequence of Trial as trials, not one with (1, 2) (tuple)"
+    )
+
+
+UNUSED = {
+    "workshop of capsules": {"model": "capsule", "workshop": "/nonexistent.toml"},
+    "workshop of the published": {"model": "published", "workshop": "default"},
+    "settings of the published": {"model": "published", "settings": "fine"},
+    "engine of the published": {"model": "published", "engine": "mujoco"},
+}
+
+
+@pytest.mark.parametrize("case", UNUSED)
+@pytest.mark.parametrize("command", [("optimize",), ("explore", "sweep")], ids=lambda words: words[0])
+def test_an_option_that_the_model_does_not_use_is_refused(
+    sandbox: Sandbox, command: tuple[str, ...], case: str
+) -> None:
+    words = [word for name, value in UNUSED[case].items() for word in (f"--{name}", value)]
+    assert sandbox.run(*command, *words, "--workers", "0", exits=(2,)).out == ""
+    refused(lambda: jumpcad.optimize(**UNUSED[case]))
