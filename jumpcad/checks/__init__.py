@@ -9,7 +9,8 @@ eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, 
 cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
 roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
 motor_torque; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
-solid; `interference` interference; `stop` stop_strength, stop_pad, stop_clearance; `engraving` engraving.
+solid; `interference` interference; `stop` stop_strength, stop_plates, stop_leg, stop_pad, stop_clearance; `engraving`
+engraving.
 """
 
 from collections.abc import Callable, Iterable
