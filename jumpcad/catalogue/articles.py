@@ -178,8 +178,8 @@ class Pad(Article):
     thickness_mm: Annotated[Length, Field(ge=0.3, le=6)]
     density_g_cm3: Annotated[float, Field(ge=0.1, le=3)]
     modulus_mpa: Annotated[float, Field(ge=0.2, le=200)]
-    friction_min: Annotated[float, Field(gt=0, le=2)]
-    friction_max: Annotated[float, Field(gt=0, le=2)]
+    friction_min: Annotated[float, Field(ge=1e-3, le=2)]
+    friction_max: Annotated[float, Field(ge=1e-3, le=2)]
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield a range of friction that is upside down."""

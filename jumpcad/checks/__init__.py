@@ -10,7 +10,8 @@ cam_dog_strength, toe_bar_strength; `steel` leg_axle_strength, cam_axle_strength
 leg_pin_strength, foot_pin_strength, roller_screw_strength, axle_retention, pin_retention, spring_fatigue,
 axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque, release_*; `ground`
 ground_clearance, foot_clearance; `sideways` sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs,
-bridges, solid; `interference` interference; `stop` stop_strength, stop_pad, stop_clearance; `engraving` engraving.
+bridges, solid; `interference` interference; `stop` stop_strength, stop_plates,
+stop_leg, stop_pad, stop_clearance; `engraving` engraving.
 """
 
 from collections.abc import Callable, Iterable

@@ -1,7 +1,8 @@
-"""The rest stop: does its bar bear the blow, does its pad, and does it give no more than there is room for?
+"""The rest stop: do bar, plates and leg bear the blow, does the pad, and does it give no more than there is room for?
 
-The bar is taken as a beam on both plates with the pad's force in its middle. It prints lying, so that the blow bends it
-along its layers.
+The bar is taken as a beam on both plates with the pad's force in its middle, each plate's ear as a cantilever from the
+pivots' line, and the leg as held at its hub with all of the blow's torque at its heel. All three print lying, so that
+the blow bends them along their layers. The seats of axles and pins that pass the blow on are not checked.
 """
 
 import math
@@ -9,19 +10,20 @@ from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.findings import Finding, at_most
-from jumpcad.layout.stop import GIVE_ROOM_RAD, PAD_LENGTH_MM, SEAT_MM
+from jumpcad.layout.stop import EAR_MM, GIVE_ROOM_RAD, PAD_LENGTH_MM, SEAT_MM
 from jumpcad.robot import Robot
 from jumpcad.strength.stress import Beam
 
 BLOW_FACTOR = 2.0
-"""On the peak force, which holds without friction (bench review of the printed robot: plates for twice the peak)."""
+"""On the peak force, to the strength of the material; the peak is that without friction (bench review of the printed
+robot: plates for twice the peak)."""
 PAD_STRAIN = 0.5
 """Largest give of a pad over its thickness; judgement: rubber bumpers are pressed to half."""
 SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
 
 
 def stop_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield `stop_strength`, `stop_pad` and `stop_clearance`."""
+    """Yield `stop_strength`, `stop_plates`, `stop_leg`, `stop_pad` and `stop_clearance`."""
     case, blow, stop = LoadCase(robot), robot.stop_blow, robot.layout.stop
     low, high = robot.layout.lateral.inside
     span, width = high - low, robot.layout.sections.thickness_mm
@@ -30,6 +32,17 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
     strength = robot.workshop.material("links").strength_in_plane_mpa
     remedy = f"choose a softer body.stop_pad, or {SOFTER.partition(', or ')[2]}"
     yield stress_finding("stop_strength", "the rest stop's bar at twice the blow", stress, strength, remedy, "stop")
+    plate = robot.layout.lateral.left_plate
+    moment = BLOW_FACTOR * blow.force_n / 2.0 * stop.radius_mm
+    stress = float(Beam(plate[1] - plate[0], EAR_MM).stress_mpa(moment))
+    strength = robot.workshop.material("body").strength_in_plane_mpa
+    yield stress_finding("stop_plates", "plates' ears at twice the blow", stress, strength, remedy, "plate")
+    sections, share = robot.layout.sections, stop.radius_mm / robot.design.l2_mm
+    height = sections.leg_root_mm + share * (sections.leg_tip_mm - sections.leg_root_mm)
+    leg = Beam(sections.thickness_mm, height, case.shell)
+    stress = float(leg.stress_mpa(BLOW_FACTOR * 1000.0 * blow.torque_nm))
+    strength = robot.workshop.material("links").strength_in_plane_mpa
+    yield stress_finding("stop_leg", "main leg at its heel at twice the blow", stress, strength, remedy, "leg")
     give, most = blow.give_mm, PAD_STRAIN * stop.pad.thickness_mm
     yield at_most(
         "stop_pad", give, most, "mm",

@@ -37,6 +37,8 @@ DEPTH_MM = 6.0
 TAB_MM = (5.0, 4.0)
 """Size of the bar's tabs in the plates, along the leg and in the direction of the blow; judgement. They lie at the
 bar's edge nearest to the hub, so that the plates reach down no further than the bar."""
+EAR_MM = 16.0
+"""Width of the plates' ears at the pivots' line, from the leg's axle forwards; judgement: the blow bends them there."""
 NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.25
 """Distances of the pad's middle from the hub, along the leg; judgement: a pad near the hub lets the leg turn far."""
 

@@ -13,8 +13,10 @@ from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array, direction
 
-POSITIONS = 13
+POSITIONS = 15
 """Number of leg angles of the travel; judgement: the notches between bars at so many are less than the gaps."""
+FOOT_POSITIONS = 57
+"""Leg angles at which the foot is drawn: its toes are thin, and what fits between two positions would be hit."""
 FOOT_SPACING_MM = 2.0
 """Distance between the points of toes and rails: notches of 0.2 mm between discs of 3 mm radius."""
 ALONG = 41
@@ -57,7 +59,8 @@ def link_obstacles(
     )
     lever = Obstacle("lever", bar(hub, tips), sections.lever_root_mm / 2.0 + gap_mm, lever_y)
     link = Obstacle("front link", bar(front, pose.front_eye_mm), sections.eye_radius_mm + gap_mm, leg_y)
-    return [leg, lever, link, _foot(linkage, sections, pose.ankle_mm, pose.foot_rad, gap_mm)]
+    finer = linkage.pose(np.linspace(linkage.travel_rad[0], reach_rad, FOOT_POSITIONS))
+    return [leg, lever, link, _foot(linkage, sections, finer.ankle_mm, finer.foot_rad, gap_mm)]
 
 
 def legs_apart_mm(linkage: Linkage, sections: Sections, reach_rad: float = 0.0) -> float:

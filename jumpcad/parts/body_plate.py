@@ -11,6 +11,7 @@ from scipy.spatial import Delaunay
 
 from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, TAB_MM, TRAY_MM
 from jumpcad.layout.layout import Layout
+from jumpcad.layout.stop import EAR_MM
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, laid
@@ -126,7 +127,7 @@ def _outline(layout: Layout) -> Region:
     """Return the hull of all pads, with pockets between an edge, the pads and ribs that join their middles.
 
     The pockets' corners are round: what stands between them is drawn thicker by their radius, and they are widened by
-    it again. All ribs end within pads. The rest stop's slot hangs on the leg's axle, outside that hull.
+    it again. All ribs end within pads. Ears below that hull hold the rest stop.
     """
     pads = _pads(layout)
     around = hull(pads)
@@ -140,8 +141,9 @@ def _outline(layout: Layout) -> Region:
         strips(layout.hub_mm, layout.front_mm, layout.axle_mm + 2.0 * PAD_WALL_MM + more),
     ]
     pockets = (grown(around, -EDGE_MM - POCKET_RADIUS_MM) - union(solid)).simplify(2.0 * SAGITTA_MM)
-    hub = disc(layout.axle_mm + 2.0 * PAD_WALL_MM, layout.hub_mm)
-    stop = hull([hub, rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)])
+    axle = layout.axle_mm + 2.0 * PAD_WALL_MM
+    base = strips(layout.hub_mm, layout.hub_mm + np.array([EAR_MM, 0.0]), axle)
+    stop = hull([disc(axle, layout.hub_mm), base, rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)])
     return rounded(around, 2.0) - (grown(pockets, POCKET_RADIUS_MM) - stop) + stop
 
 

@@ -30,8 +30,7 @@ class SpringSection(TomlTable):
     joint: Literal["leg"]
     stiffness_nm_per_rad: Annotated[float, Field(ge=1e-4, le=1e3)]
     rest_rad: Annotated[float, Field(ge=0, le=0)]
-<<<<<<< HEAD
-    wind_rad: Annotated[float, Field(gt=0, le=3.1416)]
+    wind_rad: Annotated[float, Field(ge=1e-4, le=3.1416)]
     preload_rad: Annotated[float, Field(ge=0, le=3.1416)] = 0.0
     one_sided: bool = False
 
@@ -41,7 +40,7 @@ class StopSection(TomlTable):
 
     joint: Literal["leg"]
     angle_rad: Annotated[float, Field(ge=0, le=3.1416)]
-    stiffness_nm_per_rad: Annotated[float, Field(gt=0, le=1e6)]
+    stiffness_nm_per_rad: Annotated[float, Field(ge=1e-4, le=1e6)]
 
 
 class RollerOffSection(TomlTable):
@@ -49,19 +48,16 @@ class RollerOffSection(TomlTable):
 
     leg_rad: Annotated[float, Field(ge=-3.1416, le=0)]
     leg_rad_s: Annotated[float, Field(ge=0, le=1e4)]
-    energy_ratio: Annotated[float, Field(gt=0, le=1.01)]
+    energy_ratio: Annotated[float, Field(ge=1e-3, le=1.01)]
 
 
 class FrictionSection(TomlTable):
     """Friction on the ground and in the pins, see `jumpcad.robot.Friction`."""
 
-    foot: Annotated[float, Field(gt=0, le=2)]
-    body: Annotated[float, Field(gt=0, le=2)]
+    foot: Annotated[float, Field(ge=1e-3, le=2)]
+    body: Annotated[float, Field(ge=1e-3, le=2)]
     pin: Annotated[float, Field(ge=0, le=2)]
     pin_radius_m: Annotated[tuple[Radius, Radius, Radius, Radius], Field(strict=False)]
-=======
-    wind_rad: Annotated[float, Field(ge=1e-4, le=3.1416)]
->>>>>>> main
 
 
 class ReleaseSection(TomlTable):
@@ -82,14 +78,10 @@ class LoopFile(Record):
         dict[JointName, Annotated[tuple[Angle, Angle], Field(strict=False)]], Field(min_length=3, max_length=3)
     ]
     release: ReleaseSection
-<<<<<<< HEAD
     stop: StopSection | None = None
     roller_off: RollerOffSection | None = None
     friction: FrictionSection | None = None
-    foot_depth_m: Annotated[float, Field(gt=0, le=1)]
-=======
     foot_depth_m: Annotated[float, Field(ge=1e-5, le=1)]
->>>>>>> main
     surfaces: dict[str, Literal["foot", "body"]]
 
     @classmethod

@@ -8,19 +8,14 @@ from pydantic import Field
 from jumpcad.files import TomlTable
 from jumpcad.files.names import Name, OptionalName, Text
 
-<<<<<<< HEAD
-Positive = Annotated[float, Field(gt=0, le=1e4)]
-SmallPositive = Annotated[float, Field(gt=0, le=1e-5)]
-Backlash = Annotated[float, Field(ge=0, le=30)]
-Share = Annotated[float, Field(gt=0, le=1)]
-=======
 # Lower limits keep quotients finite: they are below any figure of a robot that is printed and jumps.
 Positive = Annotated[float, Field(ge=1e-4, le=1e4)]
+SmallPositive = Annotated[float, Field(ge=1e-12, le=1e-5)]
+Backlash = Annotated[float, Field(ge=0, le=30)]
 Length = Annotated[float, Field(ge=0.01, le=1e4)]
 BedSide = Annotated[float, Field(ge=10, le=1e4)]
 Stress = Annotated[float, Field(ge=0.1, le=1e4)]
 Share = Annotated[float, Field(ge=1e-3, le=1)]
->>>>>>> main
 
 
 class Printer(TomlTable):
@@ -112,14 +107,10 @@ class BoughtParts(TomlTable):
     battery: Name
     controller: Name
     driver: Name
-<<<<<<< HEAD
     spring: OptionalName
-    axle_mm: Positive
+    axle_mm: Length
     axle: Name
     retention: Literal["plates", "clips", "nuts"]
-=======
-    axle_mm: Length
->>>>>>> main
 
 
 class BodyPlates(TomlTable):
@@ -144,8 +135,8 @@ class Ground(TomlTable):
 
     surface: Text
     pad: OptionalName
-    friction: Annotated[float, Field(gt=0, le=2)]
-    bare_friction: Annotated[float, Field(gt=0, le=2)]
+    friction: Annotated[float, Field(ge=1e-3, le=2)]
+    bare_friction: Annotated[float, Field(ge=1e-3, le=2)]
 
     @property
     def foot_friction(self) -> float:
@@ -183,12 +174,8 @@ class Safety(TomlTable):
     pressure_angle_reserve_deg: Annotated[float, Field(ge=0, le=20)]
     gap_reserve_mm: Annotated[float, Field(ge=0, le=1)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
-<<<<<<< HEAD
-    landing_stop_mm: Positive
-    roll_reserve_deg: Annotated[float, Field(ge=0, le=45)]
-=======
     landing_stop_mm: Length
->>>>>>> main
+    roll_reserve_deg: Annotated[float, Field(ge=0, le=45)]
     leg_flex_share: Share
     steel_yield_mpa: Stress
     steel_factor: Annotated[float, Field(ge=1, le=20)]

@@ -40,7 +40,7 @@ def plans() -> dict[str, Layout]:
     for number in range(40):
         design = Design.from_vector(rng.uniform(lower, upper).tolist())
         if not errors(geometry_findings(design)):
-            with suppress(CannotBuildError):
+            with suppress(CannotBuildError):  # one folds its foot so far that nothing has room below the springs
                 found[f"random {number}"] = layout_of(design, workshop)[0]
     found["narrow"] = layout_of(NARROW, load_workshop("fine"))[0]
     for name in NAMES:  # so that there is something to step aside for
@@ -62,6 +62,7 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "linkage": layout.linkage, "sections": layout.sections, "drive": layout.drive,
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
         "plate_mm": load_workshop("default").body.plate_mm, "roller_width_mm": 4.0, "axle_mm": 3.0,
+        "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
     }  # fmt: skip
     assert spring.pin_radius_mm == layout.leg_pin_mm
     return make_layout(**(given | changed))

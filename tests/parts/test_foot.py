@@ -45,7 +45,7 @@ def test_toe_tips_are_where_the_design_says(name: str, sign: float) -> None:
 
 
 @pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
-def test_foot_is_flat_on_the_ground_from_nose_to_tips(name: str) -> None:
+def test_soles_and_pads_are_flat_on_the_ground_from_nose_to_tips(name: str) -> None:
     robot = built(name)
     ground = -robot.layout.sections.foot_depth_mm
     names = [part.name for part in robot.parts if part.placements[0].body == FOOT]
@@ -57,7 +57,13 @@ def test_foot_is_flat_on_the_ground_from_nose_to_tips(name: str) -> None:
     assert lying[:, 0].max() > robot.design.l4_mm
     tip_x = -robot.design.l5_mm * math.cos(math.radians(robot.design.ground_link_angle_deg))
     assert lying[:, 0].min() == pytest.approx(tip_x - TIP_RADIUS_MM, abs=2 * TIP_RADIUS_MM)
-    assert robot.foot_depth_m == pytest.approx(-ground / 1000.0)
+    pad = robot.workshop.foot_pad
+    assert pad is not None
+    assert robot.foot_depth_m == pytest.approx((pad.thickness_mm - ground) / 1000.0)
+    pads = [item for item in robot.hardware if item.name.startswith(("toe", "nose")) and item.name.count("_pad")]
+    lowest = [(item.solid.transform(item.T_body_part[:3]).bounding_box())[2] for item in pads]
+    assert len(pads) == 4
+    assert lowest == pytest.approx([-1000.0 * robot.foot_depth_m] * 4, abs=1e-3)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])

@@ -1,0 +1,214 @@
+"""Does anything of a bundle meet anything else, from loaded springs to the stop and its pad's give?
+
+Reads the URDF with its meshes, the loop file and the manifest alone: trimesh for the files, shapely for roller and cam,
+manifold3d for volumes. The leg's angle follows from the cam's by letting its roller down on the cam's outline; the
+five-bar is closed with circles. `python clearances.py BUNDLE` prints what meets.
+"""
+
+import itertools
+import json
+import math
+import sys
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import shapely
+import trimesh
+from manifold3d import Manifold, Mesh
+
+TOLERANCE_MM3 = 0.3
+"""Meshes that are seen leave out detail below 0.05 mm: round things in round holes share a little."""
+FACET_MM = 0.05
+"""By which the meshes that are seen may leave a circle."""
+DOG_DEG = 12.0
+"""How far the cam may run past where it lets the roller fall, where the manifest says nothing of its play."""
+TRAIN = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
+LIFTED, DROPPED, PAST = 30, 15, 5
+"""Positions; those past rest each with three angles of the cam: 60 in all."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A mesh in its link's frame (mm)."""
+
+    name: str
+    link: str
+    solid: Manifold
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A position: angles of leg and cam (rad)."""
+
+    leg: float
+    cam: float
+
+
+class Bundle:
+    """The pieces of a bundle and how they move."""
+
+    def __init__(self, folder: Path) -> None:
+        self.manifest = json.loads((folder / "manifest.json").read_text())
+        name = self.manifest["name"]
+        self.loop = json.loads((folder / "urdf" / f"{name}.loop.json").read_text())
+        root = ET.parse(folder / "urdf" / f"{name}.urdf").getroot()
+        self.joints = {joint.get("name"): _frame(joint) for joint in root.iter("joint")}
+        self.pieces = [
+            _piece(folder, link.get("name"), visual) for link in root.iter("link") for visual in link.iter("visual")
+        ]
+        self.axes = {
+            visual.get("name"): 1000.0 * _frame(visual)[[0, 2], 3]
+            for visual in root.iter("visual")
+            if visual.get("name") in TRAIN
+        }
+        pieces = {piece.name: piece for piece in self.pieces}
+        low, high = pieces["roller"].solid.bounding_box()[1::3]
+        self.cam, self.roller = (_section(pieces[name].solid, (low + high) / 2.0) for name in ("cam", "roller"))
+        self.roller_at = np.array(self.roller.convex_hull.centroid.coords[0])
+        self.roller_mm = math.sqrt(self.roller.convex_hull.area / math.pi)
+        self.wound = -self.loop["spring"]["wind_rad"]
+        stop = self.manifest["stop"]
+        self.stop = math.radians(stop["angle_deg"])
+        self.give = math.radians(stop["give_deg"])
+
+    def poses(self) -> list[Pose]:
+        """Return the positions: the cam's lift, the fall of the roller, and past rest with the cam running on."""
+        turns = np.linspace(0.0, 2.0 * math.pi, 721)
+        top = int(np.argmin([self._leg_on_cam(turn) for turn in turns]))
+        lift = [Pose(self._leg_on_cam(turn), turn) for turn in np.linspace(0.0, turns[top], LIFTED)]
+        ways = np.linspace(self.wound, self.stop + self.give, 25)
+        free = next(turn for turn in turns[top:] if all(self._roller_gap(leg, turn) > 0.0 for leg in ways))
+        play = self.manifest.get("drive", {}).get("release", {}).get("free_play_deg", DOG_DEG)
+        drop = [Pose(leg, free) for leg in np.linspace(self.wound, 0.0, DROPPED)]
+        past = [
+            Pose(leg, free + share * math.radians(play))
+            for leg in np.linspace(0.0, self.stop + self.give, PAST)
+            for share in (0.0, 0.5, 1.0)
+        ]
+        return lift + drop + past
+
+    def places(self, pose: Pose) -> dict[str, np.ndarray]:
+        """Return the pose (4, 4; mm) of every link in the body's frame."""
+        leg = self.joints["leg"] @ _turn(pose.leg)
+        ankle = (leg @ self.joints["ankle"])[[0, 2], 3] * 1000.0
+        front = self.joints["front"][[0, 2], 3] * 1000.0
+        l3, l4 = (1000.0 * math.hypot(*np.array(self.loop["loop"][key])[[0, 2]]) for key in ("point_a_m", "point_b_m"))
+        way = front - ankle
+        distance = math.hypot(*way)
+        along = (l4**2 - l3**2 + distance**2) / (2.0 * distance)
+        across = math.sqrt(l4**2 - along**2)
+        unit = way / distance
+        eye = ankle + along * unit - across * np.array([-unit[1], unit[0]])  # below the line to the front pivot
+        links = {"body": np.eye(4), "main_leg": leg}
+        for name, start in (("front_link", front), ("foot", ankle)):
+            below = math.atan2(-(eye - start)[1], (eye - start)[0])
+            links[name] = _turn(below)
+            links[name][[0, 2], 3] = start / 1000.0
+        for matrix in links.values():
+            matrix[:3, 3] *= 1000.0
+        return links
+
+    def leg_place(self, leg_rad: float) -> np.ndarray:
+        """Return the pose (4, 4; mm) of the main leg in the body's frame."""
+        matrix: np.ndarray = self.joints["leg"] @ _turn(leg_rad)
+        matrix[:3, 3] *= 1000.0
+        return matrix
+
+    def meetings(self) -> Iterator[tuple[str, str, float, Pose]]:
+        """Yield the pieces that meet: names, shared volume (mm³), position."""
+        for pose in self.poses():
+            links = self.places(pose)
+            solids = [self._placed(piece, links, pose) for piece in self.pieces]
+            boxes = np.array([solid.bounding_box() for solid in solids])
+            for i, j in itertools.combinations(range(len(solids)), 2):
+                a, b = self.pieces[i], self.pieces[j]
+                apart = (boxes[i, :3] >= boxes[j, 3:]).any() or (boxes[j, :3] >= boxes[i, 3:]).any()
+                if apart or not self._moves(a, b, pose):
+                    continue
+                volume = (solids[i] ^ solids[j]).volume()
+                if volume > TOLERANCE_MM3:
+                    yield a.name, b.name, volume, pose
+
+    def _moves(self, a: Piece, b: Piece, pose: Pose) -> bool:
+        """Tell whether two pieces move past each other and may not meet."""
+        names = {a.name, b.name}
+        if names <= set(TRAIN) or a.name.startswith("spring_") and b.name.startswith(a.name[:9]):
+            return False  # wheels in mesh; coil and arm of one wire
+        if names == {"stop_pad", "main_leg"}:
+            return pose.leg < self.stop - 1e-9
+        return a.link != b.link or bool(names & {"cam", "cam_gear"})
+
+    def _placed(self, piece: Piece, links: dict[str, np.ndarray], pose: Pose) -> Manifold:
+        matrix = links[piece.link]
+        if piece.name in ("cam", "cam_gear"):
+            centre = self.axes["cam_gear"]
+            there, back = np.eye(4), np.eye(4)
+            there[[0, 2], 3], back[[0, 2], 3] = centre, -centre
+            matrix = matrix @ there @ _turn(pose.cam) @ back
+        return piece.solid.transform(matrix[:3])
+
+    def _roller_gap(self, leg: float, turn: float) -> float:
+        """Return the gap between roller and cam (mm); negative where they meet."""
+        at = self.joints["leg"] @ _turn(leg) @ np.array([self.roller_at[0] / 1e3, 0.0, self.roller_at[1] / 1e3, 1.0])
+        point, centre = 1000.0 * at[[0, 2]], self.axes["cam_gear"]
+        x, z = point - centre
+        cos, sin = math.cos(turn), math.sin(turn)  # turned back into the cam's frame
+        seen = shapely.Point(centre[0] + cos * x - sin * z, centre[1] + sin * x + cos * z)
+        inside = self.cam.contains(seen)
+        return -self.roller_mm if inside else self.cam.distance(seen) - self.roller_mm
+
+    def _leg_on_cam(self, turn: float) -> float:
+        """Return the leg's angle while its roller lies on the cam: the one nearest to rest without overlap."""
+        legs = np.linspace(0.0, self.wound, 120)
+        free = next((i for i, leg in enumerate(legs) if self._roller_gap(leg, turn) >= -FACET_MM), len(legs) - 1)
+        low, high = legs[max(free - 1, 0)], legs[free]
+        for _ in range(30):
+            middle = (low + high) / 2.0
+            low, high = (middle, high) if self._roller_gap(middle, turn) < -FACET_MM else (low, middle)
+        return float(high)
+
+
+def _section(solid: Manifold, y_mm: float) -> shapely.Geometry:
+    """Return the outline of a piece at y."""
+    rings = solid.rotate([90.0, 0.0, 0.0]).slice(y_mm).to_polygons()  # y becomes z, z becomes -y
+    outline = max((shapely.Polygon(ring) for ring in rings), key=lambda ring: ring.area)
+    return shapely.transform(outline, lambda points: points * [1.0, -1.0])
+
+
+def _turn(angle: float) -> np.ndarray:
+    return trimesh.transformations.rotation_matrix(angle, [0.0, 1.0, 0.0])
+
+
+def _frame(element: ET.Element) -> np.ndarray:
+    origin = element.find("origin")
+    assert origin is not None
+    xyz, rpy = (np.array([float(value) for value in origin.get(key, "0 0 0").split()]) for key in ("xyz", "rpy"))
+    matrix = trimesh.transformations.euler_matrix(*rpy, "sxyz")
+    matrix[:3, 3] = xyz
+    return matrix
+
+
+def _piece(folder: Path, link: str | None, visual: ET.Element) -> Piece:
+    file = visual.find("geometry/mesh")
+    assert link is not None and file is not None
+    mesh = trimesh.load_mesh(folder / "urdf" / str(file.get("filename")))
+    mesh.merge_vertices()
+    solid = Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))
+    assert solid.volume() > 0.0, visual.get("name")
+    matrix = _frame(visual)
+    matrix[:3, 3] *= 1000.0
+    return Piece(str(visual.get("name")), link, solid.transform(matrix[:3]))
+
+
+if __name__ == "__main__":
+    bundle = Bundle(Path(sys.argv[1]))
+    worst: dict[tuple[str, str], tuple[float, Pose]] = {}
+    for one, other, shared, where in bundle.meetings():
+        if shared > worst.get((one, other), (0.0, where))[0]:
+            worst[one, other] = shared, where
+    print(f"{len(bundle.poses())} positions, {len(bundle.pieces)} pieces")
+    for (one, other), (shared, where) in worst.items():
+        print(f"{one} {other} {shared:.2f} mm3 leg {math.degrees(where.leg):.1f} cam {math.degrees(where.cam):.1f}")

@@ -1,0 +1,59 @@
+"""From the exported files alone: nothing meets anything, from loaded springs to the stop and its pad's give."""
+
+import math
+from pathlib import Path
+
+import pytest
+from clients.clearances import Bundle
+
+from jumpcad.building import build
+from jumpcad.bundle.export import export
+from jumpcad.design import load_design
+
+TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+
+
+@pytest.fixture(scope="module", params=TEMPLATES)
+def bundle(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Bundle:
+    name = request.param
+    folder = tmp_path_factory.mktemp("clearances") / name
+    export(build(load_design(name), name=name), folder, pictures=False)
+    return Bundle(Path(folder))
+
+
+def test_nothing_meets_anything_in_sixty_positions(bundle: Bundle) -> None:
+    poses = bundle.poses()
+    assert len(poses) == 60
+    assert min(pose.leg for pose in poses) == pytest.approx(bundle.wound, abs=math.radians(0.5))
+    assert max(pose.leg for pose in poses) == pytest.approx(bundle.stop + bundle.give)
+    assert [(a, b, round(volume, 2)) for a, b, volume, _ in bundle.meetings()] == []
+
+
+def test_the_leg_meets_the_pad_at_the_stops_angle_and_not_before(bundle: Bundle) -> None:
+    """The pad's and the heel's faces are parallel at the stop: just before it the gap is the angle times the radius."""
+    pieces = {piece.name: piece for piece in bundle.pieces}
+
+    def gap(leg_rad: float) -> float:
+        leg = pieces["main_leg"].solid.transform(bundle.leg_place(leg_rad)[:3])
+        return float(leg.min_gap(pieces["stop_pad"].solid, 3.0))
+
+    radius = bundle.manifest["stop"]["radius_mm"]
+    assert gap(bundle.stop - math.radians(0.05)) < 0.05
+    half = 8.0 / 2.0  # of the pad's length: its far edge is nearest
+    before = math.radians(2.0)
+    assert gap(bundle.stop - before) == pytest.approx(before * (radius - half), rel=0.05)
+
+
+def test_the_blow_is_symmetric_between_the_plates(bundle: Bundle) -> None:
+    """Pad and leg are both centred on the middle plane."""
+    for name in ("stop_pad", "main_leg"):
+        box = next(piece.solid for piece in bundle.pieces if piece.name == name).bounding_box()
+        assert box[1] == pytest.approx(-box[4], abs=1e-3)
+
+
+def test_the_pads_are_the_lowest_of_the_foot(bundle: Bundle) -> None:
+    """Seen flat on the ground, as the loop file says how deep that is."""
+    solids = {piece.name: piece.solid for piece in bundle.pieces if piece.link == "foot"}
+    lowest = sorted((solid.bounding_box()[2], name) for name, solid in solids.items())
+    assert all(name.endswith("_pad") or name.startswith("nose_pad") for _, name in lowest[:4])
+    assert lowest[0][0] == pytest.approx(-1000.0 * bundle.loop["foot_depth_m"], abs=0.02)
