@@ -58,7 +58,8 @@ def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamL
         gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
         core_radius_mm=sections.key_mm / math.sqrt(3.0) + workshop.fits.wall_min_mm,
         modulus_mpa=workshop.material("gears").modulus_mpa,
-        pressure_mpa=CamLimits.pressure_mpa / math.sqrt(safety.load_factor),  # of a line contact, with the root of force
+        pressure_mpa=CamLimits.pressure_mpa
+        / math.sqrt(safety.load_factor),  # of a line contact, with the root of force
         clearance_mm=GAP_MM + safety.gap_reserve_mm,
         pressure_angle_rad=CamLimits.pressure_angle_rad - math.radians(safety.pressure_angle_reserve_deg),
         undercut_margin_mm=CamLimits.undercut_margin_mm + safety.gap_reserve_mm,

@@ -11,6 +11,7 @@ from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
+from jumpcad.bundle.joints import joint_facts
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures
@@ -77,4 +78,5 @@ def _facts(robot: Robot) -> dict[str, Any]:
             for name, body in robot.bodies.items()
         },
         "drive": {"springs": spring_facts(robot)},
+        "joints": joint_facts(robot),
     }

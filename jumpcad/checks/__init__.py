@@ -6,10 +6,10 @@ A new check is a function in a file of its own and a line in `CHECKS`. Its findi
 Names of findings by module: `mechanism.feasibility` loop, winding, below_ground, tips, too_weak; `strength`
 leg_strength, hub_strength, lever_strength, leg_flex, leg_sideways, front_link_strength, front_link_buckling,
 eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, rail_strength, plate_seat,
-cam_key_strength, toe_bar_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, leg_pin_strength,
-foot_pin_strength, roller_screw_strength, axle_retention, pin_retention, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
-motor_torque; `ground` ground_clearance, foot_clearance;
-`sideways` sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
+cam_key_strength, toe_bar_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength,
+leg_pin_strength, foot_pin_strength, roller_screw_strength, axle_retention, pin_retention, spring_fatigue,
+axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque; `ground` ground_clearance,
+foot_clearance; `sideways` sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
 solid; `interference` interference; `engraving` engraving.
 """
 

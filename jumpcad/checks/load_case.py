@@ -114,7 +114,9 @@ class LoadCase:
         """
         lateral = self.layout.lateral
         leg = next(item for item in self.robot.hardware if item.name == "leg_axle")
-        length = float(np.ptp(leg.shape.bounds_mm[:, 2])) - self.workshop.catalogue.screws["M3 long"].cylinder_head_height_mm
+        length = (
+            float(np.ptp(leg.shape.bounds_mm[:, 2])) - self.workshop.catalogue.screws["M3 long"].cylinder_head_height_mm
+        )
         from_plate = max(0.0, lateral.left_plate[1] - (length - SCREW_THREAD_MM) - sum(lateral.right_plate) / 2.0)
         share = min(1.0, 2.0 * from_plate / span_mm)
         for name, part in (("leg_axle", share), ("cam_axle", share), ("spring_pin", 1.0)):

@@ -18,7 +18,7 @@ from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, TOE_TIP_WIDTH_MM
 from jumpcad.findings import Finding, at_most, limit
 from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
 from jumpcad.robot import Robot
-from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm, toe_reach_mm
+from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm
 from jumpcad.strength.sizing import leg_flex_share
 from jumpcad.strength.stress import (
     STATIONS,
@@ -99,9 +99,7 @@ def _eyes(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of printed eyes: links along their layers, the foot's lugs across them."""
     sections, holes = case.layout.sections, case.holes
     force = max(case.ankle_n, case.front_n, case.landing_n)
-    stress = eye_stress_mpa(
-        force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, holes.eye(case.layout.axle_mm)
-    )
+    stress = eye_stress_mpa(force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, holes.eye(case.layout.axle_mm))
     yield stress_finding(
         "eye_strength", "eyes of main leg and front link", stress, case.allowable_mpa, WEAKER, "thickness"
     )

@@ -173,7 +173,9 @@ def _lying(holes: HoleSizes, steps: Sequence[float]) -> Blocks:
     """Return a bar with lying holes that get larger towards its cut corner."""
     length = LYING_MM * (len(steps) + 0.5)
     corner = 0.3 * LYING_MM
-    outline = polygon([(0.0, 0.0), (length, 0.0), (length, LYING_MM - corner), (length - corner, LYING_MM), (0.0, LYING_MM)])
+    outline = polygon(
+        [(0.0, 0.0), (length, 0.0), (length, LYING_MM - corner), (length - corner, LYING_MM), (0.0, LYING_MM)]
+    )
     places = [(LYING_MM * (number + 0.6), LYING_MM / 2.0) for number in range(len(steps))]
     cut = union(lying_hole(holes.axle_mm + 2.0 * step, place) for step, place in zip(steps, places, strict=True))
     return Blocks((Bar(outline - cut, ((0.0, LYING_MM / 2.0),)),), ())

@@ -144,7 +144,9 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
     data = workshop.model_dump()
     if readings.joints.floor_n is not None:
         body = data["materials"][workshop.material_name("body")]
-        body["strength_in_plane_mpa"] = min(body["strength_in_plane_mpa"], _floor_mpa(readings.joints.floor_n, workshop))
+        body["strength_in_plane_mpa"] = min(
+            body["strength_in_plane_mpa"], _floor_mpa(readings.joints.floor_n, workshop)
+        )
     return Workshop.from_data(data | {"fits": data["fits"] | fits}, source)
 
 

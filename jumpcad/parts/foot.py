@@ -70,9 +70,7 @@ def foot(layout: Layout, holes: HoleSizes) -> Drawing:
     return Drawing("foot", "links", shape, (Placement(FOOT, upright(-depth)),))
 
 
-def in_one_piece(
-    design: Design, sections: Sections, bed_mm: Sequence[float], toe_half_width_mm: float = 0.0
-) -> bool:
+def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float], toe_half_width_mm: float = 0.0) -> bool:
     """Tell whether a foot with its toes, which reach from the middle as far as said at least, fits the bed."""
     half = sections.thickness_mm / 2.0 + GAP_MM + sections.lug_thickness_mm
     nose = np.array([design.l4_mm, half - sections.foot_depth_mm])

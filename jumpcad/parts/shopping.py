@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from jumpcad.catalogue import Bearing, Catalogue, Screw
-from jumpcad.dimensions import GAP_MM, ROLLER_WASHER_MM, TRAY_MM
+from jumpcad.dimensions import ROLLER_WASHER_MM, TRAY_MM
 from jumpcad.layout.drive_places import arm_line
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout

@@ -20,18 +20,18 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Main leg",
         r"main_leg|hub_bearing_\d+|leg_spring_pin.*|roller.*",
-        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer of 3.1 mm until its pin turns in "
-        "it without rocking. Push the springs' pin through the beam and keep it as the list says: bend the split pin's "
-        "ends, or press the clips into their grooves. Screw the roller to the lever's left side with the washer between "
-        "them and the lock nut on the right; the roller must spin freely.",
+        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer of 3.1 mm until its pin "
+        "turns in it without rocking. Push the springs' pin through the beam and keep it as the list says: bend the "
+        "split pin's ends, or press the clips into their grooves. Screw the roller to the lever's left side with the "
+        "washer between them and the lock nut on the right; the roller must spin freely.",
     ),
     (
         "Foot",
         r"foot|toe_.*|front_link|ankle_pin.*|front_eye_pin.*",
         "Toes that are parts of their own are screwed to the foot from outside first. Set the main leg between the "
-        "lugs where the toes meet and push the ankle pin through. Do the same with the front link at the nose, whose eyes "
-        "are opened like the leg's. Both must swing freely. Bend the split pins' ends around the pins, or press the clips "
-        "into their grooves.",
+        "lugs where the toes meet and push the ankle pin through. Do the same with the front link at the nose, whose "
+        "eyes are opened like the leg's. Both must swing freely. Bend the split pins' ends around the pins, or press "
+        "the clips into their grooves.",
     ),
     (
         "Right plate",
@@ -72,8 +72,8 @@ ORDER: tuple[tuple[str, str, str], ...] = (
         r"body_plate_left|standoff_.*|(leg|front|cam|idler)_axle_.*|spring_pin_.*",
         "Screw the standoffs to the right plate. Lower the left plate over axles, spring pin and tabs, with the left "
         "spring's body arm below the pin, and screw it to the standoffs: the plates' closed bores then hold the axles. "
-        "Otherwise press a clip into the groove at either end of every axle, or put in the screws from the left and turn "
-        "their lock nuts until the plates just bear no load.",
+        "Otherwise press a clip into the groove at either end of every axle, or put in the screws from the left and "
+        "turn their lock nuts until the plates just bear no load.",
     ),
 )
 """Title, names of the parts that are added, text."""
