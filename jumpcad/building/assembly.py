@@ -91,7 +91,6 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> 
     Where something stands in the way of the springs' pin, springs for a free direction take their place.
     """
     small.require_axle(workshop)
-    axles.require_retention(workshop.catalogue, workshop.bought)
     directions = PLATE_PINS_RAD
     for _ in range(PIN_ROUNDS):
         try:
@@ -108,6 +107,7 @@ def _laid_out(
 ) -> tuple[Layout, HoleSizes]:
     """Return layout and hole sizes with springs for one of the directions of the plates' pin."""
     settled = settle(design, workshop, growth, plate_pins_rad)
+    axles.require_retention(workshop.catalogue, workshop.bought)
     catalogue, chosen = workshop.catalogue, workshop.bought
     electronics = Electronics(
         catalogue.batteries[chosen.battery], catalogue.boards[chosen.controller], catalogue.boards[chosen.driver]

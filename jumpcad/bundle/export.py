@@ -11,6 +11,7 @@ from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
+from jumpcad.bundle.joints import joint_facts
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
@@ -80,6 +81,7 @@ def _facts(robot: Robot) -> dict[str, Any]:
         },
         "drive": {"springs": spring_facts(robot), "release": release_facts(robot.release)},
         "stop": stop_facts(robot),
+        "joints": joint_facts(robot),
         "ground": {
             "friction": robot.workshop.ground.foot_friction,
             "pad": robot.workshop.ground.pad,

@@ -25,8 +25,8 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of axles, pins and the roller's screw."""
     layout, lateral = case.layout, case.layout.lateral
     remedy = (
-        "a stronger bought.axle, raise bought.axle_mm with its bearings, bring the plates closer (a shorter motor, a narrower battery or "
-        "board), or lower stiffness_nmm_per_deg or compression_ratio"
+        "a stronger bought.axle, raise bought.axle_mm with its bearings, bring the plates closer (a shorter motor, a "
+        "narrower battery or board), or lower stiffness_nmm_per_deg or compression_ratio"
     )
     names = {
         "leg_axle": "the leg's axle, wound",

@@ -103,7 +103,7 @@ class Layout:
 
     @property
     def ankle_face_mm(self) -> float:
-        """How far from the middle the foot's outer faces at the ankle are, where its pin is kept: beside the toes' roots."""
+        """How far from the middle the foot's outer faces at the ankle are, between which its pin is kept."""
         sections = self.sections
         return sections.thickness_mm / 2.0 + GAP_MM + max(sections.lug_thickness_mm, sections.toe_width_mm)
 

@@ -1,8 +1,8 @@
 """Bought axles and pins, each with what keeps it in place (mm, g; drawn like every bought part).
 
 Axles and the springs' pin cross both plates. By the workshop's `bought.retention` they end in blind bores of the plates
-(`plates`), carry a clip in a groove at either end (`clips`), or are screws with lock nuts (`nuts`). The pins of foot and
-leg are clevis pins with split pins, or rods with clips.
+(`plates`), carry a clip in a groove at either end (`clips`), or are screws with lock nuts (`nuts`). The pins of foot
+and leg are clevis pins with split pins, or rods with clips.
 """
 
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ import numpy as np
 
 from jumpcad.catalogue import Catalogue, Clip
 from jumpcad.dimensions import AXLE_END_PLAY_MM, GAP_MM
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
@@ -117,8 +117,8 @@ def _clipped(place: Place, diameter_mm: float, catalogue: Catalogue, chosen: Bou
     ]
     mass = rod.density_g_cm3 * sum((y1 - y0) * region.area() for y0, y1, region in slabs) / 1000.0
     article = (
-        f"{rod.description} {diameter_mm:g} x {length:.1f} mm, grooves {clip.groove_mm:g} x {clip.groove_width_mm:g} mm, "
-        f"{clip.end_mm:g} mm from either end"
+        f"{rod.description} {diameter_mm:g} x {length:.1f} mm, grooves {clip.groove_mm:g} x "
+        f"{clip.groove_width_mm:g} mm, {clip.end_mm:g} mm from either end"
     )
     yield bought(place.name, article, place.body, mass, slabs, _at(place, low - reach))
     region = _clip(clip)
@@ -153,7 +153,7 @@ def _clevis(place: Place, diameter_mm: float, catalogue: Catalogue) -> Iterator[
     needed = high - low + 2.0 * AXLE_END_PLAY_MM + pin.cotter_mm / 2.0 + pin.end_mm
     length = next((known for known in pin.lengths_mm if known >= needed - 1e-9), None)
     if length is None:
-        raise JumpcadError(
+        raise CannotBuildError(
             f"no clevis pin of {needed:.1f} mm for the {place.name.replace('_', ' ')}; the longest is "
             f'{pin.lengths_mm[-1]:g} mm: choose bought.retention = "clips"'
         )

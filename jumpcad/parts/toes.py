@@ -136,7 +136,7 @@ def _finger(layout: Layout, start_mm: Array, length_mm: float) -> Finger:
 
 
 def _bar(layout: Layout, toe: Toe) -> list[Finger]:
-    """Return the bar from a toe's tip outwards, across the robot, if the toes are to reach further than the design's."""
+    """Return the bar from a toe's tip outwards, across the robot, where toes are to reach further than the design's."""
     if layout.toe_bar_mm <= 0.0:
         return []
     height, along = layout.sections.toe_tip_height_mm, np.array([math.sin(toe.angle_rad), math.cos(toe.angle_rad)])

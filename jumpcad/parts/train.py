@@ -127,7 +127,7 @@ def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes)
 
 
 def ribbed_d_bore(shaft_mm: float, flat_mm: float, holes: HoleSizes, rib_mm: float | None = None) -> Region:
-    """Return the hole for a D-shaft with a press fit around it and five crush ribs, by default `fits.rib_mm` into the shaft.
+    """Return the hole for a D-shaft with a press fit around it and five crush ribs, `rib_mm` or `fits.rib_mm` into it.
 
     Two ribs bear on the flat, which faces +x and takes the torque, and three on the round side.
     """

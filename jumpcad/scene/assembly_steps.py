@@ -20,10 +20,10 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Main leg",
         r"main_leg|hub_bearing_\d+|leg_spring_pin.*|roller.*",
-        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer of 3.1 mm until its pin turns in "
-        "it without rocking. Push the springs' pin through the beam and keep it as the list says: bend the split pin's "
-        "ends, or press the clips into their grooves. Screw the roller to the lever's left side with the washer between "
-        "them and the lock nut on the right; the roller must spin freely.",
+        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer of 3.1 mm until its pin "
+        "turns in it without rocking. Push the springs' pin through the beam and keep it as the list says: bend the "
+        "split pin's ends, or press the clips into their grooves. Screw the roller to the lever's left side with the "
+        "washer between them and the lock nut on the right; the roller must spin freely.",
     ),
     (
         "Foot",

@@ -41,13 +41,14 @@ def test_the_bill_weighs_what_the_robot_weighs(robot: Robot) -> None:
 def test_the_bill_counts_every_piece(robot: Robot) -> None:
     """A roller needs one nut and one washer, two plates two screws per standoff, two springs one of each hand."""
     quantity = {row["item"]: int(row["quantity"]) for row in rows(robot)}
-    assert quantity["nut M3 ISO 4032"] == 1
+    assert quantity["lock nut M3 DIN 985"] == 1
     standoffs = sum(count for item, count in quantity.items() if item.startswith("standoff"))
     assert quantity["screw M3 x 10 ISO 7380-1"] == 2 * standoffs
     assert sum(count for item, count in quantity.items() if item.startswith("torsion spring")) == 2
     assert sum(count for item, count in quantity.items() if item.startswith("gear motor")) == 1
-    axles = 3 if robot.layout is None or robot.layout.idler_mm is None else 4
-    assert quantity["collar"] == 2 * axles
+    axles = 3 if robot.layout.idler_mm is None else 4
+    assert sum(count for item, count in quantity.items() if item.startswith("spring steel rod")) == axles + 1
+    assert quantity["split pin 0.8 x 10 ISO 1234"] == 3  # ankle, front eye, springs' pin in the leg
 
 
 def test_nothing_costs_anything_unless_the_workshop_says_so(robot: Robot) -> None:

@@ -1,6 +1,9 @@
 """Axles, springs and bearings: overloaded, and after many jumps."""
 
+import math
+
 import pytest
+from support.fits import LOADS
 from support.strengths import changed, margins
 
 from jumpcad.building import build
@@ -30,3 +33,33 @@ def test_what_lasts_too_few_jumps_warns(kenan: Robot, strongest: Robot) -> None:
     assert margins(built_for_it)["spring_fatigue"] > 0.0
     assert built_for_it.layout is not None
     assert built_for_it.layout.drive.spring.mass_g > kenan.layout.drive.spring.mass_g  # type: ignore[union-attr]
+
+
+def test_axles_and_pins_stay_in_a_landing_sideways(kenan: Robot) -> None:
+    """All of the landing's friction, 0.8 of its force, along one axle; floors of 0.8 mm PLA shear off around 3 mm."""
+    usual = {found.name: found for found in strength_findings(kenan)}
+    force = 0.8 * usual["front_link_buckling"].value
+    strength = kenan.workshop.materials["PLA"].strength_in_plane_mpa / (3.0 * LOADS)
+    floor = math.pi * 3.0 * 0.8 * strength / math.sqrt(3.0)
+    assert (usual["axle_retention"].value, usual["axle_retention"].limit) == pytest.approx((force, floor))
+    assert usual["pin_retention"].limit == pytest.approx(80.0 / 1.5 / LOADS)
+    hard = changed(kenan, "safety", landing_stop_mm=0.5)
+    worse = {found.name for found in strength_findings(hard) if found.severity == "error"}
+    assert {"axle_retention", "pin_retention"} <= worse
+
+
+def test_the_legs_pin_is_a_cantilever_beside_the_leg(kenan: Robot) -> None:
+    """The arm pushes half a wire and 0.5 mm beside the leg; the pin is held in it, from a quarter of its width on."""
+    (pin,) = (found for found in strength_findings(kenan) if found.name == "leg_pin_strength")
+    spring = kenan.layout.drive.spring
+    lever = 0.5 + spring.wire_mm / 2.0 + kenan.layout.sections.thickness_mm / 4.0
+    assert pin.value == pytest.approx(32.0 * spring.pin_force_n * lever / (math.pi * 27.0))
+    assert pin.limit == pytest.approx(400.0 / 1.5 / LOADS)
+
+
+def test_what_an_axle_is_made_of_counts(kenan: Robot) -> None:
+    """A bore of two thirds leaves 1 - (2/3)^4 of the section modulus; a lighter metal yields earlier."""
+    solid = {found.name: found for found in strength_findings(kenan)}["leg_axle_strength"]
+    tube = {f.name: f for f in strength_findings(changed(kenan, "bought", axle="steel-tube"))}["leg_axle_strength"]
+    assert tube.value == pytest.approx(solid.value / (1.0 - 0.6667**4))
+    assert tube.limit == pytest.approx(solid.limit * 210.0 / 1370.0)

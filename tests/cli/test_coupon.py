@@ -3,8 +3,10 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from support.commands import Run
+from support.fits import measured
 
 from jumpcad.building import build
 from jumpcad.bundle.manifest import verify
@@ -34,9 +36,9 @@ def test_a_coupon_is_printed_tried_and_built_with(run: Run, tmp_path: Path) -> N
     assert (code, err) == (0, "")
     assert json.loads(out)["fits"]["press_mm"] == {"before": 0.1, "after": 0.15}
     workshop = load_workshop(tmp_path / "my-workshop.toml")
-    collar = next(part for part in build(load_design("kenan-2.0"), workshop).parts if part.name == "collar")
-    bore = min((x**2 + y**2) ** 0.5 for x, y, _ in collar.mesh.vertices - collar.mesh.bounding_box.centroid)
-    assert 2.0 * bore == pytest.approx(3.0 + 2.0 * 0.15, abs=0.01)
+    robot = build(load_design("kenan-2.0"), workshop)
+    found = measured(robot, "main_leg", 0.0, np.array([robot.layout.leg_pin_mm, 0.0]))
+    assert found == pytest.approx(3.0 + 2.0 * 0.15, abs=0.01)
 
 
 def test_what_is_told(run: Run) -> None:

@@ -135,7 +135,7 @@ class Bundle:
     def _moves(self, a: Piece, b: Piece, pose: Pose) -> bool:
         """Tell whether two pieces move past each other and may not meet."""
         names = {a.name, b.name}
-        if names <= set(TRAIN) or a.name.startswith("spring_") and b.name.startswith(a.name[:9]):
+        if names <= set(TRAIN) or (a.name.startswith("spring_") and b.name.startswith(a.name[:9])):
             return False  # wheels in mesh; coil and arm of one wire
         if names == {"stop_pad", "main_leg"}:
             return pose.leg < self.stop - 1e-9

@@ -10,6 +10,7 @@ import trimesh
 from manifold3d import CrossSection, JoinType, Manifold, Mesh64
 from support.gearing import turning_play_deg
 
+from jumpcad.coupon.joints import joint_pieces
 from jumpcad.coupon.pieces import Piece, coupon_holes, ladders, pieces
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
@@ -21,7 +22,8 @@ WORKSHOP = load_workshop("default")
 
 
 def coupon(workshop: Workshop) -> dict[str, Piece]:
-    made = pieces(coupon_holes(workshop), list(workshop.materials), workshop.material_name("gears"))
+    holes = coupon_holes(workshop)
+    made = pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
     return {piece.name: piece for piece in made}
 
 
@@ -53,6 +55,8 @@ def width(polygon: np.ndarray) -> float:
 
 
 PIECES = coupon(WORKSHOP)
+OVERHANGS_MM2 = {"shaft_bores": 0.2, "lying_holes": 13.0}
+"""Ribs that begin above the chamfer, 0.15 mm deep; three flat roofs, bridges 0.85 mm wide and 5 mm long."""
 
 
 @pytest.mark.parametrize("material", ["PETG", "PLA"])
@@ -95,7 +99,8 @@ def test_every_piece_is_one_closed_part_that_hangs_over_nothing() -> None:
             reach = solid.slice(below).offset(
                 0.21, JoinType.Round, 2.0, 64
             )  # 45° at layers of 0.2 mm; less at a tooth's corners
-            assert (solid.slice(above) - reach).area() < 0.1, (piece.name, above)
+            allowed = OVERHANGS_MM2.get(piece.name, 0.1)
+            assert (solid.slice(above) - reach).area() < allowed, (piece.name, above)
 
 
 def test_pinions_play_by_the_backlash_engraved_on_them() -> None:
@@ -141,3 +146,25 @@ def test_one_material_needs_one_gauge() -> None:
 def test_a_coupon_fits_the_smallest_bed() -> None:
     plates = packed(PIECES.values(), (180.0, 180.0, 180.0), 5.0)
     assert [plate.name for plate in plates] == ["plate-1-PETG", "plate-1-PLA"]
+
+
+def test_joints_have_three_steps_each() -> None:
+    """M2 taps by their diameters; sockets for a gearbox of 10 x 12 mm and slots for tabs of 1.6 mm, per side."""
+    _, taps = contours(reread(PIECES["taps"]).slice(4.0))
+    assert sorted(width(polygon) for polygon in taps) == pytest.approx([1.5, 1.6, 1.7], abs=2e-3)
+    for name, nominal in (("motor_sockets", 10.0), ("tray_slots", 1.6)):
+        _, rooms = contours(reread(PIECES[name]).slice(1.0))
+        narrow = sorted(min(np.ptp(polygon, axis=0)) for polygon in rooms)
+        assert narrow == pytest.approx([nominal + 2.0 * step for step in (0.15, 0.2, 0.25)], abs=2e-3)
+    _, seats = contours(reread(PIECES["seat"]).slice(1.0))
+    assert sorted(width(polygon) for polygon in seats) == pytest.approx([7.1, 7.2, 7.3], abs=2e-3)  # a 683: 7 mm
+    assert reread(PIECES["axle_floor"]).slice(0.75).num_contour() == 1  # closed
+    assert reread(PIECES["axle_floor"]).slice(0.85).num_contour() == 2
+
+
+@pytest.mark.parametrize("step", [15, 20, 25])
+def test_the_dogs_jaws_turn_in_their_pockets_as_far_as_their_play(step: int) -> None:
+    jaws = reread(PIECES["dog_jaws"]).slice(5.0)
+    pockets = reread(PIECES[f"dog_pockets_{step}"]).slice(2.5)
+    free = [turn for turn in range(-20, 21) if (jaws.rotate(float(turn)) ^ pockets).area() < 0.05]
+    assert free == list(range(-7, 8))  # 15 degrees between pockets of 55 and jaws of 40

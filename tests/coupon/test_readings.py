@@ -64,6 +64,17 @@ def test_the_reading_counts_with_which_every_material_still_works() -> None:
     assert fits.hole_allowance_diameter_mm == 0.30
 
 
+def test_joints_are_read_too() -> None:
+    """The widest running fit counts, and the tightest press fit; a floor sheared off at F has F·√3/(pi·d·t)."""
+    text = "[joints]\nm2_tap_mm = 1.7\nrib_mm = 0.1\nlying_mm = 0.15\ndog_sliding_mm = 0.25\ntray_sliding_mm = 0.15"
+    fits = read(f"{text}\nseat_press_mm = 0.05").fits
+    assert (fits.m2_tap_mm, fits.rib_mm, fits.lying_mm, fits.sliding_mm) == (1.7, 0.1, 0.15, 0.25)
+    assert fits.press_mm == 0.05
+    weak = read("[joints]\nfloor_n = 100").materials["PLA"].strength_in_plane_mpa
+    assert weak == pytest.approx(100.0 * math.sqrt(3.0) / (math.pi * 3.0 * 0.8), abs=0.06)
+    assert read("[joints]\nfloor_n = 1000").materials == WORKSHOP.materials
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -75,6 +86,7 @@ def test_the_reading_counts_with_which_every_material_still_works() -> None:
             r"r\.toml: gauge\.PETG\.axle_press_mm = 0\.45: must be 0\.00…0\.40 as engraved; if nothing fits",
         ),
         ("[gauge.PLA]\nbearing_press_mm = -0.05", r"bearing_press_mm = -0\.05: must be 0\.00…0\.20"),
+        ("[joints]\nm2_tap_mm = 2.0", r"r\.toml: joints\.m2_tap_mm = 2: must be 1\.50…1\.70 as engraved"),
         ("[gears]\nturns_freely_mm = 0.3", r"gears\.turns_freely_mm = 0\.3: must be 0\.05…0\.25"),
         (
             "[gauge.PETG]\naxle_press_mm = 0.25\naxle_sliding_mm = 0.2",

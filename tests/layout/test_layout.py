@@ -63,6 +63,7 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
         "plate_mm": load_workshop("default").body.plate_mm, "roller_width_mm": 4.0, "axle_mm": 3.0,
         "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
+        "toe_half_width_mm": layout.toe_half_width_mm,
     }  # fmt: skip
     assert spring.pin_radius_mm == layout.leg_pin_mm
     return make_layout(**(given | changed))
@@ -207,6 +208,6 @@ def test_a_cam_gear_in_the_legs_axle_is_refused() -> None:
 
 
 def test_the_lever_has_room_for_the_rollers_screw_on_either_side() -> None:
-    """A nut of 2.4 mm (ISO 4032 M3) behind the lever, a head of 1.65 mm (ISO 7380-1 M3) beside the roller."""
-    assert 2.4 <= LEVER_NUT_MM < 3.0
+    """A lock nut of 4.0 mm (DIN 985 M3) behind the lever, a head of 1.65 mm (ISO 7380-1 M3) beside the roller."""
+    assert 4.0 <= LEVER_NUT_MM < 5.0
     assert 1.65 <= LEVER_HEAD_MM < 2.0

@@ -1,0 +1,109 @@
+"""Tipping sideways: play of a pin in an eye, the roll to the edge of the stance, and toes that reach further."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+import shapely.affinity
+
+from jumpcad.building import build
+from jumpcad.checks.interference import Moment, components, pose_of
+from jumpcad.checks.sideways import play_rad, rolls, sideways_findings
+from jumpcad.design import load_design
+from jumpcad.mechanism.model import FOOT
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.robot import Robot
+from jumpcad.workshop import Workshop, load_workshop
+
+
+def workshop(**body: float) -> Workshop:
+    shop = load_workshop()
+    return shop.model_copy(update={"body": shop.body.model_copy(update=body)})
+
+
+def tilt_rad(pin_mm: float, bore_mm: float, length_mm: float) -> float:
+    """Return how far a long pin can be turned in a bore, by trying."""
+    bore = shapely.box(-length_mm / 2.0, -bore_mm / 2.0, length_mm / 2.0, bore_mm / 2.0)
+    pin = shapely.box(-3.0 * length_mm, -pin_mm / 2.0, 3.0 * length_mm, pin_mm / 2.0)
+    slab = shapely.box(-length_mm / 2.0, -50.0, length_mm / 2.0, 50.0)
+    low, high = 0.0, 0.5
+    for _ in range(40):
+        middle = (low + high) / 2.0
+        inside = shapely.affinity.rotate(pin, math.degrees(middle)).intersection(slab)
+        low, high = (middle, high) if inside.difference(bore).area < 1e-9 else (low, middle)
+    return low
+
+
+def test_play_adds_up_along_the_leg(kenan: Robot) -> None:
+    """Ankle's eye of 3.2 mm, 6 mm long; its pin in lugs 21 mm apart; the axle of 3 mm in bores of 3.4 mm."""
+    lateral = kenan.layout.lateral
+    bores_apart = lateral.outside[1] - lateral.outside[0] - 1.6  # two floors of 0.8 mm
+    by_hand = tilt_rad(3.0, 3.2, 6.0) + tilt_rad(3.0, 3.2, 21.0) + tilt_rad(3.0, 3.4, bores_apart)
+    holes = HoleSizes.of(kenan.workshop, kenan.layout.hub_bearing)
+    assert play_rad(kenan.layout, holes) == pytest.approx(by_hand, rel=0.02)
+    fine = replace(holes, fits=holes.fits.model_copy(update={"eye_mm": 0.05}))
+    assert play_rad(kenan.layout, fine) < play_rad(kenan.layout, holes)
+
+
+@pytest.mark.parametrize(("state", "share"), [("at rest", 0.0), ("wound", 1.0)])
+def test_rolling_by_the_stance_brings_the_centre_of_mass_over_the_edge(
+    strongest: Robot, state: str, share: float
+) -> None:
+    """The centre of mass comes from the pieces' own masses, the edge from the contacts and the nose's lug."""
+    leg = -share * strongest.design.compression_rad
+    pose = strongest.linkage.pose([leg])
+    tilt, ankle = float(pose.foot_rad[0]), pose.ankle_mm[0]
+    poses = {
+        piece.body: pose_of(
+            replace(piece, T_body_part=np.eye(4)), strongest.layout, strongest.linkage, Moment("", leg, 0)
+        )
+        for piece in components(strongest)
+        if piece.name not in ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
+    }
+    moment = sum(
+        body.mass_kg * (poses[name] @ np.append(1000.0 * body.com_m, 1.0))[:3]
+        for name, body in strongest.bodies.items()
+    )
+    com = moment / strongest.mass_kg
+    x, z = com[[0, 2]] - ankle
+    com = np.array([x * math.cos(tilt) - z * math.sin(tilt), com[1], x * math.sin(tilt) + z * math.cos(tilt)]) + [
+        0.0,
+        0.0,
+        1000.0 * strongest.foot_depth_m,
+    ]
+    contacts = {contact.name: 1000.0 * contact.centre_m for contact in strongest.bodies[FOOT].contacts}
+    side = 1.0 if com[1] > 0.0 else -1.0
+    toe = contacts["left_toe"] if side > 0 else contacts["right_toe"]
+    nose = np.array([strongest.design.l4_mm, side * strongest.layout.lateral.lug_left[1], 0.0])
+    edge = nose - [toe[0], toe[1], 0.0]
+    edge /= np.linalg.norm(edge)
+    found = next(roll for roll in rolls(strongest) if roll.state == state)
+    turn = -side * math.radians(found.stance_deg) if edge[0] > 0 else side * math.radians(found.stance_deg)
+    arm = com - nose
+    turned = arm * math.cos(turn) + np.cross(edge, arm) * math.sin(turn) + edge * (edge @ arm) * (1.0 - math.cos(turn))
+    outwards = np.cross(edge, [0.0, 0.0, 1.0])
+    assert turned @ outwards == pytest.approx(0.0, abs=0.05)
+
+
+def test_narrow_toes_tip_and_bars_across_them_help() -> None:
+    narrow = build(load_design("best-printable"), workshop(toe_half_width_mm=0.0))
+    (finding,) = sideways_findings(narrow)
+    assert (finding.name, finding.severity) == ("sideways_tipping", "error")
+    assert "raise body.toe_half_width_mm" in finding.remedy
+    wide = build(load_design("best-printable"), workshop(toe_half_width_mm=30.0))
+    (finding,) = sideways_findings(wide)
+    assert finding.severity == "info"
+    tips = [c.centre_m[1] for c in wide.bodies[FOOT].contacts if c.name.endswith("toe")]
+    assert sorted(tips) == pytest.approx([-0.030, 0.030])
+    foot = next(part for part in wide.parts if part.name == "foot")
+    assert np.abs(foot.mesh.bounds[:, 1]) == pytest.approx([32.5, 32.5], abs=0.1)  # a tip is 5 mm wide
+
+
+def test_the_bar_across_a_toe_is_checked() -> None:
+    wide = build(load_design("best-printable"), workshop(toe_half_width_mm=60.0))
+    from jumpcad.checks.strength import strength_findings
+
+    (bar,) = (found for found in strength_findings(wide) if found.name == "toe_bar_strength")
+    assert bar.value > 0.0

@@ -1,0 +1,87 @@
+"""Axles and pins cannot come out: pushed to either side, each with what is on it meets what it carries."""
+
+import math
+
+import numpy as np
+import pytest
+from manifold3d import Manifold, OpType
+
+from jumpcad.building import build
+from jumpcad.checks.interference import components, interference_findings
+from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.robot import Robot
+from jumpcad.workshop import Workshop, load_workshop
+
+CHOICES = {
+    "plates": {},
+    "clips": {"retention": "clips", "axle": "silver-steel"},
+    "nuts": {"retention": "nuts"},
+}
+PUSHED_MM = np.arange(0.5, 6.1, 0.5)
+"""Clevis pins have lengths 2 mm apart; those of the springs stand out beside the leg, with the springs' arms on them."""
+
+
+def workshop(**bought: object) -> Workshop:
+    shop = load_workshop()
+    return shop.model_copy(update={"bought": shop.bought.model_copy(update=bought)})
+
+
+@pytest.fixture(scope="module", params=list(CHOICES))
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return build(load_design("kenan-2.0"), workshop(**CHOICES[request.param]))
+
+
+def test_nothing_meets(robot: Robot) -> None:
+    assert [found.message for found in interference_findings(robot) if found.severity == "error"] == []
+
+
+def test_what_is_pushed_along_y_is_stopped(robot: Robot) -> None:
+    pieces = components(robot)
+    placed = {(piece.name, piece.body, id(piece)): piece.solid.transform(piece.T_body_part[:3]) for piece in pieces}
+    names = [p.name for p in pieces if p.name.endswith(("_axle", "_eye_pin", "ankle_pin", "spring_pin"))]
+    assert len(names) == 7
+    for name in names:
+        body = next(piece.body for piece in pieces if piece.name == name)
+        on_it = [solid for (own, _, _), solid in placed.items() if own == name or own.startswith(f"{name}_")]
+        beside = [
+            solid
+            for (other, of, _), solid in placed.items()
+            if of == body and other != name and not other.startswith((f"{name}_", "spring_left", "spring_right"))
+        ]
+        for way in (-1.0, 1.0):
+            whole = Manifold.batch_boolean(on_it, OpType.Add)
+            moved = [whole.translate([0.0, way * by, 0.0]) for by in PUSHED_MM]
+            shared = max((solid ^ other).volume() for solid in moved for other in beside)
+            assert shared > 1.0, (name, way)
+
+
+def test_an_axle_weighs_its_rod() -> None:
+    """Aluminium, 2.81 g/cm³, less two grooves of 2.3 mm in 3 mm, 0.64 mm wide (DIN 6799)."""
+    robot = build(load_design("kenan-2.0"), workshop(retention="clips", axle="aluminium-7075"))
+    axle = next(item for item in robot.hardware if item.name == "leg_axle")
+    length = float(axle.article.split(" x ")[1].split()[0])
+    volume = math.pi / 4.0 * (9.0 * length - 2.0 * 0.64 * (9.0 - 2.3**2))
+    assert 1000.0 * axle.mass_kg == pytest.approx(2.81e-3 * volume, rel=0.01)
+    clips = [item for item in robot.hardware if item.article == "E-clip 2.3 DIN 6799"]
+    assert len(clips) == 2 * (3 + 1 + 3)  # three axles, the springs' pin in the plates, three pins
+    hollow = build(load_design("kenan-2.0"), workshop(axle="steel-tube"))
+    tube = next(item for item in hollow.hardware if item.name == "cam_axle")
+    assert np.isclose(tube.shape.volume_mm3 / (np.ptp(tube.shape.bounds_mm[:, 2])), math.pi / 4 * (9 - 4), rtol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("bought", "message"),
+    [
+        (
+            {"retention": "clips"},
+            r"no groove can be cut into spring-steel at home: choose a bought.axle of silver-steel",
+        ),
+        ({"axle": "silversteel"}, r"no rod 'silversteel' in the catalogue .*did you mean"),
+        ({"axle_mm": 4.0, "leg_bearing": ""}, r"bought.axle_mm = 4: no clevis pin of that size \(3 mm\)"),
+        ({"axle_mm": 2.5, "leg_bearing": "", "retention": "clips", "axle": "silver-steel"}, r"no clip of that size"),
+    ],
+)
+def test_what_cannot_be_kept_is_refused(bought: dict[str, object], message: str) -> None:
+    with pytest.raises(JumpcadError, match=message):
+        build(load_design("kenan-2.0"), workshop(**bought))
