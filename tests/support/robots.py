@@ -3,7 +3,6 @@
 from collections import defaultdict
 
 from jumpcad.building import build
-from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.mass import combined
@@ -82,8 +81,8 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
         contacts = capsules.bodies[title].contacts
         bodies[title] = Body(title, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
     workshop = load_workshop()
-    layout, _ = layout_of(design, workshop)
+    whole_robot = build(design, workshop, name="")
     return Robot(
         name, design, bodies, capsules.joints, capsules.loop, capsules.spring, capsules.foot_depth_m,
-        parts, hardware, workshop, layout, build(design, workshop, name="").release,
+        parts, hardware, workshop, whole_robot.layout, whole_robot.release, whole_robot.stop_blow,
     )  # fmt: skip
