@@ -103,7 +103,7 @@ class BodyPlates(TomlTable):
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
     stop_deg: Annotated[float, Field(ge=3, le=8)]
-    stop_pad: Name
+    stop_pad: OptionalName
 
 
 class Ground(TomlTable):

@@ -135,7 +135,7 @@ class Bundle:
     def _moves(self, a: Piece, b: Piece, pose: Pose) -> bool:
         """Tell whether two pieces move past each other and may not meet."""
         names = {a.name, b.name}
-        if names <= set(TRAIN) or a.name.startswith("spring_") and b.name.startswith(a.name[:9]):
+        if names <= set(TRAIN) or (a.name.startswith("spring_") and b.name.startswith(a.name[:9])):
             return False  # wheels in mesh; coil and arm of one wire
         if names == {"stop_pad", "main_leg"}:
             return pose.leg < self.stop - 1e-9
@@ -193,7 +193,8 @@ def _frame(element: ET.Element) -> np.ndarray:
 
 def _piece(folder: Path, link: str | None, visual: ET.Element) -> Piece:
     file = visual.find("geometry/mesh")
-    assert link is not None and file is not None
+    assert link is not None
+    assert file is not None
     mesh = trimesh.load_mesh(folder / "urdf" / str(file.get("filename")))
     mesh.merge_vertices()
     solid = Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))
