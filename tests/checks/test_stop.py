@@ -49,6 +49,16 @@ def test_ears_are_bent_like_a_cantilever() -> None:
     assert found(robot)["stop_plates"].value == pytest.approx(6.0 * moment / (2.4 * 16.0**2))
 
 
+def test_the_leg_is_a_beam_on_hub_and_pad() -> None:
+    """A load F at the pad, held at the hub and, by inertia, at the ankle: M = F·r·(1 - r/l) (any handbook)."""
+    solid = load_workshop().process.model_copy(update={"infill": 1.0})
+    robot = build(load_design("kenan-2.0"), load_workshop().model_copy(update={"process": solid}))
+    radius, length, sections = robot.layout.stop.radius_mm, robot.design.l2_mm, robot.layout.sections
+    moment = 2.0 * robot.stop_blow.force_n * radius * (1.0 - radius / length)
+    height = sections.leg_root_mm + radius / length * (sections.leg_tip_mm - sections.leg_root_mm)
+    assert found(robot)["stop_leg"].value == pytest.approx(6.0 * moment / (6.0 * height**2), rel=1e-3)
+
+
 def test_the_bar_of_solid_plastic_is_a_beam_on_two_supports() -> None:
     solid = load_workshop().process.model_copy(update={"infill": 1.0})
     robot = build(load_design("kenan-2.0"), load_workshop().model_copy(update={"process": solid}))

@@ -6,12 +6,13 @@ from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.mass import combined
-from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Stop
 from jumpcad.parts.part import Drawing, Part, Placement, laid, lying_on_left, lying_on_right
 from jumpcad.parts.purchased import bought
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle, stadium, union
 from jumpcad.solids.stack import Stack
+from jumpcad.strength.stop import StopBlow
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import load_workshop
 
@@ -82,7 +83,8 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
         bodies[title] = Body(title, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
     workshop = load_workshop()
     layout, _ = layout_of(design, workshop)
+    held = StopBlow(Stop("leg", layout.stop.angle_rad, 50.0), 0.01, 0.9, 50.0, 0.02, 0.4)
     return Robot(
         name, design, bodies, capsules.joints, capsules.loop, capsules.spring, capsules.foot_depth_m,
-        parts, hardware, workshop, layout,
+        parts, hardware, workshop, layout, held,
     )  # fmt: skip
