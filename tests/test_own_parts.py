@@ -135,7 +135,7 @@ REFUSED = {
     ),
     "battery of 300 mm": (
         battery(300.0, 20.0, 10.0),
-        r"^part electronics_tray of 302\.0×37\.7×1\.6 mm does not fit the bed of 250\.0×210\.0×220\.0 mm at any angle",
+        r"^part body_plate_left of 305\.0×\d+\.\d×2\.4 mm does not fit the bed of 250\.0×210\.0×220\.0 mm at any angle",
     ),
     "bearing 625 in the hub": (
         bearing("leg_bearing", 5.0, 16.0, 5.0),

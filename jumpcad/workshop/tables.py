@@ -122,7 +122,7 @@ class BodyPlates(TomlTable):
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
     stop_deg: Annotated[float, Field(ge=3, le=8)]
-    stop_pad: Name
+    stop_pad: OptionalName
     toe_half_width_mm: Annotated[float, Field(ge=0, le=200)]
 
 

@@ -51,7 +51,7 @@ def test_the_body_is_measured_where_it_is_lowest(strongest: Robot) -> None:
 
 def test_ground_clearance_fires_on_a_shallow_foot(kenan: Robot) -> None:
     assert kenan.layout is not None
-    shallow = replace(kenan.layout, sections=replace(kenan.layout.sections, foot_depth_mm=4.5))
+    shallow = replace(kenan.layout, sections=replace(kenan.layout.sections, foot_depth_mm=4.5, pad_mm=0.0))
     (finding,) = ground_findings(replace(kenan, layout=shallow))
     assert finding.severity == "error"
     assert finding.margin == pytest.approx(4.5 - 4.2 - 0.6)
