@@ -15,11 +15,11 @@ def test_hub_bearings_warn_when_the_springs_overload_them(strongest: Robot) -> N
     weak = changed(strongest, "bought", leg_bearing="MR63")
     (finding,) = [found for found in strength_findings(build(weak.design, weak.workshop)) if "bearing" in found.name]
     assert (finding.name, finding.severity, finding.unit) == ("hub_bearing_load", "warning", "N")
-    # an arm's force is torque over its radius; the roller's middle is 6.5 mm from the leg's, the bearings 5.5 mm apart
+    # an arm's force is torque over its length; the roller's middle is 6.5 mm from the leg's, the bearings 5.5 mm apart
     assert weak.layout is not None
-    arms = 1000.0 * weak.design.peak_spring_torque_nm / weak.layout.leg_pin_mm
+    arms = 1000.0 * weak.design.peak_spring_torque_nm / weak.layout.drive.spring.arms.lever_mm
     cam = weak.layout.drive.cam.peak_contact_n
-    assert finding.margin == pytest.approx(75.0 / 0.5 - (arms / 2.0 + cam * (0.5 + 6.5 / 5.5)), rel=0.05)
+    assert finding.margin == pytest.approx(75.0 / 0.5 / LOADS - (arms / 2.0 + cam * (0.5 + 6.5 / 5.5)), rel=0.06)
 
 
 def test_what_lasts_too_few_jumps_warns(kenan: Robot, strongest: Robot) -> None:
