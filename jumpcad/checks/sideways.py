@@ -24,7 +24,7 @@ LANDING_PLAYS = 2.0
 
 @dataclass(frozen=True)
 class Roll:
-    """How far the robot may roll on a state's worst side (°): what its stance allows, and what its joints take of it."""
+    """How far the robot may roll in a state, to its worse side (°): what its stance allows, what its joints take."""
 
     state: str
     stance_deg: float

@@ -32,8 +32,8 @@ def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen:
     """Return every bought part at its place, in the assembled pose."""
     return [
         *axles.axles(layout, catalogue, chosen),
-        *axles.pins(layout, catalogue, chosen),
         *_leg_things(layout, holes, catalogue, chosen),
+        *axles.pins(layout, catalogue, chosen),
         *_springs(layout, catalogue),
         *_motor_things(layout, catalogue),
         *_standoffs(layout, catalogue),

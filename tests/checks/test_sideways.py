@@ -68,11 +68,9 @@ def test_rolling_by_the_stance_brings_the_centre_of_mass_over_the_edge(
     )
     com = moment / strongest.mass_kg
     x, z = com[[0, 2]] - ankle
-    com = np.array([x * math.cos(tilt) - z * math.sin(tilt), com[1], x * math.sin(tilt) + z * math.cos(tilt)]) + [
-        0.0,
-        0.0,
-        1000.0 * strongest.foot_depth_m,
-    ]
+    height = x * math.sin(tilt) + z * math.cos(tilt) + 1000.0 * strongest.foot_depth_m
+    height = 1000.0 * strongest.foot_depth_m + x * math.sin(tilt) + z * math.cos(tilt)
+    com = np.array([x * math.cos(tilt) - z * math.sin(tilt), com[1], height])
     contacts = {contact.name: 1000.0 * contact.centre_m for contact in strongest.bodies[FOOT].contacts}
     side = 1.0 if com[1] > 0.0 else -1.0
     toe = contacts["left_toe"] if side > 0 else contacts["right_toe"]
