@@ -94,7 +94,7 @@ def release_limits(workshop: Workshop) -> ReleaseLimits:
     return ReleaseLimits(
         energy_ratio_min=table.energy_ratio_min,
         motor_nm=safety.motor_torque_max_nm,
-        teeth_mpa=workshop.material("gears").strength_in_plane_mpa / safety.strength_factor,
+        teeth_mpa=workshop.material("gears").strength_in_plane_mpa / safety.printed_factor,
         rounding_mm=table.corner_radius_mm,
         friction=table.friction,
         rotor_kg_m2=table.rotor_kg_m2,
