@@ -26,8 +26,7 @@ WINDING_POSITIONS = 13
 DROP_POSITIONS = 13
 PAST_POSITIONS = 3
 AHEAD_SHARES = (0.0, 0.5, 1.0)
-"""Leg positions from rest to the end of the stop's give, each with the cam ahead of its gear by shares of the dog's play.
-"""
+"""Leg positions from rest to the end of the stop's give, each with the cam ahead of its gear by shares of its play."""
 TOLERANCE_MM3 = 0.05
 """Facets of two circles that touch share less than this."""
 TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
