@@ -5,6 +5,8 @@ import math
 from jumpcad.catalogue import Bearing
 from jumpcad.dimensions import CLEAR_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.fatigue import spring_share
@@ -67,6 +69,7 @@ def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
     return TrainLimits(
         stall_share=safety.motor_stall_share,
         torque_max_nm=safety.motor_torque_max_nm,
+        supply=supply_of(chosen_parts(workshop)),
         pair_efficiency=safety.gear_efficiency,
         backlash_circumferential_mm=fits.backlash_circumferential_mm,
         stress_mpa=workshop.material("gears").strength_in_plane_mpa / safety.strength_factor,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
+from jumpcad.bundle.electronics import electronics_facts
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
@@ -77,4 +78,5 @@ def _facts(robot: Robot) -> dict[str, Any]:
             for name, body in robot.bodies.items()
         },
         "drive": {"springs": spring_facts(robot)},
+        "electronics": electronics_facts(robot),
     }

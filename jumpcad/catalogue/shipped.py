@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 
 from pydantic import PositiveFloat
 
-from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor, StockSpring
+from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Component, Kit, Motor, StockSpring
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 
@@ -116,6 +116,8 @@ class Catalogue:
     bearings: PartsByName[Bearing]
     batteries: PartsByName[Battery]
     boards: PartsByName[Board]
+    components: PartsByName[Component]
+    kits: PartsByName[Kit]
     springs: PartsByName[StockSpring]
     screws: PartsByName[Screw]
     nuts: PartsByName[Nut]
@@ -151,15 +153,16 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    motors, bearings, electronics, fasteners, springs = (
-        read_toml(folder / f"{name}.toml")[0] for name in ("motors", "bearings", "electronics", "fasteners", "springs")
-    )
+    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs")
+    motors, bearings, electronics, kits, fasteners, springs = (read_toml(folder / f"{name}.toml")[0] for name in files)
     defaults = motors.pop("defaults")
     return Catalogue(
         motors=_articles("motor", Motor, motors, defaults),
         bearings=_articles("bearing", Bearing, bearings),
-        batteries=_articles("battery", Battery, electronics["batteries"] | {"source": electronics["source"]}),
-        boards=_articles("board", Board, electronics["boards"] | {"source": electronics["source"]}),
+        batteries=_articles("battery", Battery, electronics["batteries"] | {"source": ""}),
+        boards=_articles("board", Board, electronics["boards"] | {"source": ""}),
+        components=_articles("component", Component, electronics["components"] | {"source": ""}),
+        kits=_by_name("kit", Kit, kits),
         springs=_articles("spring", StockSpring, springs),
         screws=_by_name("screw", Screw, fasteners["screws"]),
         nuts=_by_name("nut", Nut, fasteners["nuts"]),

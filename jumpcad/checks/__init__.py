@@ -8,7 +8,7 @@ leg_strength, hub_strength, lever_strength, leg_flex, leg_sideways, front_link_s
 eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, rail_strength, plate_seat,
 cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
 roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
-motor_torque; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
+motor_torque; `electronics` supply_voltage_*, motor_current_*, gearbox_torque; `ground` ground_clearance, foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges,
 solid; `interference` interference; `engraving` engraving.
 """
 
@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from jumpcad.checks.drive import drive_findings
+from jumpcad.checks.electronics import electronics_findings
 from jumpcad.checks.engraving import engraving_findings
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import interference_findings
@@ -47,6 +48,7 @@ CHECKS = (
     Check(feasibility_findings, needs=Mechanism, cheap=True),
     Check(strength_findings, cheap=True),
     Check(drive_findings, cheap=True),
+    Check(electronics_findings, cheap=True),
     Check(ground_findings, cheap=True),
     Check(bed_findings, cheap=True),
     Check(foot_findings),

@@ -34,8 +34,9 @@ class GearTrain:
         Motor turns per cam turn; share of the motor's work that reaches the springs while they are loaded.
     motor_torque_nm, stall_margin
         Largest torque on the motor's output, and what is left of its allowed torque, as a share of stall.
-    winding_s, mean_current_a, peak_current_a, electrical_j
-        For one turn of the cam, which is one jump, at the motor's rated voltage.
+    winding_s, mean_current_a, peak_current_a, motor_j, boards_j
+        For one turn of the cam, which is one jump, at the battery's nominal voltage under load: time, currents of the
+        motor, and energy of motor and of boards. Waiting before the jump is not counted.
     """
 
     motor: Motor
@@ -47,8 +48,14 @@ class GearTrain:
     winding_s: float
     mean_current_a: float
     peak_current_a: float
-    electrical_j: float
+    motor_j: float
+    boards_j: float
     findings: tuple[Finding, ...]
+
+    @property
+    def electrical_j(self) -> float:
+        """What the battery gives for one jump: to the motor, and to the boards while it winds."""
+        return self.motor_j + self.boards_j
 
 
 def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) -> GearTrain:
@@ -83,7 +90,8 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     ratio = math.prod(pair.ratio for pair in stages)
     efficiency = limits.efficiency(len(stages))
     peak, allowed = law.peak_torque_nm / (ratio * efficiency), allowed_nm(motor, limits)
-    turn = winding(law, motor, ratio, efficiency)
+    turn = winding(law, limits.driven(motor), ratio, efficiency)
+    boards_j = limits.supply.boards_w * turn.seconds if limits.supply else 0.0
     return GearTrain(
         motor=motor,
         stages=stages,
@@ -94,7 +102,8 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
         winding_s=turn.seconds,
         mean_current_a=turn.mean_current_a,
         peak_current_a=turn.peak_current_a,
-        electrical_j=turn.electrical_j,
+        motor_j=turn.electrical_j,
+        boards_j=boards_j,
         findings=(
             *_motor_findings(motor, ratio, peak, limits),
             *_gear_findings(law, stages, limits),
@@ -104,7 +113,7 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
 
 
 def _motor_findings(motor: Motor, ratio: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
-    allowed, cam_speed = allowed_nm(motor, limits), free_speed_rad_s(motor) / ratio
+    allowed, cam_speed = allowed_nm(motor, limits), free_speed_rad_s(limits.fastest(motor)) / ratio
     return [
         at_most(
             "motor_torque", torque_nm, allowed, "N·m",
