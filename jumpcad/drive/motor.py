@@ -24,7 +24,10 @@ class Winding:
 
 
 def allowed_nm(motor: Motor, limits: TrainLimits) -> float:
-    """Return the largest torque that a motor may give on its output: a share of its rated stall, since current heats it."""
+    """Return the largest torque that a motor may give on its output.
+
+    It is a share of the stall torque at the rated voltage, whatever the battery's is, since current heats the winding.
+    """
     return min(limits.stall_share * motor.stall_torque_nm, limits.torque_max_nm)
 
 

@@ -149,10 +149,8 @@ def _motor_things(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     shaft_mass = catalogue.rod_mass_g(motor.shaft_mm, motor.shaft_length_mm)
     body = [(0.0, front - low, _box_of(motor.width_mm, motor.height_mm))]
     shaft = [(0.0, motor.shaft_length_mm, _d_shaft(motor.shaft_mm, motor.shaft_flat_mm))]
-    article, turn = (
-        f"gear motor {motor.name}{motor.article and f' ({motor.article})'}",
-        gear_turns(layout)["motor_pinion"],
-    )
+    article, turn = f"gear motor {motor.name}", gear_turns(layout)["motor_pinion"]
+    article += f" ({motor.article})" if motor.article else ""
     yield bought("motor", article, BODY, motor.mass_g - shaft_mass, body, (x, low, z), layout.motor_angle_rad)
     yield bought("motor_shaft", article, BODY, shaft_mass, shaft, (x, front, z), turn, units=0)
     screw = catalogue.screws["M2"]
