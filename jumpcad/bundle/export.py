@@ -9,6 +9,7 @@ from typing import Any
 
 from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle.electronics import electronics_facts
+from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
@@ -16,6 +17,7 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures
 from jumpcad.bundle.springs import spring_facts
+from jumpcad.bundle.wiring import wiring_svg
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.robot import Robot, require_name
 
@@ -58,6 +60,8 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
         yield from exporter.files(robot)
     yield "bom.csv", write_bom(bill_of_materials(robot))
     yield "assembly.md", write_guide(robot, pictures)
+    yield "wiring.svg", wiring_svg(robot)
+    yield from firmware_files(robot)
     seen = all_pictures(robot) if pictures else {}
     for picture, png in seen.items():
         yield f"pictures/{picture}.png", png

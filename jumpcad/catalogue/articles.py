@@ -181,7 +181,8 @@ class Board(Article):
     """A circuit board with its components.
 
     `supply_v` holds the voltages that each supply input bears, by the name printed beside it. `pins` holds what the
-    other pins do, by their printed names: `ground`, `out`; of a controller `gpio6` with its number, `adc`, `pwm`,
+    other pins do, by their printed names: `ground` (and `battery`: of pads for a cell alone), `out`; of a controller
+    `gpio6` with its number, `adc`, `pwm`,
     `strapping` (its level at start chooses how the chip boots), `boot_log` (the chip writes on it at start); of a
     driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs that need a diode before them,
     `button` the pin of a push button on the board. Currents are those of the board alone (`quiescent_a`, radio off)

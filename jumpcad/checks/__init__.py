@@ -8,7 +8,7 @@ leg_strength, hub_strength, lever_strength, leg_flex, leg_sideways, front_link_s
 eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, rail_strength, plate_seat,
 cam_key_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength, foot_pin_strength,
 roller_screw_strength, spring_fatigue, axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*,
-motor_torque; `electronics` supply_voltage_*, motor_current_*, gearbox_torque; `ground` ground_clearance,
+motor_torque; `electronics` supply_voltage_*, motor_current_*, gearbox_torque, wiring_*; `ground` ground_clearance,
 foot_clearance; `printability` bed_fit, walls, holes, pins, overhangs, bridges, solid; `interference` interference;
 `engraving` engraving.
 """

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from jumpcad.electronics.chain import Link, chain
 from jumpcad.electronics.chosen import Chosen, chosen_parts
+from jumpcad.electronics.nets import wiring_findings, wiring_of
 from jumpcad.electronics.supply import Supply, supply_of
 from jumpcad.findings import Finding, at_most, limit
 from jumpcad.robot import Robot
@@ -12,13 +13,14 @@ ROUND_OFF_V = 1e-9
 
 
 def electronics_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield `supply_voltage_*` of every link, `motor_current_*` of what carries it, and `gearbox_torque`."""
+    """Yield `supply_voltage_*` of every link, `motor_current_*` of what carries it, `gearbox_torque`, `wiring_*`."""
     chosen = chosen_parts(robot.workshop)
     supply = supply_of(chosen)
     for link in links(robot):
         yield _voltage(link)
     yield from _currents(robot, chosen, supply)
     yield _gearbox(robot, supply)
+    yield from wiring_findings(chosen, wiring_of(chosen, robot.workshop.bought.pins))
 
 
 def links(robot: Robot) -> list[Link]:

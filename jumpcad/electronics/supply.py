@@ -34,13 +34,13 @@ class Supply:
     usable_j: float
 
     def duty(self, motor: Motor, torque_max_nm: float) -> float:
-        """Return the largest share of PWM at which a full battery overloads neither gearbox nor winding: at most 1."""
-        return min(1.0, self.torque_cap_v(motor, torque_max_nm) / self.full_v, motor.range_v[1] / self.full_v)
+        """Return the largest share of PWM at which a full battery overloads neither gearbox nor winding: at most 1.
 
-    def torque_cap_v(self, motor: Motor, torque_nm: float) -> float:
-        """Return the voltage at which the motor stalls with a torque."""
+        The resistance before the motor, which is not known well, is not counted on.
+        """
         rise = (motor.stall_current_a - motor.no_load_current_a) / motor.stall_torque_nm
-        return (_ohm(motor) + self.ohm) * (motor.no_load_current_a + rise * torque_nm)
+        stall_v = _ohm(motor) * (motor.no_load_current_a + rise * torque_max_nm)
+        return min(1.0, stall_v / self.full_v, motor.range_v[1] / self.full_v)
 
     def driven(self, motor: Motor, volts: float, torque_max_nm: float) -> Motor:
         """Return the motor as it behaves with the battery at some volts, under PWM: speed, stall and voltage."""
