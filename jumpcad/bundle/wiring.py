@@ -11,7 +11,7 @@ from jumpcad.robot import Robot
 
 SLACK_MM = 30.0
 """Added to the straight line for bends and two soldered ends; judgement."""
-ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 44.0, 62.0, 8.0
+ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
            ("controller", "sensor", "upper resistor", "lower resistor"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
@@ -26,9 +26,9 @@ def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
     chosen = chosen_parts(robot.workshop)
     wiring = wiring_of(chosen, robot.workshop.bought.pins)
     return [
-        (net.name, net.terminals[0], end, net.colour, _length_mm(robot, net.terminals[0].part, end.part))
+        (net.name, start, end, net.colour, _length_mm(robot, start.part, end.part))
         for net in wiring.nets
-        for end in net.terminals[1:]
+        for start, end in net.wires
     ]
 
 
@@ -60,7 +60,7 @@ def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
         yield "  pads stay empty"
     yield "- the driver's reverse input is at ground: the cam must not turn back against its drop"
     yield "- red and black wires may be joined at any terminal of theirs; the table starts each at its source"
-    yield "- before the battery is plugged in, with the switch on: a multimeter finds no contact between the plug's poles"
+    yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles (multimeter)"
 
 
 def _length_mm(robot: Robot, one: str, other: str) -> float:
@@ -134,8 +134,10 @@ def _boxes(
 def _net_lines(net: Net, ends: dict[Terminal, tuple[float, float]], lane: int, lanes: int) -> Iterator[str]:
     """Yield a net's lines: from each terminal to the right, down a track of its own, along a lane below all parts."""
     stroke = STROKES[net.colour]
-    bottom = max(y for _, y in ends.values()) + ROW_MM + 4.0 * lane
-    tracks = sorted({x + 4.0 + 2.0 * lane for x, _ in (ends[terminal] for terminal in net.terminals)})
+    places = [ends[terminal] for terminal in net.terminals]
+    tracks = sorted({x + 4.0 + 2.0 * lane for x, _ in places})
+    below = max(y for _, y in ends.values()) + ROW_MM + 4.0 * lane
+    bottom = below if len(tracks) > 1 else max(y for _, y in places)
     for terminal in net.terminals:
         x, y = ends[terminal]
         track = x + 4.0 + 2.0 * lane
@@ -143,8 +145,8 @@ def _net_lines(net: Net, ends: dict[Terminal, tuple[float, float]], lane: int, l
         yield f'<circle cx="{track:.1f}" cy="{y:.1f}" r="0.6" fill="{stroke}"/>'
     if len(tracks) > 1:
         yield _path([(tracks[0], bottom), (tracks[-1], bottom)], stroke)
-    at = f'x="{tracks[0] + 1:.1f}" y="{bottom - 0.8:.1f}"'
-    yield f'<text {at} font-size="2.6" fill="{stroke}">{escape(net.name)}</text>'
+        at = f'x="{tracks[0] + 1:.1f}" y="{bottom - 0.8:.1f}"'
+        yield f'<text {at} font-size="2.6" fill="{stroke}">{escape(net.name)}</text>'
 
 
 def _path(points: list[tuple[float, float]], stroke: str) -> str:

@@ -38,7 +38,7 @@ class Terminal:
 
 @dataclass(frozen=True)
 class Net:
-    """Terminals that are joined; the first is where its wires start. `kind` gives the colour."""
+    """Terminals that are joined; the first is where they get their voltage or signal from. `kind` gives the colour."""
 
     name: str
     kind: str
@@ -48,6 +48,14 @@ class Net:
     def colour(self) -> str:
         """Colour of its wires."""
         return COLOURS[self.kind]
+
+    @property
+    def wires(self) -> Iterator[tuple[Terminal, Terminal]]:
+        """Both ends of every wire: from the first terminal, or from the plug that comes after it."""
+        start, *others = self.terminals
+        for end in others:
+            yield start, end
+            start = end if end.part == "plug" else start
 
 
 @dataclass(frozen=True)
@@ -197,12 +205,12 @@ def _logic_range(chosen: Chosen) -> tuple[float, float]:
 def _power_nets(chosen: Chosen, pins: dict[str, str], upper: int | None) -> Iterator[Net]:
     """Yield the battery's plus up to the switch, behind it, and the regulator's output."""
     components, battery = chosen.components, chosen.battery.range_v
-    source = Terminal("battery", "+")
-    for role, before, after in (("plug", "+", "+"), ("switch", "1", "2")):
-        if role in components:
-            yield Net(f"battery to {role}", "supply", (source, Terminal(role, before)))
-            source = Terminal(role, after)
-    ends = [source, Terminal("driver", supply_pin(chosen.driver, battery))]
+    plug = [Terminal("plug", "+")] if "plug" in components else []
+    before = [Terminal("battery", "+"), *plug]
+    if "switch" in components:
+        yield Net("battery", "supply", (*before, Terminal("switch", "1")))
+        before = [Terminal("switch", "2")]
+    ends = [*before, Terminal("driver", supply_pin(chosen.driver, battery))]
     ends += [Terminal("capacitor", "+")] if "capacitor" in components else []
     ends += [Terminal("upper resistor", "1")] if "battery" in pins else []
     controller = Terminal("controller", supply_pin(chosen.controller, _logic_range(chosen)))

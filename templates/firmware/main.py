@@ -75,14 +75,14 @@ def run():
                 release_at = now + robot.BUTTON_DELAY_MS
                 print("jump in %d s" % (robot.BUTTON_DELAY_MS // 1000))
             due = release_at is not None and now >= release_at
-            if due or word == "stop":
+            if winder.state != READY or due or word == "stop":
                 release_at = None
             share = winder.step(
                 now,
                 not board.ready.value(),
                 board.battery_v(),
                 wind=word == "wind" or (pressed and winder.state != READY),
-                jump=(word == "jump" and winder.state == READY) or due,
+                jump=word == "jump" or due,
                 stop=word == "stop",
             )
             board.turn(share)

@@ -67,7 +67,7 @@ class Winder:
                 self._opened_ms = None
                 return self._enter(RELEASING, now_ms, "releasing")
             return 0.0
-        if (wind or jump) and now_ms >= self._quiet_until_ms():
+        if wind and now_ms >= self._quiet_until_ms():
             return self._begin(now_ms, settled, battery_v)
         return 0.0
 
