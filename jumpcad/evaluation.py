@@ -18,7 +18,8 @@ class EvaluationResult:
     """A design built, simulated and checked.
 
     `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg),
-    and energy and time of winding, by name with unit.
+    and energy and time of winding, by name with unit;
+    `electrical_energy_j` is that of motor and of boards while the motor winds.
     """
 
     robot: Robot
@@ -76,5 +77,7 @@ def _metrics(robot: Robot) -> dict[str, float]:
     return {
         "mass_kg": robot.mass_kg,
         "electrical_energy_j": train.electrical_j,
+        "motor_energy_j": train.motor_j,
+        "boards_energy_j": train.boards_j,
         "winding_time_s": train.winding_s,
     } | masses

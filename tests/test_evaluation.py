@@ -139,5 +139,8 @@ def test_the_same_document_in_another_process() -> None:
 def test_electricity_is_voltage_times_mean_current_times_time() -> None:
     result = evaluate(load_design("kenan-2.0"))
     train = result.robot.layout.drive.train
-    power = train.motor.voltage_v * train.mean_current_a
+    battery_v, boards_a = 3.7, 0.024 + 0.0017
+    power = battery_v * (train.mean_current_a + boards_a)
     assert result.metrics["electrical_energy_j"] == pytest.approx(power * result.metrics["winding_time_s"], rel=1e-9)
+    parts = result.metrics["motor_energy_j"] + result.metrics["boards_energy_j"]
+    assert result.metrics["electrical_energy_j"] == pytest.approx(parts)

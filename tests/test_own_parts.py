@@ -86,14 +86,15 @@ def large(**figures: float) -> str:
 def battery(length: float, width: float, height: float) -> str:
     """Return a workshop with a battery of a size."""
     size = f"length_mm = {length}\nwidth_mm = {width}\nheight_mm = {height}\n"
-    return f'[bought]\nbattery = "own"\n[batteries.own]\nlike = "lipo-2s-180"\nsource = "test"\n{size}'
+    return f'[bought]\nbattery = "own"\n[batteries.own]\nlike = "lipo-1s-300"\nsource = "test"\n{size}'
 
 
 def boards(length: float, width: float) -> str:
     """Return a workshop with two boards of a size."""
     size = f"length_mm = {length}\nwidth_mm = {width}\n"
-    names = 'controller = "own"\ndriver = "own"\n'
-    return f'[bought]\n{names}[boards.own]\nlike = "drv8833"\nsource = "test"\n{size}'
+    names = 'controller = "own"\ndriver = "own-driver"\n'
+    own = f'[boards.own]\nlike = "xiao-esp32c3"\nsource = "test"\n{size}'
+    return f'[bought]\n{names}{own}[boards.own-driver]\nlike = "drv8833"\nsource = "test"\n{size}'
 
 
 def bearing(place: str, bore: float, outer: float, width: float, more: str = "") -> str:
@@ -190,7 +191,7 @@ def test_a_wide_socket_stays_clear_of_the_cam(written: Write) -> None:
 
 def test_a_heavy_motor_is_not_taken_where_a_light_one_turns_the_cam(written: Write) -> None:
     heavy = FITS["gear motor of 25 mm, shaft of 4 mm"].replace('motors = ["own"]', "motors = []")
-    assert build(KENAN, load_workshop(written(heavy))).layout.drive.train.motor.name == "n20-298"
+    assert build(KENAN, load_workshop(written(heavy))).layout.drive.train.motor.name != "own"
 
 
 @pytest.fixture(scope="module")
