@@ -74,7 +74,7 @@ def stance_deg(layout: Layout, com_mm: Array, aside_mm: float) -> Array:
     wide, narrow = layout.toe_half_width_mm, layout.lateral.lug_left[1]
     slope = (narrow - wide) / (front - back)
     half = wide + slope * (com_mm[:, 0] - back) - abs(aside_mm)
-    height = com_mm[:, 1] + layout.sections.foot_depth_mm
+    height = com_mm[:, 1] + layout.sections.ground_mm
     stance: Array = np.degrees(np.arctan2(half / math.hypot(1.0, slope), height))
     return stance
 

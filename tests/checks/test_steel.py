@@ -19,7 +19,7 @@ def test_hub_bearings_warn_when_the_springs_overload_them(strongest: Robot) -> N
     assert weak.layout is not None
     arms = 1000.0 * weak.design.peak_spring_torque_nm / weak.layout.drive.spring.arms.lever_mm
     cam = weak.layout.drive.cam.peak_contact_n
-    assert finding.margin == pytest.approx(75.0 / 0.5 - (arms / 2.0 + cam * (0.5 + 6.5 / 5.5)), rel=0.06)
+    assert finding.margin == pytest.approx(75.0 / 0.5 / LOADS - (arms / 2.0 + cam * (0.5 + 6.5 / 5.5)), rel=0.06)
 
 
 def test_what_lasts_too_few_jumps_warns(kenan: Robot, strongest: Robot) -> None:
