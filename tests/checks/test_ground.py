@@ -51,10 +51,10 @@ def test_the_body_is_measured_where_it_is_lowest(strongest: Robot) -> None:
 
 def test_ground_clearance_fires_on_a_shallow_foot(kenan: Robot) -> None:
     assert kenan.layout is not None
-    shallow = replace(kenan.layout, sections=replace(kenan.layout.sections, foot_depth_mm=4.5, pad_mm=0.0))
+    shallow = replace(kenan.layout, sections=replace(kenan.layout.sections, foot_depth_mm=2.9))
     (finding,) = ground_findings(replace(kenan, layout=shallow))
     assert finding.severity == "error"
-    assert finding.margin == pytest.approx(4.5 - 4.2 - 0.6)
+    assert finding.margin == pytest.approx(2.9 + 1.6 - 4.2 - 0.6)  # on pads of 1.6 mm; eyes of 4.2 mm radius
 
 
 def test_ground_clearance_fires_on_a_body_that_hangs_down(kenan: Robot) -> None:

@@ -86,11 +86,11 @@ def test_rolling_by_the_stance_brings_the_centre_of_mass_over_the_edge(
 
 
 def test_narrow_toes_tip_and_bars_across_them_help() -> None:
-    narrow = build(load_design("best-printable"), workshop(toe_half_width_mm=0.0))
+    narrow = build(load_design("best-bo"), workshop(toe_half_width_mm=0.0))
     (finding,) = sideways_findings(narrow)
     assert (finding.name, finding.severity) == ("sideways_tipping", "error")
     assert "raise body.toe_half_width_mm" in finding.remedy
-    wide = build(load_design("best-printable"), workshop(toe_half_width_mm=30.0))
+    wide = build(load_design("best-bo"), workshop(toe_half_width_mm=30.0))
     (finding,) = sideways_findings(wide)
     assert finding.severity == "info"
     tips = [c.centre_m[1] for c in wide.bodies[FOOT].contacts if c.name.endswith("toe")]
@@ -100,7 +100,7 @@ def test_narrow_toes_tip_and_bars_across_them_help() -> None:
 
 
 def test_the_bar_across_a_toe_is_checked() -> None:
-    wide = build(load_design("best-printable"), workshop(toe_half_width_mm=60.0))
+    wide = build(load_design("best-bo"), workshop(toe_half_width_mm=60.0))
     from jumpcad.checks.strength import strength_findings
 
     (bar,) = (found for found in strength_findings(wide) if found.name == "toe_bar_strength")

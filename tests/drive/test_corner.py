@@ -11,7 +11,7 @@ from support.built import built
 from jumpcad.drive.cam import CamGeometry
 from jumpcad.drive.corner import clear_window_rad, roll_over
 
-TEMPLATES = ("kenan-2.0", "best-printable")
+TEMPLATES = ("kenan-2.0", "best-ga")
 
 
 def geometry(name: str) -> CamGeometry:

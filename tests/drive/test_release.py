@@ -39,7 +39,7 @@ def test_every_template_keeps_its_energy_and_its_motor(name: str) -> None:
     assert release.window_rad[0] < release.free_play_rad < release.window_rad[1]
 
 
-@pytest.mark.parametrize("name", ["best-bo", "best-printable"])
+@pytest.mark.parametrize("name", ["best-bo", "best-ga"])
 def test_the_bent_lever_costs_its_own_share(name: str) -> None:
     """The leg is wound less by kδ/K, K the lever's stiffness at the joint: 2·k/K of the energy, less for its weight."""
     robot = built(name)
@@ -51,7 +51,7 @@ def test_the_bent_lever_costs_its_own_share(name: str) -> None:
 
 def test_what_bent_the_lever_drives_the_cam() -> None:
     """Without friction and mass of the roller, the cam gets the energy of the lever, and the leg keeps the rest."""
-    robot = built("best-printable")
+    robot = built("best-ga")
     rolled, parts = released(robot, friction_mm=0.0, cam_rad_s=0.1, roller_kg_m2=0.0)
     wound = robot.spring.wind_rad
     torque = robot.spring.torque_nm(-wound) + float(parts.leg.at(np.array(wound))[2])
@@ -65,7 +65,7 @@ def test_what_bent_the_lever_drives_the_cam() -> None:
 
 
 def test_a_stiffer_lever_kicks_less() -> None:
-    robot = built("best-printable")
+    robot = built("best-ga")
     usual, parts = released(robot)
     stiff, _ = released(robot, lever_nm_per_rad=4.0 * parts.lever_nm_per_rad)
     assert stiff.kick_nm == pytest.approx(usual.kick_nm / 2.0, rel=0.12)  # a fourth of the energy
@@ -74,7 +74,7 @@ def test_a_stiffer_lever_kicks_less() -> None:
 
 def test_a_heavy_rotor_is_met_with_the_momentum_of_cam_and_gear() -> None:
     """Without rebound, speed times J/(J + Jg), then the torque that stops both in the train's spring."""
-    robot = built("best-printable")
+    robot = built("best-ga")
     rolled, parts = released(robot, rotor_kg_m2=1e3, rebound=0.0)
     cam, gear = parts.cam_kg_m2, parts.gear_kg_m2
     assert rolled.kick_nm == pytest.approx(rolled.blow_nm * math.sqrt(cam / gear), rel=1e-6)
@@ -82,7 +82,7 @@ def test_a_heavy_rotor_is_met_with_the_momentum_of_cam_and_gear() -> None:
     assert thrown.kick_nm == pytest.approx(1.6 * rolled.blow_nm * math.sqrt(cam / (cam + gear)), rel=1e-6)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-printable"])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
 def test_a_rigid_key_and_too_little_play_lose_what_the_dog_keeps(name: str) -> None:
     robot = built(name)
     for play_deg in (0.0, 3.0, 5.0):
@@ -120,7 +120,7 @@ def test_ranges_ascend() -> None:
 
 
 def test_the_result_does_not_hang_on_the_places_along_the_corner(monkeypatch: pytest.MonkeyPatch) -> None:
-    robot = built("best-printable")
+    robot = built("best-ga")
     usual, _ = released(robot)
     monkeypatch.setattr("jumpcad.drive.corner.POSITIONS", 6401)
     fine, _ = released(robot)
@@ -128,9 +128,9 @@ def test_the_result_does_not_hang_on_the_places_along_the_corner(monkeypatch: py
     assert usual.kick_nm == pytest.approx(fine.kick_nm, rel=0.03)
 
 
-def test_jumps_start_where_the_roller_leaves() -> None:
-    for name in TEMPLATES:
-        robot = built(name)
-        assert robot.roller_off == robot.release.off
-        assert -robot.spring.wind_rad < robot.release.off.leg_rad < -0.95 * robot.spring.wind_rad
-        assert np.isfinite(robot.release.off.leg_rad_s)
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_jumps_start_where_the_roller_leaves(name: str) -> None:
+    robot = built(name)
+    assert robot.roller_off == robot.release.off
+    assert -robot.spring.wind_rad < robot.release.off.leg_rad < -0.95 * robot.spring.wind_rad
+    assert np.isfinite(robot.release.off.leg_rad_s)

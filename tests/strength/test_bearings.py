@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from support.built import built
+from support.fits import LOADS
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
@@ -78,7 +79,7 @@ def test_the_first_guess_passes_over_bearings_of_too_small_a_rating_only() -> No
     )
     safer = workshop.model_copy(update={"safety": workshop.safety.model_copy(update={"bearing_factor": 20.0})})
     assert first_guess(bearings, design, safer) == len(bearings) - 1
-    assert allowed_n(BEARING, safer) == pytest.approx(BEARING.static_load_n / 20.0)
+    assert allowed_n(BEARING, safer) == pytest.approx(BEARING.static_load_n / 20.0 / LOADS)
 
 
 def test_the_nearer_bearing_bears_more_than_the_cam_pushes() -> None:

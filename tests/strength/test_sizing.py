@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from support.fits import LOADS
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.linkage import Linkage
@@ -55,6 +56,6 @@ def test_weaker_or_softer_links_grow() -> None:
 def test_hollow_links_are_higher_than_solid_ones() -> None:
     design, workshop = load_design("best-bo"), load_workshop()
     solid = workshop.model_copy(update={"process": workshop.process.model_copy(update={"infill": 1.0})})
-    by_hand = math.sqrt(6.0 * 1.15 * 1000.0 * design.peak_spring_torque_nm / (8.0 * 15.0))
+    by_hand = math.sqrt(6.0 * 1.15 * LOADS * 1000.0 * design.peak_spring_torque_nm / (8.0 * 15.0))
     assert sections(Linkage(design), solid).lever_root_mm == pytest.approx(math.ceil(147.0 * by_hand) / 100.0)
     assert sections(Linkage(design), workshop).lever_root_mm > 1.05 * by_hand
