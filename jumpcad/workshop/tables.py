@@ -94,7 +94,6 @@ class Fits(TomlTable):
 class BoughtParts(TomlTable):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
-    `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none.
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
     `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
