@@ -36,7 +36,12 @@ class SearchOptions:
     model: Annotated[str, typer.Option(help="The robot that is evaluated: printed, capsule or published.")] = "printed"
     objective: Annotated[
         str | None,
-        typer.Option(help="fitness, range, rise, range-per-joule or jumps-per-joule.", show_default="fitness"),
+        typer.Option(
+            help="body_lengths, fitness, range, rise, range-per-joule, range-per-spring-joule, jumps-per-joule, or an "
+            "own function of a jump's figures.",
+            metavar="NAME|FILE.py:FUNCTION",
+            show_default="body_lengths; fitness of robots that are not printed",
+        ),
     ] = None
     study: Annotated[
         Path | None, typer.Option(help="The study file, new or to be continued.", metavar="F.db", dir_okay=False)

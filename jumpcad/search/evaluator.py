@@ -93,7 +93,7 @@ class Evaluator:
     ) -> list[Trial | None]:
         """Return the trials of designs, computing those that are not finished; at most `limit` new ones.
 
-        Trials are kept in one transaction; if the run is interrupted meanwhile, those that are finished are kept.
+        Trials are kept in one transaction; if the run is interrupted or fails meanwhile, the finished ones are kept.
 
         Raises
         ------
@@ -121,12 +121,10 @@ class Evaluator:
                     Trial(*places[key], designs[fresh[key]], outcome.evaluation, score, self.model.digest,
                         outcome.duration_s, proposal)
                 )  # fmt: skip
-            self._require_a_working_model(computed)
-        except JumpcadError:
-            raise
         except BaseException:
             self._commit(computed)
             raise
+        self._require_a_working_model(computed)
         self._commit(computed)
         for key in fresh:
             self._add(self._finished[key], computed=key in missing)

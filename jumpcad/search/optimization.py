@@ -1,7 +1,8 @@
 """`optimize`: the whole search in one call."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from jumpcad.arguments import typed
 from jumpcad.design import Design, load_design
@@ -21,7 +22,7 @@ def optimize(
     method: str = DEFAULT,
     evaluations: int = 250,
     seed: int = 0,
-    objective: str | None = None,
+    objective: str | Callable[..., Any] | None = None,
     model: str = "printed",
     study: str | Path | None = None,
     fixed: Mapping[str, float] = NOTHING,
@@ -53,7 +54,9 @@ def optimize(
     seed
         Random seed: the same call gives the same result.
     objective
-        `fitness`, `range`, `rise`, `range-per-joule` or `jumps-per-joule`; `range` for a front, else `fitness`.
+        One of `jumpcad.search.OBJECTIVES` by name; if None, `range` for a front, `body_lengths` of the printed robot,
+        `fitness` of the others. Or an own one: a function that takes the figures of a jump (a mapping of names to
+        numbers) and returns the score, or `FILE.py:FUNCTION`.
     model
         The robot that is evaluated: `printed`, `capsule` or `published`.
     study

@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
@@ -13,7 +13,7 @@ from jumpcad.search.methods import DEFAULT, FRONTS, METHODS, NAMES, SEQUENCES
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel, versions
-from jumpcad.search.objective import Model, find_objective
+from jumpcad.search.objective import Model, Objective, find_objective
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
 
@@ -45,6 +45,8 @@ class Request:
         A study file to learn from.
     tolerance_mm
         Error of printed lengths, for the robust pick.
+    own
+        An own objective, which has the name `objective`; none if None.
     """
 
     space: Space
@@ -57,20 +59,29 @@ class Request:
     batch: int = 1
     prior: Path | None = None
     tolerance_mm: float = 0.2
+    own: Objective | None = None
 
     @classmethod
     def make(
-        cls, space: Space, model: RobotModel, method: str | None = None, objective: str | None = None, **others: Any
+        cls,
+        space: Space,
+        model: RobotModel,
+        method: str | None = None,
+        objective: str | Callable[..., Any] | None = None,
+        **others: Any,
     ) -> Self:
         """Return a request with defaults that follow from method and model.
 
-        The default method is `ga+bo`, the objective `fitness` (`range` of a front), the tolerance that of the workshop.
+        The default method is `ga+bo`, the objective the model's (`range` of a front), the tolerance that of the
+        workshop. An own objective is a function, or `FILE.py:FUNCTION`.
         """
-        aim = objective or ("range" if method in FRONTS else "fitness")
-        return cls(space, model, aim, method or DEFAULT, tolerance_mm=model.tolerance_mm, **others)
+        default = "range" if method in FRONTS else model.default_objective
+        aim = find_objective(default if objective is None else objective)
+        own = aim if aim.code else None
+        return cls(space, model, aim.name, method or DEFAULT, tolerance_mm=model.tolerance_mm, own=own, **others)
 
     def __post_init__(self) -> None:
-        find_objective(self.objective)
+        _ = self.aim
         find_preset(self.preset)
         if self.method not in NAMES:
             hint = did_you_mean(self.method, NAMES)
@@ -98,6 +109,11 @@ class Request:
         return f"{self.method} on the {self.model.describe()['name']} robot, {self.objective}"
 
     @property
+    def aim(self) -> Objective:
+        """The objective itself."""
+        return self.own or find_objective(self.objective)
+
+    @property
     def is_front(self) -> bool:
         """Whether a front is searched, not one best design."""
         return self.method in FRONTS
@@ -107,7 +123,7 @@ class Request:
         learned = json.dumps([[trial.key, trial.score] for trial in prior])
         return {
             "model": self.model.describe(),
-            "objective": self.objective,
+            **self.aim.describe(),
             "method": self.method,
             "space": self.space.describe(),
             "seed": self.seed,

@@ -10,7 +10,6 @@ from pathlib import Path
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.methods import METHODS, Task
-from jumpcad.search.objective import find_objective
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import Request, Stage, plan_stages
 from jumpcad.search.result import Result
@@ -32,8 +31,7 @@ def run_study(request: Request, path: Path | None, pool: Pool, watch: Watch = ig
         if remark and remark not in store.notes():
             store.note(remark)
         stages = _stages(request, store, len(prior))
-        objective = find_objective(request.objective)
-        evaluator = Evaluator(request.space, objective, request.model, store, pool, prior, watch)
+        evaluator = Evaluator(request.space, request.aim, request.model, store, pool, prior, watch)
         for stage in stages:
             task = Task(stage.evaluations, request.seed, stage.initial, request.batch, request.preset)
             METHODS[stage.method].run(evaluator, task)
@@ -74,7 +72,7 @@ def _read_prior(request: Request) -> tuple[list[Trial], str]:
             raise JumpcadError(
                 f"{request.prior}: was made with another model ({theirs['name']}, or other settings) than this search"
             )
-        objective = find_objective(request.objective)
+        objective = request.aim
         trials = [
             replace(trial, score=objective.score(trial.evaluation))
             for trial in store.trials()
