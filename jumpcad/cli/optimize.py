@@ -43,6 +43,13 @@ BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated in parall
 FromOption = Annotated[
     Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
 ]
+UntilOption = Annotated[
+    float,
+    typer.Option(
+        help="End when BO proposals promise to gain less than this share of the best score.", metavar="PERCENT"
+    ),
+]
+HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
@@ -65,6 +72,8 @@ def optimize(
     preset: PresetOption = "recommended",
     batch: BatchOption = 1,
     from_study: FromOption = None,
+    until: UntilOption = 0.0,
+    hours: HoursOption = 0.0,
     output: OutputOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -87,6 +96,7 @@ def optimize(
     request = Request.make(
         space, options.robot_model(), method, options.objective,
         evaluations=evaluations, seed=options.seed, preset=preset, batch=batch, prior=from_study,
+        until_percent=until, hours=hours,
     )  # fmt: skip
     path = options.study or Path(request.default_name())
     require_study(path)

@@ -37,6 +37,8 @@ class Evaluator:
         Trials of an earlier study that the search may learn from.
     watch
         Called with every trial.
+    expired
+        Whether the time of the search is over; methods ask before every step.
     """
 
     def __init__(
@@ -48,11 +50,13 @@ class Evaluator:
         pool: Pool,
         prior: Sequence[Trial] = (),
         watch: Watch = ignore,
+        expired: Callable[[], bool] = lambda: False,
     ) -> None:
         self.space = space
         self.objective = objective
         self.store = store
         self.model = model
+        self.expired = expired
         self._pool = pool
         self._watch = watch
         held = store.trials()

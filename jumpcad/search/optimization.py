@@ -40,6 +40,8 @@ def optimize(
     preset: str = "recommended",
     batch: int = 1,
     prior: str | Path | None = None,
+    until_percent: float | int = 0.0,
+    hours: float | int = 0.0,
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -72,6 +74,9 @@ def optimize(
         evaluation (s).
     preset, batch, prior
         Settings of the genetic algorithm, Bayesian proposals evaluated together, an earlier study to learn from.
+    until_percent, hours
+        End earlier: when Bayesian proposals promise to gain less than this share of the best score, or after this time
+        (h); see `Request`. 0 for neither.
 
     Returns
     -------
@@ -88,6 +93,7 @@ def optimize(
     request = Request.make(
         space, robot_model(model, workshop, settings, engine), method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
+        until_percent=float(until_percent), hours=float(hours),
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, None if study is None else Path(study), pool)

@@ -4,6 +4,8 @@ The same request ends with the same trials, whether or not it was interrupted.
 """
 
 import json
+import math
+import time
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -31,10 +33,17 @@ def run_study(request: Request, path: Path | None, pool: Pool, watch: Watch = ig
         if remark and remark not in store.notes():
             store.note(remark)
         stages = _stages(request, store, len(prior))
-        evaluator = Evaluator(request.space, request.aim, request.model, store, pool, prior, watch)
+        end_s = time.monotonic() + 3600.0 * (request.hours or math.inf)
+        evaluator = Evaluator(
+            request.space, request.aim, request.model, store, pool, prior, watch, lambda: time.monotonic() >= end_s
+        )
         for stage in stages:
-            task = Task(stage.evaluations, request.seed, stage.initial, request.batch, request.preset)
-            METHODS[stage.method].run(evaluator, task)
+            if not evaluator.trials or not evaluator.expired():
+                task = Task(
+                    stage.evaluations, request.seed, stage.initial, request.batch, request.preset,
+                    request.until_percent / 100.0,
+                )  # fmt: skip
+                METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
         best = best_trial(trials)
         candidates = []

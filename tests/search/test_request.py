@@ -9,11 +9,11 @@ from jumpcad.search.request import Request, plan_stages
 @pytest.mark.parametrize(
     ("method", "evaluations", "split"),
     [
-        ("ga+bo", 250, [200, 50]),
-        ("ga+bo", 60, [30, 30]),
-        ("ga+bo", 1000, [900, 100]),
+        ("ga+bo", 250, [50, 200]),
+        ("ga+bo", 60, [20, 40]),
+        ("ga+bo", 1000, [50, 950]),
         ("ga", 7, [7]),
-        ("ga+bo", 1, [1, 0]),
+        ("ga+bo", 1, [0, 1]),
     ],
 )
 def test_split_of_the_budget(method, evaluations, split):

@@ -5,6 +5,7 @@ resumed search therefore skips the steps that are in the study file and goes on 
 """
 
 import itertools
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -22,6 +23,8 @@ from jumpcad.transforms import Array
 
 REFIT_AFTER, REFIT_EVERY = 80, 5
 ELITE = 4
+PATIENCE = 5
+"""The search ends when so many proposals in a row promise too little; judgement: one or two do now and then."""
 
 Proposer = Callable[[Posterior, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from the posterior, the trials that it was fitted to, and their greatest number."""
@@ -41,7 +44,7 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
         Its trials so far, and those of its prior study, are learned from.
     task
         `initial` designs are evaluated before the first fit; the proposals of a batch are made without each other's
-        results.
+        results. With a `least_gain`, the search ends when `PATIENCE` proposals in a row promised less.
     """
 
     def proposer(
@@ -58,11 +61,32 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
                 posterior = posterior.condition_on(proposal.unit)
         return proposals
 
-    run_steps(evaluator, "bo", task, proposer)
+    def converged() -> bool:
+        gains = promised_gains([*evaluator.prior, *evaluator.trials])[-PATIENCE:]
+        return len(gains) == PATIENCE and max(gains) < task.least_gain
+
+    run_steps(evaluator, "bo", task, proposer, converged)
 
 
-def run_steps(evaluator: Evaluator, phase: str, task: Task, proposer: Proposer) -> None:
-    """Evaluate the initial designs, then what `proposer` proposes, one batch per step."""
+def promised_gains(trials: Sequence[Trial]) -> list[float]:
+    """Return what each proposal of `bo` promised to gain, as a share of the best score that was known by then.
+
+    Expected improvement times probability of feasibility, to first order: the process predicts the square root of the
+    score, so a share of it is worth twice as much. Infinite where no score above 0 was known.
+    """
+    best, gains = 0.0, []
+    for trial in trials:
+        if trial.phase == "bo" and "theta" in trial.proposal:
+            logarithm = float(trial.proposal["log_improvement"]) + float(trial.proposal["log_feasible"])
+            gains.append(2.0 * math.exp(min(logarithm, 100.0)) / math.sqrt(best) if best > 0.0 else math.inf)
+        best = max(best, trial.score or 0.0)
+    return gains
+
+
+def run_steps(
+    evaluator: Evaluator, phase: str, task: Task, proposer: Proposer, ended: Callable[[], bool] = lambda: False
+) -> None:
+    """Evaluate the initial designs, then what `proposer` proposes, one batch per step, until the search has `ended`."""
     space = evaluator.space
     if task.initial:
         points = space.spread(task.initial, np.random.default_rng([task.seed, 1]))
@@ -70,7 +94,7 @@ def run_steps(evaluator: Evaluator, phase: str, task: Task, proposer: Proposer) 
     left = task.evaluations - sum(trial.phase == phase for trial in evaluator.trials)
     thetas: dict[str, Any] = {}
     for step in itertools.count(1):
-        if left <= 0:
+        if left <= 0 or ended() or evaluator.expired():
             return
         count = min(task.batch, left)
         finished = evaluator.finished(phase, step, count)

@@ -100,8 +100,8 @@ class Fitness:
         return [self.rejected if trial is None or trial.score is None else self.objectives(trial) for trial in trials]
 
     def on_generation(self, _ga: Any) -> str | None:
-        """Stop PyGAD when the budget is spent or no new designs come."""
-        return "stop" if self.left <= 0 or self._idle >= PATIENCE else None
+        """Stop PyGAD when budget or time is spent, or no new designs come."""
+        return "stop" if self.left <= 0 or self._idle >= PATIENCE or self.evaluator.expired() else None
 
 
 def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], seed: int) -> None:
