@@ -28,7 +28,7 @@ MethodArgument = Annotated[
     str | None,
     typer.Argument(help=f"{_MEANINGS}. Without one: ga, then bo on its results.", metavar=f"[{'|'.join(METHODS)}]"),
 ]
-EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate, not counting those of the robust pick.")]
+EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate, those of the robust pick included.")]
 AroundOption = Annotated[
     str | None, typer.Option(help="The design from which --only and --within start.", metavar="DESIGN")
 ]
@@ -108,6 +108,8 @@ def optimize(
         if not as_json:
             where = f"{request.method} on the {options.model} robot"
             print(f"study {escaped(str(path))}: {where}, free parameters: {space.dimension}")
+            pick = f", {request.pick} for the robust pick" if request.pick else ""
+            print(f"evaluations: {request.searched} for the search{pick}")
         result = run_study(request, path, pool, watch)
     if result.winner is not None:
         result.save(design_file, force)
@@ -135,7 +137,9 @@ def _print_result(result: "Result", design_file: Path) -> None:
     from jumpcad.search.fronts import energy_j
 
     request = result.request
-    print(f"{len(result.trials)} designs evaluated; rejected: {_counted(result.rejected)}")
+    more = result.evaluations - len(result.trials)
+    around = f", and {more} for the robust pick" if more else ""
+    print(f"{len(result.trials)} designs evaluated{around}; rejected: {_counted(result.rejected)}")
     for note in result.notes:
         print(f"note: {note}")
     if result.best is None or result.winner is None:
@@ -148,10 +152,10 @@ def _print_result(result: "Result", design_file: Path) -> None:
     print(f"\nbest {request.objective} {result.best.score:.4f}")
     if result.candidates:
         print(f"score that nine of ten neighbours reach, parameters ±1 % and lengths ±{request.tolerance_mm:g} mm:")
-        print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  rejected of 32")
+        print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  neighbours, rejected")
     for one in result.candidates[:SHOWN]:
         scores = (one.trial.score or 0.0, one.parameters_score, one.print_score)
-        print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {_counted(one.rejections)}")
+        print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {one.neighbours:10d}, {_counted(one.rejections)}")
     print(f"\n{escaped(str(design_file))}: {request.objective} {result.score:.4f}")
     for name, value in result.design.model_dump().items():
         print(f"  {name:24s}{value:12.5g}")

@@ -171,7 +171,7 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
 
         def watch(trial: "Trial", computed: bool) -> None:
             if trial.phase not in SEARCH_PHASES:
-                progress.update(task, description="robust pick")
+                progress.update(task, advance=1, description="robust pick")
                 return
             if trial.score is not None and (not best or trial.score > best[0]):
                 best[:] = [trial.score]

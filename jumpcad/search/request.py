@@ -14,6 +14,7 @@ from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel, versions
 from jumpcad.search.objective import Model, Objective, find_objective
+from jumpcad.search.robust import pick_share
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
 
@@ -36,7 +37,7 @@ class Request:
     method
         One of `jumpcad.search.methods.NAMES`.
     evaluations
-        How many designs are evaluated, without those of the robust pick.
+        How many designs are evaluated, those of the robust pick included.
     seed
         Random seed.
     preset
@@ -120,6 +121,16 @@ class Request:
         return f"{self.method} on the {self.model.describe()['name']} robot, {self.objective}"
 
     @property
+    def pick(self) -> int:
+        """How many of the evaluations examine the neighbours and the bounds of the best designs; none of a front's."""
+        return 0 if self.is_front else pick_share(self.evaluations)
+
+    @property
+    def searched(self) -> int:
+        """How many of the evaluations the search has."""
+        return self.evaluations - self.pick
+
+    @property
     def aim(self) -> Objective:
         """The objective itself."""
         return self.own or find_objective(self.objective)
@@ -167,7 +178,7 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     Of a sequence, the first method gets a third of the evaluations, at most `MOST_FIRST`: Bayesian optimisation learns
     from them as from evenly spread designs, and more of them are wasted.
     """
-    total = request.evaluations
+    total = request.searched
     if request.method in SEQUENCES:
         first, second = SEQUENCES[request.method]
         share = min(total // 3, MOST_FIRST)

@@ -15,7 +15,7 @@ from jumpcad.search.methods import METHODS, Task
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import Request, Stage, plan_stages
 from jumpcad.search.result import Result
-from jumpcad.search.robust import active_bounds, rank_candidates
+from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial, best_trial
 
@@ -46,11 +46,19 @@ def run_study(request: Request, path: Path | None, pool: Pool, watch: Watch = ig
                 METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
         best = best_trial(trials)
-        candidates = []
-        if not request.is_front:
-            candidates = rank_candidates(evaluator, trials, request.seed, request.tolerance_mm)
-        bounds = active_bounds(evaluator, candidates[0].trial, len(trials)) if candidates else []
-        return Result(request, trials, best, candidates, bounds, store.notes())
+        candidates, bounds = [], []
+        if request.pick and best is not None:
+            share = request.pick - min(request.space.dimension, request.pick // 4)
+            candidates = rank_candidates(evaluator, trials, request.seed, request.tolerance_mm, share)
+        if candidates:
+            left = request.pick - (len(evaluator.trials) - len(trials))
+            bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
+        return Result(request, trials, best, candidates, bounds, store.notes(), len(evaluator.trials))
+
+
+def _bounds_step(request: Request, trials: list[Trial]) -> int:
+    """Return a step of its own for every length of the search and of the pick."""
+    return (MOST_PICK + 1) * len(trials) + request.pick
 
 
 def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
@@ -60,11 +68,12 @@ def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
         stages = plan_stages(request, prior)
     else:
         stages = [Stage(**stage) for stage in planned]
-        more = request.evaluations - sum(stage.evaluations for stage in stages)
+        held = sum(stage.evaluations for stage in stages)
+        more = request.searched - held
         if more < 0:
             raise JumpcadError(
-                f"{store.path}: is planned for {request.evaluations - more} evaluations, not {request.evaluations}; "
-                f"ask for as many or more, or name another file"
+                f"{store.path}: its search is planned for {held} evaluations, not {request.searched} of "
+                f"{request.evaluations}; ask for more, or name another file"
             )
         stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more)
     store.remember("stages", [asdict(stage) for stage in stages])
