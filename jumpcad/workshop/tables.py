@@ -94,13 +94,13 @@ class Fits(TomlTable):
 class BoughtParts(TomlTable):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
-            `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
-        it names itself override the kit's. An empty name leaves a part out. `pins` are pins of the controller for `motor`,
-        `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
-            `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
-        springs of the design's stiffness are made to order.
-        `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
-        in grooves, or screws as axles with lock nuts; pins of foot and leg have clips too, or are clevis pins.
+        `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
+    it names itself override the kit's. An empty name leaves a part out. `pins` are pins of the controller for `motor`,
+    `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
+    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
+    springs of the design's stiffness are made to order.
+    `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
+    in grooves, or screws as axles with lock nuts; pins of foot and leg have clips too, or are clevis pins.
     """
 
     kit: OptionalName
