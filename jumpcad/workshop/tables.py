@@ -94,7 +94,7 @@ class Fits(TomlTable):
 class BoughtParts(TomlTable):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
-        `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
+    `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
     it names itself override the kit's. An empty name leaves a part out. `pins` are pins of the controller for `motor`,
     `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
