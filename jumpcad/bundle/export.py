@@ -21,7 +21,10 @@ from jumpcad.bundle.renders import RENDERS, all_pictures
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
 from jumpcad.bundle.wiring import wiring_svg
+from jumpcad.checks.electronics import electronics_findings
+from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.registry import Exporter, Files, chosen
+from jumpcad.findings import errors
 from jumpcad.robot import Robot, require_name
 
 
@@ -48,9 +51,11 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
         If the folder holds anything else, if something of a user's would be lost, if it cannot be written, or if the
         extra for STEP is not installed.
     CannotBuildError
-        If a part's file is not one closed solid.
+        If a part's file is not one closed solid, or the electrical parts do not fit together.
     """
     require_name(robot.name)
+    if wrong := errors(electronics_findings(robot)):
+        raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
     exporters = chosen(["step"] if step else [])
     return write_folder(folder, robot.name, _facts(robot), contents(robot, exporters, pictures), force)
 

@@ -148,6 +148,7 @@ def open_bundle(folder: str | Path) -> Bundle:
         if manifest["format"] != FORMAT and isinstance(manifest["format"], int):
             raise JumpcadError(f"{path}: format {manifest['format']}; this version reads {FORMAT}: build it again")
         _Manifest.model_validate(manifest)
+        json.dumps(manifest, allow_nan=False, ensure_ascii=False).encode()  # 1e999, half of a character
         return Bundle(Path(os.path.realpath(folder)), manifest)
     except OSError as error:
         raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None

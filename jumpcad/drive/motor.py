@@ -12,6 +12,11 @@ from jumpcad.drive.train_limits import TrainLimits
 POSITIONS = 201
 """Number of cam angles of the lift at which the current is computed."""
 
+EMPTY_SHARE = 0.6
+"""Largest share of the stall torque on an empty battery; judgement: beyond half of it a motor gives less power."""
+LEAST_NM = 1e-9
+"""What is left of a motor that an empty battery does not turn: no gears make do with it."""
+
 
 @dataclass(frozen=True)
 class Winding:
@@ -26,9 +31,11 @@ class Winding:
 def allowed_nm(motor: Motor, limits: TrainLimits) -> float:
     """Return the largest torque that a motor may give on its output.
 
-    It is a share of the stall torque at the rated voltage, whatever the battery's is, since current heats the winding.
+    It is a share of the stall torque at the rated voltage, whatever the battery's is, since current heats the winding;
+    and a share of what it stalls with on an empty battery, so that it always winds.
     """
-    return min(limits.stall_share * motor.stall_torque_nm, limits.torque_max_nm)
+    allowed = min(limits.stall_share * motor.stall_torque_nm, limits.torque_max_nm)
+    return max(LEAST_NM, min(allowed, EMPTY_SHARE * limits.weakest(motor).stall_torque_nm))
 
 
 def free_speed_rad_s(motor: Motor) -> float:

@@ -89,6 +89,10 @@ class TrainLimits:
         """Return a motor as it behaves at the supply's nominal voltage under load."""
         return self.supply.driven(motor, self.supply.nominal_v, self.torque_max_nm) if self.supply else motor
 
+    def weakest(self, motor: Motor) -> Motor:
+        """Return a motor as it behaves with an empty battery."""
+        return self.supply.driven(motor, self.supply.empty_v, self.torque_max_nm) if self.supply else motor
+
     def fastest(self, motor: Motor) -> Motor:
         """Return a motor as it behaves with a full battery."""
         return self.supply.driven(motor, self.supply.full_v, self.torque_max_nm) if self.supply else motor

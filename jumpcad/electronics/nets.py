@@ -145,7 +145,7 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
         message = f"{chosen.controller.name}: {', '.join(twice)} is used twice, by {signals}"
         return _yes_or_no("wiring_pins", False, "error", message, "name another pin in [bought.pins]")
     used = ", ".join(f"{wiring.pins[s]} {s}" for s in have)
-    return _yes_or_no("wiring_pins", True, "error", f"pins of {chosen.controller.name}: {used}", "")
+    return _yes_or_no("wiring_pins", True, "error", f"pins of {chosen.controller.name}: {used}", "[bought.pins]")
 
 
 def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:

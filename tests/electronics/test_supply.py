@@ -79,3 +79,18 @@ def test_boards_take_their_current_through_the_regulator() -> None:
     two = supply_of(chosen_parts(workshop.model_copy(update={"bought": kit})))
     assert two.boards_w == pytest.approx(0.024 * 5.0 / 0.9 + 7.4 * (0.0017 + 0.001))
     assert two.usable_j == pytest.approx(0.18 * 3600.0 * 7.4)
+
+
+def test_a_motor_that_an_empty_battery_does_not_turn_gets_no_gears() -> None:
+    """0.5 V drive 0.045 A through 11 ohm at most, hardly more than the 0.04 A that the unloaded motor needs."""
+    from dataclasses import replace
+
+    from support.limits import default_limits
+
+    from jumpcad.drive.motor import allowed_nm
+
+    motor = MOTORS["n20-298-mp"]
+    flat = replace(BARE, empty_v=0.5, ohm=2.0)
+    limits = replace(default_limits().train, supply=flat)
+    assert allowed_nm(motor, limits) <= 0.6 * 0.2354 * (0.5 / (6.0 / 0.67 + 2.0) - 0.04) / 0.63 + 1e-9
+    assert allowed_nm(motor, replace(limits, supply=None)) == pytest.approx(0.25 * 0.2354)

@@ -185,3 +185,39 @@ def test_a_pin_that_the_board_lacks_is_refused_in_one_line(workshop: Write) -> N
     robot = build(load_design("kenan-2.0"), workshop('[bought.pins]\nmotor = "D77"'))
     with pytest.raises(CannotBuildError, match=r"^xiao-esp32c3 has no GPIO at D77: name another pin in"):
         numbers(robot)
+
+
+def like(kind: str, of: str, figures: str) -> str:
+    """Return a workshop whose battery or driver is a shipped one with other figures."""
+    table = {"battery": "batteries", "driver": "boards"}[kind]
+    return f'[bought]\n{kind} = "own"\n[{table}.own]\nlike = "{of}"\nsource = "x"\n{figures}'
+
+
+HIGH = like("battery", "lipo-1s-300", "voltage_v = 120.0\nempty_v = 110.0\nfull_v = 130.0")
+"""A battery whose voltage nothing here bears."""
+BLOCKED = '[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298-mp"\nsource = "x"\nstall_current_a = 6.0'
+"""A motor of 1 ohm, which draws 2.8 A when blocked."""
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("supply_voltage_controller", HIGH),
+        ("supply_voltage_driver", HIGH),
+        ("supply_voltage_switch", HIGH),
+        ("supply_voltage_plug", HIGH),
+        ("supply_voltage_capacitor", HIGH),
+        ("supply_voltage_regulator", HIGH.replace("[bought]", '[bought]\nkit = "strong-2s"')),
+        ("supply_voltage_motor", like("battery", "lipo-1s-300", "voltage_v = 3.0\nempty_v = 2.5")),
+        ("motor_current_driver", BLOCKED),
+        ("motor_current_battery", BLOCKED),
+        ("motor_current_switch", BLOCKED),
+        ("motor_current_plug", BLOCKED),
+        ("motor_current_wire", BLOCKED),
+    ],
+)
+def test_every_link_is_refused_beyond_what_it_bears(name: str, text: str) -> None:
+    finding = found(text)[name]
+    assert finding.severity == "error"
+    assert finding.margin < 0.0
+    assert finding.remedy
