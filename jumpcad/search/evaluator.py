@@ -124,7 +124,7 @@ class Evaluator:
                 proposal = {} if proposals is None else proposals[fresh[key]]
                 score = self.objective.score(outcome.evaluation)
                 computed.append(
-                    Trial(*places[key], designs[fresh[key]], outcome.evaluation, score, self.model.digest,
+                    Trial(*places[key], designs[fresh[key]], outcome.evaluation.bare, score, self.model.digest,
                         outcome.duration_s, proposal)
                 )  # fmt: skip
         except BaseException:

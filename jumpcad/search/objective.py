@@ -1,7 +1,7 @@
 """The outcome of one evaluation, and the score that an objective gives it."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 from jumpcad.arguments import typed
@@ -38,6 +38,15 @@ class Evaluation:
         """Names of the findings that reject the design; the verdict if there is none."""
         names = tuple(dict.fromkeys(finding.name for finding in errors(self.findings)))
         return names or (() if self.feasible else (self.verdict,))
+
+    @property
+    def bare(self) -> "Evaluation":
+        """The same with findings of name, severity, margin and unit only: what studies keep.
+
+        Forty findings with their texts are 12 kB; who wants to read them evaluates the design again.
+        """
+        findings = tuple(Finding(one.name, one.severity, one.margin, one.unit, "", "") for one in self.findings)
+        return replace(self, findings=findings)
 
     def __repr__(self) -> str:
         outcome = "feasible" if self.feasible else f"rejected by {' '.join(self.reasons)[:80]}"
