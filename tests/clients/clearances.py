@@ -193,7 +193,8 @@ def _frame(element: ET.Element) -> np.ndarray:
 
 def _piece(folder: Path, link: str | None, visual: ET.Element) -> Piece:
     file = visual.find("geometry/mesh")
-    assert link is not None and file is not None
+    assert link is not None
+    assert file is not None
     path = folder / "urdf" / str(file.get("filename"))
     printed = folder / "stl" / path.name
     mesh = trimesh.load_mesh(printed if printed.exists() else path)
