@@ -1,8 +1,8 @@
 """Does anything of a bundle meet anything else, from loaded springs to the stop and its pad's give?
 
-Reads the URDF with its meshes, the loop file and the manifest alone: trimesh for the files, shapely for roller and cam,
-manifold3d for volumes. The leg's angle follows from the cam's by letting its roller down on the cam's outline; the
-five-bar is closed with circles. `python clearances.py BUNDLE` prints what meets.
+Reads the URDF with its meshes, the printed parts' own files, the loop file and the manifest alone: trimesh for the
+files, shapely for roller and cam, manifold3d for volumes. The leg's angle follows from the cam's by letting its roller
+down on the cam's outline; the five-bar is closed with circles. `python clearances.py BUNDLE` prints what meets.
 """
 
 import itertools
@@ -20,9 +20,9 @@ import trimesh
 from manifold3d import Manifold, Mesh
 
 TOLERANCE_MM3 = 0.3
-"""Meshes that are seen leave out detail below 0.05 mm: round things in round holes share a little."""
+"""The meshes of bought parts leave out detail below 0.05 mm: round things in round holes share a little."""
 FACET_MM = 0.05
-"""By which the meshes that are seen may leave a circle."""
+"""By which the meshes of bought parts may leave a circle."""
 DOG_DEG = 12.0
 """How far the cam may run past where it lets the roller fall, where the manifest says nothing of its play."""
 TRAIN = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
@@ -195,7 +195,9 @@ def _piece(folder: Path, link: str | None, visual: ET.Element) -> Piece:
     file = visual.find("geometry/mesh")
     assert link is not None
     assert file is not None
-    mesh = trimesh.load_mesh(folder / "urdf" / str(file.get("filename")))
+    path = folder / "urdf" / str(file.get("filename"))
+    printed = folder / "stl" / path.name
+    mesh = trimesh.load_mesh(printed if printed.exists() else path)
     mesh.merge_vertices()
     solid = Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))
     assert solid.volume() > 0.0, visual.get("name")

@@ -1,10 +1,10 @@
 """The release of an exported robot, simulated with contacts: a program apart from jumpcad, which it does not import.
 
-Reads a bundle's printed parts, URDF, loop.json and manifest. The cam is the outline of its mesh, the roller a circle on
-a lever that bends, the leg a four-bar whose foot stands on the ground; between them elastic contacts. The dog's play is
-measured on the jaws of the meshes. Cam, gear and rotor have a moment of inertia each; flanks of dog and gearhead are
-springs with damping. From the manifest come figures that no mesh has: inertias of gear, rotor and roller, friction,
-stiffnesses.
+Reads a bundle's printed parts, bought parts' meshes, URDF, loop.json and manifest. The cam is the outline of its mesh,
+the roller a circle on a lever that bends, the leg a four-bar whose foot stands on the ground; between them elastic
+contacts. The dog's play is measured on the jaws of the meshes. Cam, gear and rotor have a moment of inertia each;
+flanks of dog and gearhead are springs with damping. From the manifest come figures that no mesh has: inertias of gear,
+rotor and roller, friction, stiffnesses.
 
 Unlike the model in jumpcad/drive it steps in time, with rebound and hops in every contact.
 """

@@ -19,7 +19,7 @@ CHOICES = {
     "nuts": {"retention": "nuts"},
 }
 PUSHED_MM = np.arange(0.5, 6.1, 0.5)
-"""Clevis pins have lengths 2 mm apart; that in the leg stands out on either side for the springs' arms."""
+"""Clevis pins have lengths 2 mm apart; those of the springs stand out beside the leg and hold their arms."""
 
 
 def workshop(**bought: object) -> Workshop:
