@@ -154,8 +154,7 @@ REFUSED = {
     ),
     "wide bearing in the hub": (
         bearing("leg_bearing", 3.0, 8.0, 15.0),
-        r"^no M3 screw of \d+\.\d mm; the longest in stock is 30 mm: choose a narrower bought\.leg_bearing or "
-        r"bought\.roller$",
+        r'^no clevis pin of \d+\.\d mm for the ankle pin; the longest is 30 mm: choose bought\.retention = "clips"$',
     ),
 }  # fmt: skip
 
@@ -275,7 +274,7 @@ WRONG = {
     "like of another kind": ('[boards.a]\nlike = "n20-298"', r"my.toml:2: boards.a.like = 'n20-298': is no shipped"),
     "like of a spring": ('[springs.a]\nlike = "b"', r"springs.a.like = 'b': is no shipped part .*9271K619"),
     "like of a list": ("[motors.a]\nlike = [1]", r"motors.a.like = \[1\]: is no shipped part"),
-    "negative": (motor(mass_g=-1.0), r"my.toml:6: motors.own.mass_g = -1.0: must be more than 0"),
+    "negative": (motor(mass_g=-1.0), r"my.toml:6: motors.own.mass_g = -1.0: must be at least 0.001"),
     "not a number": (motor(shaft_mm=float("nan")), r"my.toml:6: motors.own.shaft_mm = nan: must be a finite number"),
     "no table": ("[boards]\na = 3", r"my.toml:2: boards.a = 3: must be a table: \[boards.a\] with source, description"),
     "flat wider than the shaft": (

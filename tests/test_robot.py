@@ -29,7 +29,7 @@ def test_every_part_belongs_to_a_body() -> None:
 
 def test_a_robot_cannot_be_without_parts() -> None:
     capsules = capsule_robot(built("kenan-2.0").design)
-    with pytest.raises(TypeError, match="'parts', 'hardware', 'workshop', and 'layout'"):
+    with pytest.raises(TypeError, match="'parts', 'hardware', 'workshop', 'layout', 'release', and 'stop_blow'"):
         Robot(**vars(capsules))
 
 

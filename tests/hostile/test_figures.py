@@ -43,6 +43,10 @@ roller = "own"
 battery = "own"
 controller = "own"
 driver = "own"
+[body]
+stop_pad = "own"
+[ground]
+pad = "own"
 [motors.own]
 like = "n20-298"
 source = "mine"
@@ -54,6 +58,9 @@ like = "lipo-2s-180"
 source = "mine"
 [boards.own]
 like = "drv8833"
+source = "mine"
+[pads.own]
+like = "sj5616"
 source = "mine"
 [springs.own]
 source = "mine"
