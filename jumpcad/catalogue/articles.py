@@ -51,8 +51,8 @@ CELL_V = (3.3, 3.7, 4.2)
 """One lithium polymer cell: empty under light load, nominal, full; the usual figures of makers."""
 CELL_OHM = 0.15
 """Internal resistance of a small cell where none is given; judgement: 0.05 to 0.3 are usual."""
-RATED_SHARES = (0.5, 1.0)
-"""Lowest and highest voltage of a motor over its rated one where none is given; judgement."""
+RATED_SHARES = (0.25, 1.0)
+"""Lowest and highest voltage of a motor over its rated one where none is given; judgement: at less it may not start."""
 
 
 class Article(TomlTable):

@@ -67,8 +67,6 @@ def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:
     shop = built("kenan-2.0").workshop
     bought = shop.bought.model_copy(update={"battery": "lipo-2s-180"})
     robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought}), "kenan-2.0")
-    with pytest.raises(
-        CannotBuildError, match=r"BAT\+ gets .* 8\.40 V and bears 3\.20 to 4\.20 V: choose a bought\.kit"
-    ):
+    with pytest.raises(CannotBuildError, match=r"BAT\+ gets .* 8\.40 V and bears 3\.20 to 4\.20 V: choose a "):
         export(robot, tmp_path / "out", pictures=False)
     assert not (tmp_path / "out").exists()

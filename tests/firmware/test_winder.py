@@ -249,3 +249,24 @@ def test_the_motor_starts_on_a_ramp() -> None:
     world.wait(0.2)
     assert 0.0 < first < 0.5 * world.power
     assert world.power == NUMBERS.PWM_CAP
+
+
+def test_a_spike_of_one_reading_is_not_the_ready_position() -> None:
+    world = World(bounce_ms=0)
+    world.step(wind=True)
+    for seen in (False, True, False, True):
+        world.dead_switch = seen
+        world.step()
+    assert world.winder.state == WINDER.WINDING
+
+
+def test_a_spike_before_the_drop_does_not_end_the_release() -> None:
+    world = wound(bounce_ms=0)
+    world.dead_switch = True
+    world.step(jump=True)
+    world.dead_switch = False
+    world.step()
+    world.dead_switch = True
+    world.wait(0.3)
+    assert world.winder.state == WINDER.RELEASING
+    assert world.power > 0.0
