@@ -188,7 +188,7 @@ def outcome(model: str) -> Outcome:
 
 def of_search() -> dict[str, str]:
     """Return what printability costs: the score of the search, against that of the same search without it."""
-    printed, capsules = (outcome(model).winner["score"] for model in ("printed", "capsule"))
+    printed, capsules = (outcome(model).winner["fitness"] for model in ("printed", "capsule"))
     return {
         "cost of printability": percent([1.0 - printed / capsules]),
         "both scores": f"{printed:.2f} against {capsules:.2f}",

@@ -75,13 +75,13 @@ def apart(written: str, made: str, slack: float = 0.0) -> bool:
     return abs(one - other) > max(1.001 * 10.0**-digits, slack * max(one, other))
 
 
-def template_differences(winner: Design, score: float) -> Iterator[str]:
+def template_differences(winner: Design, fitness: float) -> Iterator[str]:
     """Yield a sentence if the template's fitness is not that of the search, or its heading not that of the command."""
     if not TEMPLATE.read_text(encoding="utf-8").startswith(HEADING):
         yield f"{TEMPLATE.name}: does not begin with {HEADING.rstrip()!r}"
     held = figures.built("best-printable")[1].fitness
-    if abs(held - score) > figures.SEARCH_SLACK * score:
-        yield f"{TEMPLATE.name}: has fitness {held:.4g}; `{COMMAND}` ends with {score:.4g} at {winner.to_vector()}"
+    if abs(held - fitness) > figures.SEARCH_SLACK * fitness:
+        yield f"{TEMPLATE.name}: has fitness {held:.4g}; `{COMMAND}` ends with {fitness:.4g} at {winner.to_vector()}"
 
 
 def picture_differences(write: bool) -> Iterator[str]:
@@ -107,7 +107,7 @@ def main(arguments: list[str] | None = None) -> int:
         design = Design(**winner["design"])
         if options.write:
             write_atomically(TEMPLATE, HEADING + design.to_toml())
-        wrong += template_differences(design, winner["score"])
+        wrong += template_differences(design, winner["fitness"])
     wrong += picture_differences(options.write)
     readme = README.read_text(encoding="utf-8")
     written, names = shown(readme), set[str]()

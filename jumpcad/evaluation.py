@@ -9,6 +9,7 @@ from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
 from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
+from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.workshop import Workshop
 
@@ -17,8 +18,9 @@ from jumpcad.workshop import Workshop
 class EvaluationResult:
     """A design built, simulated and checked.
 
-    `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg),
-    and energy and time of winding, by name with unit.
+        `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg),
+        energy and time of winding, `size_m` (the longest link, or the standing robot's extent where that is larger) and
+    `body_lengths`, by name with unit; `electrical_energy_j` is that of motor and of boards while the motor winds.
     """
 
     robot: Robot
@@ -35,6 +37,14 @@ class EvaluationResult:
     def fitness(self) -> float:
         """Ballistic range over the longest link; 0 for everything but a jump."""
         return self.jump.fitness
+
+    @property
+    def body_lengths(self) -> float:
+        """Ballistic range over the robot's size; 0 for everything but a jump.
+
+        Unlike `fitness` it does not grow when the links are shortened about a battery that stays as large.
+        """
+        return self.metrics["body_lengths"]
 
     def __repr__(self) -> str:
         rejected = ", ".join(finding.name for finding in errors(self.findings))[:80]
@@ -66,15 +76,20 @@ def evaluate(
     robot = build(design, workshop, name="")
     jump = simulate(robot, settings, engine)
     findings = (*jump.findings, *constraint_findings(robot))
-    return EvaluationResult(robot, jump, findings, _metrics(robot))
+    return EvaluationResult(robot, jump, findings, _metrics(robot, jump))
 
 
-def _metrics(robot: Robot) -> dict[str, float]:
-    """Return energy and time of winding, and the masses."""
+def _metrics(robot: Robot, jump: Jump) -> dict[str, float]:
+    """Return size and range over size, energy and time of winding, and the masses."""
     train = robot.layout.drive.train
+    size_m = max(robot.design.l_max_mm / 1000.0, float(extent_m(robot).max()))
     masses = {f"{name}_mass_kg": body.mass_kg for name, body in robot.bodies.items()}
     return {
+        "body_lengths": (jump.ballistic_range_m or 0.0) / size_m,
+        "size_m": size_m,
         "mass_kg": robot.mass_kg,
         "electrical_energy_j": train.electrical_j,
+        "motor_energy_j": train.motor_j,
+        "boards_energy_j": train.boards_j,
         "winding_time_s": train.winding_s,
     } | masses

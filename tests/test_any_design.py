@@ -20,7 +20,7 @@ ODD = {
     "hollow": "[process]\ninfill = 0.0\nperimeters = 1\ntop_layers = 0\nbottom_layers = 0\n",
     "huge": HUGE + STRONG + '[bought]\nleg_bearing = ""\n',
     "soft": HUGE + "[materials.PLA]\nmodulus_mpa = 1.0\nstrength_in_plane_mpa = 1.0\nstrength_interlayer_mpa = 0.5\n",
-    "tiny": 'printer = {name = "tiny", bed_mm = [1.0, 1.0, 1.0], nozzle_mm = 0.4}\n',
+    "tiny": 'printer = {name = "tiny", bed_mm = [10.0, 10.0, 10.0], nozzle_mm = 0.4}\n',
 }
 
 

@@ -7,6 +7,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from support.loaded import loaded_range_m
 from support.places import ROOT
@@ -14,12 +15,16 @@ from support.places import ROOT
 from jumpcad.building import build
 from jumpcad.bundle.export import export
 from jumpcad.checks import constraint_findings
+from jumpcad.checks.interference import components
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
 from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
+from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop, load_workshop
 
 KENAN = load_design("kenan-2.0")
@@ -67,6 +72,23 @@ def test_its_masses_are_those_of_its_parts() -> None:
     assert sum(v for k, v in found.metrics.items() if k.endswith("_mass_kg")) == pytest.approx(pieces)
 
 
+def test_its_body_length_is_that_of_the_standing_robot() -> None:
+    """A short leg about the same battery has the size of what it carries; long links about it have their own."""
+    for name in ("kenan-2.0", "best-printable"):
+        found = evaluate(load_design(name))
+        robot, bodies = found.robot, body_poses(found.robot)
+        boxes = []
+        for piece in components(robot):  # another program's boxes of the solids, placed one by one
+            pose = bodies[piece.body] @ in_metres(piece.T_body_part)
+            boxes.append(piece.solid.scale([0.001] * 3).transform(pose[:3]).bounding_box())
+        corners = np.array(boxes)
+        extent = corners[:, 3:].max(axis=0) - corners[:, :3].min(axis=0)
+        assert extent_m(robot) == pytest.approx(extent, abs=1e-6)
+        assert found.metrics["size_m"] == pytest.approx(max(extent.max(), robot.design.l_max_mm / 1000.0), abs=1e-6)
+        assert found.body_lengths == pytest.approx(found.jump.ballistic_range_m / found.metrics["size_m"])
+        assert found.body_lengths <= found.fitness
+
+
 def test_winding_needs_more_energy_than_the_springs_hold() -> None:
     """And the motor is not switched on for more than a minute."""
     found = evaluate(KENAN)
@@ -111,7 +133,7 @@ def test_what_can_be_built_but_not_jump_has_a_verdict_and_no_fitness() -> None:
     for design, verdict in ((FEEBLE, "too_weak"), (short_toes, "tips")):
         found = evaluate(design)
         assert found.verdict == verdict
-        assert found.fitness == 0.0
+        assert found.fitness == found.body_lengths == 0.0
         assert found.jump.ballistic_range_m is None
         refused = [finding.name for finding in found.findings if finding.severity == "error" and finding.margin < 0]
         assert verdict in refused
@@ -139,5 +161,8 @@ def test_the_same_document_in_another_process() -> None:
 def test_electricity_is_voltage_times_mean_current_times_time() -> None:
     result = evaluate(load_design("kenan-2.0"))
     train = result.robot.layout.drive.train
-    power = train.motor.voltage_v * train.mean_current_a
+    battery_v, boards_a = 3.7, 0.024 + 0.0017
+    power = battery_v * (train.mean_current_a + boards_a)
     assert result.metrics["electrical_energy_j"] == pytest.approx(power * result.metrics["winding_time_s"], rel=1e-9)
+    parts = result.metrics["motor_energy_j"] + result.metrics["boards_energy_j"]
+    assert result.metrics["electrical_energy_j"] == pytest.approx(parts)

@@ -41,9 +41,9 @@ def things(result, folder):
     yield jumpcad.Settings(dt_s=0.000123456, drag_per_s=1.0, flight="simulated")
     yield Bundle(folder, {"name": "n" * 200, "files": {}})
     yield from (trial, request, robot_model("capsule"), Space.default(), Space.parse(fix=["c_coef=1"]), Hill()(DESIGN))
-    yield Candidate(trial, 1.0, 2.0, {"loop": 3})
-    yield Result(request, [trial], trial, [Candidate(trial, 1.0, 2.0, {})], [], ["note"] * 50)
-    yield Result(request, [], None, [], [], [])
+    yield Candidate(trial, 1.0, 2.0, {"loop": 3}, 4)
+    yield Result(request, [trial], trial, [Candidate(trial, 1.0, 2.0, {}, 4)], [], ["note"] * 50, 5)
+    yield Result(request, [], None, [], [], [], 0)
     with StudyStore.write(None, {"model": {"name": "hill"}}) as store:
         yield store
 

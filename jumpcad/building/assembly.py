@@ -11,6 +11,7 @@ from jumpcad.building.settle import settle
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
 from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
@@ -108,10 +109,9 @@ def _laid_out(
     """Return layout and hole sizes with springs for one of the directions of the plates' pin."""
     settled = settle(design, workshop, growth, plate_pins_rad)
     axles.require_retention(workshop.catalogue, workshop.bought)
-    catalogue, chosen = workshop.catalogue, workshop.bought
-    electronics = Electronics(
-        catalogue.batteries[chosen.battery], catalogue.boards[chosen.controller], catalogue.boards[chosen.driver]
-    )
+    chosen = workshop.bought
+    carried = chosen_parts(workshop)
+    electronics = Electronics(carried.battery, carried.controller, carried.driver, carried.regulator)
     layout = make_layout(
         settled.linkage,
         settled.sections,

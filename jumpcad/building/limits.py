@@ -6,6 +6,8 @@ from jumpcad.catalogue import Bearing
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
 from jumpcad.drive.release import ReleaseLimits
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
 from jumpcad.layout.stop import GIVE_ROOM_RAD
 from jumpcad.parts.holes import HoleSizes
@@ -77,6 +79,7 @@ def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
     return TrainLimits(
         stall_share=safety.motor_share * safety.motor_stall_share,
         torque_max_nm=safety.motor_share * safety.motor_torque_max_nm,
+        supply=supply_of(chosen_parts(workshop)),
         pair_efficiency=safety.gear_efficiency,
         backlash_circumferential_mm=fits.backlash_circumferential_mm,
         stress_mpa=workshop.material("gears").strength_in_plane_mpa / safety.printed_factor,
@@ -94,7 +97,7 @@ def release_limits(workshop: Workshop) -> ReleaseLimits:
     return ReleaseLimits(
         energy_ratio_min=table.energy_ratio_min,
         motor_nm=safety.motor_torque_max_nm,
-        teeth_mpa=workshop.material("gears").strength_in_plane_mpa / safety.strength_factor,
+        teeth_mpa=workshop.material("gears").strength_in_plane_mpa / safety.printed_factor,
         rounding_mm=table.corner_radius_mm,
         friction=table.friction,
         rotor_kg_m2=table.rotor_kg_m2,

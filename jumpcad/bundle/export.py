@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.bundle.bom import bill_of_materials, mass_facts, write_bom
+from jumpcad.bundle.electronics import electronics_facts
+from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
@@ -18,7 +20,11 @@ from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
+from jumpcad.bundle.wiring import wiring_svg
+from jumpcad.checks.electronics import electronics_findings
+from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.registry import Exporter, Files, chosen
+from jumpcad.findings import errors
 from jumpcad.robot import Robot, require_name
 
 
@@ -45,9 +51,11 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
         If the folder holds anything else, if something of a user's would be lost, if it cannot be written, or if the
         extra for STEP is not installed.
     CannotBuildError
-        If a part's file is not one closed solid.
+        If a part's file is not one closed solid, or the electrical parts do not fit together.
     """
     require_name(robot.name)
+    if wrong := errors(electronics_findings(robot)):
+        raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
     exporters = chosen(["step"] if step else [])
     return write_folder(folder, robot.name, _facts(robot), contents(robot, exporters, pictures), force)
 
@@ -60,6 +68,8 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
         yield from exporter.files(robot)
     yield "bom.csv", write_bom(bill_of_materials(robot))
     yield "assembly.md", write_guide(robot, pictures)
+    yield "wiring.svg", wiring_svg(robot)
+    yield from firmware_files(robot)
     seen = all_pictures(robot) if pictures else {}
     for picture, png in seen.items():
         yield f"pictures/{picture}.png", png
@@ -80,6 +90,7 @@ def _facts(robot: Robot) -> dict[str, Any]:
             for name, body in robot.bodies.items()
         },
         "drive": {"springs": spring_facts(robot), "release": release_facts(robot.release)},
+        "electronics": electronics_facts(robot),
         "stop": stop_facts(robot),
         "joints": joint_facts(robot),
         "ground": {

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials, euros
 from jumpcad.bundle.springs import spring_order
+from jumpcad.bundle.wiring import wiring_lines
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
@@ -23,6 +24,7 @@ def write_guide(robot: Robot, pictures: bool = True) -> str:
         *_tables(bill_of_materials(robot)),
         *spring_order(robot),
         *_steps(robot, pictures),
+        *wiring_lines(robot),
     ]
     return "\n".join(lines) + "\n"
 

@@ -23,6 +23,7 @@ SUFFIXES = (
     ".3mf", ".csv", ".dxf", ".gif", ".glb", ".html", ".json", ".md", ".obj", ".png", ".sdf", ".step", ".stl", ".svg",
     ".toml", ".urdf", ".xml",
 )  # fmt: skip
+PROGRAMS = ("firmware/main.py", "firmware/robot.py", "firmware/winder.py")
 """Of the files that a bundle may have. A stranger's manifest that lists others, such as .git/HEAD or a module of
 Python, would have them removed when the bundle is built again."""
 
@@ -37,7 +38,7 @@ def _safe(path: str) -> str:
 def _ours(path: str) -> str:
     """Return the path of a file that jumpcad can have written; reject others."""
     hidden = any(name.startswith(".") for name in path.split("/"))
-    if hidden or not path.endswith(SUFFIXES):
+    if hidden or not (path.endswith(SUFFIXES) or path in PROGRAMS):
         raise ValueError("is no file of a bundle")
     return _safe(path)
 
@@ -147,6 +148,7 @@ def open_bundle(folder: str | Path) -> Bundle:
         if manifest["format"] != FORMAT and isinstance(manifest["format"], int):
             raise JumpcadError(f"{path}: format {manifest['format']}; this version reads {FORMAT}: build it again")
         _Manifest.model_validate(manifest)
+        json.dumps(manifest, allow_nan=False, ensure_ascii=False).encode()  # 1e999, half of a character
         return Bundle(Path(os.path.realpath(folder)), manifest)
     except OSError as error:
         raise JumpcadError(f"{path}: cannot be read: {error.strerror}") from None

@@ -72,6 +72,7 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
     yield "gear ratio", f"{train.ratio:.2f}", ": 1"
     yield "winding time", f"{train.winding_s:.2f}", "s"
     yield "electrical energy of a jump", f"{train.electrical_j:.2f}", "J"
+    yield "of it the boards' while winding", f"{train.boards_j:.2f}", "J"
     yield "current, mean", f"{1000.0 * train.mean_current_a:.0f}", "mA"
     yield "current, peak", f"{1000.0 * train.peak_current_a:.0f}", "mA"
 

@@ -7,6 +7,7 @@ import numpy as np
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
+from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
@@ -80,13 +81,18 @@ def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_
 def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
     """Return poses with everything moved apart across the robot, by `EXPLOSION` times its outer face's distance.
 
-    Distances are from the middle plane. What is centred on it stays: legs, and what reaches from plate to plate.
+    Distances are from the middle plane, those of what the toes carry at most the body's. What is centred on it stays:
+    legs, and what reaches from plate to plate.
     """
+    body = [(thing, pose) for thing, pose in zip(things, poses, strict=True) if thing.body == BODY]
+    widest = float(np.abs(_corners([thing for thing, _ in body], [pose for _, pose in body])[:, 1]).max())
     moved = []
     for thing, pose in zip(things, poses, strict=True):
         y = _corners([thing], [pose])[:, 1]
         centre = float((pose[:3, :3] @ thing.mesh.centroid)[1] / 1000.0 + pose[1, 3])
-        outer = float(y.max() if centre > 0.0 else y.min()) if abs(centre) > CENTRED_M else 0.0
+        outer = (
+            float(np.clip(y.max() if centre > 0.0 else y.min(), -widest, widest)) if abs(centre) > CENTRED_M else 0.0
+        )
         moved.append(pose_at(pose[:3, :3], pose[:3, 3] + [0.0, EXPLOSION * outer, 0.0]))
     return moved
 

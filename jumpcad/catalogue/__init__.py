@@ -1,6 +1,17 @@
 """Bought parts: motors, bearings, batteries, boards, springs, pads, fasteners and wire, shipped and the user's own."""
 
-from jumpcad.catalogue.articles import Article, Battery, Bearing, Board, Motor, OwnParts, Pad, StockSpring
+from jumpcad.catalogue.articles import (
+    Article,
+    Battery,
+    Bearing,
+    Board,
+    Component,
+    Kit,
+    Motor,
+    OwnParts,
+    Pad,
+    StockSpring,
+)
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
 
@@ -12,6 +23,8 @@ __all__ = [
     "Catalogue",
     "ClevisPin",
     "Clip",
+    "Component",
+    "Kit",
     "Motor",
     "Nut",
     "OwnParts",

@@ -5,13 +5,13 @@ Every article names the source of its figures. Lengths in mm, masses in g, torqu
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import PydanticCustomError
 
 from jumpcad.files import Contradiction, TomlTable
-from jumpcad.files.names import Name, Text
+from jumpcad.files.names import Name, OptionalName, Text
 
 STEEL_G_CM3 = 7.85
 """Density of steel (EN 1991-1-1, table A.4: 77 to 78.5 kN/m³)."""
@@ -35,6 +35,24 @@ Side = Annotated[float, Field(ge=0.5, le=500)]
 Mass = Annotated[float, Field(ge=1e-3, le=5000)]
 Positive = Annotated[float, Field(ge=1e-4, le=1e5)]
 Source = Annotated[Text, AfterValidator(_not_blank)]
+Confidence = Literal["stated", "derived", "memory"]
+"""Read in the source; computed from what a source states; or known without a source at hand: to be confirmed."""
+
+
+def _ascending(volts: tuple[float, float]) -> tuple[float, float]:
+    if volts[0] >= volts[1]:
+        raise PydanticCustomError("value_error", "must be [lowest, highest] in volts")
+    return volts
+
+
+Volts = Annotated[tuple[Positive, Positive], Field(strict=False), AfterValidator(_ascending)]
+"""The lowest and the highest voltage that something bears."""
+CELL_V = (3.3, 3.7, 4.2)
+"""One lithium polymer cell: empty under light load, nominal, full; the usual figures of makers."""
+CELL_OHM = 0.15
+"""Internal resistance of a small cell where none is given; judgement: 0.05 to 0.3 are usual."""
+RATED_SHARES = (0.5, 1.0)
+"""Lowest and highest voltage of a motor over its rated one where none is given; judgement."""
 
 
 class Article(TomlTable):
@@ -70,6 +88,15 @@ class Motor(Article):
     shaft_length_mm: Length
     boss_mm: Length
     boss_length_mm: Annotated[float, Field(ge=0, le=50)]
+    article: Text = ""
+    bears_v: Volts | None = None
+    confidence: Confidence = "stated"
+
+    @property
+    def range_v(self) -> tuple[float, float]:
+        """The lowest and highest voltage that the motor is run at."""
+        low, high = RATED_SHARES
+        return self.bears_v or (low * self.voltage_v, high * self.voltage_v)
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield shafts and bosses that no motor has, and figures that break the conservation of energy."""
@@ -124,16 +151,104 @@ class Battery(Article):
     mass_g: Mass
     voltage_v: Positive
     capacity_mah: Positive
+    full_v: Positive | None = None
+    empty_v: Positive | None = None
+    discharge_a: Positive | None = None
+    resistance_ohm: Positive | None = None
+    plug: Text = ""
+    confidence: Confidence = "stated"
+
+    @property
+    def cells(self) -> int:
+        """Number of cells in series."""
+        return max(1, round(self.voltage_v / CELL_V[1]))
+
+    @property
+    def range_v(self) -> tuple[float, float]:
+        """Voltage when empty and when full; where it is not given, that of lithium polymer cells."""
+        return self.empty_v or self.cells * CELL_V[0], self.full_v or self.cells * CELL_V[2]
+
+    @property
+    def ohm(self) -> float:
+        """Internal resistance."""
+        return self.resistance_ohm or self.cells * CELL_OHM
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield voltages that are not in the order empty, nominal, full."""
+        empty, full = self.range_v
+        if not empty < self.voltage_v < full:
+            reason = f"must lie between empty_v = {empty:g} and full_v = {full:g}"
+            yield ("voltage_v",), self.voltage_v, reason
 
 
 class Board(Article):
-    """A circuit board with its components."""
+    """A circuit board with its components.
+
+    `supply_v` holds the voltages that each supply input bears, by the name printed beside it. `pins` holds what the
+    other pins do, by their printed names: `ground` (and `battery`: of pads for a cell alone), `out`; of a controller
+    `gpio6` with its number, `adc`, `pwm`,
+    `strapping` (its level at start chooses how the chip boots), `boot_log` (the chip writes on it at start); of a
+    driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs that need a diode before them,
+    `button` the pin of a push button on the board. Currents are those of the board alone (`quiescent_a`, radio off)
+    and what it can give (`output_a`).
+    """
 
     description: Source
     length_mm: Side
     width_mm: Side
     height_mm: Side
     mass_g: Mass
+    supply_v: dict[Name, Volts] = Field(default_factory=dict)
+    pins: dict[Name, Annotated[tuple[Name, ...], Field(strict=False)]] = Field(default_factory=dict)
+    diode_at: Annotated[tuple[Name, ...], Field(strict=False)] = ()
+    button: OptionalName = ""
+    logic_v: Positive | None = None
+    adc_max_v: Positive | None = None
+    output_v: Positive | None = None
+    output_a: Positive | None = None
+    quiescent_a: Annotated[float, Field(ge=0, le=10)] = 0.0
+    resistance_ohm: Annotated[float, Field(ge=0, le=100)] = 0.0
+    efficiency: Annotated[float, Field(gt=0, le=1)] = 1.0
+    confidence: Confidence = "stated"
+
+    def with_function(self, function: str) -> tuple[str, ...]:
+        """Return the pins that do something, in the board's order."""
+        return tuple(name for name, functions in self.pins.items() if function in functions)
+
+
+class Component(Article):
+    """A small electrical part: sensor, switch, plug, capacitor, diode or wire; `terminals` as its maker names them.
+
+    `rated_a` and `rated_v` are the most that it bears, `drop_v` is lost in it; a wire's mass is that of `pieces` leads
+    of usual length together.
+    """
+
+    description: Source
+    mass_g: Mass
+    terminals: Annotated[tuple[Text, ...], Field(strict=False)] = ()
+    rated_a: Positive | None = None
+    rated_v: Positive | None = None
+    drop_v: Annotated[float, Field(ge=0, le=5)] = 0.0
+    confidence: Confidence
+
+
+class Kit(TomlTable):
+    """Electrical parts that fit together, by their names in the catalogue; `source` says why they do."""
+
+    name: Annotated[Name, Field(exclude=True)]
+    source: Annotated[Source, Field(exclude=True)]
+    confidence: Annotated[Confidence, Field(exclude=True)]
+    motors: Annotated[tuple[Name, ...], Field(strict=False)]
+    battery: Name
+    controller: Name
+    driver: Name
+    regulator: OptionalName
+    sensor: OptionalName
+    switch: OptionalName
+    plug: OptionalName
+    capacitor: OptionalName
+    diode: OptionalName
+    wire: OptionalName
 
 
 class StockSpring(Article):

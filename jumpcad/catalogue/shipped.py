@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 
 from pydantic import PositiveFloat
 
-from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Motor, Pad, StockSpring
+from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Component, Kit, Motor, Pad, StockSpring
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
@@ -117,6 +117,8 @@ class Catalogue:
     bearings: PartsByName[Bearing]
     batteries: PartsByName[Battery]
     boards: PartsByName[Board]
+    components: PartsByName[Component]
+    kits: PartsByName[Kit]
     springs: PartsByName[StockSpring]
     pads: PartsByName[Pad]
     screws: PartsByName[Screw]
@@ -178,17 +180,18 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    motors, bearings, electronics, fasteners, springs, pads = (
-        read_toml(folder / f"{name}.toml")[0]
-        for name in ("motors", "bearings", "electronics", "fasteners", "springs", "pads")
+    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs", "pads", "axles")
+    motors, bearings, electronics, kits, fasteners, springs, pads, axles = (
+        read_toml(folder / f"{name}.toml")[0] for name in files
     )
-    axles = read_toml(folder / "axles.toml")[0]
     defaults = motors.pop("defaults")
     return Catalogue(
         motors=_articles("motor", Motor, motors, defaults),
         bearings=_articles("bearing", Bearing, bearings),
-        batteries=_articles("battery", Battery, electronics["batteries"] | {"source": electronics["source"]}),
-        boards=_articles("board", Board, electronics["boards"] | {"source": electronics["source"]}),
+        batteries=_articles("battery", Battery, electronics["batteries"] | {"source": ""}),
+        boards=_articles("board", Board, electronics["boards"] | {"source": ""}),
+        components=_articles("component", Component, electronics["components"] | {"source": ""}),
+        kits=_by_name("kit", Kit, kits),
         springs=_articles("spring", StockSpring, springs),
         pads=_articles("pad", Pad, pads),
         screws=_by_name("screw", Screw, fasteners["screws"]),

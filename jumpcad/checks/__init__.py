@@ -8,10 +8,10 @@ leg_strength, hub_strength, lever_strength, leg_flex, leg_sideways, front_link_s
 eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, rail_strength, plate_seat,
 cam_dog_strength, toe_bar_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength,
 leg_pin_strength, foot_pin_strength, roller_screw_strength, axle_retention, pin_retention, spring_fatigue,
-axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque, release_*; `ground`
-ground_clearance, foot_clearance; `sideways` sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs,
-bridges, solid; `interference` interference; `stop` stop_strength, stop_plates,
-stop_leg, stop_pad, stop_clearance; `engraving` engraving.
+axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque, release_*; `electronics`
+supply_voltage_*, motor_current_*, gearbox_torque, wiring_*; `ground` ground_clearance, foot_clearance; `sideways`
+sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs, bridges, solid; `interference` interference;
+`stop` stop_strength, stop_plates, stop_leg, stop_pad, stop_clearance; `engraving` engraving.
 """
 
 from collections.abc import Callable, Iterable
@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from jumpcad.checks.drive import drive_findings
+from jumpcad.checks.electronics import electronics_findings
 from jumpcad.checks.engraving import engraving_findings
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import interference_findings
@@ -52,6 +53,7 @@ CHECKS = (
     Check(strength_findings, cheap=True),
     Check(stop_findings, cheap=True),
     Check(drive_findings, cheap=True),
+    Check(electronics_findings, cheap=True),
     Check(ground_findings, cheap=True),
     Check(sideways_findings, cheap=True),
     Check(bed_findings, cheap=True),

@@ -1,7 +1,5 @@
 """Clearance of body, legs and lever above the ground, and of the body above the foot, while the legs move (mm)."""
 
-import math
-
 import numpy as np
 from manifold3d import Manifold
 
@@ -85,8 +83,14 @@ def _body_discs(robot: Robot) -> tuple[Array, Array]:
     pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, AXLE_END_RADIUS_MM)
     discs = [(place, pad) for place in layout.axles.values()]
     discs += [(place, STANDOFF_PAD_MM / 2.0) for place in layout.standoffs_mm]
-    discs.append((layout.stop.tab_mm, math.hypot(*TAB_MM) / 2.0 + STOP_EDGE_MM))
-    discs.append((layout.stop.middle_mm, math.hypot(PAD_LENGTH_MM, layout.stop.depth_mm) / 2.0))
+    stop = layout.stop
+    boxes = [(stop.tab_mm, TAB_MM, STOP_EDGE_MM), (stop.middle_mm, (PAD_LENGTH_MM, stop.depth_mm), 0.0)]
+    discs += [
+        (middle + a * (size[0] / 2.0 + edge) * stop.along + b * (size[1] / 2.0 + edge) * stop.behind, 0.0)
+        for middle, size, edge in boxes
+        for a in (-1.0, 1.0)
+        for b in (-1.0, 1.0)
+    ]
     discs.append((layout.hub_mm, layout.drive.spring.outer_diameter_mm / 2.0))
     discs.append((layout.cam_axis_mm, layout.drive.cam.outer_radius_mm))
     discs.append((layout.cam_axis_mm, layout.drive.train.stages[-1].wheel.tip_radius_mm))

@@ -25,10 +25,8 @@ from jumpcad.transforms import Array, pose_about_y
 WINDING_POSITIONS = 13
 DROP_POSITIONS = 13
 PAST_POSITIONS = 3
-PAST_CAM_RAD = (0.0, math.radians(8.0), math.radians(16.0))
-"""Leg positions from rest to the end of the stop's give, each with the cam as far beyond where it lets the roller fall:
-what a dog's free play and the running motor may add (judgement; `jumpcad.drive` says how far the roller's way is free).
-"""
+AHEAD_SHARES = (0.0, 0.5, 1.0)
+"""Leg positions from rest to the end of the stop's give, each with the cam ahead of its gear by shares of its play."""
 TOLERANCE_MM3 = 0.05
 """Facets of two circles that touch share less than this."""
 TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
@@ -106,9 +104,9 @@ def moments(robot: Robot) -> list[Moment]:
     ]
     stop = robot.layout.stop
     past = [
-        Moment(f"{math.degrees(leg):.1f}° past rest", float(leg), cam.free_rad + turn)
+        Moment(f"{math.degrees(leg):.1f}° past rest", float(leg), cam.free_rad, share * play)
         for leg in np.linspace(0.0, stop.angle_rad + robot.stop_blow.give_rad, PAST_POSITIONS)[1:]
-        for turn in PAST_CAM_RAD
+        for share in AHEAD_SHARES
     ]
     at_stop = Moment("at the stop", stop.angle_rad, cam.free_rad)
     return [*winding, *drop, *ahead, *past, at_stop]

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.findings import Finding, at_most
+from jumpcad.strength.axles import clipped_pins
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
 from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
 from jumpcad.strength.stress import pin_stress_mpa
@@ -49,7 +50,8 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
 def _retention(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of what keeps axles and pins in place, against the friction of a landing sideways."""
     kept = {"plates": "the plates over its ends", "clips": "its clips", "nuts": "its nut"}[case.layout.retention]
-    pins = "its clips" if case.layout.retention == "clips" else "its split pin"
+    clipped = clipped_pins(case.workshop.catalogue, case.workshop.bought)
+    pins = "its clips" if clipped else "its split pin"
     for name, what, by in (("axle_retention", "an axle", kept), ("pin_retention", "a pin of the foot", pins)):
         allowed = case.bars["leg_axle" if name == "axle_retention" else "foot_pin"].axial_n
         yield at_most(

@@ -1,8 +1,9 @@
 """The rest stop: do bar, plates and leg bear the blow, does the pad, and does it give no more than there is room for?
 
 The bar is taken as a beam on both plates with the pad's force in its middle, each plate's ear as a cantilever from the
-pivots' line, and the leg as held at its hub with all of the blow's torque at its heel. All three print lying, so that
-the blow bends them along their layers. The seats of axles and pins that pass the blow on are not checked.
+pivots' line, and the leg as a beam on hub and pad whose inertia acts at the ankle, the farthest that it can. All three
+print lying, so that the blow bends them along their layers. The seats of axles and pins that pass the blow on are not
+checked.
 """
 
 import math
@@ -40,7 +41,8 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
     sections, share = robot.layout.sections, stop.radius_mm / robot.design.l2_mm
     height = sections.leg_root_mm + share * (sections.leg_tip_mm - sections.leg_root_mm)
     leg = Beam(sections.thickness_mm, height, case.shell)
-    stress = float(leg.stress_mpa(BLOW_FACTOR * 1000.0 * blow.torque_nm))
+    moment = BLOW_FACTOR * 1000.0 * blow.torque_nm * (1.0 - share)
+    stress = float(leg.stress_mpa(moment))
     strength = robot.workshop.material("links").strength_in_plane_mpa
     yield stress_finding("stop_leg", "main leg at its heel at twice the blow", stress, strength, remedy, "leg")
     give, most = blow.give_mm, PAD_STRAIN * stop.pad.thickness_mm

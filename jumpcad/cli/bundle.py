@@ -186,6 +186,8 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
             "ratio": train.ratio,
             "time_s": train.winding_s,
             "electrical_j": train.electrical_j,
+            "motor_j": train.motor_j,
+            "boards_j": train.boards_j,
             "efficiency": energy / train.electrical_j,
         },
         "notes": [finding.message for finding in engraving_findings(robot)],

@@ -98,9 +98,9 @@ def explore(
     require_study(options.study)
     require_plots(plots, force)
     space, robot = Space.parse(options.fix or (), options.bound or (), options.choose or ()), options.robot_model()
-    objective, centre = find_objective(options.objective or "fitness"), load_design(around or AROUND)
+    objective, centre = find_objective(options.objective or robot.default_objective), load_design(around or AROUND)
     identity = {
-        "model": robot.describe(), "objective": objective.name, "method": f"explore {view}", "space": space.describe(),
+        "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),
         "around": centre.model_dump(), "seed": options.seed, "versions": robot.versions(),
     }  # fmt: skip
     if view in ("pca", "importance"):

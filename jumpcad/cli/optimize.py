@@ -29,7 +29,7 @@ MethodArgument = Annotated[
     str | None,
     typer.Argument(help=f"{_MEANINGS}. Without one: ga, then bo on its results.", metavar=f"[{'|'.join(METHODS)}]"),
 ]
-EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate, not counting those of the robust pick.")]
+EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate, those of the robust pick included.")]
 AroundOption = Annotated[
     str | None, typer.Option(help="The design from which --only and --within start.", metavar="DESIGN")
 ]
@@ -44,6 +44,13 @@ BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated in parall
 FromOption = Annotated[
     Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
 ]
+UntilOption = Annotated[
+    float,
+    typer.Option(
+        help="End when BO proposals promise to gain less than this share of the best score.", metavar="PERCENT"
+    ),
+]
+HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
@@ -66,6 +73,8 @@ def optimize(
     preset: PresetOption = "recommended",
     batch: BatchOption = 1,
     from_study: FromOption = None,
+    until: UntilOption = 0.0,
+    hours: HoursOption = 0.0,
     output: OutputOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -88,6 +97,7 @@ def optimize(
     request = Request.make(
         space, options.robot_model(), method, options.objective,
         evaluations=evaluations, seed=options.seed, preset=preset, batch=batch, prior=from_study,
+        until_percent=until, hours=hours,
     )  # fmt: skip
     path = options.study or Path(request.default_name())
     require_study(path)
@@ -100,6 +110,8 @@ def optimize(
     require_plots(plots, force)
     where = f"{request.method} on the {options.model} robot"
     heading = f"study {escaped(str(path))}: {where}, free parameters: {space.dimension}"
+    pick = f", {request.pick} for the robust pick" if request.pick else ""
+    heading += f"\nevaluations: {request.searched} for the search{pick}"
     with options.pool() as pool, watching(evaluations, as_json) as watch:
         result = run_study(request, path, pool, watch if as_json else _headed(heading, watch))
     if result.winner is not None:
@@ -140,7 +152,9 @@ def _print_result(result: "Result", design_file: Path) -> None:
     from jumpcad.search.fronts import energy_j
 
     request = result.request
-    print(f"{len(result.trials)} designs evaluated; rejected: {_counted(result.rejected)}")
+    more = result.evaluations - len(result.trials)
+    around = f", and {more} for the robust pick" if more else ""
+    print(f"{len(result.trials)} designs evaluated{around}; rejected: {_counted(result.rejected)}")
     for note in result.notes:
         print(f"note: {note}")
     if result.best is None or result.winner is None:
@@ -153,10 +167,10 @@ def _print_result(result: "Result", design_file: Path) -> None:
     print(f"\nbest {request.objective} {result.best.score:.4f}")
     if result.candidates:
         print(f"score that nine of ten neighbours reach, parameters ±1 % and lengths ±{request.tolerance_mm:g} mm:")
-        print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  rejected of 32")
+        print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  neighbours, rejected")
     for one in result.candidates[:SHOWN]:
         scores = (one.trial.score or 0.0, one.parameters_score, one.print_score)
-        print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {_counted(one.rejections)}")
+        print(f"  {''.join(f'{score:10.4f}' for score in scores)}  {one.neighbours:10d}, {_counted(one.rejections)}")
     print(f"\n{escaped(str(design_file))}: {request.objective} {result.score:.4f}")
     for name, value in result.design.model_dump().items():
         print(f"  {name:24s}{value:12.5g}")

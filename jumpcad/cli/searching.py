@@ -36,7 +36,12 @@ class SearchOptions:
     model: Annotated[str, typer.Option(help="The robot that is evaluated: printed, capsule or published.")] = "printed"
     objective: Annotated[
         str | None,
-        typer.Option(help="fitness, range, rise, range-per-joule or jumps-per-joule.", show_default="fitness"),
+        typer.Option(
+            help="body_lengths, fitness, range, rise, range-per-joule, range-per-spring-joule, jumps-per-joule, or an "
+            "own function of a jump's figures.",
+            metavar="NAME|FILE.py:FUNCTION",
+            show_default="body_lengths; fitness of robots that are not printed",
+        ),
     ] = None
     study: Annotated[
         Path | None, typer.Option(help="The study file, new or to be continued.", metavar="F.db", dir_okay=False)
@@ -159,7 +164,7 @@ def watching(total: int, quiet: bool) -> Iterator["Watch"]:
 
         def watch(trial: "Trial", computed: bool) -> None:
             if trial.phase not in SEARCH_PHASES:
-                progress.update(task, description="robust pick")
+                progress.update(task, advance=1, description="robust pick")
                 return
             if trial.score is not None and (not best or trial.score > best[0]):
                 best[:] = [trial.score]

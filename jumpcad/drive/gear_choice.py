@@ -56,10 +56,11 @@ def by_cost(
         of_shape = _candidates(law, beside, count)
         for number in group:
             motor, candidates[number] = motors[number], of_shape
+            driven = limits.driven(motor)
             good = np.flatnonzero(of_shape[:, 0] >= least_ratio(law, motor, limits, count))
             for row in good[np.argsort(of_shape[good, 1], kind="stable")][:MOST_TRIED]:
                 ratio, area = of_shape[row, :2]
-                seconds = winding_s(law, motor, ratio, efficiency)
+                seconds = winding_s(law, driven, ratio, efficiency)
                 mass_g = motor.mass_g + DISC_G_MM3 * math.pi / 4 * area * limits.face_width_mm
                 found.append((mass_g + seconds / limits.seconds_per_gram, number, int(row)))
     for _, number, row in sorted(found):

@@ -12,10 +12,15 @@ from jumpcad.drive.train_limits import TrainLimits
 POSITIONS = 201
 """Number of cam angles of the lift at which the current is computed."""
 
+EMPTY_SHARE = 0.6
+"""Largest share of the stall torque on an empty battery; judgement: beyond half of it a motor gives less power."""
+LEAST_NM = 1e-9
+"""What is left of a motor that an empty battery does not turn: no gears make do with it."""
+
 
 @dataclass(frozen=True)
 class Winding:
-    """One turn of the cam at the motor's rated voltage: time, mean and peak current, and electrical work."""
+    """One turn of the cam at the motor's voltage: time, mean and peak current, and electrical work."""
 
     seconds: float
     mean_current_a: float
@@ -24,8 +29,13 @@ class Winding:
 
 
 def allowed_nm(motor: Motor, limits: TrainLimits) -> float:
-    """Return the largest torque that a motor may give on its output."""
-    return min(limits.stall_share * motor.stall_torque_nm, limits.torque_max_nm)
+    """Return the largest torque that a motor may give on its output.
+
+    It is a share of the stall torque at the rated voltage, whatever the battery's is, since current heats the winding;
+    and a share of what it stalls with on an empty battery, so that it always winds.
+    """
+    allowed = min(limits.stall_share * motor.stall_torque_nm, limits.torque_max_nm)
+    return max(LEAST_NM, min(allowed, EMPTY_SHARE * limits.weakest(motor).stall_torque_nm))
 
 
 def free_speed_rad_s(motor: Motor) -> float:
@@ -36,7 +46,7 @@ def free_speed_rad_s(motor: Motor) -> float:
 def least_ratio(law: CamLaw, motor: Motor, limits: TrainLimits, pairs: int) -> float:
     """Return the motor turns per cam turn that torque and speed need with a number of gear pairs."""
     for_torque = law.peak_torque_nm / limits.efficiency(pairs) / allowed_nm(motor, limits)
-    return max(for_torque, free_speed_rad_s(motor) / limits.cam_speed_max_rad_s)
+    return max(for_torque, free_speed_rad_s(limits.fastest(motor)) / limits.cam_speed_max_rad_s)
 
 
 def winding_s(law: CamLaw, motor: Motor, ratio: float, efficiency: float) -> float:

@@ -11,7 +11,6 @@ import numpy as np
 
 from jumpcad.drive.corner import clear_window_rad, roll_over
 from jumpcad.drive.dog import PLAY_MORE_RAD
-from jumpcad.drive.motor import free_speed_rad_s
 from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
 from jumpcad.drive.synthesis import Drive
 from jumpcad.findings import Finding, at_least, at_most
@@ -158,7 +157,7 @@ def _parts(
         rotor_kg_m2=rotor_kg_m2 * (train.motor.ratio * train.ratio) ** 2,
         play_rad=drive.dog.play_rad,
         backlash_rad=backlash_rad / train.ratio,
-        cam_rad_s=free_speed_rad_s(train.motor) / train.ratio,
+        cam_rad_s=train.cam_speed_rad_s,
         rebound=limits.rebound,
         friction_mm=limits.friction * moving.bore_mm / 2.0,
         train_nm_per_rad=limits.train_nm_per_rad,
@@ -192,7 +191,7 @@ def _findings(
     push_off_s: float,
 ) -> tuple[Finding, ...]:
     play, over = math.degrees(drive.dog.play_rad), math.degrees(drive.cam.roll_over_rad)
-    turned = free_speed_rad_s(drive.train.motor) / drive.train.ratio * push_off_s
+    turned = drive.train.cam_speed_rad_s * push_off_s
     needed, window = play + math.degrees(turned + PLAY_MORE_RAD), math.degrees(np.nan_to_num(window_rad))
     more_play = f'release.play_deg = "auto" or more than {over + 3.0:.0f}, or a smaller bought.roller'
     return (

@@ -32,23 +32,33 @@ class GearTrain:
     ----------
     ratio, efficiency
         Motor turns per cam turn; share of the motor's work that reaches the springs while they are loaded.
+    cam_speed_rad_s
+        Speed of the unloaded cam with a full battery.
     motor_torque_nm, stall_margin
         Largest torque on the motor's output, and what is left of its allowed torque, as a share of stall.
-    winding_s, mean_current_a, peak_current_a, electrical_j
-        For one turn of the cam, which is one jump, at the motor's rated voltage.
+    winding_s, mean_current_a, peak_current_a, motor_j, boards_j
+        For one turn of the cam, which is one jump, at the battery's nominal voltage under load: time, currents of the
+        motor, and energy of motor and of boards. Waiting before the jump is not counted.
     """
 
     motor: Motor
     stages: tuple[GearPair, ...]
     ratio: float
     efficiency: float
+    cam_speed_rad_s: float
     motor_torque_nm: float
     stall_margin: float
     winding_s: float
     mean_current_a: float
     peak_current_a: float
-    electrical_j: float
+    motor_j: float
+    boards_j: float
     findings: tuple[Finding, ...]
+
+    @property
+    def electrical_j(self) -> float:
+        """What the battery gives for one jump: to the motor, and to the boards while it winds."""
+        return self.motor_j + self.boards_j
 
 
 def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) -> GearTrain:
@@ -83,28 +93,32 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     ratio = math.prod(pair.ratio for pair in stages)
     efficiency = limits.efficiency(len(stages))
     peak, allowed = law.peak_torque_nm / (ratio * efficiency), allowed_nm(motor, limits)
-    turn = winding(law, motor, ratio, efficiency)
+    cam_speed = free_speed_rad_s(limits.fastest(motor)) / ratio
+    turn = winding(law, limits.driven(motor), ratio, efficiency)
+    boards_j = limits.supply.boards_w * turn.seconds if limits.supply else 0.0
     return GearTrain(
         motor=motor,
         stages=stages,
         ratio=ratio,
         efficiency=efficiency,
+        cam_speed_rad_s=cam_speed,
         motor_torque_nm=peak,
         stall_margin=(allowed - peak) / motor.stall_torque_nm,
         winding_s=turn.seconds,
         mean_current_a=turn.mean_current_a,
         peak_current_a=turn.peak_current_a,
-        electrical_j=turn.electrical_j,
+        motor_j=turn.electrical_j,
+        boards_j=boards_j,
         findings=(
-            *_motor_findings(motor, ratio, peak, limits),
+            *_motor_findings(motor, cam_speed, peak, limits),
             *_gear_findings(law, stages, limits),
             _room_finding(stages[-1], limits),
         ),
     )
 
 
-def _motor_findings(motor: Motor, ratio: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
-    allowed, cam_speed = allowed_nm(motor, limits), free_speed_rad_s(motor) / ratio
+def _motor_findings(motor: Motor, cam_speed: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
+    allowed = allowed_nm(motor, limits)
     return [
         at_most(
             "motor_torque", torque_nm, allowed, "N·m",

@@ -7,6 +7,7 @@ from typing import Self
 from jumpcad.catalogue import Motor
 from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive.socket import socket_half_mm
+from jumpcad.electronics.supply import Supply
 
 FACE_WIDTHS_MM = (5.0, 6.5, 8.0)
 """Widths of gears, the least first; judgement: 25 layers of 0.2 mm, and up to 1.6 times that."""
@@ -22,6 +23,8 @@ class TrainLimits:
         Largest share of a motor's stall torque, and largest torque on its gearbox.
     pair_efficiency
         Efficiency of each printed gear pair.
+    supply
+        What drives the motor; without one it turns at its rated voltage.
     backlash_circumferential_mm
         Backlash of a pair, at the pitch circle.
     stress_mpa
@@ -76,10 +79,23 @@ class TrainLimits:
     axle_mm: float = SPACER_RADIUS_MM + CLEAR_MM
     cam_speed_max_rad_s: float = 4.6
     seconds_per_gram: float = 2.0
+    supply: Supply | None = None
 
     def efficiency(self, pairs: int) -> float:
         """Return the share of the motor's work that reaches the springs through a number of gear pairs."""
         return self.cam_efficiency * self.pair_efficiency**pairs
+
+    def driven(self, motor: Motor) -> Motor:
+        """Return a motor as it behaves at the supply's nominal voltage under load."""
+        return self.supply.driven(motor, self.supply.nominal_v, self.torque_max_nm) if self.supply else motor
+
+    def weakest(self, motor: Motor) -> Motor:
+        """Return a motor as it behaves with an empty battery."""
+        return self.supply.driven(motor, self.supply.empty_v, self.torque_max_nm) if self.supply else motor
+
+    def fastest(self, motor: Motor) -> Motor:
+        """Return a motor as it behaves with a full battery."""
+        return self.supply.driven(motor, self.supply.full_v, self.torque_max_nm) if self.supply else motor
 
     def beside(self, motor: Motor) -> Self:
         """Return the limits with those that a motor's shaft and socket set."""

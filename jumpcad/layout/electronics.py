@@ -23,7 +23,7 @@ from jumpcad.layout.room import EVERYWHERE, Obstacle, box_obstacle, disc
 from jumpcad.transforms import Array
 
 BOARDS_APART_MM = 1.0
-"""Gap between both boards, and above the battery; judgement: wires and solder joints."""
+"""Gap between boards, and above the battery; judgement: wires and solder joints."""
 TRAY_MORE_MM = 2.0
 """By how much a tray is longer and wider than its load; judgement: an edge of 1 mm all around."""
 GRID_MM = 2.0
@@ -46,23 +46,36 @@ class Electronics:
     battery: Battery
     controller: Board
     driver: Board
+    regulator: Board | None = None
+
+    @property
+    def boards(self) -> dict[str, Board]:
+        """The boards by their roles, in the order in which they lie on the upper tray, from the back."""
+        boards = {"controller": self.controller, "driver": self.driver}
+        return boards | ({"regulator": self.regulator} if self.regulator else {})
 
     @property
     def names(self) -> str:
         """Their names, for messages."""
-        return f"{self.battery.name}, {self.controller.name} and {self.driver.name}"
+        *others, last = (self.battery.name, *(board.name for board in self.boards.values()))
+        return f"{', '.join(others)} and {last}"
 
     @property
     def length_mm(self) -> float:
-        """Along x: the battery, or both boards one behind the other."""
-        boards = self.controller.width_mm + self.driver.width_mm + BOARDS_APART_MM
-        return max(max(self.battery.length_mm, boards) + TRAY_MORE_MM, TRAY_LENGTH_MIN_MM)
+        """Along x: the battery, or all boards one behind the other."""
+        return max(max(self.battery.length_mm, self.boards_mm) + TRAY_MORE_MM, TRAY_LENGTH_MIN_MM)
+
+    @property
+    def boards_mm(self) -> float:
+        """Length of all boards one behind the other, across which each has its length."""
+        widths = [board.width_mm for board in self.boards.values()]
+        return sum(widths) + BOARDS_APART_MM * (len(widths) - 1)
 
     @property
     def width_mm(self) -> float:
         """Across the robot (y): the battery with its strap, or a board."""
         strap = 2.0 * (1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM)
-        boards = max(self.controller.length_mm, self.driver.length_mm) + TRAY_MORE_MM
+        boards = max(board.length_mm for board in self.boards.values()) + TRAY_MORE_MM
         return max(self.battery.width_mm + strap, boards)
 
     @property
@@ -73,7 +86,7 @@ class Electronics:
     @property
     def height_mm(self) -> float:
         """From the bottom of the lower tray to the top of the boards."""
-        return self.upper_tray_mm + TRAY_MM + max(self.controller.height_mm, self.driver.height_mm)
+        return self.upper_tray_mm + TRAY_MM + max(board.height_mm for board in self.boards.values())
 
     @property
     def half_mm(self) -> tuple[float, float]:

@@ -18,14 +18,13 @@ from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import Sections
 from jumpcad.transforms import Array, direction
+from jumpcad.workshop.workshop import STOP_PAD_MIN_MM
 
 LEAST_DEG, STEP_DEG = 3.0, 0.5
 """Least angle past rest, and between those tried below the one asked for; judgement: less is within play and bending.
 """
 GIVE_ROOM_RAD = math.radians(3.0)
 """Kept free, with the usual clearances, beyond the stop for the pad's give; judgement, checked by `stop_clearance`."""
-PAD_MIN_MM = 1.5
-"""Least thickness of its pad (a bench review of the printed robot)."""
 PAD_LENGTH_MM = 8.0
 """Length along the leg of pad and bar; judgement: between the springs and the folded foot."""
 HEEL_MM = 0.2
@@ -164,10 +163,10 @@ def stop_place(
     CannotBuildError
         If the pad is too thin, or there is no room behind the leg.
     """
-    if pad.thickness_mm < PAD_MIN_MM:
+    if pad.thickness_mm < STOP_PAD_MIN_MM:
         raise CannotBuildError(
             f"body.stop_pad = {pad.name} is {pad.thickness_mm:g} mm thick; the rest stop needs at least "
-            f"{PAD_MIN_MM:g} mm: choose a thicker pad"
+            f"{STOP_PAD_MIN_MM:g} mm: choose a thicker pad"
         )
     below = linkage.rest_rad + angle_rad
     heel = max(sections.leg_root_mm / 2.0, sections.eye_radius_mm) + HEEL_MM

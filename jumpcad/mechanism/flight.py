@@ -12,7 +12,8 @@ import numpy as np
 
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism.linkage import Complex, Linkage
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Spring
+from jumpcad.mechanism.model import BODY_NAMES, FOOT, Body, ContactSphere, Spring
+from jumpcad.mechanism.planar import about_common_centre, dot, seen_from_foot
 from jumpcad.transforms import Array
 
 POSITIONS = 241
@@ -79,27 +80,8 @@ class _Chain:
         self.mass = np.array([bodies[name].mass_kg for name in BODY_NAMES])
         self.inertia = np.array([bodies[name].inertia_kg_m2[1, 1] for name in BODY_NAMES])
         self.leg = np.linspace(linkage.travel_rad[0], stop_rad, POSITIONS)
-        pose = linkage.pose(self.leg)
-        ankle = _points(pose.ankle_mm) / 1000.0
-        origin = {
-            BODY: np.zeros(1, complex),
-            MAIN_LEG: _points(linkage.back_pivot_mm) / 1000.0,
-            FRONT_LINK: _points(linkage.front_pivot_mm) / 1000.0,
-            FOOT: ankle,
-        }
-        turn = {
-            BODY: np.zeros(POSITIONS),
-            MAIN_LEG: linkage.rest_rad + self.leg,
-            FRONT_LINK: linkage.rest_rad + pose.front_rad,
-            FOOT: pose.foot_rad,
-        }
-        places = []
-        for name in BODY_NAMES:
-            seen = origin[name] + _points(bodies[name].com_m[[0, 2]]) * np.exp(-1j * turn[name])
-            places.append((seen - ankle) * np.exp(1j * pose.foot_rad))
-        self.place = np.stack(places, axis=-1)
+        self.place, turns = seen_from_foot(bodies, linkage, self.leg)
         self.place1, self.place2 = self._rates(self.place)
-        turns = np.stack([turn[name] - pose.foot_rad for name in BODY_NAMES], axis=-1)
         rates, rates_2 = self._rates(turns.astype(complex))
         self.turn1, self.turn2 = rates.real, rates_2.real
 
@@ -130,19 +112,19 @@ class _Chain:
         rest = (place2 * leg**2 - 2j * place1 * leg * foot) * spin - arm * foot**2
         pull = -1j * GRAVITY_M_S2 - rest
         mass, inertia = self.mass, self.inertia
-        mixed = float((mass * _dot(by_leg, by_foot) + inertia * turn1).sum())
+        mixed = float((mass * dot(by_leg, by_foot) + inertia * turn1).sum())
         matrix = np.array(
             [
-                [float((mass * _dot(by_leg, by_leg) + inertia * turn1**2).sum()), mixed],
-                [mixed, float((mass * _dot(by_foot, by_foot) + inertia).sum())],
+                [float((mass * dot(by_leg, by_leg) + inertia * turn1**2).sum()), mixed],
+                [mixed, float((mass * dot(by_foot, by_foot) + inertia).sum())],
             ]
         )
         swing = inertia * turn2 * leg**2
         torque = self.spring.torque_nm(state.leg_rad)
         force = np.array(
             [
-                torque + float((mass * _dot(by_leg, pull) - swing * turn1).sum()),
-                float((mass * _dot(by_foot, pull) - swing).sum()),
+                torque + float((mass * dot(by_leg, pull) - swing * turn1).sum()),
+                float((mass * dot(by_foot, pull) - swing).sum()),
             ]
         )
         return matrix, force, (by_leg, by_foot, rest)
@@ -151,21 +133,15 @@ class _Chain:
         """Return angular momentum and kinetic energy of all bodies about their common centre."""
         place, place1, _, turn1, _ = self.at(state.leg_rad)
         velocity = place1 * state.leg_rad_s - 1j * place * state.foot_rad_s
-        return self._about(place, velocity, turn1 * state.leg_rad_s + state.foot_rad_s)[:2]
+        rate = turn1 * state.leg_rad_s + state.foot_rad_s
+        momentum, double, _ = about_common_centre(self.mass, self.inertia, place, velocity, rate)
+        return momentum, 0.5 * double
 
     def in_flight(self, leg_rad: float) -> tuple[float, float]:
         """Return the inertia that the leg meets in free flight, and that of all bodies about their common centre."""
         place, place1, _, turn1, _ = self.at(leg_rad)
-        momentum, energy, whole = self._about(place, place1, turn1)
-        return 2.0 * energy - momentum**2 / whole, whole
-
-    def _about(self, place: Complex, velocity: Complex, turning: Array) -> tuple[float, float, float]:
-        share = self.mass / self.mass.sum()
-        arm, velocity = place - (share * place).sum(), velocity - (share * velocity).sum()
-        momentum = self.mass * _dot(-1j * arm, velocity) + self.inertia * turning
-        double = self.mass * _dot(velocity, velocity) + self.inertia * turning**2
-        whole = self.mass * _dot(arm, arm) + self.inertia
-        return float(momentum.sum()), 0.5 * float(double.sum()), float(whole.sum())
+        momentum, double, whole = about_common_centre(self.mass, self.inertia, place, place1, turn1)
+        return double - momentum**2 / whole, whole
 
 
 def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:
@@ -221,11 +197,3 @@ def _moved(start: _State, rates: tuple[float, float], time_s: float, at: _State)
         start.foot_rad_s + time_s * rates[1],
         start.pivot,
     )
-
-
-def _points(vector: Array) -> Complex:
-    return np.asarray(vector[..., 0] + 1j * vector[..., 1])
-
-
-def _dot(a: Complex, b: Complex) -> Array:
-    return np.asarray((a * b.conjugate()).real)

@@ -1,9 +1,11 @@
 """What a torque on the leg joint has to turn while the robot is in the air."""
 
 import cmath
-import math
+
+import numpy as np
 
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
+from jumpcad.mechanism.planar import about_common_centre, points
 
 
 def leg_inertia_kg_m2(mechanism: Mechanism, leg_rad: float) -> float:
@@ -23,20 +25,10 @@ def leg_inertia_kg_m2(mechanism: Mechanism, leg_rad: float) -> float:
         (complex(l1 / 2.0), 0j, rest + float(pose.front_rad[0]), front),
         (ankle, -1j * (ankle + l1 / 2.0), float(pose.foot_rad[0]), foot),
     )
-    points = []
-    for name, (origin, speed, angle, rate) in zip(BODY_NAMES, motions, strict=True):
-        body = mechanism.bodies[name]
-        arm = complex(body.com_m[0], body.com_m[2]) * cmath.exp(-1j * angle)
-        points.append((body.mass_kg, origin + arm, speed - 1j * rate * arm, float(body.inertia_kg_m2[1, 1]), rate))
-    mass = mechanism.mass_kg
-    centre = sum(m * place for m, place, *_ in points) / mass
-    drift = sum(m * speed for m, _, speed, *_ in points) / mass
-    spin = math.fsum(m * _turning(p - centre, v - drift) + inertia * rate for m, p, v, inertia, rate in points)
-    whole = math.fsum(m * abs(p - centre) ** 2 + inertia for m, p, _, inertia, _ in points)
-    moving = math.fsum(m * abs(v - drift) ** 2 + inertia * rate**2 for m, _, v, inertia, rate in points)
-    return moving - spin**2 / whole
-
-
-def _turning(arm: complex, vector: complex) -> float:
-    """Return the moment about +y of a vector x + iz at the end of an arm."""
-    return -(arm.conjugate() * vector).imag
+    bodies = [mechanism.bodies[name] for name in BODY_NAMES]
+    origin, speed, angle, rate = (np.array(column) for column in zip(*motions, strict=True))
+    arm = points(np.array([body.com_m[[0, 2]] for body in bodies])) * np.exp(-1j * angle)
+    mass = np.array([body.mass_kg for body in bodies])
+    inertia = np.array([body.inertia_kg_m2[1, 1] for body in bodies])
+    momentum, double, whole = about_common_centre(mass, inertia, origin + arm, speed - 1j * rate * arm, rate)
+    return double - momentum**2 / whole

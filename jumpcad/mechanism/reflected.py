@@ -9,7 +9,8 @@ import numpy as np
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
-from jumpcad.transforms import Array, turned_about_y
+from jumpcad.mechanism.planar import seen_from_foot
+from jumpcad.transforms import Array
 
 POSITIONS = 33
 """Leg angles of the table; with four times as many, inertia and slopes change by less than 0.3 %."""
@@ -75,24 +76,15 @@ def reflected_mass(bodies: Mapping[str, Body], linkage: Linkage) -> ReflectedMas
     (e.g. Norton, Design of Machinery, 10.12: equivalent inertia from equal kinetic energy).
     """
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
-    pose = linkage.pose(leg)
-    still = np.zeros_like(pose.ankle_mm)
-    places = (
-        (bodies[BODY], still, 0.0 * leg),
-        (bodies[MAIN_LEG], still + linkage.back_pivot_mm, linkage.rest_rad + pose.leg_rad),
-        (bodies[FRONT_LINK], still + linkage.front_pivot_mm, linkage.rest_rad + pose.front_rad),
-    )
+    names = (BODY, MAIN_LEG, FRONT_LINK)
+    place, turn = seen_from_foot(bodies, linkage, leg, names)
+    mass = np.array([bodies[name].mass_kg for name in names])
+    about_y = np.array([bodies[name].inertia_kg_m2[1, 1] for name in names])
 
     def by_wind(values: Array) -> Array:
         return -np.gradient(values, leg, axis=0, edge_order=2)
 
-    inertia, height = np.zeros_like(leg), np.zeros_like(leg)
-    for body, origin_mm, turn in places:
-        com_mm = origin_mm + turned_about_y(1000.0 * body.com_m[[0, 2]] + still, turn)
-        seen = turned_about_y(com_mm - pose.ankle_mm, -pose.foot_rad) / 1000.0
-        speed = by_wind(seen)
-        spin = by_wind(turn - pose.foot_rad)
-        inertia = inertia + body.mass_kg * (speed**2).sum(axis=1) + body.inertia_kg_m2[1, 1] * spin**2
-        height = height + body.mass_kg * seen[:, 1]
+    inertia = (mass * (by_wind(place.real) ** 2 + by_wind(place.imag) ** 2) + about_y * by_wind(turn) ** 2).sum(axis=1)
+    height = (mass * place.imag).sum(axis=1)
     columns = (-leg, inertia, by_wind(inertia), GRAVITY_M_S2 * by_wind(height))
     return ReflectedMass(*(column[::-1].copy() for column in columns))

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.catalogue import Catalogue, Clip
+from jumpcad.catalogue import Catalogue, Clip, Rod
 from jumpcad.dimensions import AXLE_END_PLAY_MM, GAP_MM
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.layout.lateral import Interval
@@ -19,6 +19,7 @@ from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring
+from jumpcad.strength.axles import clipped_pins
 from jumpcad.transforms import Array
 from jumpcad.workshop import BoughtParts
 
@@ -45,7 +46,7 @@ def axles(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator
     for name, centre in places.items():
         place = Place(name, BODY, centre, outside)
         if layout.retention == "clips":
-            yield from _clipped(place, layout.axle_mm, catalogue, chosen)
+            yield from _clipped(place, layout.axle_mm, catalogue, catalogue.rods[chosen.axle])
         elif layout.retention == "nuts":
             yield from _screwed(place, catalogue)
         else:
@@ -63,8 +64,8 @@ def pins(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[
         Place("leg_spring_pin", MAIN_LEG, np.array([layout.leg_pin_mm, 0.0]), (-arm, arm)),
     )
     for place in places:
-        if layout.retention == "clips":
-            yield from _clipped(place, layout.axle_mm, catalogue, chosen)
+        if rod := clipped_pins(catalogue, chosen):
+            yield from _clipped(place, layout.axle_mm, catalogue, rod)
         else:
             yield from _clevis(place, layout.axle_mm, catalogue)
 
@@ -86,7 +87,8 @@ def require_retention(catalogue: Catalogue, chosen: BoughtParts) -> None:
                 f'{", ".join(other.name for other in catalogue.rods.values() if other.grooves)}, or "plates"'
             )
         return
-    catalogue.clevis_pin_for(size)
+    if clipped_pins(catalogue, chosen):
+        catalogue.clip_for(size)
     if how == "nuts" and size != (thread := catalogue.screws["M3 long"].diameter_mm):
         raise JumpcadError(f'bought.axle_mm = {size:g}: retention = "nuts" has screws of {thread:g} mm as axles')
 
@@ -100,9 +102,9 @@ def _rod(place: Place, y: Interval, diameter_mm: float, catalogue: Catalogue, ch
     return bought(place.name, article, place.body, mass, [(0.0, length, section)], _at(place, y[0]))
 
 
-def _clipped(place: Place, diameter_mm: float, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
+def _clipped(place: Place, diameter_mm: float, catalogue: Catalogue, rod: Rod) -> Iterator[BoughtPart]:
     """Yield a rod with a groove and a clip at either end, each a little outside of the faces."""
-    rod, clip = catalogue.rods[chosen.axle], catalogue.clip_for(diameter_mm)
+    clip = catalogue.clip_for(diameter_mm)
     low, high = place.faces
     reach = AXLE_END_PLAY_MM + clip.groove_width_mm + clip.end_mm
     length = high - low + 2.0 * reach

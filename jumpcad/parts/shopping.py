@@ -8,7 +8,9 @@ import numpy as np
 
 from jumpcad.catalogue import Bearing, Catalogue, Screw
 from jumpcad.dimensions import ROLLER_WASHER_MM, TRAY_MM
+from jumpcad.electronics.chosen import COMPONENTS
 from jumpcad.layout.drive_places import arm_line
+from jumpcad.layout.electronics import BOARDS_APART_MM
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
@@ -32,8 +34,8 @@ def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen:
     """Return every bought part at its place, in the assembled pose."""
     return [
         *axles.axles(layout, catalogue, chosen),
-        *axles.pins(layout, catalogue, chosen),
         *_leg_things(layout, holes, catalogue, chosen),
+        *axles.pins(layout, catalogue, chosen),
         *_springs(layout, catalogue),
         *_motor_things(layout, catalogue),
         *_standoffs(layout, catalogue),
@@ -121,6 +123,7 @@ def _motor_things(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
     body = [(0.0, front - low, _box_of(motor.width_mm, motor.height_mm))]
     shaft = [(0.0, motor.shaft_length_mm, _d_shaft(motor.shaft_mm, motor.shaft_flat_mm))]
     article, turn = f"gear motor {motor.name}", gear_turns(layout)["motor_pinion"]
+    article += f" ({motor.article})" if motor.article else ""
     yield bought("motor", article, BODY, motor.mass_g - shaft_mass, body, (x, low, z), layout.motor_angle_rad)
     yield bought("motor_shaft", article, BODY, shaft_mass, shaft, (x, front, z), turn, units=0)
     screw = catalogue.screws["M2"]
@@ -167,7 +170,7 @@ def _toe_screws(layout: Layout, holes: HoleSizes, catalogue: Catalogue) -> Itera
 
 
 def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
-    """Yield battery and boards on their trays, in the middle across the robot."""
+    """Yield battery and boards on their trays, in the middle across the robot, and the small parts between."""
     electronics = layout.electronics
     middle = (layout.lateral.inside[0] + layout.lateral.inside[1]) / 2.0
     x, z = layout.tray_mm
@@ -175,15 +178,19 @@ def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> I
     yield _box("battery", battery.description, x, middle, z + TRAY_MM, battery.length_mm, battery.width_mm,
                battery.height_mm, battery.mass_g)  # fmt: skip
     top = z + electronics.upper_tray_mm + TRAY_MM
-    controller, driver = electronics.controller, electronics.driver
-    total = controller.width_mm + driver.width_mm + 1.0
-    start = x - total / 2.0
-    for name, board, at in (
-        ("controller", controller, start + controller.width_mm / 2.0),
-        ("driver", driver, start + total - driver.width_mm / 2.0),
-    ):
-        yield _box(name, board.description, at, middle, top, board.width_mm, board.length_mm, board.height_mm,
-                   board.mass_g)  # fmt: skip
+    start = x - electronics.boards_mm / 2.0
+    for name, board in electronics.boards.items():
+        yield _box(name, board.description, start + board.width_mm / 2.0, middle, top, board.width_mm, board.length_mm,
+                   board.height_mm, board.mass_g)  # fmt: skip
+        start += board.width_mm + BOARDS_APART_MM
+    # Until they have places of their own: flat in the gap above the battery, where their mass is about right.
+    small = [(role, getattr(chosen, role)) for role in COMPONENTS if getattr(chosen, role)]
+    size, above = battery.length_mm / max(1, len(small)), z + TRAY_MM + battery.height_mm
+    for number, (role, name) in enumerate(small):
+        component = catalogue.components[name]
+        at = x - battery.length_mm / 2.0 + (number + 0.5) * size
+        yield _box(f"wiring_{role}", component.description, at, middle, above + 0.25 * BOARDS_APART_MM, 0.8 * size,
+                   battery.width_mm / 2.0, 0.5 * BOARDS_APART_MM, component.mass_g)  # fmt: skip
 
 
 def _box(

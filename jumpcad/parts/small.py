@@ -108,7 +108,7 @@ def trays(layout: Layout, holes: HoleSizes) -> Drawing:
         for x in (-length / 4.0, length / 4.0)
         for sign in (-1.0, 1.0)
     ]
-    narrowest = min(electronics.battery.width_mm, electronics.controller.length_mm, electronics.driver.length_mm)
+    narrowest = min(electronics.battery.width_mm, *(board.length_mm for board in electronics.boards.values()))
     across = narrowest - 2.0 * TRAY_LEDGE_MM
     window = [rectangle((length - 2.0 * TRAY_EDGE_MM, across), corner_radius_mm=2.0)] if across >= WINDOW_MIN_MM else []
     region = union([floor, *tabs]) - union([*slots, *window])

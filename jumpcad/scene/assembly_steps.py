@@ -20,10 +20,10 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Main leg",
         r"main_leg|hub_bearing_\d+|leg_spring_pin.*|roller.*",
-        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer of 3.1 mm until its pin "
-        "turns in it without rocking. Push the springs' pin through the beam and keep it as the list says: bend the "
-        "split pin's ends, or press the clips into their grooves. Screw the roller to the lever's left side with the "
-        "washer between them and the lock nut on the right; the roller must spin freely.",
+        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer 0.1 mm wider than its pin, "
+        "until that turns in it without rocking. Push the springs' pin through the beam and keep it as the list says: "
+        "bend the split pin's ends, or press the clips into their grooves. Screw the roller to the lever's left side "
+        "with the washer between them and the lock nut on the right; the roller must spin freely.",
     ),
     (
         "Foot",
@@ -61,11 +61,11 @@ ORDER: tuple[tuple[str, str, str], ...] = (
         r"cam|cam_gear|motor_pinion|idler|cam_spacer_.*|idler_spacer_.*",
         "On the cam axle go spacer, cam and, over the cam's jaws, the cam gear; the roller lies at the foot of the "
         "cam's drop. The cam must turn freely in the gear from jaw to jaw. Press the pinion onto the motor's shaft, "
-        "flat to flat. Turn the cam once by hand: the leg winds and lets go.",
+        "flat to flat: its ribs are cut. Turn the cam once by hand: the leg winds and lets go.",
     ),
     (
         "Electronics",
-        r"electronics_tray.*|battery|controller|driver",
+        r"electronics_tray.*|battery|controller|driver|regulator|wiring_.*",
         "Put the trays' tabs into the slots of the right plate. The battery is strapped to the lower tray, the boards "
         "lie on the upper one.",
     ),

@@ -33,6 +33,7 @@ BOUGHT_COLOURS: dict[str, Colour] = {
     "battery": (0.20, 0.42, 0.85),
     "controller": (0.13, 0.50, 0.28),
     "driver": (0.50, 0.20, 0.50),
+    "regulator": (0.13, 0.30, 0.50),
 }
 """Colours by a word in a bought part's article or name; the first match counts."""
 STEEL: Colour = (0.62, 0.64, 0.67)

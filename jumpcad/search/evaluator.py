@@ -38,6 +38,8 @@ class Evaluator:
         Trials of an earlier study that the search may learn from.
     watch
         Called with every trial.
+    expired
+        Whether the time of the search is over; methods ask before every step.
     """
 
     @typed
@@ -50,11 +52,13 @@ class Evaluator:
         pool: Pool,
         prior: Sequence[Trial] = (),
         watch: Watch = ignore,
+        expired: Callable[[], bool] = lambda: False,
     ) -> None:
         self.space = space
         self.objective = objective
         self.store = store
         self.model = model
+        self.expired = expired
         self._pool = pool
         self._watch = watch
         held = store.trials()
@@ -95,7 +99,7 @@ class Evaluator:
     ) -> list[Trial | None]:
         """Return the trials of designs, computing those that are not finished; at most `limit` new ones.
 
-        Trials are kept in one transaction; if the run is interrupted meanwhile, those that are finished are kept.
+        Trials are kept in one transaction; if the run is interrupted or fails meanwhile, the finished ones are kept.
 
         Raises
         ------
@@ -120,15 +124,13 @@ class Evaluator:
                 proposal = {} if proposals is None else proposals[fresh[key]]
                 score = self.objective.score(outcome.evaluation)
                 computed.append(
-                    Trial(*places[key], designs[fresh[key]], outcome.evaluation, score, self.model.digest,
+                    Trial(*places[key], designs[fresh[key]], outcome.evaluation.bare, score, self.model.digest,
                         outcome.duration_s, proposal)
                 )  # fmt: skip
-            self._require_a_working_model(computed)
-        except JumpcadError:
-            raise
         except BaseException:
             self._commit(computed)
             raise
+        self._require_a_working_model(computed)
         self._commit(computed)
         for key in fresh:
             self._add(self._finished[key], computed=key in missing)

@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.methods.bayesian import incumbent, unproposed
+from jumpcad.search.methods.bayesian import incumbent, learned_trials, unproposed
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Posterior
 from jumpcad.search.trial import Trial
@@ -20,8 +20,6 @@ from jumpcad.transforms import Array
 
 CONFIDENCES = (0.95, 0.99, 0.999)
 """Probabilities that a neighbour is feasible: one proposal for each."""
-LEARNED = 400
-"""Number of trials that the processes are fitted to: the nearest to the best one."""
 STEEPNESS = 100.0
 """Fall of the acquisition where the confidence is missed: far more than any gain in score."""
 
@@ -43,14 +41,15 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
         return finished
     space = evaluator.space
     _, elite = incumbent(space, trials)
-    known = _nearest(space, evaluator.trials, elite[0])
+    fixed = [parameter for parameter in space.parameters if not parameter.free]
+    known = [one for one in evaluator.trials if all(getattr(one.design, fix.name) == fix.lower for fix in fixed)]
     thetas: dict[str, Any] = next(
         (trial.proposal["theta"] for trial in reversed(trials) if "theta" in trial.proposal), {}
     )
     generator = np.random.default_rng([seed, 7, step])
     proposals: list[Proposal] = []
     with threadpool_limits(1):
-        posterior = Posterior.from_trials(space, known, thetas, fit=())
+        posterior = Posterior.from_trials(space, learned_trials(space, known, best=0), thetas, fit=())
         for confidence in CONFIDENCES:
             admits, penalty = unproposed(evaluator, proposals), _missed(space, posterior, confidence, scatter)
             proposal = propose(space, posterior, 0.0, elite, admits, generator, penalty)
@@ -71,11 +70,3 @@ def _missed(space: Space, posterior: Posterior, confidence: float, scatter: floa
         return STEEPNESS * missed
 
     return penalty
-
-
-def _nearest(space: Space, trials: Sequence[Trial], centre: Array) -> list[Trial]:
-    """Return the `LEARNED` trials nearest to a point (d,), of those that have the space's fixed values."""
-    fixed = [parameter for parameter in space.parameters if not parameter.free]
-    known = [trial for trial in trials if all(getattr(trial.design, one.name) == one.lower for one in fixed)]
-    far = [float(np.abs(space.to_unit(trial.design) - centre).max()) for trial in known]
-    return [known[index] for index in sorted(np.argsort(far, kind="stable")[:LEARNED])]

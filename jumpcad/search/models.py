@@ -74,6 +74,11 @@ class RobotModel:
         """
         return 0.2 if self.workshop is None else 2.0 * self.workshop.fits.sliding_mm
 
+    @property
+    def default_objective(self) -> str:
+        """What is searched for unless the user says something else: only a printed robot has a size."""
+        return "body_lengths" if self.name == "printed" else "fitness"
+
     def admits(self, design: Design) -> bool:
         """Whether the feasibility checks that need neither solids nor simulation accept a design (microseconds)."""
         if errors(geometry_findings(design)):

@@ -1,7 +1,7 @@
 """The outcome of one evaluation, and the score that an objective gives it."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 from jumpcad.arguments import typed
@@ -9,6 +9,7 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, errors
+from jumpcad.search.own_objective import SUFFIX, checked, code_hash, load_function, name_of, require_function
 
 QUARANTINED = "quarantined"
 """Verdict of a design whose evaluation failed twice: ended its worker, or ran past its limit."""
@@ -38,6 +39,15 @@ class Evaluation:
         names = tuple(dict.fromkeys(finding.name for finding in errors(self.findings)))
         return names or (() if self.feasible else (self.verdict,))
 
+    @property
+    def bare(self) -> "Evaluation":
+        """The same with findings of name, severity, margin and unit only: what studies keep.
+
+        Forty findings with their texts are 12 kB; who wants to read them evaluates the design again.
+        """
+        findings = tuple(Finding(one.name, one.severity, one.margin, one.unit, "", "") for one in self.findings)
+        return replace(self, findings=findings)
+
     def __repr__(self) -> str:
         outcome = "feasible" if self.feasible else f"rejected by {' '.join(self.reasons)[:80]}"
         return f"<Evaluation {self.verdict}: {outcome}, fitness {self.metrics.get('fitness', 0.0):.4g}>"
@@ -65,12 +75,20 @@ class Model(Protocol):
 
 @dataclass(frozen=True)
 class Objective:
-    """A score to be maximised; a rejected design has none."""
+    """A score to be maximised; a rejected design has none.
+
+    ``code`` is the hash of an own objective's function.
+    """
 
     name: str
     meaning: str
     unit: str
     figure: Callable[[Mapping[str, float]], float]
+    code: str = ""
+
+    def describe(self) -> dict[str, str]:
+        """Return what a study remembers of it."""
+        return {"objective": self.name} | ({"objective_code": self.code} if self.code else {})
 
     def score(self, evaluation: Evaluation) -> float | None:
         """Return the score of a feasible evaluation, None of a rejected one.
@@ -78,8 +96,8 @@ class Objective:
         Raises
         ------
         JumpcadError
-            If the model behind the evaluation does not give the figures that the objective needs, or one of them is 0
-            where it divides.
+            If the model behind the evaluation does not give the figures that the objective needs, one of them is 0
+            where it divides, or an own objective fails.
         """
         if not evaluation.feasible:
             return None
@@ -101,27 +119,55 @@ def _range_m(metrics: Mapping[str, float]) -> float:
     return metrics["base_distance_m"] if "base_distance_m" in metrics else metrics["ballistic_range_m"]
 
 
-def _range_per_joule(metrics: Mapping[str, float]) -> float:
-    return _range_m(metrics) / metrics["spring_energy_j"]
-
-
 OBJECTIVES: dict[str, Objective] = {
     objective.name: objective
     for objective in (
+        Objective("body_lengths", "range over the robot's size", "body lengths", lambda m: m["body_lengths"]),
         Objective("fitness", "range over the longest link", "body lengths", lambda m: m["fitness"]),
         Objective("range", "range of the jump", "m", _range_m),
         Objective("rise", "rise of the centre of mass", "m", lambda m: m["com_rise_m"]),
-        Objective("range-per-joule", "range per joule in the springs", "m/J", _range_per_joule),
+        Objective(
+            "range-per-joule", "range per joule of electricity", "m/J", lambda m: _range_m(m) / m["electrical_energy_j"]
+        ),
+        Objective(
+            "range-per-spring-joule",
+            "range per joule in springs",
+            "m/J",
+            lambda m: _range_m(m) / m["spring_energy_j"],
+        ),
         Objective("jumps-per-joule", "jumps per joule of electricity", "1/J", lambda m: 1.0 / m["electrical_energy_j"]),
     )
 }
 
 
 @typed
-def find_objective(name: str) -> Objective:
-    """Return an objective by its name."""
-    if name not in OBJECTIVES:
-        raise JumpcadError(
-            f"{name!r} is not one of the objectives {', '.join(OBJECTIVES)}{did_you_mean(name, OBJECTIVES)}"
-        )
-    return OBJECTIVES[name]
+def find_objective(objective: str | Callable[..., Any]) -> Objective:
+    """Return an objective: by its name, as `FILE.py:FUNCTION`, or a function of the figures of a jump.
+
+    Raises
+    ------
+    JumpcadError
+        If there is none of that name, or it is no function.
+    """
+    if isinstance(objective, str):
+        if objective in OBJECTIVES:
+            return OBJECTIVES[objective]
+        if f"{SUFFIX}:" not in objective:
+            raise JumpcadError(
+                f"{objective!r} is not one of the objectives {', '.join(OBJECTIVES)}"
+                f"{did_you_mean(objective, OBJECTIVES) or f'; an own one is FILE{SUFFIX}:FUNCTION'}"
+            )
+        objective = load_function(objective)
+    function = require_function(objective)
+    return Objective(name_of(function), "own objective", "own units", checked(function), code_hash(function))
+
+
+def described_objective(identity: Mapping[str, Any]) -> Objective:
+    """Return the objective of a study for its pictures; the function of an own one is not kept, and does not score."""
+    if "objective_code" not in identity:
+        return find_objective(identity["objective"])
+    return Objective(identity["objective"], "own objective", "own units", _unknown, identity["objective_code"])
+
+
+def _unknown(_metrics: Mapping[str, float]) -> float:
+    raise JumpcadError("the study keeps the scores of its own objective, not the function")

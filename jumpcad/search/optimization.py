@@ -1,7 +1,8 @@
 """`optimize`: the whole search in one call."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from jumpcad.arguments import typed
 from jumpcad.design import Design, load_design
@@ -21,7 +22,7 @@ def optimize(
     method: str = DEFAULT,
     evaluations: int = 250,
     seed: int = 0,
-    objective: str | None = None,
+    objective: str | Callable[..., Any] | None = None,
     model: str = "printed",
     study: str | Path | None = None,
     fixed: Mapping[str, float] = NOTHING,
@@ -39,6 +40,8 @@ def optimize(
     preset: str = "recommended",
     batch: int = 1,
     prior: str | Path | None = None,
+    until_percent: float | int = 0.0,
+    hours: float | int = 0.0,
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -49,11 +52,13 @@ def optimize(
     method
         `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), or `pareto` and `nsga2` for a front.
     evaluations
-        How many designs are evaluated, without those of the robust pick.
+        How many designs are evaluated, those of the robust pick included: a quarter of them, at most 160.
     seed
         Random seed: the same call gives the same result.
     objective
-        `fitness`, `range`, `rise`, `range-per-joule` or `jumps-per-joule`; `range` for a front, else `fitness`.
+        One of `jumpcad.search.OBJECTIVES` by name; if None, `range` for a front, `body_lengths` of the printed robot,
+        `fitness` of the others. Or an own one: a function that takes the figures of a jump (a mapping of names to
+        numbers) and returns the score, or `FILE.py:FUNCTION`.
     model
         The robot that is evaluated: `printed`, `capsule` or `published`.
     study
@@ -69,6 +74,9 @@ def optimize(
         evaluation (s).
     preset, batch, prior
         Settings of the genetic algorithm, Bayesian proposals evaluated together, an earlier study to learn from.
+    until_percent, hours
+        End earlier: when Bayesian proposals promise to gain less than this share of the best score, or after this time
+        (h); see `Request`. 0 for neither.
 
     Returns
     -------
@@ -85,6 +93,7 @@ def optimize(
     request = Request.make(
         space, robot_model(model, workshop, settings, engine), method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
+        until_percent=float(until_percent), hours=float(hours),
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, None if study is None else Path(study), pool)

@@ -5,11 +5,13 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from jumpcad.design import PARAMETERS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
+from jumpcad.transforms import Array
 
 Kind = Literal["fix", "bound", "choose"]
 FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
@@ -43,10 +45,14 @@ class Parameter:
         """Places of the choices in the unit interval."""
         return tuple((choice - self.lower) / self.width for choice in self.choices)
 
-    def at(self, unit: float) -> float:
-        """Return the value at a place in the unit interval; for choices the nearest one."""
-        value = min(max(self.lower + unit * self.width, self.lower), self.upper)
-        return min(self.choices, key=lambda choice: abs(choice - value)) if self.choices else value
+    def at(self, units: npt.ArrayLike) -> Array:
+        """Return the values (n,) at places (n,) in the unit interval; of choices, the nearest ones."""
+        values = np.clip(self.lower + np.asarray(units) * self.width, self.lower, self.upper)
+        if not self.choices:
+            return values
+        choices = np.array(self.choices)
+        nearest: Array = choices[np.abs(values[:, None] - choices).argmin(axis=1)]
+        return nearest
 
     def describe(self) -> dict[str, Any]:
         """Return the range, the choices or the fixed value as plain data."""

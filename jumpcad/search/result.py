@@ -33,6 +33,8 @@ class Result:
         Bounds of the search on which the winner lies.
     notes
         What happened to the run: lost workers, quarantined designs.
+    evaluations
+        How many designs were evaluated in all, those of the robust pick included.
     """
 
     request: Request
@@ -41,6 +43,7 @@ class Result:
     candidates: list[Candidate]
     bounds: list[ActiveBound]
     notes: list[str]
+    evaluations: int
 
     @property
     def winner(self) -> Trial | None:
@@ -108,7 +111,8 @@ class Result:
         data: dict[str, Any] = {
             "method": self.request.method,
             "objective": self.request.objective,
-            "evaluations": len(self.trials),
+            "evaluations": self.evaluations,
+            "searched": len(self.trials),
             "refused": self.rejected,
             "best": None if self.best is None else self.best.to_dict(),
             "winner": None if self.winner is None else self.winner.to_dict(),

@@ -1,5 +1,8 @@
 """The robust pick: of the best designs, the one whose neighbours jump well too; and the cost of its active bounds.
 
+Its evaluations are a share of the study's. Most candidates are soon known to be worse than others, so few neighbours
+are spent on them.
+
 Near some designs a thousandth of one parameter decides whether they jump; a printer is not that accurate.
 """
 
@@ -20,10 +23,15 @@ from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array
 
-TENS = 3
-"""Largest number of groups of ten, best first, that are examined."""
-KEPT = 0.9
-"""A robust score of this share of the best score ends the examination."""
+MOST_PICK, LEAST_PICK = 200, 6
+"""Most evaluations of the robust pick; with fewer than the least it examines nothing."""
+MOST_CANDIDATES = 16
+"""Designs that the first round examines, at most."""
+JOINING = 3
+"""Designs at a distance from the constraint that may join; each costs its own evaluation and two neighbours."""
+LEAST_TO_JOIN = 16
+ROUNDS = 8
+"""Numbers of steps in the study file that one pick takes."""
 SAMPLES = 16
 PERCENT = 1.0
 PERCENTILE = 10
@@ -36,14 +44,16 @@ class Candidate:
     """A design among the best, and how well its neighbours jump.
 
     ``parameters_score`` and ``print_score`` are the 10th percentiles of the score when every parameter varies by ±1 %,
-    and when every length varies by the tolerance of print and assembly; a rejected neighbour counts 0.
-    ``rejections`` counts why neighbours were rejected.
+    and when every length varies by the tolerance of print and assembly: the lowest of ten neighbours or fewer, and a
+    rejected one counts 0, or less than any other where scores are negative.
+    ``rejections`` counts why neighbours were rejected, of ``neighbours`` that were evaluated, half of each kind.
     """
 
     trial: Trial
     parameters_score: float
     print_score: float
     rejections: dict[str, int]
+    neighbours: int
 
     @property
     def robust_score(self) -> float:
@@ -58,6 +68,7 @@ class Candidate:
             "parameters_score": self.parameters_score,
             "print_score": self.print_score,
             "refusals": self.rejections,
+            "neighbours": self.neighbours,
             "design": self.trial.design.model_dump(),
         }
 
@@ -65,7 +76,7 @@ class Candidate:
         rejected = sum(self.rejections.values())
         return (
             f"<Candidate: score {self.trial.score:.4g}, neighbours {self.robust_score:.4g}, "
-            f"{rejected} of {2 * SAMPLES} rejected>"
+            f"{rejected} of {self.neighbours} rejected>"
         )
 
 
@@ -85,51 +96,120 @@ class ActiveBound:
     reason: str = ""
 
 
-def rank_candidates(evaluator: Evaluator, trials: Sequence[Trial], seed: int, tolerance_mm: float) -> list[Candidate]:
-    """Evaluate the neighbours of the best of some trials and return these, most robust first.
+def pick_share(evaluations: int) -> int:
+    """Return how many of a study's evaluations examine neighbours: a quarter, at most `MOST_PICK`; none of a few."""
+    share = min(evaluations // 4, MOST_PICK)
+    return share if share >= LEAST_PICK else 0
 
-    The best often lies on a constraint. If one of its neighbours is rejected, a few designs at a distance from the
-    constraint join the first ten; if none of all these keeps most of the best score, the next tens follow.
+
+def plan_rounds(evaluations: int) -> list[tuple[int, int]]:
+    """Return candidates and new neighbours of each, round by round: every round halves the candidates.
+
+    As many candidates as get two neighbours in every round; what a round leaves over goes to the next ones.
     """
-    chosen = best_apart(evaluator.space, trials, TENS * 10)
-    tens = [chosen[start : start + 10] for start in range(0, len(chosen), 10)]
-    first = (TENS + 1) * len(trials)
-    candidates: list[Candidate] = []
-    for turn, ten in enumerate(tens):
-        candidates += _examined(evaluator, ten, first + turn, seed, tolerance_mm)
-        if turn == 0 and candidates[0].rejections:
-            off_edge = propose_robust(evaluator, trials, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
-            feasible = [trial for trial in off_edge if trial.score is not None]
-            candidates += _examined(evaluator, feasible, first + TENS, seed, tolerance_mm)
-        if max(candidate.robust_score for candidate in candidates) >= KEPT * (chosen[0].score or 0.0):
-            break
-    return sorted(candidates, key=lambda candidate: -candidate.robust_score)
+    count = MOST_CANDIDATES
+    while count > 1 and 2 * count * count.bit_length() > evaluations:
+        count //= 2
+    rounds, left, had = [], evaluations, 0
+    while count:
+        new = min(left // count.bit_length() // count, 2 * SAMPLES - had) // 2 * 2
+        rounds.append((count, new))
+        left, had, count = left - count * new, had + new, count // 2
+    return rounds
 
 
-def _examined(
-    evaluator: Evaluator, chosen: Sequence[Trial], step: int, seed: int, tolerance_mm: float
+def rank_candidates(
+    evaluator: Evaluator, trials: Sequence[Trial], seed: int, tolerance_mm: float, evaluations: int
 ) -> list[Candidate]:
-    """Return candidates made of trials and the outcomes of their neighbours."""
-    neighbours: list[tuple[int, str, Design]] = []
-    for index, trial in enumerate(chosen):
-        generator = np.random.default_rng([seed, 4, index])
-        for kind, designs in (
-            ("parameters", varied_parameters(trial.design, generator)),
-            ("print", varied_lengths(trial.design, tolerance_mm, generator)),
-        ):
-            neighbours += [(index, kind, design) for design in designs]
-    found = evaluator.evaluate([design for _, _, design in neighbours], "robust", step)
-    candidates = []
-    for index, trial in enumerate(chosen):
-        scores: dict[str, list[float]] = {"parameters": [], "print": []}
-        rejections: Counter[str] = Counter()
-        for (owner, kind, _), neighbour in zip(neighbours, found, strict=True):
-            if owner == index and neighbour is not None:
-                scores[kind].append(neighbour.score or 0.0)
-                rejections.update(neighbour.evaluation.reasons)
-        tenth = {kind: float(np.percentile(values, PERCENTILE)) for kind, values in scores.items()}
-        candidates.append(Candidate(trial, tenth["parameters"], tenth["print"], dict(sorted(rejections.items()))))
-    return candidates
+    """Evaluate neighbours of the best of some trials, and return these, most robust first.
+
+    Successive halving: the more robust half of the candidates gets more neighbours, until one is left. The best often
+    lies on a constraint; if one of its first neighbours is rejected, a few designs at a distance from the constraint
+    join.
+
+    Parameters
+    ----------
+    evaluator, trials
+        The candidates are the best of the trials.
+    seed
+        Random seed of the neighbours.
+    tolerance_mm
+        Error of printed lengths.
+    evaluations
+        At most so many designs are evaluated.
+    """
+    first = ROUNDS * ((MOST_PICK + 1) * len(trials) + evaluations)
+    reserve = JOINING * 3 if evaluations >= LEAST_TO_JOIN else 0
+    rounds = plan_rounds(evaluations - reserve)
+    field = [_Examined(index, one) for index, one in enumerate(best_apart(evaluator.space, trials, rounds[0][0]))]
+    left: list[_Examined] = []
+    for turn, (count, new) in enumerate(rounds):
+        field.sort(key=lambda one: -one.robust_score)
+        left, field = [*field[count:], *left], field[:count]
+        _examine(evaluator, field, new, first + turn, seed, tolerance_mm)
+        if turn == 0 and reserve and field and field[0].rejections:
+            off_edge = propose_robust(evaluator, trials, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
+            joining = [_Examined(MOST_CANDIDATES + n, one) for n, one in enumerate(off_edge) if one.score is not None]
+            _examine(evaluator, joining, 2, first + ROUNDS - 1, seed, tolerance_mm)
+            field += joining
+    # Who got further has been examined more, and stands before those that were left behind.
+    return [one.candidate() for one in [*sorted(field, key=lambda one: -one.robust_score), *left] if one.examined]
+
+
+class _Examined:
+    """A candidate and what is known of its neighbours so far."""
+
+    def __init__(self, index: int, trial: Trial) -> None:
+        self.index = index
+        self.trial = trial
+        self.scores: dict[str, list[float]] = {"parameters": [], "print": []}
+        self.rejections: Counter[str] = Counter()
+
+    @property
+    def examined(self) -> int:
+        """How many neighbours are known."""
+        return sum(map(len, self.scores.values()))
+
+    @property
+    def robust_score(self) -> float:
+        """The lower percentile; the own score as long as no neighbour is known."""
+        return min(map(self._tenth, self.scores))
+
+    def neighbours(self, new: int, seed: int, tolerance_mm: float) -> list[tuple[str, Design]]:
+        """Return the next neighbours, half of each kind."""
+        generator = np.random.default_rng([seed, 4, self.index])
+        kinds = {
+            "parameters": varied_parameters(self.trial.design, generator),
+            "print": varied_lengths(self.trial.design, tolerance_mm, generator),
+        }
+        start, end = self.examined // 2, (self.examined + new) // 2
+        return [(kind, design) for kind, designs in kinds.items() for design in designs[start:end]]
+
+    def candidate(self) -> Candidate:
+        """Return the result."""
+        rejections = dict(sorted(self.rejections.items()))
+        return Candidate(self.trial, self._tenth("parameters"), self._tenth("print"), rejections, self.examined)
+
+    def _tenth(self, kind: str) -> float:
+        scores = self.scores[kind]
+        return float(np.percentile(scores, PERCENTILE, method="lower")) if scores else self.trial.score or 0.0
+
+
+def _examine(
+    evaluator: Evaluator, field: Sequence[_Examined], new: int, step: int, seed: int, tolerance_mm: float
+) -> None:
+    """Evaluate `new` more neighbours of each.
+
+    A rejected one scores 0, or where scores are negative as far below the worst as the best is above it.
+    """
+    asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, tolerance_mm)]
+    found = evaluator.evaluate([design for _, _, design in asked], "robust", step)
+    scores = [trial.score for trial in evaluator.trials if trial.score is not None]
+    rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0
+    for (one, kind, _), trial in zip(asked, found, strict=True):
+        if trial is not None:
+            one.scores[kind].append(rejected if trial.score is None else trial.score)
+            one.rejections.update(trial.evaluation.reasons)
 
 
 def best_apart(space: Space, trials: Sequence[Trial], count: int) -> list[Trial]:
@@ -160,10 +240,12 @@ def varied_lengths(design: Design, tolerance_mm: float, generator: np.random.Gen
     return varied
 
 
-def active_bounds(evaluator: Evaluator, trial: Trial, step: int) -> list[ActiveBound]:
+def active_bounds(
+    evaluator: Evaluator, trial: Trial, step: int, evaluations: int = len(PARAMETERS)
+) -> list[ActiveBound]:
     """Return the bounds on which a design lies, each with the change of the score a twentieth of the range beyond it.
 
-    Bounds that are also limits of a design are left out.
+    Bounds that are also limits of a design are left out. At most `evaluations` are examined, the others only named.
     """
     found = []
     for parameter in evaluator.space.free:
@@ -177,11 +259,13 @@ def active_bounds(evaluator: Evaluator, trial: Trial, step: int) -> list[ActiveB
             if abs(value - bound) <= 1e-3 * parameter.width and beyond != bound:
                 found.append(ActiveBound(parameter.name, side, bound, beyond, None))
     designs = [trial.design.model_copy(update={bound.name: bound.beyond}) for bound in found]
-    trials = evaluator.evaluate(designs, "bounds", step)
-    return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True) if beyond is not None]
+    trials = evaluator.evaluate(designs, "bounds", step, limit=evaluations)
+    return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True)]
 
 
-def _worth(bound: ActiveBound, trial: Trial, beyond: Trial) -> ActiveBound:
+def _worth(bound: ActiveBound, trial: Trial, beyond: Trial | None) -> ActiveBound:
+    if beyond is None:
+        return replace(bound, reason="not examined: no evaluations left")
     if beyond.score is None:
         return replace(bound, reason=", ".join(beyond.evaluation.reasons))
     return replace(bound, worth=beyond.score - (trial.score or 0.0))

@@ -150,9 +150,16 @@ class Space:
 
     def to_design(self, unit: Sequence[float] | Array) -> Design:
         """Return the design at a point (dimension,) of the unit cube."""
-        places = iter(unit)
-        return Design.from_vector(
-            [parameter.at(float(next(places))) if parameter.free else parameter.lower for parameter in self.parameters]
+        return Design.from_vector(self.values(np.asarray(unit, dtype=float)[None])[0].tolist())
+
+    def values(self, units: Array) -> Array:
+        """Return the parameters (n, 8), as a design's vector has them, at points (n, dimension) of the unit cube."""
+        columns = iter(units.T)
+        return np.column_stack(
+            [
+                parameter.at(next(columns)) if parameter.free else np.full(len(units), parameter.lower)
+                for parameter in self.parameters
+            ]
         )
 
     def to_unit(self, design: Design) -> Array:

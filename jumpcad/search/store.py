@@ -20,6 +20,7 @@ from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
+from jumpcad.findings import Finding
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
 from jumpcad.search.stored import (
     require_remembered,
@@ -33,7 +34,9 @@ from jumpcad.search.stored import (
 from jumpcad.search.trial import LEARNING_PHASES, PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50
-FORMAT = 1
+FORMAT = 2
+FORMATS = (1, 2)
+"""Formats that are read; in the first one, every finding has its texts."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
@@ -280,7 +283,7 @@ class StudyStore:
         version = self._connection.execute("PRAGMA user_version").fetchone()[0]
         if application != APPLICATION_ID:
             raise JumpcadError(f"{self.path}: is not a study file")
-        if version != FORMAT:
+        if version not in FORMATS:
             raise JumpcadError(f"{self.path}: is a study of format {version}; this version of jumpcad reads {FORMAT}")
         if _schema(self._connection) != _own_schema():
             raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
@@ -317,9 +320,19 @@ def _record(trial: Trial) -> tuple[Any, ...]:
     evaluation = trial.evaluation
     return (
         trial.phase, trial.step, trial.place, *trial.key, trial.model, evaluation.verdict, trial.score,
-        _text(dict(evaluation.metrics)), _text([finding.to_dict() for finding in evaluation.findings]),
+        _text(dict(evaluation.metrics)), _text([_finding(one) for one in evaluation.findings]),
         evaluation.detail, _text(dict(trial.proposal)), trial.duration_s,
     )  # fmt: skip
+
+
+def _finding(finding: Finding) -> Any:
+    """Return a bare finding as a list, any other one as a mapping."""
+    bare = [finding.name, finding.severity, finding.margin, finding.unit]
+    return (
+        bare
+        if finding == Finding(finding.name, finding.severity, finding.margin, finding.unit, "", "")
+        else finding.to_dict()
+    )
 
 
 _text = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), check_circular=False).encode

@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
 
 from jumpcad.design import PARAMETERS, Design
@@ -74,12 +74,19 @@ class _Stage(TomlTable):
     initial: Count = 0
 
 
+def _spread(finding: Any) -> Any:
+    """Return a finding that is a list of name, severity, margin and unit as a mapping."""
+    if not isinstance(finding, list) or len(finding) != 4:
+        return finding
+    return dict(zip(("name", "severity", "margin", "unit"), finding, strict=True)) | {"message": "", "remedy": ""}
+
+
 _REMEMBERED: dict[str, TypeAdapter[Any]] = {
     "identity": TypeAdapter(_Identity),
     "stages": TypeAdapter(Annotated[list[_Stage], Field(min_length=1)]),
 }
 _METRICS = TypeAdapter(dict[str, float], config=STRICT)
-_FINDINGS = TypeAdapter(tuple[Finding, ...], config=STRICT)
+_FINDINGS = TypeAdapter(tuple[Annotated[Finding, BeforeValidator(_spread)], ...], config=STRICT)
 _PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]]], config=STRICT)
 
 

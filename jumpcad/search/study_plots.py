@@ -10,7 +10,7 @@ from jumpcad.arguments import typed
 from jumpcad.search import plots
 from jumpcad.search.figures import save_figure
 from jumpcad.search.methods import FRONTS
-from jumpcad.search.objective import find_objective
+from jumpcad.search.objective import described_objective
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.surrogate import Posterior
@@ -21,7 +21,7 @@ from jumpcad.search.trial import Trial, searched
 def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
     """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
     trials, identity = searched(store.trials()), store.identity
-    space, objective = Space.from_record(identity["space"]), find_objective(identity["objective"])
+    space, objective = Space.from_record(identity["space"]), described_objective(identity)
     figures: dict[str, Callable[[], Figure]] = {}
     if trials:
         figures["history"] = partial(plots.history, trials, objective)

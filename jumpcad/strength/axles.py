@@ -3,10 +3,13 @@
 import math
 from dataclasses import dataclass
 
+from jumpcad.catalogue import Catalogue, Rod
 from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.strength.stress import VON_MISES
-from jumpcad.workshop import Workshop
+from jumpcad.workshop import BoughtParts, Workshop
 
+SOFT = "silver-steel"
+"""The rod that takes grooves and is sold in every diameter."""
 SCREW_SHANK_MM, SCREW_CORE_MM, SCREW_THREAD_MM = 2.86, 2.39, 20.5
 """M3 ISO 4762: least shank, core (ISO 724), and thread with its run-out, from the end, of lengths above 20 mm."""
 SCREW_YIELD_MPA = 1080.0
@@ -44,10 +47,23 @@ def axle_bar(workshop: Workshop) -> RoundBar:
     return RoundBar(diameter, rod.bore_share * diameter, limit_mpa, axial)
 
 
+def clipped_pins(catalogue: Catalogue, bought: BoughtParts) -> Rod | None:
+    """Return the rod of pins with clips: the axles' own, or silver steel where clevis pins are not made so thin.
+
+    None where foot and leg have clevis pins.
+    """
+    if bought.retention == "clips":
+        return catalogue.rods[bought.axle]
+    thick = any(pin.diameter_mm == bought.axle_mm for pin in catalogue.clevis_pins.values())
+    return None if thick else catalogue.rods[SOFT]
+
+
 def pin_bar(workshop: Workshop) -> RoundBar:
     """Return a pin of foot or leg: a clevis pin with its split pin, or a rod with clips."""
-    bought, safety = workshop.bought, workshop.safety
-    if bought.retention == "clips":
-        return axle_bar(workshop)
-    pin = workshop.catalogue.clevis_pin_for(bought.axle_mm)
+    bought, safety, catalogue = workshop.bought, workshop.safety, workshop.catalogue
+    if rod := clipped_pins(catalogue, bought):
+        diameter = bought.axle_mm
+        axial = catalogue.clip_for(diameter).load_n / safety.metal_factor
+        return RoundBar(diameter, rod.bore_share * diameter, min(rod.yield_mpa, safety.steel_yield_mpa), axial)
+    pin = catalogue.clevis_pin_for(bought.axle_mm)
     return RoundBar(pin.diameter_mm, 0.0, min(pin.yield_mpa, safety.steel_yield_mpa), pin.load_n / safety.metal_factor)

@@ -94,19 +94,30 @@ class Fits(TomlTable):
 class BoughtParts(TomlTable):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
-    `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none.
+    `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
+    it names itself override the kit's. An empty name leaves a part out. `pins` are pins of the controller for `motor`,
+    `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
     `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
     in grooves, or screws as axles with lock nuts; pins of foot and leg have clips too, or are clevis pins.
     """
 
+    kit: OptionalName
     motors: Annotated[tuple[Name, ...], Field(strict=False)]
     leg_bearing: OptionalName
     roller: Name
     battery: Name
     controller: Name
     driver: Name
+    regulator: OptionalName
+    sensor: OptionalName
+    switch: OptionalName
+    plug: OptionalName
+    capacitor: OptionalName
+    diode: OptionalName
+    wire: OptionalName
+    pins: dict[Literal["motor", "sleep", "ready", "battery"], Name] = Field(default_factory=dict)
     spring: OptionalName
     axle_mm: Length
     axle: Name
@@ -122,7 +133,7 @@ class BodyPlates(TomlTable):
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
     stop_deg: Annotated[float, Field(ge=3, le=8)]
-    stop_pad: Name
+    stop_pad: OptionalName
     toe_half_width_mm: Annotated[float, Field(ge=0, le=200)]
 
 

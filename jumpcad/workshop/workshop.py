@@ -46,6 +46,8 @@ from jumpcad.workshop.tables import (
 
 Role = Literal["links", "body", "gears"]
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
+STOP_PAD_MIN_MM = 1.5
+"""Least thickness of the rest stop's pad (bench review of the printed robot)."""
 OWN_PARTS = ("motors", "bearings", "batteries", "boards", "springs", "pads")
 """Tables of the user's own parts."""
 
@@ -144,6 +146,10 @@ class Workshop(Record):
         yield from _not_ascending(fits, ("m2_tap_mm", "m2_clearance_mm"))
         yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
         yield from _release_contradictions(self.release)
+        if not self.body.stop_pad:
+            known = ", ".join(self.catalogue.pads)
+            reason = f"the rest stop needs a pad of at least {STOP_PAD_MIN_MM:g} mm: name one of {known}"
+            yield ("body", "stop_pad"), self.body.stop_pad, reason
         for role, name in self.roles.model_dump().items():
             if name not in self.materials:
                 yield ("roles", role), name, f"is none of the materials {', '.join(self.materials)}"

@@ -79,5 +79,5 @@ def test_what_finds_no_room_to_grow_stays_and_is_told(monkeypatch: pytest.Monkey
         return layout_of(design, shop, growth)
 
     monkeypatch.setattr(assembly, "layout_of", narrow)
-    robot = build(load_design("best-bo"), workshop(landing_stop_mm=5.0))
+    robot = build(load_design("best-bo"), workshop(landing_stop_mm=4.0))
     assert "toe_landing" in {finding.name for finding in errors(strength_findings(robot))}

@@ -45,7 +45,7 @@ def test_settling_again_changes_nothing(name: str, factor: float) -> None:
 
 def test_the_hub_has_the_lightest_bearing_that_bears_it() -> None:
     design, masses = load_design("best-bo"), []
-    for factor in (0.5, 0.7, 0.9):
+    for factor in (0.4, 0.65, 0.75):  # times the reserves: the strongest of the catalogue bears no more
         workshop = careful(factor)
         settled = settle(design, workshop, Growth())
         assert settled.holes.bearing is not None

@@ -48,8 +48,8 @@ def test_motors_obey_energy_conservation():
 
 
 def test_one_motor_behind_all_gearboxes():
-    """Speed times ratio is the bare motor's; torque over ratio falls only by the gearbox's losses."""
-    for motor in CATALOGUE.motors.values():
+    """Of the LP family: speed times ratio is the bare motor's; torque over ratio falls only by the gearbox's losses."""
+    for motor in (motor for name, motor in CATALOGUE.motors.items() if name.count("-") == 1):
         assert motor.no_load_rpm * motor.ratio == pytest.approx(13500, rel=0.04)
         assert motor.stall_torque_nm / motor.ratio == pytest.approx(8e-4, rel=0.25)
 

@@ -17,5 +17,5 @@ def test_views_of_the_space(folder):
         found = data("explore", view, *QUICK, *options, "--plots", "pics")
         assert all(Path(picture).is_file() for picture in found["pictures"])
     assert re.search(r"feasible at \d of 3 values", run("explore", "sweep", *QUICK, "--points", 3))
-    assert "equal by construction" in run("explore", "pca", *QUICK, "--samples", 80)
+    assert "they say nothing about the robot" in run("explore", "pca", *QUICK, "--samples", 80)
     assert "did you mean sweep" in refusal("explore", "sweeps", *QUICK)

@@ -19,18 +19,21 @@ JUMPCAD = [sys.executable, "-m", "jumpcad"]
 
 def test_optimize_finds_a_jumper_and_writes_it(folder):
     found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
-    assert found["evaluations"] == 60
+    assert found["searched"] == 45
+    assert 45 < found["evaluations"] <= 60
     assert found["best"]["fitness"] == found["best"]["score"] > 5.0
     assert set(found["best"]["design"]) == set(PARAMETERS)
     winner = load_design("best.toml")
     assert winner.model_dump() == found["winner"]["design"] == found["candidates"][0]["design"]
-    robust = [candidate["robust_score"] for candidate in found["candidates"]]
-    assert robust == sorted(robust, reverse=True)
+    neighbours = [candidate["neighbours"] for candidate in found["candidates"]]
+    assert neighbours == sorted(neighbours, reverse=True)
     assert found["active_bounds"]
     shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
     assert "next: jumpcad build best.toml" in shown
+    assert "evaluations: 45 for the search, 15 for the robust pick" in shown
     summary = data("study", "s.db")
-    assert summary["evaluations"] == summary["planned"] == 60
+    assert summary["evaluations"] == summary["planned"] == 45
+    assert summary["evaluations"] + summary["other_evaluations"] == found["evaluations"]
     assert summary["best"]["score"] == found["best"]["score"]
     assert f"{found['best']['score']:.4f}" in run("study", "s.db")
 

@@ -193,7 +193,8 @@ def _frame(element: ET.Element) -> np.ndarray:
 
 def _piece(folder: Path, link: str | None, visual: ET.Element) -> Piece:
     file = visual.find("geometry/mesh")
-    assert link is not None and file is not None
+    assert link is not None
+    assert file is not None
     mesh = trimesh.load_mesh(folder / "urdf" / str(file.get("filename")))
     mesh.merge_vertices()
     solid = Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))

@@ -1,7 +1,7 @@
 """The release of an exported robot, simulated with contacts: a program apart from jumpcad, which it does not import.
 
-Reads a bundle's meshes, URDF, loop.json and manifest. The cam is the outline of its mesh, the roller a circle on a
-lever that bends, the leg a four-bar whose foot stands on the ground; between them elastic contacts. The dog's play is
+Reads a bundle's printed parts, URDF, loop.json and manifest. The cam is the outline of its mesh, the roller a circle on
+a lever that bends, the leg a four-bar whose foot stands on the ground; between them elastic contacts. The dog's play is
 measured on the jaws of the meshes. Cam, gear and rotor have a moment of inertia each; flanks of dog and gearhead are
 springs with damping. From the manifest come figures that no mesh has: inertias of gear, rotor and roller, friction,
 stiffnesses.
@@ -53,16 +53,18 @@ class Files:
         self.manifest = json.loads((bundle / "manifest.json").read_text())
         (urdf,) = (bundle / "urdf").glob("*.urdf")
         self.loop = json.loads(urdf.with_suffix(".loop.json").read_text())
-        self.folder, self.root = urdf.parent, ET.parse(urdf).getroot()
+        self.folder, self.printed, self.root = urdf.parent, bundle / "stl", ET.parse(urdf).getroot()
         self.joints = {joint.attrib["name"]: joint for joint in self.root.iter("joint")}
 
     def mesh(self, name: str) -> trimesh.Trimesh:
-        """Return a mesh in its link's frame (m)."""
+        """Return a mesh in its link's frame (m): as it is printed, since the URDF's meshes leave out 0.05 mm."""
         visual = next(item for item in self.root.iter("visual") if item.attrib["name"] == name)
         origin, shape = visual.find("origin"), visual.find("geometry/mesh")
         assert origin is not None
         assert shape is not None
-        mesh = trimesh.load(self.folder / shape.attrib["filename"])
+        path = self.folder / shape.attrib["filename"]
+        printed = self.printed / path.name
+        mesh = trimesh.load(printed if printed.exists() else path)
         assert isinstance(mesh, trimesh.Trimesh)
         mesh.apply_scale(0.001)
         pose = trimesh.transformations.euler_matrix(*floats(origin.attrib["rpy"]), "sxyz")

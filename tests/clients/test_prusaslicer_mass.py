@@ -103,9 +103,8 @@ def test_small_parts_agree_in_other_workshops(name, tmp_path):
     """A spacer's wall is too thin for all of its perimeters and infill between: they widen to fill it."""
     workshop = load_workshop(name)
     robot = build(load_design("kenan-2.0"), workshop)
-    for part in (
-        part for part in robot.parts if part.name in ("front_spacer_left", "cam", "motor_pinion", "motor_cap")
-    ):
+    small = ("front_spacer_left", "cam", "motor_pinion", "motor_cap")
+    for part in (part for part in robot.parts if part.name in small):
         stl = tmp_path / f"{part.name}.stl"
         stl.write_bytes(write_stl(part.mesh))
         grams = slice_part(stl, workshop.printer, workshop.process, workshop.materials[part.material]).grams

@@ -2,7 +2,7 @@
 
 `release_contact` reads the bundle alone. Both take stiffnesses, friction and motors from the same assumptions, so this
 confirms mechanics and shapes, not those figures. In the simulation the roller hops and parts rebound: the manifest's
-energy is 0.2 to 0.3 % higher, its kick 8 % lower for kenan-2.0 and 32 % higher for best-printable.
+energy is 0.2 % higher for kenan-2.0 and the same for best-ga, its kick 12 % lower and 35 % higher.
 """
 
 import math
@@ -22,7 +22,7 @@ def exported(name: str, folder: Path) -> Contact:
     return Contact(folder)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-printable"])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
 def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(name: str, tmp_path: Path) -> None:
     contact = exported(name, tmp_path / name)
     said = contact.files.manifest["drive"]["release"]
@@ -30,7 +30,7 @@ def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(name: str, 
     outcomes = [contact.run(motor) for motor in said["assumed"]]
     for motor, outcome in zip(said["assumed"], outcomes, strict=True):
         assert contact.cam_kg_m2 == pytest.approx(motor["cam_kg_m2"], rel=0.1)
-        assert outcome.energy_ratio == pytest.approx(said["energy_ratio_with_bending"], abs=0.01)
+        assert outcome.energy_ratio == pytest.approx(said["energy_ratio_with_bending"], abs=0.005)
         assert outcome.energy_ratio > 0.97 * said["bending_ratio"]
     kick = max(outcome.kick_nm for outcome in outcomes)
     assert kick == pytest.approx(said["kick_nm"], rel=0.3)
@@ -39,7 +39,7 @@ def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(name: str, 
 
 def test_too_little_play_loses_more_and_kicks_harder(tmp_path: Path) -> None:
     """With 5° the cam meets the end of its play while the roller is on its corner."""
-    contact = exported("best-printable", tmp_path / "robot")
+    contact = exported("best-ga", tmp_path / "robot")
     said = contact.files.manifest["drive"]["release"]
     short = contact.run(said["assumed"][1], math.radians(5.0), seconds=0.06)
     assert short.energy_ratio < said["energy_ratio_with_bending"] - 0.05

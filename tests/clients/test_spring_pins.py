@@ -14,7 +14,7 @@ from jumpcad.workshop import load_workshop
 
 VARIANTS: dict[str, dict[str, dict[str, Any]]] = {
     "kenan-2.0": {},
-    "best-printable": {},
+    "best-ga": {},
     "kenan-2.0 preloaded": {"spring": {"preload_deg": 4.0}},
     "kenan-1.0 from stock": {"bought": {"spring": "9271K589"}},
 }

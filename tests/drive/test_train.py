@@ -5,7 +5,7 @@ import itertools
 import math
 
 import pytest
-from support.limits import default_limits
+from support.limits import LP6, default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
@@ -13,7 +13,7 @@ from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.train import synthesise_train
 from jumpcad.errors import CannotBuildError
 
-MOTORS = list(load_catalogue().motors.values())
+MOTORS = [load_catalogue().motors[name] for name in LP6]
 LIMITS = default_limits().train
 
 

@@ -162,7 +162,9 @@ def test_the_cam_turns_freely_between_everything_in_its_plane() -> None:
 def test_the_same_plan_twice() -> None:
     for layout in plans().values():
         again = plan_again(layout)
-        for field in fields(Layout):
+        assert vars(layout.stop).keys() == vars(again.stop).keys()
+        assert all(np.array_equal(value, vars(again.stop)[name]) for name, value in vars(layout.stop).items())
+        for field in fields(Layout)[:-1]:  # all but the stop
             one, other = getattr(layout, field.name), getattr(again, field.name)
             assert _same(one, other), field.name
 

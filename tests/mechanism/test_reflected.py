@@ -53,7 +53,7 @@ def test_without_weight_the_leg_is_an_oscillator(past: float) -> None:
     assert level.push_off_s(spring, past) == pytest.approx(expected, rel=2e-3)
 
 
-@pytest.mark.parametrize("name", ["kenan-1.0", "best-printable"])
+@pytest.mark.parametrize("name", ["kenan-1.0", "best-ga"])
 def test_the_push_off_takes_as_long_as_one_stepped_in_time(name: str) -> None:
     robot = built(name)
     leg = reflected_mass(robot.bodies, robot.linkage)

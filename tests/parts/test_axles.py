@@ -19,7 +19,7 @@ CHOICES = {
     "nuts": {"retention": "nuts"},
 }
 PUSHED_MM = np.arange(0.5, 6.1, 0.5)
-"""Clevis pins have lengths 2 mm apart; those of the springs stand out beside the leg, with the springs' arms on them."""
+"""Clevis pins have lengths 2 mm apart; that in the leg stands out on either side for the springs' arms."""
 
 
 def workshop(**bought: object) -> Workshop:
@@ -78,10 +78,21 @@ def test_an_axle_weighs_its_rod() -> None:
             r"no groove can be cut into spring-steel at home: choose a bought.axle of silver-steel",
         ),
         ({"axle": "silversteel"}, r"no rod 'silversteel' in the catalogue .*did you mean"),
-        ({"axle_mm": 4.0, "leg_bearing": ""}, r"bought.axle_mm = 4: no clevis pin of that size \(3 mm\)"),
+        ({"axle_mm": 2.4, "leg_bearing": ""}, r"bought.axle_mm = 2.4: no clip of that size \(2, 3 mm\)"),
         ({"axle_mm": 2.5, "leg_bearing": "", "retention": "clips", "axle": "silver-steel"}, r"no clip of that size"),
     ],
 )
 def test_what_cannot_be_kept_is_refused(bought: dict[str, object], message: str) -> None:
     with pytest.raises(JumpcadError, match=message):
         build(load_design("kenan-2.0"), workshop(**bought))
+
+
+def test_axles_of_two_millimetres_have_pins_with_clips() -> None:
+    """Clevis pins begin at 3 mm (ISO 2341); a clip for 2 mm has a groove of 1.5 mm (DIN 6799)."""
+    robot = build(load_design("kenan-2.0"), workshop(axle_mm=2.0))
+    articles = [item.article for item in robot.hardware]
+    assert articles.count("E-clip 1.5 DIN 6799") == 6
+    assert sum(article.startswith("spring steel rod 2 x ") for article in articles) == 4
+    assert sum(article.startswith("silver steel rod 1.2210, annealed 2 x ") for article in articles) == 3
+    assert robot.layout.hub_bearing.bore_mm == 2.0
+    assert [found.message for found in interference_findings(robot) if found.severity == "error"] == []

@@ -7,7 +7,7 @@ import pytest
 from pygad.utils.quality_indicators import hypervolume as reference_hypervolume
 
 from jumpcad.design import Design
-from jumpcad.search.fronts import REFERENCE_ENERGY_J, energy_j, front, hypervolume
+from jumpcad.search.fronts import REFERENCE_ENERGY_J, energies_j, energy_j, front, hypervolume
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -44,6 +44,19 @@ def test_hypervolume_is_pygads(trials):
 def test_a_design_without_a_pose_has_no_energy():
     design = Design.from_vector([100, 3.0, 0.1, 1, 0.5, 80, 10, 40])
     assert energy_j(design) == np.inf
+
+
+def test_the_energies_of_many_designs_are_those_of_each():
+    # Among them designs without a pose, with legs of one length, and with values that are chosen.
+    space = Space.make(bounds={"c_coef": (0.3, 3.0), "d_coef": (0.1, 1.5)}, choices={"rest_angle_deg": (20, 88.2, 90)})
+    points = np.vstack([space.spread(512, np.random.default_rng(3)), np.eye(8), 1.0 - np.eye(8)])
+    designs = [space.to_design(point) for point in points]
+    assert [design.to_vector() for design in designs] == space.values(points).tolist()
+    each = [energy_j(design) for design in designs]
+    assert 50 < np.isinf(each).sum() < 500
+    np.testing.assert_allclose(energies_j(space.values(points)), each, rtol=1e-14)
+    equal_legs = np.array([[100.0, 1.0, 0.6, 1.0, 0.5, 60.0, 9.0, 40.0]])
+    assert energies_j(equal_legs)[0] == pytest.approx(0.5 * 9e-3 * np.degrees(1.0) * np.radians(30.0) ** 2)
 
 
 def test_the_same_score_for_more_energy_is_not_on_the_front(trials):

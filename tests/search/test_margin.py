@@ -33,12 +33,15 @@ def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
     points = SMALL.spread(30, np.random.default_rng(1))
     points[:12, 0] = 0.599 / 0.7  # a compression ratio of 0.699
     one.evaluate([SMALL.to_design(point) for point in points], "bo", 0)
-    best, *_ = ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)
+    best, *_ = ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=200)
     assert best.trial.phase == "margin"
     # 1 % above it is still feasible, and it gives away no more than twice what that costs.
     assert 0.98 * 0.7 < best.trial.design.compression_ratio < 0.7 / 1.008
     assert best.rejections.get("loop", 0) <= 1
-    assert all(other.robust_score < 5.0 for other in ranked if other.trial.design.compression_ratio > 0.699)
+    # Of those on the edge every second neighbour is rejected; a few may be lucky while few are known.
+    edge = [one for one in ranked if one.trial.design.compression_ratio > 0.6985]
+    assert all(one.neighbours < best.neighbours for one in edge)
+    assert all(one.robust_score < 5.0 for one in edge if one.neighbours >= 8)
 
 
 class Level:

@@ -6,7 +6,14 @@ from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search.objective import Evaluation, find_objective
 
-JUMP = {"fitness": 9.0, "ballistic_range_m": 0.9, "com_rise_m": 0.3, "spring_energy_j": 0.6, "electrical_energy_j": 2.0}
+JUMP = {
+    "body_lengths": 6.0,
+    "fitness": 9.0,
+    "ballistic_range_m": 0.9,
+    "com_rise_m": 0.3,
+    "spring_energy_j": 0.6,
+    "electrical_energy_j": 2.0,
+}
 
 
 def finding(name, severity, margin):
@@ -15,7 +22,15 @@ def finding(name, severity, margin):
 
 @pytest.mark.parametrize(
     ("name", "score"),
-    [("fitness", 9.0), ("range", 0.9), ("rise", 0.3), ("range-per-joule", 1.5), ("jumps-per-joule", 0.5)],
+    [
+        ("body_lengths", 6.0),
+        ("fitness", 9.0),
+        ("range", 0.9),
+        ("rise", 0.3),
+        ("range-per-joule", 0.45),
+        ("range-per-spring-joule", 1.5),
+        ("jumps-per-joule", 0.5),
+    ],
 )
 def test_scores_of_a_jump(name, score):
     assert find_objective(name).score(Evaluation("jump", JUMP)) == pytest.approx(score)

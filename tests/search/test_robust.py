@@ -1,6 +1,6 @@
 """The robust pick: the scores of the neighbours decide."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -8,7 +8,14 @@ from support.hills import SMALL, Hill
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.robust import active_bounds, best_apart, rank_candidates, varied_lengths, varied_parameters
+from jumpcad.search.robust import (
+    active_bounds,
+    best_apart,
+    plan_rounds,
+    rank_candidates,
+    varied_lengths,
+    varied_parameters,
+)
 
 
 @dataclass(frozen=True)
@@ -39,7 +46,7 @@ def test_a_plateau_beats_a_needle(evaluator):
     one = evaluator(model=Spiked())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": angle}) for angle in (60.0, 40.0, 30.0)], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)
+    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=200)
     assert [candidate.trial.score for candidate in ranked] == [5.0, 4.9, 9.0]
     assert ranked[-1].parameters_score < 5.0
     assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
@@ -51,7 +58,7 @@ def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
     needles = [centre.model_copy(update={"stiffness_nmm_per_deg": 6.0 + number}) for number in range(12)]
     plateau = centre.model_copy(update={"rest_angle_deg": 30.0})
     one.evaluate([*needles, plateau], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)
+    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=200)
     assert sum(candidate.trial.phase == "bo" for candidate in ranked) == 13
     assert ranked[0].trial.design == plateau
 
@@ -60,11 +67,35 @@ def test_refused_neighbours_count_nothing_and_are_named(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
     one.evaluate([edge], "bo", 0)
-    candidate = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2)[-1]
+    candidate = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=200)[-1]
     assert candidate.trial.design == edge
     assert candidate.parameters_score == 0.0
     assert candidate.print_score > 0.0
-    assert candidate.rejections["loop"] == pytest.approx(8, abs=1)  # half of the 16 parameters go up
+    # Half of the parameters go up, a quarter of all neighbours.
+    assert candidate.rejections["loop"] == pytest.approx(candidate.neighbours / 4, abs=1)
+
+
+@pytest.mark.parametrize("evaluations", [5, 8, 19, 52, 152, 192])
+def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluator, evaluations):
+    one = evaluator(model=Spiked())
+    centre = SMALL.to_design([0.5, 0.5, 0.5])
+    one.evaluate([centre.model_copy(update={"rest_angle_deg": 30.0 + number}) for number in range(20)], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=evaluations)
+    assert 0.5 * evaluations < len(one.trials) - 20 <= evaluations
+    assert ranked[0].neighbours == max(candidate.neighbours for candidate in ranked)
+    rounds = plan_rounds(evaluations)
+    assert [count for count, _ in rounds] == [2**power for power in reversed(range(len(rounds)))]
+    assert sum(new for _, new in rounds) <= 32
+
+
+def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
+    one = evaluator()
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
+    inside = edge.model_copy(update={"compression_ratio": 0.4})
+    one.objective = replace(one.objective, figure=lambda metrics: metrics["fitness"] - 100.0)
+    one.evaluate([edge, inside], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=15)
+    assert [candidate.trial.design for candidate in ranked] == [inside, edge]
 
 
 def test_the_best_differ_from_one_another(evaluator):
@@ -118,3 +149,5 @@ def test_active_bounds_and_their_worth(evaluator):
     assert found["rest_angle_deg"].side == "lower"
     assert found["compression_ratio"].worth is None
     assert found["compression_ratio"].reason == "loop"
+    few = active_bounds(one, trial, 2, evaluations=0)
+    assert {bound.reason for bound in few} == {"not examined: no evaluations left"} or few == list(found.values())

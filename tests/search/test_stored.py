@@ -2,11 +2,16 @@
 
 import json
 import math
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
+from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding, at_most
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.store import StudyStore
 from jumpcad.search.stored import stored_evaluation
 
 OLD = {"name": "loop", "severity": "info", "margin": 1.5, "unit": "mm", "message": "found", "remedy": "change"}
@@ -27,3 +32,30 @@ def test_findings_come_back_with_value_and_limit_or_without() -> None:
 def test_what_is_not_a_number_is_refused(figure: str) -> None:
     with pytest.raises(JumpcadError, match=f"the {figure} of loop is not a number"):
         stored_evaluation(record({**OLD, figure: math.nan}))
+
+
+def test_a_study_keeps_names_and_margins_without_their_texts(tmp_path: Path) -> None:
+    """About 50 bytes each; an infinite margin is one too."""
+    names = [f"a_check_of_it_{number}" for number in range(40)]
+    findings = tuple(at_most(name, 10.0, 40.0 / 3.0, "MPa", "found " * 20, "change " * 9) for name in names)
+    diverged = Finding("audit_energy", "error", -math.inf, "J", "found", "change")
+    whole = Evaluation("jump", {}, (*findings, diverged))
+    (trial,) = trials(1)
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        store.append([replace(trial, evaluation=whole.bare)])
+        (again,) = store.trials()
+        size = store._connection.execute("SELECT length(findings) FROM evaluations").fetchone()[0]
+    assert size < 55 * len(whole.findings) < len(str(whole.findings)) / 4
+    assert again.evaluation == whole.bare
+    assert [(one.name, one.margin, one.unit) for one in again.evaluation.findings] == [
+        (one.name, one.margin, one.unit) for one in whole.findings
+    ]
+    assert again.evaluation.reasons == whole.reasons == ("audit_energy",)
+
+
+def test_a_study_of_the_format_before_is_read(tmp_path: Path) -> None:
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        store.append(trials(3))
+        store._connection.execute("PRAGMA user_version = 1")
+    with StudyStore.read(tmp_path / "s.db") as store:
+        assert store.trials() == trials(3)

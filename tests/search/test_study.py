@@ -14,6 +14,7 @@ from support.hills import SMALL, Hill
 from support.places import TESTS
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search.methods.bayesian import promised_gains
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
@@ -88,7 +89,7 @@ def test_a_larger_budget_lengthens_a_study(tmp_path, method):
     assert len(result.trials) == 22
     after = contents(tmp_path / "s.db")
     assert all(trial in after for trial in before)
-    with pytest.raises(JumpcadError, match="planned for 22 evaluations, not 16"):
+    with pytest.raises(JumpcadError, match="its search is planned for 22 evaluations, not 16 of 16"):
         run(request, tmp_path / "s.db")
 
 
@@ -124,11 +125,34 @@ def test_a_study_of_another_version_is_refused(tmp_path):
 
 def test_genetic_then_bayesian_ends_on_the_top():
     result = run(replace(REQUEST, evaluations=60))
-    assert [trial.phase for trial in result.trials] == ["ga"] * 30 + ["bo"] * 30
+    assert [trial.phase for trial in result.trials] == ["ga"] * 15 + ["bo"] * 30
     assert result.best.score > 9.99
+    assert 45 < result.evaluations <= 60
     assert len(result.candidates) > 1
     assert result.winner == result.candidates[0].trial
     assert result.bounds == []
+
+
+def test_it_ends_where_proposals_promise_too_little_and_goes_on_where_less_is_asked(tmp_path):
+    request = replace(REQUEST, method="bo", evaluations=60)
+    first = run(replace(request, until_percent=1.0), tmp_path / "s.db")
+    assert 9 + 5 <= len(first.trials) < 40
+    assert max(promised_gains(first.trials)[-5:]) < 0.01 <= max(promised_gains(first.trials)[-6:])
+    assert first.best.score > 9.9  # of 10: what was promised, it had
+    again = run(replace(request, until_percent=1.0), tmp_path / "s.db")
+    assert again.trials == first.trials
+    longer = run(request, tmp_path / "s.db")
+    assert len(longer.trials) > len(first.trials)
+    assert longer.trials[: len(first.trials)] == first.trials
+
+
+def test_it_ends_when_its_time_is_over_and_the_same_request_goes_on(tmp_path):
+    for method, least in (("ga", 20), ("bo", 9), ("ga+bo", 10)):
+        request = replace(REQUEST, method=method, evaluations=40)
+        begun = run(replace(request, hours=1e-12), tmp_path / f"{method}.db")
+        assert least <= len(begun.trials) < 40
+        whole = run(request, tmp_path / f"{method}.db")
+        assert [trial.key for trial in whole.trials] == [trial.key for trial in run(request).trials]
 
 
 def test_everything_refused_has_no_best():
@@ -167,6 +191,8 @@ def test_a_prior_study_of_another_program_is_said_to_be_one(tmp_path):
         ({"method": "ga", "batch": 4}, "batch = 4: does not apply to ga, only to bo"),
         ({"seed": -1}, "seed = -1"),
         ({"seed": 2**32}, "must be at most 4294967295"),
+        ({"until_percent": -1.0}, "until_percent = -1 must be at least 0"),
+        ({"hours": float("nan")}, "hours = nan must be at least 0"),
         ({"method": "gaa"}, "did you mean ga"),
         ({"objective": "height"}, "not one of the objectives"),
         ({"preset": "fast"}, "not one of the presets"),

@@ -24,7 +24,7 @@ def test_what_is_written_is_what_is_read(kenan: Robot) -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"foot_depth_m": 0.0}, "foot_depth_m = 0.0: must be more than 0"),
+        ({"foot_depth_m": 0.0}, "foot_depth_m = 0.0: must be at least 1e-05"),
         ({"foot_depth_m": 2.0}, "foot_depth_m = 2.0: must be at most 1"),
         ({"travel_rad": {"leg": [0.0, 1.0]}}, "travel_rad"),
         ({"surfaces": {"toe": "ice"}}, "surfaces.toe = 'ice': must be 'foot' or 'body'"),

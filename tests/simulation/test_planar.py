@@ -50,7 +50,7 @@ def test_range_converges(jumping: list[Flight]) -> None:
 
 
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-printable"])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
 def test_printed_robots(name: str, engine: str) -> None:
     """General engines have the friction of all pins as one constant torque."""
     pytest.importorskip(engine)

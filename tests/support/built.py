@@ -24,7 +24,7 @@ def built(name: str, workshop: str = "default", mass_model: str = "printed", mot
     """Return the robot of a template or of `LONG_TOES`, built once; a quick `motor` needs two pairs of gears."""
     shop = load_workshop(workshop)
     mass = shop.mass.model_copy(update={"model": mass_model})
-    bought = shop.bought.model_copy(update={"motors": (motor,) if motor else ()})
+    bought = shop.bought.model_copy(update={"motors": (motor,)} if motor else {})
     return build(design(name), shop.model_copy(update={"mass": mass, "bought": bought}), name)
 
 

@@ -1,5 +1,7 @@
 """Limits of the drive as the default workshop gives them."""
 
+from dataclasses import replace
+
 from jumpcad.building.limits import drive_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
@@ -10,11 +12,16 @@ from jumpcad.strength.bearings import hub_bearings, hub_width_mm
 from jumpcad.strength.sizing import sections
 from jumpcad.workshop import load_workshop
 
+LP6 = tuple(name for name in load_catalogue().motors if name.count("-") == 1)
+"""Motors of the low-power winding."""
+
 
 def default_limits(name: str = "kenan-2.0") -> DriveLimits:
     """Return the limits of a drive in the default workshop, for a template's links with the lightest hub bearing."""
     workshop = load_workshop()
     bearing, *_ = hub_bearings(workshop)
     sizes = sections(Linkage(load_design(name)), workshop, hub_width_mm(bearing))
+    # supply None: every motor of the catalogue at its rated voltage
     roller = load_catalogue().bearings[workshop.bought.roller]
-    return drive_limits(workshop, roller, sizes, HoleSizes.of(workshop, bearing))
+    limits = drive_limits(workshop, roller, sizes, HoleSizes.of(workshop, bearing))
+    return replace(limits, motors=LP6, train=replace(limits.train, supply=None))

@@ -28,6 +28,8 @@ class Task:
         Designs that are proposed and evaluated together, for a method that learns.
     preset
         Settings of the genetic algorithm, by name.
+    least_gain
+        Share of the best score below which a method that learns ends; 0 for none.
     """
 
     evaluations: int
@@ -35,6 +37,7 @@ class Task:
     initial: int = 0
     batch: int = 1
     preset: str = "recommended"
+    least_gain: float = 0.0
 
 
 @dataclass(frozen=True)

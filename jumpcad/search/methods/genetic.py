@@ -16,6 +16,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
+from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.space import Space
 from jumpcad.search.trial import feasible_trials
 from jumpcad.transforms import Array
@@ -61,7 +62,7 @@ def find_preset(name: str) -> GeneticSettings:
 
 
 def run_genetic(evaluator: Evaluator, task: Task) -> None:
-    """Search for the highest score; a rejected design has fitness 0.
+    """Search for the highest score; a rejected design has less than any other.
 
     With a prior study, its best designs make half of the first population.
     """
@@ -69,7 +70,7 @@ def run_genetic(evaluator: Evaluator, task: Task) -> None:
     operators = dict(settings.operators)
     if "mutation_num_genes" in operators:
         operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
-    score = Fitness(evaluator, "ga", task.evaluations, rejected=0.0)
+    score = Fitness(evaluator, "ga", task.evaluations, rejected=-2.0 * LARGEST)
     evolve(score, _first_population(evaluator, settings.population, task.seed), operators, task.seed)
 
 
@@ -99,8 +100,8 @@ class Fitness:
         return [self.rejected if trial is None or trial.score is None else self.objectives(trial) for trial in trials]
 
     def on_generation(self, _ga: Any) -> str | None:
-        """Stop PyGAD when the budget is spent or no new designs come."""
-        return "stop" if self.left <= 0 or self._idle >= PATIENCE else None
+        """Stop PyGAD when budget or time is spent, or no new designs come."""
+        return "stop" if self.left <= 0 or self._idle >= PATIENCE or self.evaluator.expired() else None
 
 
 def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], seed: int) -> None:

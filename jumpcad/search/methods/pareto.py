@@ -12,7 +12,7 @@ import numpy as np
 
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.fronts import energy_j
+from jumpcad.search.fronts import energies_j, energy_j
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import incumbent, run_steps, unproposed
 from jumpcad.search.methods.genetic import Fitness, evolve
@@ -27,9 +27,10 @@ POPULATION = 40
 
 def energy_caps_j(space: Space) -> Array:
     """Return the caps (CAPS,): even steps up to the largest energy at the corners of the space (J)."""
-    corners = itertools.product((0.0, 1.0), repeat=space.dimension)
-    energies = [energy_j(space.to_design(corner)) for corner in corners]
-    return max(energy for energy in energies if np.isfinite(energy)) * np.arange(1, CAPS + 1) / CAPS
+    corners = np.array(list(itertools.product((0.0, 1.0), repeat=space.dimension)))
+    energies = energies_j(space.values(corners))
+    largest = float(energies[np.isfinite(energies)].max())
+    return largest * np.arange(1, CAPS + 1) / CAPS
 
 
 def run_pareto(evaluator: Evaluator, task: Task) -> None:
@@ -57,7 +58,7 @@ def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
     """Return a penalty that is 0 below a cap on the energy and 1 at a hundredth above it, growing smoothly."""
 
     def penalty(points: Array) -> Array:
-        over = np.array([energy_j(space.to_design(point)) for point in points]) / cap_j - 1.0
+        over = energies_j(space.values(points)) / cap_j - 1.0
         return 1e4 * np.clip(over, 0.0, 1e3) ** 2
 
     return penalty

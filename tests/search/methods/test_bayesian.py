@@ -1,10 +1,11 @@
 """Bayesian optimisation: few evaluations, batches, resumption."""
 
+import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.bayesian import default_initial, incumbent, run_bayesian
+from jumpcad.search.methods.bayesian import default_initial, incumbent, learned_trials, run_bayesian
 from jumpcad.search.space import Space
 
 
@@ -79,3 +80,19 @@ def test_an_exhausted_space_ends_the_search(evaluator):
 
 def test_incumbent():
     assert incumbent(SMALL, [])[0] == 0.0
+
+
+def test_the_processes_learn_from_the_best_and_the_nearest(evaluator):
+    one = evaluator()
+    points = SMALL.spread(1000, np.random.default_rng(0))
+    trials = [trial for trial in one.evaluate([SMALL.to_design(point) for point in points], "ga", 0) if trial]
+    learned = learned_trials(SMALL, trials)
+    assert len(learned) == 400
+    assert learned == [trial for trial in trials if trial in learned]
+    ranked = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: -trial.score)
+    keys = {trial.key for trial in learned}
+    assert all(trial.key in keys for trial in ranked[:100])
+    far = {trial.key: np.abs(SMALL.to_unit(trial.design) - SMALL.to_unit(ranked[0].design)).max() for trial in trials}
+    nearest = sorted(far, key=far.get)
+    assert set(nearest[:300]) <= keys
+    assert learned_trials(SMALL, trials[:400]) == trials[:400]

@@ -1,0 +1,119 @@
+"""firmware/: what the controller runs. The logic and the pins' use are templates; `robot.py` has this robot's numbers.
+
+Times follow from the gear train, the cam and the battery; thresholds from the battery.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import gpio, wiring_of
+from jumpcad.electronics.supply import supply_of
+from jumpcad.files import templates_folder
+from jumpcad.robot import Robot
+
+FOLDER = "firmware"
+COPIED = ("main.py", "winder.py")
+SLOWEST = 1.5
+"""Time allowed for winding over that on an empty battery; judgement: cold grease and scatter of the motor."""
+SETTLE_MS = 10
+"""How long a switch must keep its state; usual of small switches: they bounce for 1 to 5 ms."""
+AFTER_RELEASE_MS = 60
+"""Motor runs on after the sensor has opened: twice the leg's fall, and past the switch's bounce; judgement."""
+LANDING_MS = 1500
+"""How long after a jump commands and sensor are ignored: the flight, and the landing's 300 m/s² and more; judgement."""
+BUTTON_DELAY_MS = 3000
+"""Time to step back after the button was pressed; judgement."""
+RAMP_MS = 100
+"""In which the motor gets its power; judgement."""
+LOW_MS = 200
+"""How long the loaded battery must be low; judgement: longer than the motor's start."""
+PWM_HZ = 20_000
+
+
+def numbers(robot: Robot) -> dict[str, float | int | None]:
+    """Return this robot's numbers, by the names that the firmware uses."""
+    workshop, train = robot.workshop, robot.layout.drive.train
+    chosen = chosen_parts(workshop)
+    supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
+    torque_max = workshop.safety.motor_torque_max_nm
+    slow = supply.driven(train.motor, supply.empty_v, torque_max)
+    share = min(train.motor_torque_nm / slow.stall_torque_nm, 0.9)
+    slowest_s = 2.0 * math.pi * train.ratio / (slow.no_load_rpm * math.pi / 30.0) / (1.0 - share)
+    controller = chosen.controller
+    pins = {signal: gpio(controller, pin) for signal, pin in wiring.pins.items()}
+    return {
+        "PIN_MOTOR": pins.get("motor"),
+        "PIN_SLEEP": pins.get("sleep"),
+        "PIN_READY": pins.get("ready"),
+        "PIN_BATTERY": pins.get("battery"),
+        "PIN_BUTTON": gpio(controller, controller.button) if controller.button else None,
+        "PWM_HZ": PWM_HZ,
+        "PWM_CAP": math.floor(1000.0 * supply.duty(train.motor, torque_max)) / 1000.0,
+        "BATTERY_DIVIDER": round(wiring.divider, 4),
+        "BATTERY_MIN_V": supply.empty_v,
+        "BATTERY_SAG_V": round(train.peak_current_a * chosen.battery.ohm, 3),
+        "LOW_MS": LOW_MS,
+        "WIND_MAX_MS": math.ceil(SLOWEST * slowest_s * 10.0) * 100,
+        "RELEASE_MAX_MS": math.ceil(SLOWEST * slowest_s / 4.0 * 10.0) * 100,
+        "AFTER_RELEASE_MS": AFTER_RELEASE_MS,
+        "SETTLE_MS": SETTLE_MS,
+        "LANDING_MS": LANDING_MS,
+        "BUTTON_DELAY_MS": BUTTON_DELAY_MS,
+        "RAMP_MS": RAMP_MS,
+    }
+
+
+WORDS = {
+    "PIN_MOTOR": "GPIO numbers",
+    "PIN_BATTERY": "None: not measured",
+    "PIN_BUTTON": "on the board; None: serial commands alone",
+    "PWM_CAP": "largest share of PWM: keeps gearbox and winding within their limits on a full battery",
+    "BATTERY_DIVIDER": "battery's voltage over that at its pin",
+    "BATTERY_MIN_V": "below this, at rest, it refuses to wind",
+    "BATTERY_SAG_V": "lower by this while it winds",
+    "LOW_MS": "for so long",
+    "WIND_MAX_MS": "a blocked motor is off after this at the latest",
+    "RELEASE_MAX_MS": "as above, from the ready position over the drop",
+    "AFTER_RELEASE_MS": "motor runs on after the sensor has opened",
+    "SETTLE_MS": "a switch counts after this",
+    "LANDING_MS": "ignored after a jump",
+    "BUTTON_DELAY_MS": "to step back",
+}
+
+
+def firmware_files(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield path and text of every file of the firmware.
+
+    Raises
+    ------
+    CannotBuildError
+        If a pin that the workshop names is none of the controller's GPIOs.
+    """
+    values = numbers(robot)
+    folder = templates_folder() / FOLDER
+    for name in COPIED:
+        yield f"{FOLDER}/{name}", (folder / name).read_text(encoding="utf-8")
+    yield f"{FOLDER}/robot.py", _module(robot, values)
+    yield f"{FOLDER}/README.md", _filled((folder / "README.md").read_text(encoding="utf-8"), robot, values)
+
+
+def _module(robot: Robot, values: Mapping[str, float | int | None]) -> str:
+    lines = [f'"""Numbers of one robot, computed by jumpcad: motor {robot.layout.drive.train.motor.name}."""', ""]
+    for key, value in values.items():
+        lines.append(f"{key} = {value!r}{f'  # {WORDS[key]}' if key in WORDS else ''}")
+    return "\n".join(lines) + "\n"
+
+
+def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -> str:
+    chosen = chosen_parts(robot.workshop)
+    facts = {
+        "CONTROLLER": chosen.controller.description,
+        "WIND_S": f"{robot.layout.drive.train.winding_s:.1f}",
+        "WIND_MAX_S": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
+        "MIN_V": f"{values['BATTERY_MIN_V']:g}",
+        "CAP": f"{100.0 * (values['PWM_CAP'] or 0.0):g}",
+    }
+    for key, words in facts.items():
+        text = text.replace("{" + key + "}", words)
+    return text

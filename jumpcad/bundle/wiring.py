@@ -1,0 +1,154 @@
+"""wiring.svg and the guide's wiring table: every wire with its ends as the boards name them, its colour and length."""
+
+import math
+from collections.abc import Iterator
+from html import escape
+
+from jumpcad.bundle.electronics import jumps_per_charge
+from jumpcad.electronics.chosen import Chosen, chosen_parts
+from jumpcad.electronics.nets import LOWER_OHM, Net, Terminal, Wiring, wiring_of
+from jumpcad.robot import Robot
+
+SLACK_MM = 30.0
+"""Added to the straight line for bends and two soldered ends; judgement."""
+ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
+COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
+           ("controller", "sensor", "upper resistor", "lower resistor"))  # fmt: skip
+"""Where the drawing has its parts, from the left."""
+STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}
+
+
+def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
+    """Return every wire: its net, both ends, colour and length (mm): the straight line between the parts, and slack.
+
+    Parts that have no place of their own yet count as if they were at the battery.
+    """
+    chosen = chosen_parts(robot.workshop)
+    wiring = wiring_of(chosen, robot.workshop.bought.pins)
+    return [
+        (net.name, start, end, net.colour, _length_mm(robot, start.part, end.part))
+        for net in wiring.nets
+        for start, end in net.wires
+    ]
+
+
+def wiring_lines(robot: Robot) -> Iterator[str]:
+    """Yield the guide's section on wiring."""
+    chosen = chosen_parts(robot.workshop)
+    wiring, train = wiring_of(chosen, robot.workshop.bought.pins), robot.layout.drive.train
+    yield from ("", "## Wiring", "", "![wiring](wiring.svg)", "", "| from | to | colour | mm |", "|---|---|---|--:|")
+    for _, start, end, colour, length in wires(robot):
+        yield f"| {start} | {end} | {colour} | {length:.0f} |"
+    yield from ("", *_notes(chosen, wiring), "")
+    yield (
+        f"One jump takes {train.electrical_j:.2f} J from the battery: {train.motor_j:.2f} J the motor, "
+        f"{train.boards_j:.2f} J the boards while it winds for {train.winding_s:.1f} s; waiting takes more. A charge "
+        f"lasts for about {jumps_per_charge(robot)} jumps."
+    )
+
+
+def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
+    """Yield what a table does not say."""
+    yield "- lengths are straight lines and 30 mm of slack: an estimate, until every part has its place"
+    yield "- the capacitor at the driver's supply pins, with short legs; its minus is marked"
+    if wiring.upper_ohm is not None:
+        yield f"- resistors: upper {wiring.upper_ohm // 1000} kΩ, lower {LOWER_OHM // 1000} kΩ, 0.1 W or more"
+    if chosen.regulator is None:
+        yield "- the battery is charged through the controller's USB socket, with the switch on"
+    else:
+        yield "- the battery is charged outside the robot, by a charger with a balance lead; the controller's battery"
+        yield "  pads stay empty"
+    yield "- the driver's reverse input is at ground: the cam must not turn back against its drop"
+    yield "- red and black wires may be joined at any terminal of theirs; the table starts each at its source"
+    yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles (multimeter)"
+
+
+def _length_mm(robot: Robot, one: str, other: str) -> float:
+    """Return the length of a wire between two roles."""
+    places = {item.name: item.mass.com_m for item in robot.hardware}
+    a, b = (places.get(role, places["battery"]) for role in (one, other))
+    straight = math.dist(a, b)
+    return 10.0 * round((1000.0 * straight + SLACK_MM) / 10.0)
+
+
+def wiring_svg(robot: Robot) -> str:
+    """Return a drawing of the net list: parts as boxes with their terminals, every net in a lane of its own (mm)."""
+    chosen = chosen_parts(robot.workshop)
+    wiring = wiring_of(chosen, robot.workshop.bought.pins)
+    boxes, ends, height = _boxes(wiring.nets, _titles(chosen, wiring, robot))
+    lanes = {net.name: index for index, net in enumerate(wiring.nets)}
+    width = MARGIN_MM + COLUMN_MM * (len(COLUMNS) - 1) + BOX_MM + 4.0 * len(lanes) + 2.0 * MARGIN_MM
+    width += 2.0 * 2.0 * len(lanes)
+    lines = [line for net in wiring.nets for line in _net_lines(net, ends, lanes[net.name], len(lanes))]
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.1f} {height:.1f}" width="{4 * width:.0f}" '
+            'font-family="sans-serif" font-size="3.2">',
+            f'<rect width="{width:.1f}" height="{height:.1f}" fill="#ffffff"/>',
+            *lines,
+            *boxes,
+            "</svg>",
+            "",
+        ]
+    )
+
+
+def _titles(chosen: Chosen, wiring: Wiring, robot: Robot) -> dict[str, str]:
+    """Return what each part is called."""
+    titles = {role: f"{role}: {board.name}" for role, board in chosen.boards.items()}
+    titles |= {role: f"{role}: {part.name}" for role, part in chosen.components.items()}
+    titles |= {"battery": f"battery: {chosen.battery.name}", "motor": f"motor: {robot.layout.drive.train.motor.name}"}
+    if wiring.upper_ohm is not None:
+        titles["upper resistor"] = f"upper resistor: {wiring.upper_ohm // 1000} kΩ"
+        titles["lower resistor"] = f"lower resistor: {LOWER_OHM // 1000} kΩ"
+    return titles
+
+
+def _boxes(
+    nets: tuple[Net, ...], titles: dict[str, str]
+) -> tuple[list[str], dict[Terminal, tuple[float, float]], float]:
+    """Return the boxes, where each terminal's wire starts (right edge of its box), and the drawing's height."""
+    terminals: dict[str, list[Terminal]] = {}
+    for terminal in dict.fromkeys(terminal for net in nets for terminal in net.terminals):
+        terminals.setdefault(terminal.part, []).append(terminal)
+    pitch = COLUMN_MM + 2.0 * len(nets)
+    boxes, ends, height = [], {}, 0.0
+    for column, parts in enumerate(COLUMNS):
+        x, y = MARGIN_MM + column * pitch, MARGIN_MM
+        for part in (part for part in parts if part in terminals):
+            size = ROW_MM * (len(terminals[part]) + 1)
+            boxes.append(
+                f'<rect x="{x:.1f}" y="{y:.1f}" width="{BOX_MM:.1f}" height="{size:.1f}" fill="#f4f4f4" '
+                'stroke="#444444" stroke-width="0.3"/>'
+            )
+            boxes.append(f'<text x="{x + 2:.1f}" y="{y + 4.5:.1f}" font-weight="bold">{escape(titles[part])}</text>')
+            for row, terminal in enumerate(terminals[part], start=1):
+                at = (x + BOX_MM, y + ROW_MM * (row + 0.3))
+                ends[terminal] = at
+                boxes.append(f'<text x="{at[0] - 2:.1f}" y="{at[1] + 1:.1f}" text-anchor="end">{terminal.pin}</text>')
+            y += size + ROW_MM
+        height = max(height, y)
+    return boxes, ends, height + 4.0 * len(nets) + MARGIN_MM
+
+
+def _net_lines(net: Net, ends: dict[Terminal, tuple[float, float]], lane: int, lanes: int) -> Iterator[str]:
+    """Yield a net's lines: from each terminal to the right, down a track of its own, along a lane below all parts."""
+    stroke = STROKES[net.colour]
+    places = [ends[terminal] for terminal in net.terminals]
+    tracks = sorted({x + 4.0 + 2.0 * lane for x, _ in places})
+    below = max(y for _, y in ends.values()) + ROW_MM + 4.0 * lane
+    bottom = below if len(tracks) > 1 else max(y for _, y in places)
+    for terminal in net.terminals:
+        x, y = ends[terminal]
+        track = x + 4.0 + 2.0 * lane
+        yield _path([(x, y), (track, y), (track, bottom)], stroke)
+        yield f'<circle cx="{track:.1f}" cy="{y:.1f}" r="0.6" fill="{stroke}"/>'
+    if len(tracks) > 1:
+        yield _path([(tracks[0], bottom), (tracks[-1], bottom)], stroke)
+        at = f'x="{tracks[0] + 1:.1f}" y="{bottom - 0.8:.1f}"'
+        yield f'<text {at} font-size="2.6" fill="{stroke}">{escape(net.name)}</text>'
+
+
+def _path(points: list[tuple[float, float]], stroke: str) -> str:
+    shown = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+    return f'<polyline points="{shown}" fill="none" stroke="{stroke}" stroke-width="0.6"/>'

@@ -1,0 +1,78 @@
+"""The chain of voltages, the motor's current and torque when it is blocked, and the wiring."""
+
+from collections.abc import Iterator
+
+from jumpcad.electronics.chain import Link, chain
+from jumpcad.electronics.chosen import Chosen, chosen_parts
+from jumpcad.electronics.nets import wiring_findings, wiring_of
+from jumpcad.electronics.supply import Supply, supply_of
+from jumpcad.findings import Finding, at_most, limit
+from jumpcad.robot import Robot
+
+ROUND_OFF_V = 1e-9
+
+
+def electronics_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `supply_voltage_*` of every link, `motor_current_*` of what carries it, `gearbox_torque`, `wiring_*`."""
+    chosen = chosen_parts(robot.workshop)
+    supply = supply_of(chosen)
+    for link in links(robot):
+        yield _voltage(link)
+    yield from _currents(robot, chosen, supply)
+    yield _gearbox(robot, supply)
+    yield from wiring_findings(chosen, wiring_of(chosen, robot.workshop.bought.pins))
+
+
+def links(robot: Robot) -> list[Link]:
+    """Return the chain of a robot, from the regulator to the winding."""
+    chosen, train = chosen_parts(robot.workshop), robot.layout.drive.train
+    torque_max = robot.workshop.safety.motor_torque_max_nm
+    return list(chain(chosen, train.motor, supply_of(chosen), train.peak_current_a, torque_max))
+
+
+def _voltage(link: Link) -> Finding:
+    """Return whether a link bears what it gets; value and limit are those of the end that is nearer to its limit."""
+    low, high = link.gets_v
+    name, at = f"supply_voltage_{link.role}", f"{link.name}{link.pin and f' at {link.pin}'}"
+    gets = f"{low:.2f} to {high:.2f} V" if high > low else f"{low:.2f} V"
+    if link.bears_v is None:
+        message = f"{at} gets {gets}; what it bears is not known"
+        return Finding(name, "warning", 0.0, "V", message, "give supply_v of this board: its inputs and their volts")
+    least, most = link.bears_v
+    over, under = most - high, low - least
+    value, allowed = (high, most) if over <= under else (low, least)
+    message = f"{at} gets {gets} and bears {least:.2f} to {most:.2f} V"
+    margin = min(over, under)
+    margin = 0.0 if abs(margin) < ROUND_OFF_V else margin
+    return limit(name, margin, "V", message, link.remedy, value=value, allowed=allowed)
+
+
+def _currents(robot: Robot, chosen: Chosen, supply: Supply) -> Iterator[Finding]:
+    """Yield whether everything in the motor's circuit bears the current of the blocked motor on a full battery."""
+    train, torque_max = robot.layout.drive.train, robot.workshop.safety.motor_torque_max_nm
+    stall = supply.driven(train.motor, supply.full_v, torque_max).stall_current_a
+    bears = {"driver": (chosen.driver.name, chosen.driver.output_a),
+             "battery": (chosen.battery.name, chosen.battery.discharge_a)}  # fmt: skip
+    bears |= {role: (part.name, part.rated_a) for role in ("switch", "plug", "wire")
+              if (part := chosen.components.get(role))}  # fmt: skip
+    for role, (name, allowed) in bears.items():
+        if allowed is not None:
+            yield at_most(
+                f"motor_current_{role}", stall, allowed, "A",
+                f"{name} carries {stall:.2f} A while the motor is blocked; {allowed:g} A are allowed",
+                f"another bought.{role}, or a motor with a larger resistance",
+            )  # fmt: skip
+
+
+def _gearbox(robot: Robot, supply: Supply) -> Finding:
+    """Return whether the blocked motor overloads its gearbox with a full battery under the firmware's PWM."""
+    motor, allowed = robot.layout.drive.train.motor, robot.workshop.safety.motor_torque_max_nm
+    duty = supply.duty(motor, allowed)
+    torque = supply.driven(motor, supply.full_v, allowed).stall_torque_nm
+    cap = f", with PWM of at most {100.0 * duty:.0f} %, which the firmware keeps" if duty < 1.0 else ""
+    return at_most(
+        "gearbox_torque", min(torque, allowed) if duty < 1.0 else torque, allowed, "N·m",
+        f"{motor.name} stalls with {1000.0 * torque:.0f} mN·m on a full battery{cap}; {1000.0 * allowed:.0f} mN·m are "
+        "allowed",
+        "a weaker motor, or a battery of fewer cells",
+    )  # fmt: skip

@@ -1,0 +1,261 @@
+"""The net list: which terminals are joined, by what wire, and what is wrong with it.
+
+Terminals have the names printed on the boards. Pins of the controller are chosen by what they can do, or named by the
+workshop (`[bought.pins]`).
+"""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from jumpcad.catalogue import Board
+from jumpcad.electronics.chain import supply_pin
+from jumpcad.electronics.chosen import Chosen
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding
+
+LOWER_OHM = 200_000
+UPPER_OHMS = (200_000, 470_000, 680_000, 1_000_000)
+"""Resistors of the divider that measures the battery, below and above the pin; values of the E12 series."""
+SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": ""}
+"""Signals of the controller in the order in which they get their pins, and what a pin must be able to do."""
+AVOIDED = ("strapping", "boot_log")
+"""What makes a pin unfit: its level at start chooses how the chip boots, or the chip writes on it."""
+COLOURS = {"supply": "red", "logic": "orange", "ground": "black", "motor": "blue", "signal": "yellow"}
+
+
+@dataclass(frozen=True)
+class Terminal:
+    """A terminal of a part: `part` is a role, such as `driver`, `pin` its printed name."""
+
+    part: str
+    pin: str
+
+    def __str__(self) -> str:
+        return f"{self.part} {self.pin}"
+
+
+@dataclass(frozen=True)
+class Net:
+    """Terminals that are joined; the first is where they get their voltage or signal from. `kind` gives the colour."""
+
+    name: str
+    kind: str
+    terminals: tuple[Terminal, ...]
+
+    @property
+    def colour(self) -> str:
+        """Colour of its wires."""
+        return COLOURS[self.kind]
+
+    @property
+    def wires(self) -> Iterator[tuple[Terminal, Terminal]]:
+        """Both ends of every wire: from the first terminal, or from the plug that comes after it."""
+        start, *others = self.terminals
+        for end in others:
+            yield start, end
+            start = end if end.part == "plug" else start
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """All nets; `pins` are the controller's by signal (absent where it has none left), `upper_ohm` of the divider."""
+
+    nets: tuple[Net, ...]
+    pins: dict[str, str]
+    upper_ohm: int | None
+
+    @property
+    def divider(self) -> float:
+        """The battery's voltage over that at the controller's pin."""
+        return 1.0 if self.upper_ohm is None else (LOWER_OHM + self.upper_ohm) / LOWER_OHM
+
+
+def wiring_of(chosen: Chosen, named: Mapping[Any, str]) -> Wiring:
+    """Return the net list of a workshop's parts; `named` are pins that the workshop names, by signal."""
+    upper = _upper_ohm(chosen)
+    wanted = [s for s in SIGNALS if not (s == "battery" and upper is None)]
+    wanted = [s for s in wanted if not (s == "sleep" and not chosen.driver.with_function("sleep"))]
+    wanted = [s for s in wanted if not (s == "ready" and "sensor" not in chosen.components)]
+    pins = _pins(chosen.controller, wanted, named)
+    nets = (*_power_nets(chosen, pins, upper), _ground_net(chosen, pins), *_signal_nets(chosen, pins, upper))
+    return Wiring(tuple(net for net in nets if len(net.terminals) > 1), pins, upper if "battery" in pins else None)
+
+
+def gpio(board: Board, pin: str) -> int:
+    """Return the number of a controller's pin.
+
+    Raises
+    ------
+    CannotBuildError
+        If it has none.
+    """
+    for function in board.pins.get(pin, ()):
+        if function.startswith("gpio") and function[4:].isdigit():
+            return int(function[4:])
+    raise CannotBuildError(f"{board.name} has no GPIO at {pin}: name another pin in [bought.pins]")
+
+
+def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
+    """Yield `wiring_pins`, `wiring_strapping`, `wiring_ground` and `wiring_capacitor`."""
+    yield _enough_pins(chosen, wiring)
+    yield _fit_pins(chosen, wiring)
+    grounded = {terminal.part for net in wiring.nets if net.kind == "ground" for terminal in net.terminals}
+    lacking = [role for role in ("battery", *chosen.boards) if role not in grounded]
+    yield _yes_or_no(
+        "wiring_ground", not lacking, "error",
+        "every board is joined to the battery's minus" if not lacking else f"no ground at {', '.join(lacking)}",
+        'give the board a pin with "ground"',
+    )  # fmt: skip
+    yield _yes_or_no(
+        "wiring_capacitor", "capacitor" in chosen.components, "warning",
+        f"{'a' if 'capacitor' in chosen.components else 'no'} capacitor stands beside the driver",
+        "name one in bought.capacitor: the motor's start would lower the controller's voltage",
+    )  # fmt: skip
+    if chosen.regulator is not None:
+        pin = supply_pin(chosen.controller, _logic_range(chosen))
+        needed = pin in chosen.controller.diode_at
+        yield _yes_or_no(
+            "wiring_diode", not needed or chosen.diode is not None, "error",
+            f"{chosen.controller.name} {'has its' if chosen.diode else 'needs a'} diode at {pin}",
+            "name one in bought.diode: USB would feed the regulator",
+        )  # fmt: skip
+
+
+def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
+    """Return whether every signal has a pin of its own at controller and driver."""
+    have = [signal for signal in SIGNALS if signal in wiring.pins]
+    missing = [s for s in ("motor", "ready") if s not in wiring.pins]
+    if "sensor" not in chosen.components:
+        return _yes_or_no("wiring_pins", False, "error", "no sensor says when the robot is wound",
+                          "name one in bought.sensor")  # fmt: skip
+    lost = [f for f in ("forward", "motor+", "motor-") if not chosen.driver.with_function(f)]
+    twice = [pin for pin, count in Counter(wiring.pins.values()).items() if count > 1]
+    if missing:
+        message = f"{chosen.controller.name} has no pin left for {' and '.join(missing)}"
+        return _yes_or_no(
+            "wiring_pins", False, "error", message, "choose a controller with more pins, or give its pins"
+        )
+    if lost:
+        message = f"driver {chosen.driver.name} has no pin {' and '.join(lost)}"
+        return _yes_or_no("wiring_pins", False, "error", message, "choose another bought.driver, or give its pins")
+    if twice:
+        signals = " and ".join(s for s in have if wiring.pins[s] in twice)
+        message = f"{chosen.controller.name}: {', '.join(twice)} is used twice, by {signals}"
+        return _yes_or_no("wiring_pins", False, "error", message, "name another pin in [bought.pins]")
+    used = ", ".join(f"{wiring.pins[s]} {s}" for s in have)
+    return _yes_or_no("wiring_pins", True, "error", f"pins of {chosen.controller.name}: {used}", "[bought.pins]")
+
+
+def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:
+    """Return whether the pins can do what their signals need, and none decides how the chip boots."""
+    wrong = []
+    for signal, pin in wiring.pins.items():
+        functions = chosen.controller.pins.get(pin, ())
+        wrong += [f"{pin} ({signal}) is a {bad.replace('_', ' ')} pin" for bad in AVOIDED if bad in functions]
+        needed = SIGNALS[signal]
+        if needed and needed not in functions:
+            wrong.append(f"{pin} ({signal}) has no {needed}")
+    message = "; ".join(wrong) or "no strapping pin is used, and every pin does what its signal needs"
+    return _yes_or_no("wiring_strapping", not wrong, "error", message, "name another pin in [bought.pins]")
+
+
+def _yes_or_no(name: str, good: bool, severity: str, message: str, remedy: str) -> Finding:
+    bad = "warning" if severity == "warning" else "error"
+    return Finding(name, "info" if good else bad, 0.0 if good else -1.0, "", message, remedy)  # type: ignore[arg-type]
+
+
+def _pins(controller: Board, wanted: list[str], named: Mapping[Any, str]) -> dict[str, str]:
+    """Return a pin for each signal, as long as there are any: those named, then the least capable that will do."""
+    pins = {signal: named[signal] for signal in wanted if signal in named}
+    for signal in wanted:
+        if signal in pins:
+            continue
+        free = [
+            name
+            for name, functions in controller.pins.items()
+            if any(f.startswith("gpio") for f in functions)
+            and not set(AVOIDED) & set(functions)
+            and name not in pins.values()
+            and (not SIGNALS[signal] or SIGNALS[signal] in functions)
+        ]
+        if free:
+            pins[signal] = min(free, key=lambda name: len(controller.pins[name]))
+    return {signal: pins[signal] for signal in wanted if signal in pins}
+
+
+def _upper_ohm(chosen: Chosen) -> int | None:
+    """Return the divider's upper resistor with which a full battery stays in the converter's range, if any does."""
+    if chosen.controller.adc_max_v is None:
+        return None
+    full = chosen.battery.range_v[1]
+    fits = (r for r in UPPER_OHMS if full * LOWER_OHM / (LOWER_OHM + r) <= chosen.controller.adc_max_v)
+    return next(fits, None)
+
+
+def _logic_range(chosen: Chosen) -> tuple[float, float]:
+    """Return the volts at the controller's supply input, without load."""
+    if chosen.regulator is None:
+        return chosen.battery.range_v
+    volts = (chosen.regulator.output_v or 0.0) - (chosen.diode.drop_v if chosen.diode else 0.0)
+    return volts, volts
+
+
+def _power_nets(chosen: Chosen, pins: dict[str, str], upper: int | None) -> Iterator[Net]:
+    """Yield the battery's plus up to the switch, behind it, and the regulator's output."""
+    components, battery = chosen.components, chosen.battery.range_v
+    plug = [Terminal("plug", "+")] if "plug" in components else []
+    before = [Terminal("battery", "+"), *plug]
+    if "switch" in components:
+        yield Net("battery", "supply", (*before, Terminal("switch", "1")))
+        before = [Terminal("switch", "2")]
+    ends = [*before, Terminal("driver", supply_pin(chosen.driver, battery))]
+    ends += [Terminal("capacitor", "+")] if "capacitor" in components else []
+    ends += [Terminal("upper resistor", "1")] if "battery" in pins else []
+    controller = Terminal("controller", supply_pin(chosen.controller, _logic_range(chosen)))
+    if chosen.regulator is None:
+        yield Net("battery switched", "supply", (*ends, controller))
+        return
+    yield Net("battery switched", "supply", (*ends, Terminal("regulator", supply_pin(chosen.regulator, battery))))
+    out = Terminal("regulator", next(iter(chosen.regulator.with_function("out")), "OUT"))
+    if chosen.diode is None:
+        yield Net("regulated", "logic", (out, controller))
+    else:
+        yield Net("regulated", "logic", (out, Terminal("diode", "A")))
+        yield Net("behind the diode", "logic", (Terminal("diode", "K"), controller))
+
+
+def _ground_net(chosen: Chosen, pins: dict[str, str]) -> Net:
+    """Return what is joined to the battery's minus; the driver's reverse input too: the cam must not turn back."""
+    components = chosen.components
+    ends = [Terminal("battery", "-")]
+    ends += [Terminal("plug", "-")] if "plug" in components else []
+    for role, board in chosen.boards.items():
+        unused = set(board.with_function("battery")) if chosen.regulator is not None else set()
+        ends += [Terminal(role, pin) for pin in board.with_function("ground") if pin not in unused][:1]
+    ends += [Terminal("driver", pin) for pin in chosen.driver.with_function("reverse")]
+    ends += [Terminal("capacitor", "-")] if "capacitor" in components else []
+    ends += [Terminal("sensor", "COM")] if "sensor" in components else []
+    ends += [Terminal("lower resistor", "2")] if "battery" in pins else []
+    return Net("ground", "ground", tuple(ends))
+
+
+def _signal_nets(chosen: Chosen, pins: dict[str, str], upper: int | None) -> Iterator[Net]:
+    """Yield the wires between controller, driver, sensor, divider and motor."""
+    driver = chosen.driver
+    for signal, function in (("motor", "forward"), ("sleep", "sleep")):
+        if signal in pins:
+            ends = (
+                Terminal("controller", pins[signal]),
+                *(Terminal("driver", p) for p in driver.with_function(function)),
+            )
+            yield Net(signal, "signal", ends)
+    if "ready" in pins:
+        yield Net("ready", "signal", (Terminal("controller", pins["ready"]), Terminal("sensor", "NO")))
+    if "battery" in pins:
+        middle = (Terminal("upper resistor", "2"), Terminal("lower resistor", "1"))
+        yield Net("battery measured", "signal", (Terminal("controller", pins["battery"]), *middle))
+    for function in ("motor+", "motor-"):
+        pins_out = tuple(Terminal("driver", p) for p in driver.with_function(function)[:1])
+        yield Net(function, "motor", (*pins_out, Terminal("motor", function[-1])))

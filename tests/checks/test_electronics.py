@@ -1,0 +1,223 @@
+"""Kits that fit, and what is said of those that do not: every finding with which range misses which."""
+
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+
+import pytest
+
+from jumpcad.building import build
+from jumpcad.checks.electronics import electronics_findings
+from jumpcad.design import load_design
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import Wiring, wiring_findings, wiring_of
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.findings import Finding
+from jumpcad.workshop import Workshop, load_workshop
+
+KITS = ("light-1s", "strong-2s")
+Write = Callable[[str], Workshop]
+
+
+@pytest.fixture
+def workshop(tmp_path: Path) -> Write:
+    """Return a function that reads a workshop from text."""
+
+    def write(text: str) -> Workshop:
+        path = tmp_path / "my.toml"
+        path.write_text(text, encoding="utf-8")
+        return load_workshop(path)
+
+    return write
+
+
+@lru_cache
+def found(shop_toml: str) -> dict[str, Finding]:
+    """Return the findings of Kenan 2.0 in a workshop, by name."""
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "my.toml"
+        path.write_text(shop_toml, encoding="utf-8")
+        robot = build(load_design("kenan-2.0"), load_workshop(path))
+    return {finding.name: finding for finding in electronics_findings(robot)}
+
+
+def wiring(shop: Workshop) -> Wiring:
+    return wiring_of(chosen_parts(shop), shop.bought.pins)
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_both_kits_meet_every_limit(kit: str) -> None:
+    findings = found(f'[bought]\nkit = "{kit}"')
+    assert not [f"{f.name}: {f.message}" for f in findings.values() if f.severity != "info"]
+    assert {"supply_voltage_controller", "supply_voltage_driver", "supply_voltage_motor"} <= findings.keys()
+    assert ("supply_voltage_regulator" in findings) == (kit == "strong-2s")
+
+
+def test_two_cells_on_a_board_for_one_are_refused_with_both_ranges() -> None:
+    finding = found('[bought]\nbattery = "lipo-2s-180"')["supply_voltage_controller"]
+    assert finding.severity == "error"
+    assert (finding.value, finding.limit) == (8.4, 4.2)
+    assert finding.margin == pytest.approx(-4.2)
+    assert "to 8.40 V and bears 3.20 to 4.20 V" in finding.message
+    assert "bought.kit" in finding.remedy
+    assert "\n" not in finding.message + finding.remedy
+
+
+def test_one_cell_is_too_little_for_a_driver_that_needs_more() -> None:
+    """As the TB6612 or the A3144 do: 4.5 V at least, the empty cell has 3.3 V less what its resistance takes."""
+    text = '[bought]\ndriver = "mine"\n[boards.mine]\nlike = "drv8833"\nsource = "x"\nsupply_v = { VM = [4.5, 13.5] }'
+    finding = found(text)["supply_voltage_driver"]
+    assert finding.severity == "error"
+    assert finding.limit == 4.5
+    assert finding.value == pytest.approx(3.3, abs=0.1)
+    assert finding.value < 3.3
+
+
+def test_a_board_of_unknown_range_is_named() -> None:
+    text = '[bought]\ndriver = "mine"\n[boards.mine]\nlike = "drv8833"\nsource = "x"\nsupply_v = {}'
+    assert found(text)["supply_voltage_driver"].severity == "warning"
+
+
+def test_a_switch_that_burns_under_a_blocked_motor_is_an_error() -> None:
+    """The common slide switch bears 0.3 A; the MP motor draws 0.44 A when blocked on a full cell."""
+    finding = found("[bought]")["motor_current_switch"]
+    assert finding.value == pytest.approx(4.2 / (6.0 / 0.67 + 0.15 + 0.36))
+    text = '[bought]\nbattery = "weak"\n[batteries.weak]\nlike = "lipo-1s-300"\nsource = "x"\ndischarge_a = 0.3'
+    assert found(text)["motor_current_battery"].severity == "error"
+
+
+def test_the_cap_of_pwm_is_told() -> None:
+    assert "PWM of at most 97 %" in found('[bought]\nkit = "strong-2s"')["gearbox_torque"].message
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_every_board_has_supply_and_ground_and_every_pin_one_use(kit: str, workshop: Write) -> None:
+    shop = workshop(f'[bought]\nkit = "{kit}"')
+    nets = wiring(shop).nets
+    where: dict[str, list[str]] = {}
+    for net in nets:
+        for terminal in net.terminals:
+            where.setdefault(str(terminal), []).append(net.kind)
+    assert all(len(kinds) == 1 for kinds in where.values())
+    for role, board in chosen_parts(shop).boards.items():
+        kinds = {kind for terminal, (kind,) in where.items() if terminal.startswith(role + " ")}
+        assert "ground" in kinds
+        assert kinds & {"supply", "logic"}
+        printed = {terminal.removeprefix(role + " ") for terminal in where if terminal.startswith(role + " ")}
+        assert printed <= {*board.pins, *board.supply_v}
+
+
+def test_two_cells_leave_the_pads_of_one_cell_empty(workshop: Write) -> None:
+    used = {str(t) for net in wiring(workshop('[bought]\nkit = "strong-2s"')).nets for t in net.terminals}
+    assert "controller 5V" in used
+    assert not used & {"controller BAT+", "controller BAT-"}
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_strapping_pins_are_left_alone_and_the_divider_stays_in_range(kit: str, workshop: Write) -> None:
+    """GPIO 2, 8 and 9 of an ESP32-C3 choose how it boots: D0, D8 and D9 of the board; GPIO 3 and 4 have ADC1."""
+    shop = workshop(f'[bought]\nkit = "{kit}"')
+    wired = wiring(shop)
+    assert not set(wired.pins.values()) & {"D0", "D8", "D9"}
+    assert wired.pins["battery"] in ("D1", "D2")
+    assert chosen_parts(shop).battery.range_v[1] / wired.divider <= 2.5
+
+
+@pytest.mark.parametrize(
+    ("pins", "name", "words"),
+    [
+        ('motor = "D0"', "wiring_strapping", r"D0 \(motor\) is a strapping pin"),
+        ('battery = "D4"', "wiring_strapping", r"D4 \(battery\) has no adc"),
+        ('motor = "D4"\nready = "D4"', "wiring_pins", r"D4 is used twice, by motor and ready"),
+    ],
+)
+def test_pins_that_do_not_suit_are_named(pins: str, name: str, words: str, workshop: Write) -> None:
+    import re
+
+    shop = workshop(f"[bought.pins]\n{pins}")
+    findings = {f.name: f for f in wiring_findings(chosen_parts(shop), wiring(shop))}
+    assert findings[name].severity == "error"
+    assert re.search(words, findings[name].message)
+    assert "[bought.pins]" in findings[name].remedy
+
+
+OWN = '[bought]\ncontroller = "mine"\n[boards.mine]\nlike = "xiao-esp32c3"\nsource = "x"\nbutton = ""\npins = %s\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "severity", "words"),
+    [
+        (OWN % '{ GND = ["ground"], D1 = ["gpio1", "adc", "pwm"] }', "wiring_pins", "error", "no pin left"),
+        (OWN % '{ D1 = ["gpio1", "pwm"], D2 = ["gpio2"] }', "wiring_ground", "error", "no ground at controller"),
+        ('[bought]\ncapacitor = ""', "wiring_capacitor", "warning", "no capacitor"),
+        ('[bought]\nkit = "strong-2s"\ndiode = ""', "wiring_diode", "error", "needs a diode at 5V"),
+        ('[bought]\nsensor = ""', "wiring_pins", "error", "no sensor"),
+    ],
+)
+def test_what_is_missing_is_named(text: str, name: str, severity: str, words: str, workshop: Write) -> None:
+    shop = workshop(text)
+    findings = {f.name: f for f in wiring_findings(chosen_parts(shop), wiring(shop))}
+    assert findings[name].severity == severity
+    assert words in findings[name].message
+    assert findings[name].remedy
+
+
+def test_a_kit_gives_its_parts_and_names_beside_it_override_them(workshop: Write) -> None:
+    bought = workshop('[bought]\nkit = "strong-2s"\nbattery = "lipo-1s-300"').bought
+    assert (bought.battery, bought.regulator, bought.motors) == ("lipo-1s-300", "s7v7f5", ("n20-298-hpcb12",))
+
+
+def test_an_unknown_kit_is_refused_with_a_hint(workshop: Write) -> None:
+    with pytest.raises(JumpcadError, match=r"my.toml:2: bought.kit = 'light-2s': is none of the kits light-1s, strong"):
+        workshop('[bought]\nkit = "light-2s"')
+
+
+def test_a_complete_workshop_reads_back_the_same(workshop: Write) -> None:
+    shop = workshop('[bought]\nkit = "strong-2s"\nmotors = ["n20-75-hpcb12"]')
+    assert workshop(shop.to_toml()) == shop
+
+
+def test_a_pin_that_the_board_lacks_is_refused_in_one_line(workshop: Write) -> None:
+    from jumpcad.bundle.firmware import numbers
+
+    robot = build(load_design("kenan-2.0"), workshop('[bought.pins]\nmotor = "D77"'))
+    with pytest.raises(CannotBuildError, match=r"^xiao-esp32c3 has no GPIO at D77: name another pin in"):
+        numbers(robot)
+
+
+def like(kind: str, of: str, figures: str) -> str:
+    """Return a workshop whose battery or driver is a shipped one with other figures."""
+    table = {"battery": "batteries", "driver": "boards"}[kind]
+    return f'[bought]\n{kind} = "own"\n[{table}.own]\nlike = "{of}"\nsource = "x"\n{figures}'
+
+
+HIGH = like("battery", "lipo-1s-300", "voltage_v = 120.0\nempty_v = 110.0\nfull_v = 130.0")
+"""A battery whose voltage nothing here bears."""
+BLOCKED = '[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298-mp"\nsource = "x"\nstall_current_a = 6.0'
+"""A motor of 1 ohm, which draws 2.8 A when blocked."""
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("supply_voltage_controller", HIGH),
+        ("supply_voltage_driver", HIGH),
+        ("supply_voltage_switch", HIGH),
+        ("supply_voltage_plug", HIGH),
+        ("supply_voltage_capacitor", HIGH),
+        ("supply_voltage_regulator", HIGH.replace("[bought]", '[bought]\nkit = "strong-2s"')),
+        ("supply_voltage_motor", like("battery", "lipo-1s-300", "voltage_v = 3.0\nempty_v = 2.5")),
+        ("motor_current_driver", BLOCKED),
+        ("motor_current_battery", BLOCKED),
+        ("motor_current_switch", BLOCKED),
+        ("motor_current_plug", BLOCKED),
+        ("motor_current_wire", BLOCKED),
+    ],
+)
+def test_every_link_is_refused_beyond_what_it_bears(name: str, text: str) -> None:
+    finding = found(text)[name]
+    assert finding.severity == "error"
+    assert finding.margin < 0.0
+    assert finding.remedy

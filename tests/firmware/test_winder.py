@@ -1,0 +1,251 @@
+"""The firmware's logic against a simulated motor, cam, sensor and battery, none of which uses its code.
+
+The cam turns at the motor's speed times the share of PWM. The sensor is closed over the last 12° before the drop, and
+bounces at each change of its state; the leg falls at the drop and lands some time later.
+"""
+
+import importlib.util
+import random
+from types import ModuleType, SimpleNamespace
+
+import pytest
+
+from jumpcad.files import templates_folder
+
+CLOSED_DEG, TURN = 12.0, 360.0
+STEP_MS = 2
+NUMBERS = SimpleNamespace(
+    PWM_CAP=0.9, BATTERY_MIN_V=3.3, BATTERY_SAG_V=0.05, LOW_MS=200, WIND_MAX_MS=4000, RELEASE_MAX_MS=1000,
+    AFTER_RELEASE_MS=60, SETTLE_MS=10, LANDING_MS=1500, RAMP_MS=100,
+)  # fmt: skip
+
+
+def firmware(name: str = "winder") -> ModuleType:
+    """Return a module of the firmware, as the controller loads it."""
+    spec = importlib.util.spec_from_file_location(name, templates_folder() / "firmware" / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+WINDER = firmware()
+
+
+class World:
+    """A robot on the bench, stepped in time (ms, degrees, V)."""
+
+    def __init__(self, speed_deg_s: float = 180.0, jitter_ms: int = 0, bounce_ms: int = 4, seed: int = 1) -> None:
+        self.winder = WINDER.Winder(NUMBERS)
+        self.now_ms, self.cam_deg, self.drops, self.power = 0.0, 0.0, 0, 0.0
+        self.speed_deg_s, self.jitter_ms, self.bounce_ms = speed_deg_s, jitter_ms, bounce_ms
+        self.battery_v: float | None = 4.0
+        self.drain_v_s = 0.0
+        self.stuck_at_deg: float | None = None
+        self.shaken_until_ms = -1.0
+        self.dead_switch: bool | None = None
+        self.changed_ms, self.was_closed = -1e9, False
+        self.powers: list[float] = []
+        self.random = random.Random(seed)
+
+    def closed(self) -> bool:
+        """Return the switch as a pin reads it."""
+        if self.dead_switch is not None:
+            return self.dead_switch
+        true = self.cam_deg % TURN >= TURN - CLOSED_DEG
+        if true != self.was_closed:
+            self.was_closed, self.changed_ms = true, self.now_ms
+        bouncing = self.now_ms - self.changed_ms < self.bounce_ms or self.now_ms < self.shaken_until_ms
+        return self.random.random() < 0.5 if bouncing else true
+
+    def step(self, **commands: bool) -> None:
+        """Advance one step of the program."""
+        dt = STEP_MS + self.random.uniform(0, self.jitter_ms)
+        before = int(self.cam_deg // TURN)
+        if self.stuck_at_deg is None or self.cam_deg < self.stuck_at_deg:
+            self.cam_deg += self.power * self.speed_deg_s * dt / 1000.0
+        self.drops += int(self.cam_deg // TURN) - before
+        if self.battery_v is not None and self.power:
+            self.battery_v -= self.drain_v_s * dt / 1000.0
+        self.now_ms += dt
+        self.power = self.winder.step(round(self.now_ms), self.closed(), self.battery_v, **commands)
+        self.powers.append(self.power)
+
+    def until(self, *states: str, limit_s: float = 20.0) -> float:
+        """Step until a state is reached, and return how long it took (s)."""
+        start = self.now_ms
+        while self.winder.state not in states:
+            assert self.now_ms - start < 1000.0 * limit_s, f"still {self.winder.state}: {self.winder.said}"
+            self.step()
+        return (self.now_ms - start) / 1000.0
+
+    def wait(self, seconds: float) -> None:
+        """Step for a time."""
+        end = self.now_ms + 1000.0 * seconds
+        while self.now_ms < end:
+            self.step()
+
+
+def wound(**options: float) -> World:
+    world = World(**options)  # type: ignore[arg-type]
+    world.step(wind=True)
+    world.until(WINDER.READY)
+    return world
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize(("speed", "jitter", "bounce"), [(180.0, 0, 0), (120.0, 8, 5), (280.0, 3, 4)])
+def test_it_winds_to_the_sensor_waits_releases_and_stops(speed: float, jitter: int, bounce: int, seed: int) -> None:
+    world = World(speed, jitter, bounce, seed)
+    world.wait(0.2)
+    assert not any(world.powers)
+    world.step(wind=True)
+    world.until(WINDER.READY)
+    assert TURN - CLOSED_DEG <= world.cam_deg < TURN
+    world.wait(5.0)
+    assert world.drops == 0
+    assert world.power == 0.0
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    assert (world.drops, world.winder.jumps) == (1, 1)
+    assert max(world.powers) <= 0.9
+    # beyond the drop by no more than what the motor turns in the time that it may run on, and a bounce
+    assert world.cam_deg - TURN <= 0.9 * speed * (0.060 + 0.010 + 0.030) + 1.0
+    world.wait(3.0)
+    assert world.power == 0.0
+
+
+def test_many_jumps_are_counted_one_by_one() -> None:
+    world = World(jitter_ms=5, bounce_ms=5)
+    for number in range(1, 9):
+        world.step(wind=True)
+        world.until(WINDER.READY)
+        world.step(jump=True)
+        world.until(WINDER.IDLE)
+        assert (world.drops, world.winder.jumps) == (number, number)
+        world.wait(2.0)
+
+
+@pytest.mark.parametrize("at_deg", [0.0, 100.0, 340.0])
+def test_a_stuck_gear_stops_the_motor_in_time(at_deg: float) -> None:
+    world = World()
+    world.stuck_at_deg = at_deg
+    world.step(wind=True)
+    assert world.until(WINDER.FAULT) <= NUMBERS.WIND_MAX_MS / 1000.0 + 0.01
+    assert world.power == 0.0
+    assert "not wound in time" in world.winder.said
+
+
+def test_a_gear_that_sticks_at_release_stops_the_motor_in_time() -> None:
+    world = wound()
+    world.stuck_at_deg = world.cam_deg
+    world.step(jump=True)
+    assert world.until(WINDER.FAULT) <= NUMBERS.RELEASE_MAX_MS / 1000.0 + 0.01
+    assert (world.power, world.winder.jumps) == (0.0, 0)
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_a_broken_sensor_never_lets_the_motor_run_on(closed: bool) -> None:
+    """An open wire ends in the time-out of winding; a switch that hangs closed in that of the release."""
+    world = World()
+    world.dead_switch = closed
+    world.wait(0.1)
+    world.step(wind=True)
+    world.until(WINDER.FAULT, WINDER.READY)
+    if closed:
+        world.step(jump=True)
+        world.until(WINDER.FAULT)
+    assert sum(1 for power in world.powers if power) * STEP_MS <= NUMBERS.WIND_MAX_MS + STEP_MS
+    assert world.power == 0.0
+
+
+def test_the_landing_that_shakes_the_switch_starts_nothing() -> None:
+    world = wound()
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    world.shaken_until_ms = world.now_ms + 1400.0
+    while world.now_ms < world.shaken_until_ms:
+        world.step(wind=True, jump=True)  # a button that the landing presses
+        assert world.power == 0.0
+    assert world.winder.jumps == 1
+    world.wait(0.3)
+    world.step(wind=True)
+    assert world.winder.state == WINDER.WINDING
+
+
+def test_it_refuses_to_wind_on_a_low_battery() -> None:
+    world = World()
+    world.battery_v = 3.29
+    world.step(wind=True)
+    assert world.winder.state == WINDER.REFUSED
+    assert not any(world.powers)
+    world.battery_v = 4.1
+    world.step(wind=True)
+    assert world.winder.state == WINDER.WINDING
+
+
+def test_a_battery_that_dies_while_winding_stops_it() -> None:
+    world = World()
+    world.battery_v, world.drain_v_s = 3.4, 0.2
+    world.step(wind=True)
+    world.until(WINDER.REFUSED)
+    assert world.power == 0.0
+    assert world.battery_v is not None
+    assert 3.25 - 0.2 * 0.25 < world.battery_v < 3.25
+    assert world.drops == 0
+
+
+def test_a_short_dip_of_the_battery_at_the_start_is_borne() -> None:
+    world = World()
+    world.step(wind=True)
+    world.battery_v = 2.9
+    world.wait(0.15)
+    world.battery_v = 3.9
+    world.until(WINDER.READY)
+
+
+def test_what_is_wound_is_released_even_on_a_low_battery() -> None:
+    world = wound()
+    world.battery_v = 3.0
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    assert world.winder.jumps == 1
+
+
+def test_a_battery_that_is_not_measured_is_no_reason_to_refuse() -> None:
+    world = World()
+    world.battery_v = None
+    world.step(wind=True)
+    world.until(WINDER.READY)
+
+
+def test_stop_switches_the_motor_off_at_once_and_winding_goes_on_later() -> None:
+    world = World()
+    world.step(wind=True)
+    world.wait(0.5)
+    world.step(stop=True)
+    assert world.power == 0.0
+    world.wait(1.0)
+    assert world.power == 0.0
+    world.step(wind=True)
+    world.until(WINDER.READY)
+    assert world.drops == 0
+
+
+def test_a_robot_that_was_switched_off_when_wound_knows_it() -> None:
+    world = World()
+    world.cam_deg = 355.0
+    world.wait(0.1)
+    world.step(wind=True)
+    assert world.winder.state == WINDER.READY
+    assert not any(world.powers)
+
+
+def test_the_motor_starts_on_a_ramp() -> None:
+    world = World()
+    world.step(wind=True)
+    first = world.power
+    world.wait(0.2)
+    assert 0.0 < first < 0.5 * world.power
+    assert world.power == NUMBERS.PWM_CAP

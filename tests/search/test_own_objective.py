@@ -1,0 +1,149 @@
+"""Objectives that users write: what counts as the same function, and one line for each that fails."""
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+
+import pytest
+from support.hills import SMALL, Hill
+from support.searches import QUICK, data, refusal
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.own_objective import code_hash
+from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
+from jumpcad.search.store import StudyStore
+from jumpcad.search.study import run_study
+
+JUMP = Evaluation("jump", {"fitness": 4.0, "mass_kg": 0.1})
+FILE = "WEIGHT = 2.0\n\ndef light(m):\n    return m['fitness'] - WEIGHT * m['mass_kg']\n"
+
+
+def weighted(weight):
+    return lambda m: m["fitness"] - weight * m["mass_kg"]
+
+
+def request(function, **changes):
+    aim = find_objective(function)
+    return replace(Request(SMALL, Hill(), aim.name, "ga", evaluations=12, own=aim), **changes)
+
+
+def run(asked, path=None):
+    with local_pool(0) as pool:
+        return run_study(asked, path, pool)
+
+
+def test_a_function_and_one_of_a_file_score_alike(tmp_path):
+    (tmp_path / "aims.py").write_text(FILE)
+    own = find_objective(f"{tmp_path}/aims.py:light")
+    assert own.score(JUMP) == find_objective(weighted(2.0)).score(JUMP) == pytest.approx(3.8)
+    assert own.score(Evaluation("tips")) is None
+    assert own.describe() == {"objective": "light", "objective_code": own.code}
+
+
+def test_the_hash_follows_the_code_and_the_values_that_it_uses(tmp_path):
+    def of(text):
+        (tmp_path / "aims.py").write_text(text)
+        return find_objective(f"{tmp_path}/aims.py:light").code
+
+    moved = FILE.replace("def", "# said\n\n\ndef")
+    assert of(FILE) == of(moved)
+    inner = "NAMES = {'a', 'b', 'c'}\ndef part(m):\n    return sum(m[n] for n in NAMES)\n"
+    inner += "def light(m):\n    return part(m)\n"
+    others = [
+        FILE.replace("2.0", "3.0"), FILE.replace(" - ", " + "), inner, inner.replace("'c'", "'d'"),
+        inner.replace("sum", "max"),
+    ]  # fmt: skip
+    assert len({of(text) for text in (FILE, *others)}) == 6
+    assert code_hash(weighted(1.0)) == code_hash(weighted(1.0)) != code_hash(weighted(1.5))
+    (tmp_path / "aims.py").write_text(inner)  # sets have another order in another process
+    ask = f"from jumpcad.search import find_objective as f; print(f({str(tmp_path / 'aims.py:light')!r}).code)"
+    codes = set()
+    for seed in "123":
+        environment = {"PYTHONHASHSEED": seed, "PYTHONPATH": os.pathsep.join(sys.path)}
+        codes.add(subprocess.check_output([sys.executable, "-c", ask], env=environment))
+    assert len(codes) == 1
+
+
+def test_a_study_of_another_function_is_another_study(tmp_path):
+    found = run(request(weighted(1.0)), tmp_path / "s.db")
+    again = run(request(weighted(1.0)), tmp_path / "s.db")
+    assert [trial.score for trial in found.trials] == [trial.score for trial in again.trials]
+    with pytest.raises(JumpcadError, match="another study \\(objective_code"):
+        run(request(weighted(2.0)), tmp_path / "s.db")
+
+
+def test_a_score_below_zero_is_better_than_a_rejected_design():
+    """The lightest of what jumps: a genetic algorithm must not prefer what does not jump at all."""
+    result = run(request(lambda m: m["fitness"] - 100.0, evaluations=200))
+    plain = run(replace(request(lambda m: m["fitness"]), evaluations=200))
+    assert [trial.key for trial in result.trials] == [trial.key for trial in plain.trials]
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda m: m["fitnes"], "asks for 'fitnes'; a jump of this model has fitness, mass_kg"),
+        (lambda m: 1 / 0, "fails for a design that jumps: ZeroDivisionError: division by zero"),
+        (lambda m: sys.exit("bye"), "SystemExit: bye"),
+        (lambda m: float("nan"), "returns nan"),
+        (lambda m: float("inf"), "returns inf"),
+        (lambda m: 10**400, "returns a value too long|returns 1000"),
+        (lambda m: "far", r"returns 'far' \(str\), not a number"),
+        (lambda m: True, r"returns True \(bool\)"),
+        (lambda m: None, "returns None"),
+        (lambda m: json.loads("{\n"), "JSONDecodeError"),
+    ],
+)
+def test_a_function_that_fails_is_one_line(function, message):
+    with pytest.raises(JumpcadError, match=message) as error:
+        find_objective(function).score(JUMP)
+    assert "\n" not in str(error.value)
+    assert "--from-study" in str(error.value)
+
+
+@pytest.mark.parametrize("function", [len, print, Hill(), 5, weighted])
+def test_what_is_no_function_of_a_users_is_refused(function):
+    if function is weighted:
+        with pytest.raises(JumpcadError, match=r"returns <function .* \(function\), not a number"):
+            find_objective(function).score(JUMP)
+    else:
+        with pytest.raises(JumpcadError, match="made by `def` or `lambda`"):
+            find_objective(function)
+
+
+def test_what_was_evaluated_before_the_failure_is_kept_and_learned_from(tmp_path):
+    def picky(m):
+        return 1.0 / (m["fitness"] < 9.0)
+
+    with pytest.raises(JumpcadError, match="ZeroDivisionError"):
+        run(request(picky, evaluations=60), tmp_path / "s.db")
+    with StudyStore.read(tmp_path / "s.db") as store:
+        kept = store.trials()
+    assert 0 < len(kept) < 60
+    mended = run(request(weighted(1.0), prior=tmp_path / "s.db"))
+    assert len(mended.trials) == 12
+
+
+def test_an_own_objective_on_the_command_line(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    folder = tmp_path
+    (folder / "aims.py").write_text(FILE.replace("fitness", "ballistic_range_m"))
+    found = data("optimize", "bo", *QUICK, "--evaluations", 12, "--objective", "aims.py:light", "--plots", "pics")
+    assert found["objective"] == "light"
+    assert found["best"]["score"] == pytest.approx(
+        found["best"]["metrics"]["ballistic_range_m"] - 2.0 * found["best"]["metrics"]["mass_kg"]
+    )
+    (folder / "broken.py").write_text("def light(m)\n")
+    for place, message in (
+        ("aims.py:ligth", "defines no ligth (did you mean light?)"),
+        ("none.py:light", "no such file"),
+        ("broken.py:light", "does not run: SyntaxError"),
+        ("aims.py:", "FILE.py:FUNCTION"),
+        ("aims.py:WEIGHT", "made by `def` or `lambda`"),
+        ("hight", "an own one is FILE.py:FUNCTION"),
+    ):
+        assert message in refusal("optimize", "bo", *QUICK, "--evaluations", 12, "--objective", place)
