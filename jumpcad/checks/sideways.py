@@ -68,7 +68,7 @@ def rolls(robot: Robot) -> tuple[Roll, ...]:
 def stance_deg(layout: Layout, com_mm: Array, aside_mm: float) -> Array:
     """Return the roll (n,) at which centres of mass (n, 2), x-z in the foot's frame, are above the nearer edge.
 
-    The edge runs on the ground, under the pads, from a toe's tip to the nose's lug on the same side.
+    The edge runs from a toe's tip to the nose's lug on the same side.
     """
     back, front = float(toe_tip_mm(layout.design)[0]), layout.design.l4_mm
     wide, narrow = layout.toe_half_width_mm, layout.lateral.lug_left[1]
