@@ -211,6 +211,6 @@ def _findings(
             "release_window", needed, window, "°",
             f"the cam may run {needed:.0f}° past the end of its lift while the leg falls; the roller's way is free up "
             f"to {window:.0f}°",
-            "a slower motor, less release.play_deg, or a smaller bought.roller",
+            "a slower or lighter motor, less release.play_deg, or a smaller bought.roller",
         ),
     )  # fmt: skip

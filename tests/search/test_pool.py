@@ -132,7 +132,7 @@ def test_dask_that_does_not_answer(monkeypatch):
     [
         (-1, 1.0, "workers = -1"),
         (100_000, 1.0, "workers = 100000 must be at most 256"),
-        (1, 0.0, "limit = 0 s"),
+        (1, 0.0, "limit = 0.0 s"),
         (1, float("nan"), "limit = nan s"),
         (1, float("inf"), "limit = inf s"),
     ],
