@@ -77,7 +77,7 @@ class Bill:
     def known(self) -> str:
         """How many lines have a price, in words."""
         priced = sum(item.price_eur is not None for item in self.items)
-        return f"prices known of {priced} of {len(self.items)} lines"
+        return f"prices known for {priced} of {len(self.items)} lines"
 
     def sliced(self, times_s: Mapping[str, float], plates: Iterable[BilledPlate]) -> "Bill":
         """Return the bill with the printing times of parts, by name, and of plates."""

@@ -20,7 +20,7 @@ def write_guide(robot: Robot, pictures: bool = True) -> str:
     lines = [
         f"# {robot.name}",
         "",
-        f"{1000.0 * robot.mass_kg:.1f} g. Left and right are the robot's own, seen from above with the jump ahead.",
+        f"{1000.0 * robot.mass_kg:.1f} g. Left and right are as seen from behind the robot.",
         *_tables(bill_of_materials(robot)),
         *spring_order(robot),
         *_steps(robot, pictures),

@@ -65,16 +65,16 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
     yield "mass", f"{1000.0 * robot.mass_kg:.1f}", "g"
     for name, body in robot.bodies.items():
         yield f"mass of the {name.replace('_', ' ')}", f"{1000.0 * body.mass_kg:.1f}", "g"
-    yield "springs, wound", f"{robot.spring.energy_j:.4f}", "J"
-    yield "springs' angle", f"{math.degrees(robot.spring.wind_rad):.1f}", "°"
+    yield "spring energy", f"{robot.spring.energy_j:.4f}", "J"
+    yield "spring angle, loaded", f"{math.degrees(robot.spring.wind_rad):.1f}", "°"
     train = robot.layout.drive.train
     yield "gear motor", train.motor.name, ""
     yield "gear ratio", f"{train.ratio:.2f}", ": 1"
     yield "winding time", f"{train.winding_s:.2f}", "s"
     yield "electrical energy of a jump", f"{train.electrical_j:.2f}", "J"
-    yield "of it the boards' while winding", f"{train.boards_j:.2f}", "J"
-    yield "current, mean", f"{1000.0 * train.mean_current_a:.0f}", "mA"
-    yield "current, peak", f"{1000.0 * train.peak_current_a:.0f}", "mA"
+    yield "… of it, the boards' while winding", f"{train.boards_j:.2f}", "J"
+    yield "motor current, mean", f"{1000.0 * train.mean_current_a:.0f}", "mA"
+    yield "motor current, peak", f"{1000.0 * train.peak_current_a:.0f}", "mA"
 
 
 def _limits(robot: Robot) -> Iterator[str]:
@@ -83,8 +83,8 @@ def _limits(robot: Robot) -> Iterator[str]:
     found = sorted(quick_findings(robot), key=lambda finding: order.index(finding.severity))
     violated = sum(finding.severity != "info" for finding in found)
     yield "<h2>Limits</h2>"
-    yield f"<p>{violated} of {len(found)} are violated. <code>jumpcad check</code> looks at printability and at"
-    yield "interference through the motion as well, which take longer.</p>"
+    yield f"<p>{violated} of {len(found)} are violated. <code>jumpcad check</code> also checks"
+    yield "printability, and interference over the whole motion, which takes longer.</p>"
     yield from _table(("limit", "margin", "unit", "found"), (_limit(finding) for finding in found))
 
 

@@ -43,7 +43,7 @@ def geometry_findings(design: Design) -> list[Finding]:
     height = float(linkage.height_of_body_mm(-design.compression_rad).min())
     below = at_least(
         "below_ground", height, 0.0, "mm",
-        f"lowest body pivot, springs wound, is {height:.1f} mm above the line through ankle and front eye",
+        f"lowest body pivot with loaded springs is {height:.1f} mm above the line through ankle and front eye",
         "lower compression_ratio, or raise rest_angle_deg",
     )  # fmt: skip
     return [loop, below]
@@ -59,7 +59,7 @@ def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -
     stability = min(x - back, front - x)
     tips = at_least(
         "tips", stability, 0.0, "mm",
-        f"centre of mass, springs wound, is at {x:.1f} mm from the ankle; the feet span {back:.1f} to {front:.1f} mm",
+        f"centre of mass with loaded springs is {x:.1f} mm from the ankle; the foot spans {back:.1f} to {front:.1f} mm",
         "lengthen the toes (e_coef) or turn them back (smaller ground_link_angle_deg), or lower compression_ratio",
     )  # fmt: skip
     work = mechanism.mass_kg * gravity_m_s2 * float(com[1, 1] - com[0, 1]) / 1000.0
@@ -111,7 +111,7 @@ def _winding_finding(design: Design) -> Finding:
 
 
 def _loop_finding(margin_mm: float, why: str) -> Finding:
-    found = f"closes with {margin_mm:.2f} mm to spare" if margin_mm > 0 else f"is {-margin_mm:.2f} mm short of closing"
+    found = f"closes with {margin_mm:.2f} mm margin" if margin_mm > 0 else f"is {-margin_mm:.2f} mm short of closing"
     return Finding(
         "loop", "info" if margin_mm > 0 else "error", margin_mm, "mm", f"the loop {found}: {why}",
         "lower compression_ratio, or bring c_coef nearer to 1", margin_mm, 0.0,

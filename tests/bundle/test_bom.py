@@ -54,7 +54,7 @@ def test_the_bill_counts_every_piece(robot: Robot) -> None:
 def test_nothing_costs_anything_unless_the_workshop_says_so(robot: Robot) -> None:
     lines = table(write_bom(bill_of_materials(robot)))
     assert {line["eur_each"] + line["eur"] + line["print_time_s"] for line in lines} == {""}
-    assert lines[-1]["item"] == f"prices known of 0 of {len(lines) - 1} lines"
+    assert lines[-1]["item"] == f"prices known for 0 of {len(lines) - 1} lines"
     assert "€" not in write_guide(robot)
 
 
@@ -79,7 +79,7 @@ def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
     assert float(screws["eur"]) == pytest.approx(0.08 * int(screws["quantity"]))
     assert line["ball bearing MR63"]["eur"] == "3.00"
     known = [line for line in lines[:-1] if line["eur"]]
-    assert lines[-1]["item"] == f"prices known of {len(known)} of {len(lines) - 1} lines"
+    assert lines[-1]["item"] == f"prices known for {len(known)} of {len(lines) - 1} lines"
     assert float(lines[-1]["eur"]) == pytest.approx(sum(float(line["eur"]) for line in known), abs=0.005 * len(known))
     assert f"{lines[-1]['eur']} € together" in write_guide(robot)
 

@@ -54,7 +54,7 @@ def test_is_closed_html_that_asks_for_nothing_else(robot: Robot) -> None:
 def test_says_what_the_robot_is(robot: Robot) -> None:
     found = cells(write_report(robot, {}))
     assert float(found["mass"][1]) == pytest.approx(1000.0 * robot.mass_kg, abs=0.05)
-    assert float(found["springs, wound"][1]) == pytest.approx(0.133, abs=0.001)  # the study's figure for Kenan 2.0
+    assert float(found["spring energy"][1]) == pytest.approx(0.133, abs=0.001)  # the study's figure for Kenan 2.0
     assert {finding.name for finding in constraint_findings(robot)} <= set(found)
     assert {part.name for part in robot.parts} <= set(found)
     assert {thing.article for thing in robot.hardware} <= set(found)
