@@ -38,7 +38,7 @@ def ground_findings(robot: Robot) -> list[Finding]:
     return [
         at_least(
             "ground_clearance", clearance, needed, "mm",
-            f"{name} passes {clearance:.1f} mm above the ground; {needed:g} mm are kept",
+            f"least height of {name} above the ground: {clearance:.1f} mm; {needed:g} mm are needed",
             "lower compression_ratio, or raise rest_angle_deg",
         )
     ]  # fmt: skip

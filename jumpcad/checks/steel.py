@@ -30,8 +30,8 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
         "narrower battery or board), or lower stiffness_nmm_per_deg or compression_ratio"
     )
     names = {
-        "leg_axle": "the leg's axle, wound",
-        "cam_axle": "the cam's axle, wound",
+        "leg_axle": "the leg's axle, springs loaded",
+        "cam_axle": "the cam's axle, springs loaded",
         "spring_pin": "the pin that holds the springs' arms",
         "foot_pin": "the foot's pins",
         "leg_pin": "the leg's pin that the springs' arms push",
@@ -43,7 +43,7 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     stress = pin_stress_mpa(layout.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
     allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
     yield stress_finding(
-        "roller_screw_strength", "the roller's screw, wound", stress, allowed, "a narrower bought.roller"
+        "roller_screw_strength", "the roller's screw, springs loaded", stress, allowed, "a narrower bought.roller"
     )
 
 
@@ -68,15 +68,15 @@ def _fatigue(case: LoadCase) -> Iterator[Finding]:
     allowed = spring_share(safety.jumps) * spring.tensile_mpa
     yield at_most(
         "spring_fatigue", spring.stress_mpa, allowed, "MPa",
-        f"the springs' wire bears {spring.stress_mpa:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps; it lasts "
-        f"{'without end' if math.isinf(lasts) else f'about {lasts:.0f}'}",
+        f"the springs' wire: {spring.stress_mpa:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps; its life is "
+        f"{'infinite' if math.isinf(lasts) else f'about {lasts:.0f} jumps'}",
         "lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip
     name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / case.bars[item[0]].yield_mpa)
     allowed = pin_limit_mpa(case.bars[name].yield_mpa / YIELD_SHARE, safety.jumps) / safety.load_factor
     yield at_most(
         "axle_fatigue", stress, allowed, "MPa",
-        f"the {name.replace('_', ' ')} bears {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
+        f"the {name.replace('_', ' ')}: {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
         "raise bought.axle_mm with its bearings, or lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip
 
@@ -91,7 +91,7 @@ def _bearings(case: LoadCase) -> Iterator[Finding]:
     allowed = allowed_n(hub, case.workshop)
     yield at_most(
         "hub_bearing_load", force, allowed, "N",
-        f"the {hub.name} at the cam's side of the leg's hub bears {force:.0f} of {allowed:.0f} N, its static rating "
+        f"the {hub.name} at the cam's side of the leg's hub: {force:.0f} of {allowed:.0f} N, its static rating "
         f"over {case.workshop.safety.bearing_factor:g} and the reserves",
         'bought.leg_bearing = "any" for a stronger one, or "" for none', "warning",
     )  # fmt: skip

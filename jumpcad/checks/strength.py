@@ -62,7 +62,7 @@ def _leg(case: LoadCase) -> Iterator[Finding]:
     hub = max(2.0 * holes.hub_radius_mm, sections.leg_root_mm)
     stress = bored_stress_mpa(torque, sections.thickness_mm, hub, holes.hub_bore_mm)
     yield stress_finding(
-        "hub_strength", "main leg beside its hub's bore, wound", stress, case.allowable_mpa,
+        "hub_strength", "main leg beside its hub's bore, springs loaded", stress, case.allowable_mpa,
         f"a smaller bought.leg_bearing, or {WEAKER}", "leg",
     )  # fmt: skip
     lever = Beam(
@@ -70,7 +70,9 @@ def _leg(case: LoadCase) -> Iterator[Finding]:
     )
     along = cam.peak_contact_n * math.sin(cam.max_pressure_angle_rad)
     stress = tapered_stress_mpa(lever, torque, along)
-    yield stress_finding("lever_strength", "lever in bending, wound", stress, case.allowable_mpa, WEAKER, "lever")
+    yield stress_finding(
+        "lever_strength", "lever in bending, springs loaded", stress, case.allowable_mpa, WEAKER, "lever"
+    )
     share = leg_flex_share(layout.design, leg, case.workshop.material("links").modulus_mpa, case.robot.spring)
     allowed = case.workshop.safety.leg_flex_share
     yield limit(
@@ -91,7 +93,7 @@ def _front_link(case: LoadCase) -> Iterator[Finding]:
     allowed = load / case.workshop.safety.printed_factor
     yield at_most(
         "front_link_buckling", case.landing_n, allowed, "N",
-        f"front link under the whole landing: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
+        f"front link under the whole landing force: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
         "shorten the front link (c_coef, carrying_link_mm), or raise landing_stop_mm with softer ground",
         grows="front",
     )  # fmt: skip

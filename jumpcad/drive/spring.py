@@ -193,7 +193,7 @@ def torsion_spring(
         findings=(
             at_most(
                 "spring_stress", stress, allowable, "MPa",
-                f"the wound springs' wire of {d:g} mm bears {stress:.0f} of {allowable:.0f} MPa",
+                f"the springs' wire of {d:g} mm, loaded: {stress:.0f} of {allowable:.0f} MPa",
                 "lower stiffness_nmm_per_deg or compression_ratio" if not stock else
                 "lower compression_ratio, or choose another bought.spring with thicker wire",
             ),

@@ -69,7 +69,7 @@ def test_what_is_violated_stands_out_and_names_are_escaped(robot: Robot) -> None
     assert parsed(page).findtext("body/h1") == "a <b> & c"
     broken = [row for row in parsed(page).iter("tr") if row.get("class") == "error"]
     assert "leg_axle_strength" in {row[0].text for row in broken}
-    assert "error: the leg's axle, wound" in (broken[0][3].text or "")
+    assert "error: the leg's axle, springs loaded" in (broken[0][3].text or "")
 
 
 def test_same_bytes_for_the_same_robot(robot: Robot) -> None:

@@ -26,7 +26,7 @@ def test_what_lasts_too_few_jumps_warns(kenan: Robot, strongest: Robot) -> None:
     lasting = changed(kenan, "safety", jumps=1e6)
     (finding,) = [found for found in strength_findings(lasting) if found.severity == "warning"]
     assert finding.name == "spring_fatigue"
-    assert "of 960 MPa for 1e+06 jumps; it lasts about 6" in finding.message  # half of 1920 MPa (EN 10270-1, 1.2 mm)
+    assert "of 960 MPa for 1e+06 jumps; its life is about 6" in finding.message  # half of 1920 MPa (EN 10270-1, 1.2 mm)
     soft = changed(changed(strongest, "safety", jumps=1e6), "safety", steel_yield_mpa=900.0)
     assert {"axle_fatigue"} <= {found.name for found in strength_findings(soft) if found.severity == "warning"}
     built_for_it = build(lasting.design, lasting.workshop)
