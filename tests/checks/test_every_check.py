@@ -102,7 +102,7 @@ def test_release(kenan: Robot) -> None:
     broken = {finding.name for finding in errors(build(load_design("best-bo"), rigid).release.findings)}
     assert {"release_energy", "release_kick"} <= broken
     train = kenan.layout.drive.train
-    quick = replace(train, motor=train.motor.model_copy(update={"no_load_rpm": 10.0 * train.motor.no_load_rpm}))
+    quick = replace(train, cam_speed_rad_s=10.0 * train.cam_speed_rad_s)
     layout = replace(kenan.layout, drive=replace(kenan.layout.drive, train=quick))
     holes = HoleSizes.of(shop, layout.hub_bearing)
     found = release_of(layout, shop, holes, kenan.parts, kenan.hardware, kenan.bodies, kenan.spring)
