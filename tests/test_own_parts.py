@@ -84,8 +84,8 @@ def large(**figures: float) -> str:
     motor and a small roller allow, and the toes reach further aside.
     """
     large_motor = {
-        "mass_g": 65.0, "no_load_rpm": 33.0, "width_mm": 25.0, "height_mm": 25.0, "body_length_mm": 50.0, "shaft_mm": 4.0,
-        "shaft_flat_mm": 3.5, "shaft_length_mm": 12.0, "boss_mm": 7.0, "boss_length_mm": 2.5,
+        "mass_g": 65.0, "no_load_rpm": 33.0, "width_mm": 25.0, "height_mm": 25.0, "body_length_mm": 50.0,
+        "shaft_mm": 4.0, "shaft_flat_mm": 3.5, "shaft_length_mm": 12.0, "boss_mm": 7.0, "boss_length_mm": 2.5,
     }  # fmt: skip
     text = motor(**large_motor | figures).replace("[bought]\n", '[bought]\nroller = "MR63"\n')
     return text + WIDE_TOES
@@ -143,7 +143,8 @@ REFUSED = {
     ),
     "battery of 300 mm": (
         battery(300.0, 20.0, 10.0),
-        r"^part body_plate_left of 3\d\d\.\d×\d+\.\d×\d\.\d mm does not fit the bed of 250\.0×210\.0×220\.0 mm at any angle",
+        r"^part body_plate_left of 3\d\d\.\d×\d+\.\d×\d\.\d mm does not fit the bed of "
+        r"250\.0×210\.0×220\.0 mm at any angle",
     ),
     "bearing 684 on axles of 4 mm": (
         bearing("leg_bearing", 4.0, 9.0, 4.0, "axle_mm = 4.0\n"),

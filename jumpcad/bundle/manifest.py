@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -144,7 +145,8 @@ def open_bundle(folder: str | Path) -> Bundle:
     try:
         with path.open("rb") as stream:
             text = stream.read(LARGEST_BYTES + 1)
-        manifest: Any = json.loads(text, parse_constant=_refuse) if len(text) <= LARGEST_BYTES else None
+        small = len(text) <= LARGEST_BYTES
+        manifest: Any = json.loads(text, parse_constant=_refuse, parse_float=_finite) if small else None
         if manifest["format"] != FORMAT and isinstance(manifest["format"], int):
             raise JumpcadError(f"{path}: format {manifest['format']}; this version reads {FORMAT}: build it again")
         _Manifest.model_validate(manifest)
@@ -197,6 +199,13 @@ def unlisted(folder: str | Path) -> list[str]:
 def _sha256(file: Path) -> str:
     with file.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def _finite(number: str) -> float:
+    """Return a number, unless it is too large for one, as 1e999 is."""
+    if not math.isfinite(value := float(number)):
+        raise ValueError(number)
+    return value
 
 
 def _refuse(constant: str) -> NoReturn:

@@ -172,11 +172,13 @@ def test_the_energy_account_adds_up(kenan: Mechanism, engine: str, friction: flo
 
 
 def test_settings_follow_the_robot(kenan: Mechanism) -> None:
-    """A printed robot slips on its pad where the capsules, on the study's friction, do not; a file overrides it."""
+    """A printed robot rubs as its own pads and pins do, capsules as the study's; a file overrides it."""
     pytest.importorskip("pybullet")
     printed = built("best-ga")
-    own, grippy = simulate(printed), simulate(printed, Settings(ground_friction=1.5))
-    assert own.ballistic_range_m < 0.97 * grippy.ballistic_range_m
+    assert printed.friction is not None
+    icy = replace(printed, friction=replace(printed.friction, foot=0.3))
+    own = simulate(printed)
+    assert simulate(icy).ballistic_range_m < 0.97 * own.ballistic_range_m
     same = Settings(ground_friction=0.8, body_friction=0.35 / 0.8, pin_friction=0.25, joint_damping_nms_per_rad=0.0)
     assert simulate(printed, same).ballistic_range_m == own.ballistic_range_m
     study = Settings(
