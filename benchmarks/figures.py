@@ -28,6 +28,7 @@ from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
 from jumpcad.search.robust import varied_lengths, varied_parameters
+from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.workshop import load_workshop
 
@@ -164,11 +165,11 @@ def of_best_printable() -> dict[str, str]:
 
 def of_assumptions() -> dict[str, str]:
     """Return what the README says of settings, of the search's call in Python, and of what may differ elsewhere."""
-    settings = Settings()
+    study = coefficients(capsule_robot(load_design("kenan-2.0")), Settings())
     given = ", ".join(f"{option[2:]}={value}" for option, value in zip(SEARCH[1::2], SEARCH[2::2], strict=True))
     return {
-        "assumptions": f"A friction of {settings.ground_friction * settings.foot_friction:g} and a joint damping of "
-        f"{settings.joint_damping_nms_per_rad:g} N·m·s/rad",
+        "assumptions": f"A friction of {study.ground * study.foot:g} and a joint damping of "
+        f"{study.joint_damping_nms_per_rad:g} N·m·s/rad",
         "blind time": f"{published.IGNORED_S:g} s",
         "search in Python": f"`best = jumpcad.optimize({given})`",
         "search slack": percent([SEARCH_SLACK]),
