@@ -19,7 +19,7 @@ def main() -> None:
     model = robot_model(arguments.model)
     for name in ("kenan-1.0", "kenan-2.0"):
         evaluation = model(jumpcad.load_design(name))
-        print(f"{name:10s} {evaluation.verdict}: {evaluation.metrics.get('fitness', 0.0):.3f} body lengths")
+        print(f"{name:10s} {evaluation.verdict}: {evaluation.metrics.get('fitness', 0.0):.3f} of the longest link")
 
     prototype = jumpcad.load_design("kenan-2.0")
     kept = ("stiffness_nmm_per_deg", "compression_ratio", "rest_angle_deg")
@@ -27,9 +27,10 @@ def main() -> None:
         "bo",
         evaluations=arguments.evaluations,
         model=arguments.model,
+        objective="fitness",
         fixed={name: getattr(prototype, name) for name in kept},
     )
-    print(f"best links jump: {best.score:.3f} body lengths")
+    print(f"best links jump: {best.score:.3f} of the longest link")
     print(best.design.to_toml())
 
 

@@ -9,7 +9,7 @@ from support.places import ROOT
 
 EXAMPLES = {
     "paper_pipeline": ["--model", "capsule", "--evaluations", "20", "--points", "3", "--folder", "out"],
-    "one_spring": ["--model", "capsule", "--evaluations", "30"],
+    "one_spring": ["--model", "capsule", "--evaluations", "60"],
     "pareto_front": ["--model", "capsule", "--evaluations", "24", "--folder", "out"],
     "custom_printer": ["--folder", "out"],
 }
@@ -36,7 +36,7 @@ def test_paper_pipeline(tmp_path):
 
 def test_one_spring_is_used_better_than_by_the_prototypes(tmp_path):
     shown = run("one_spring", tmp_path)
-    scores = [float(score) for score in re.findall(r": ([\d.]+) body lengths", shown)]
+    scores = [float(score) for score in re.findall(r": ([\d.]+) of the longest link", shown)]
     assert len(scores) == 3
     assert scores[2] >= scores[1] > scores[0]  # as the study found: 2.0 beats 1.0, and its links are not the best
     assert "stiffness_nmm_per_deg = 9.2" in shown

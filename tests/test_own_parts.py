@@ -146,10 +146,6 @@ REFUSED = {
         r"^part body_plate_left of 3\d\d\.\d×\d+\.\d×\d\.\d mm does not fit the bed of "
         r"250\.0×210\.0×220\.0 mm at any angle",
     ),
-    "bearing 684 on axles of 4 mm": (
-        bearing("leg_bearing", 4.0, 9.0, 4.0, "axle_mm = 4.0\n"),
-        r"^bought\.axle_mm = 4: no clevis pin of that size \(3 mm\): use one of these$",
-    ),
     "bearing 625 in the hub": (
         bearing("leg_bearing", 5.0, 16.0, 5.0),
         r'^bought\.leg_bearing = "own": no such bearing has the bore of bought\.axle_mm = 3: change one of them',
@@ -166,7 +162,7 @@ REFUSED = {
     ),
     "wide bearing in the hub": (
         bearing("leg_bearing", 3.0, 8.0, 15.0),
-        r'^no clevis pin of \d+\.\d mm for the ankle pin; the longest is 30 mm: choose bought\.retention = "clips"$',
+        r"^no M3 screw of \d+\.\d mm; the longest in stock is 30 mm: choose a narrower bought\.leg_bearing or",
     ),
 }  # fmt: skip
 

@@ -13,6 +13,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from jumpcad.bundle.tree import above, is_safe, shown, tree, trouble
 from jumpcad.errors import JumpcadError
+from jumpcad.files.names import Text
 
 MANIFEST = "manifest.json"
 FORMAT = 1
@@ -61,11 +62,11 @@ class _MassLine(BaseModel):
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
 
     kind: Literal["printed", "bought"]
-    name: str
+    name: Text
     quantity: Annotated[int, Field(ge=1)]
-    material: str
+    material: Text
     mass_kg: Annotated[float, Field(ge=0.0)]
-    source: str
+    source: Text
 
 
 class _Manifest(BaseModel):

@@ -208,7 +208,7 @@ class Board(Article):
     output_a: Positive | None = None
     quiescent_a: Annotated[float, Field(ge=0, le=10)] = 0.0
     resistance_ohm: Annotated[float, Field(ge=0, le=100)] = 0.0
-    efficiency: Annotated[float, Field(gt=0, le=1)] = 1.0
+    efficiency: Annotated[float, Field(ge=0.01, le=1)] = 1.0
     confidence: Confidence = "stated"
 
     def with_function(self, function: str) -> tuple[str, ...]:

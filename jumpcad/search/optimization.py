@@ -93,7 +93,7 @@ def optimize(
     request = Request.make(
         space, robot_model(model, workshop, settings, engine), method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
-        until_percent=float(until_percent), hours=float(hours),
+        until_percent=until_percent, hours=hours,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, None if study is None else Path(study), pool)

@@ -56,7 +56,7 @@ def require_function(function: Any) -> FunctionType:
         Saying what to give instead.
     """
     if not isinstance(function, FunctionType):
-        raise JumpcadError(f"an own objective is a function made by `def` or `lambda`, not {described(function)}")
+        raise JumpcadError(f"an own objective takes a function made by `def` or `lambda`, not {described(function)}")
     return function
 
 

@@ -93,4 +93,4 @@ def test_a_motor_that_an_empty_battery_does_not_turn_gets_no_gears() -> None:
     flat = replace(BARE, empty_v=0.5, ohm=2.0)
     limits = replace(default_limits().train, supply=flat)
     assert allowed_nm(motor, limits) <= 0.6 * 0.2354 * (0.5 / (6.0 / 0.67 + 2.0) - 0.04) / 0.63 + 1e-9
-    assert allowed_nm(motor, replace(limits, supply=None)) == pytest.approx(0.25 * 0.2354)
+    assert allowed_nm(motor, replace(limits, supply=None)) == pytest.approx(0.25 * 0.95 / 1.1 * 0.2354)

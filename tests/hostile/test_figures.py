@@ -91,6 +91,8 @@ def with_figure(data: Any, place: Place, value: float) -> Any:
     """Return nested data with one figure replaced."""
     if not place:
         return value
+    if data is None:  # an optional pair: both ends alike
+        return (value, value)
     if isinstance(data, tuple):
         return tuple(
             with_figure(one, place[1:], value) if number == place[0] else one for number, one in enumerate(data)

@@ -1,0 +1,97 @@
+"""Runs the robot: reads sensor, button, battery and serial commands, and turns the motor as `winder` says.
+
+Commands over USB, each a line: `wind`, `jump`, `stop`, `state`. The board's button winds, and then releases after a
+delay in which to step back.
+"""
+
+import select
+import sys
+import time
+
+import robot
+from machine import ADC, PWM, Pin
+from winder import READY, Winder
+
+STEP_MS = 2
+
+
+class Board:
+    """The pins of the controller."""
+
+    def __init__(self):
+        self.motor = PWM(Pin(robot.PIN_MOTOR), freq=robot.PWM_HZ, duty_u16=0)
+        self.sleep = None if robot.PIN_SLEEP is None else Pin(robot.PIN_SLEEP, Pin.OUT, value=0)
+        self.ready = Pin(robot.PIN_READY, Pin.IN, Pin.PULL_UP)
+        self.button = None if robot.PIN_BUTTON is None else Pin(robot.PIN_BUTTON, Pin.IN, Pin.PULL_UP)
+        self.battery = None
+        if robot.PIN_BATTERY is not None:
+            self.battery = ADC(Pin(robot.PIN_BATTERY), atten=ADC.ATTN_11DB)
+
+    def turn(self, share):
+        """Give the motor a share of PWM; at 0 the driver sleeps."""
+        if self.sleep is not None:
+            self.sleep.value(1 if share > 0.0 else 0)
+        self.motor.duty_u16(int(65535 * share))
+
+    def battery_v(self):
+        """Return the battery's voltage, or None where it is not measured."""
+        return None if self.battery is None else self.battery.read_uv() * 1e-6 * robot.BATTERY_DIVIDER
+
+
+class Button:
+    """A push button: pressed once a press, after the release of an earlier one."""
+
+    def __init__(self):
+        self.was_down_ms = 0
+
+    def pressed(self, now_ms, down):
+        """Return whether it has just been down for 30 ms."""
+        before = self.was_down_ms
+        self.was_down_ms = before + STEP_MS if down else 0
+        return before < 30 <= self.was_down_ms
+
+
+def command(poll):
+    """Return the line that came in, or nothing."""
+    return sys.stdin.readline().strip() if poll.poll(0) else ""
+
+
+def run():
+    """Work until interrupted; the motor is off afterwards, whatever happened."""
+    board, winder, button = Board(), Winder(robot), Button()
+    poll = select.poll()
+    poll.register(sys.stdin, select.POLLIN)
+    told, release_at = "", None
+    now, last = 0, time.ticks_ms()
+    try:
+        while True:
+            ticks = time.ticks_ms()
+            now += time.ticks_diff(ticks, last)
+            last = ticks
+            word = command(poll)
+            down = board.button is not None and not board.button.value()
+            pressed = button.pressed(now, down)
+            if pressed and winder.state == READY and release_at is None:
+                release_at = now + robot.BUTTON_DELAY_MS
+                print("jump in %d s" % (robot.BUTTON_DELAY_MS // 1000))
+            due = release_at is not None and now >= release_at
+            if winder.state != READY or due or word == "stop":
+                release_at = None
+            share = winder.step(
+                now,
+                not board.ready.value(),
+                board.battery_v(),
+                wind=word == "wind" or (pressed and winder.state != READY),
+                jump=word == "jump" or due,
+                stop=word == "stop",
+            )
+            board.turn(share)
+            if winder.said != told or word == "state":
+                told = winder.said
+                print("%s: %s; %d jumps" % (winder.state, told, winder.jumps))
+            time.sleep_ms(STEP_MS)
+    finally:
+        board.turn(0.0)
+
+
+run()

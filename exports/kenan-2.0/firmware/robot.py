@@ -1,0 +1,20 @@
+"""Numbers of one robot, computed by jumpcad: motor n20-298-mp."""
+
+PIN_MOTOR = 5  # GPIO numbers
+PIN_SLEEP = 6
+PIN_READY = 7
+PIN_BATTERY = 3  # None: not measured
+PIN_BUTTON = 9  # on the board; None: serial commands alone
+PWM_HZ = 20000
+PWM_CAP = 1.0  # largest share of PWM: keeps gearbox and winding within their limits on a full battery
+BATTERY_DIVIDER = 2.0  # battery's voltage over that at its pin
+BATTERY_MIN_V = 3.3  # below this, at rest, it refuses to wind
+BATTERY_SAG_V = 0.012  # lower by this while it winds
+LOW_MS = 200  # for so long
+WIND_MAX_MS = 6100  # a blocked motor is off after this at the latest
+RELEASE_MAX_MS = 1600  # as above, from the ready position over the drop
+AFTER_RELEASE_MS = 60  # motor runs on after the sensor has opened
+SETTLE_MS = 10  # a switch counts after this
+LANDING_MS = 1500  # ignored after a jump
+BUTTON_DELAY_MS = 3000  # to step back
+RAMP_MS = 100

@@ -1,0 +1,123 @@
+"""When the motor turns: the logic of the firmware, without hardware.
+
+`Winder.step` takes the time (ms) and what the pins say, and returns the motor's share of PWM, 0 to 1. It runs under
+MicroPython and CPython. The cam has one drop a turn: the sensor closes shortly before the drop (ready), opens after it.
+"""
+
+IDLE, WINDING, READY, RELEASING, REFUSED, FAULT = "idle", "winding", "ready", "releasing", "refused", "fault"
+
+
+class Debounced:
+    """A switch whose state counts once it has lasted for a time (ms)."""
+
+    def __init__(self, settle_ms, closed=False):
+        self.settle_ms = settle_ms
+        self.closed = closed
+        self._raw, self._since_ms = closed, 0
+
+    def see(self, now_ms, closed):
+        """Take a reading and return the settled state."""
+        if closed != self._raw:
+            self._raw, self._since_ms = closed, now_ms
+        if now_ms - self._since_ms >= self.settle_ms:
+            self.closed = self._raw
+        return self.closed
+
+
+class Winder:
+    """The state of one robot.
+
+    `numbers` is the module `robot`, or anything with its names. `said` is what happened last, in words; `jumps` counts
+    releases.
+    """
+
+    def __init__(self, numbers):
+        self.numbers = numbers
+        self.state = IDLE
+        self.said = "ready for a command"
+        self.jumps = 0
+        self._sensor = Debounced(numbers.SETTLE_MS)
+        self._since_ms = 0
+        self._low_since_ms = None
+        self._opened_ms = None
+
+    def step(self, now_ms, closed, battery_v=None, wind=False, jump=False, stop=False):
+        """Return the motor's share of PWM.
+
+        `closed` is the sensor as read, `battery_v` the battery's voltage or None where it is not measured, `wind`,
+        `jump` and `stop` are commands of this step.
+        """
+        numbers = self.numbers
+        elapsed = now_ms - self._since_ms
+        settled = self._sensor.see(now_ms, closed)
+        if stop:
+            return self._enter(IDLE, now_ms, "stopped; the springs may be loaded")
+        if self.state == WINDING:
+            if self._is_low(now_ms, battery_v):
+                return self._enter(REFUSED, now_ms, "battery low: charge it; the springs may be loaded")
+            if settled:
+                return self._enter(READY, now_ms, "ready: keep away from the leg")
+            if elapsed > numbers.WIND_MAX_MS:
+                return self._enter(FAULT, now_ms, "not wound in time: stuck, slipping, or no sensor; motor off")
+            return self._power(elapsed)
+        if self.state == RELEASING:
+            return self._releasing(now_ms, elapsed, closed)
+        if self.state == READY:
+            if jump:  # even on a low battery: a robot is safer when its springs are slack
+                self._opened_ms = None
+                return self._enter(RELEASING, now_ms, "releasing")
+            return 0.0
+        if wind and now_ms >= self._quiet_until_ms():
+            return self._begin(now_ms, settled, battery_v)
+        return 0.0
+
+    def _begin(self, now_ms, settled, battery_v):
+        """Start to wind from rest."""
+        if self._refuses(battery_v):
+            return self._enter(REFUSED, now_ms, "battery low: charge it")
+        self._low_since_ms = None
+        if settled:  # it stopped there before: the springs are loaded
+            return self._enter(READY, now_ms, "ready: keep away from the leg")
+        return self._enter(WINDING, now_ms, "winding")
+
+    def _releasing(self, now_ms, elapsed, closed):
+        """Drive over the drop: the sensor opens, and the motor stops a little after that.
+
+        The first opening counts at once, since the leg falls within milliseconds; a bounce only starts the time anew.
+        """
+        numbers = self.numbers
+        if closed:
+            self._opened_ms = None
+        elif self._opened_ms is None:
+            self._opened_ms = now_ms
+        if self._opened_ms is not None and now_ms - self._opened_ms >= numbers.AFTER_RELEASE_MS:
+            self.jumps += 1
+            return self._enter(IDLE, now_ms, "jump %d" % self.jumps)
+        if elapsed > numbers.RELEASE_MAX_MS:
+            return self._enter(FAULT, now_ms, "no release in time: stuck, or the sensor hangs; motor off")
+        return self._power(elapsed)
+
+    def _quiet_until_ms(self):
+        """Return the time before which switch and commands are ignored: the landing shakes both."""
+        return self._since_ms + self.numbers.LANDING_MS if self.jumps else self._since_ms
+
+    def _power(self, elapsed):
+        """Return the share of PWM some time after the start (ms): a ramp, since a sudden start empties the supply."""
+        numbers = self.numbers
+        return numbers.PWM_CAP * min(1.0, 0.3 + 0.7 * elapsed / numbers.RAMP_MS)
+
+    def _refuses(self, battery_v):
+        return battery_v is not None and battery_v < self.numbers.BATTERY_MIN_V
+
+    def _is_low(self, now_ms, battery_v):
+        """Tell whether the loaded battery has been low for a while."""
+        if battery_v is None or battery_v >= self.numbers.BATTERY_MIN_V - self.numbers.BATTERY_SAG_V:
+            self._low_since_ms = None
+            return False
+        if self._low_since_ms is None:
+            self._low_since_ms = now_ms
+        return now_ms - self._low_since_ms >= self.numbers.LOW_MS
+
+    def _enter(self, state, now_ms, words):
+        self.state, self.said, self._since_ms = state, words, now_ms
+        return self._power(0) if state in (WINDING, RELEASING) else 0.0
