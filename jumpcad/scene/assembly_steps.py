@@ -61,7 +61,8 @@ ORDER: tuple[tuple[str, str, str], ...] = (
         r"cam|cam_gear|motor_pinion|idler|cam_spacer_.*|idler_spacer_.*",
         "On the cam axle go spacer, cam and, over the cam's jaws, the cam gear; the roller lies at the foot of the "
         "cam's drop. The cam must turn freely in the gear from jaw to jaw. Press the pinion onto the motor's shaft, "
-        "flat to flat: its ribs are cut. Turn the cam once by hand: the leg winds and lets go.",
+        "flat to flat: its ribs are cut. From here on do not turn the cam by hand: it would drive the gear motor "
+        "backwards, and the axles stand in one plate only.",
     ),
     (
         "Electronics",
@@ -75,7 +76,8 @@ ORDER: tuple[tuple[str, str, str], ...] = (
         "Screw the standoffs to the right plate. Lower the left plate over axles, spring pin, stop bar and tabs, with "
         "the left spring's body arm below the pin, and screw it to the standoffs: the plates' closed bores then hold "
         "the axles. Otherwise press a clip into the groove at either end of every axle, or put in the screws from the "
-        "left and turn their lock nuts until the plates just bear no load.",
+        "left and turn their lock nuts until the plates just bear no load. The motor winds the springs for the first "
+        "time now: keep fingers and eyes away from leg, foot and cam while they are loaded.",
     ),
 )
 """Title, names of the parts that are added, text."""

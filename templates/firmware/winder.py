@@ -72,12 +72,12 @@ class Winder:
         return 0.0
 
     def _begin(self, now_ms, settled, battery_v):
-        """Start to wind from rest."""
+        """Start to wind from rest; springs that are loaded already can be released on a low battery too."""
+        if settled:  # it stopped there before
+            return self._enter(READY, now_ms, "ready: keep away from the leg")
         if self._refuses(battery_v):
             return self._enter(REFUSED, now_ms, "battery low: charge it")
         self._low_since_ms = None
-        if settled:  # it stopped there before: the springs are loaded
-            return self._enter(READY, now_ms, "ready: keep away from the leg")
         return self._enter(WINDING, now_ms, "winding")
 
     def _releasing(self, now_ms, elapsed, closed):

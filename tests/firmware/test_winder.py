@@ -213,6 +213,18 @@ def test_what_is_wound_is_released_even_on_a_low_battery() -> None:
     assert world.winder.jumps == 1
 
 
+def test_after_a_restart_what_is_wound_is_released_even_on_a_low_battery() -> None:
+    world = wound()
+    world.winder = WINDER.Winder(NUMBERS)
+    world.battery_v = 3.0
+    world.wait(0.5)
+    world.step(wind=True)
+    assert world.winder.state == WINDER.READY
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    assert world.drops == 1
+
+
 def test_a_battery_that_is_not_measured_is_no_reason_to_refuse() -> None:
     world = World()
     world.battery_v = None
