@@ -1,6 +1,7 @@
 """A wrong request, however late it shows: nothing on standard output, nothing written; and very large study files."""
 
 import sqlite3
+import tracemalloc
 import unicodedata
 from pathlib import Path
 
@@ -60,6 +61,12 @@ def test_of_very_many_notes_the_newest_are_read(sandbox: Sandbox, study: Path) -
     assert notes[0] == f"{20_000 - MOST_NOTES} earlier notes"
     assert notes[-1].startswith("19999 x")
     assert max(map(len, notes)) == LONGEST_NOTE
+    with StudyStore.read(study) as there:
+        tracemalloc.start()
+        assert there.notes() == notes
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+    assert peak < 2 * MOST_NOTES * LONGEST_NOTE  # bytes; all notes are 40 MB
 
 
 def test_a_note_is_kept_once(tmp_path: Path, study: Path) -> None:
