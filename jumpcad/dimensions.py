@@ -54,6 +54,10 @@ AXLE_END_PLAY_MM = 0.2
 """Between an axle's end and what keeps it, and between a clip or nut and its seat; judgement: rods cut by hand."""
 STANDOFF_PAD_MM = 9.0
 """Diameter of the plates' pads under the standoffs' screws: a head of 5.7 mm (ISO 7380-1 M3) and a wall."""
+STOP_PAD_MM = 8.0
+"""Length of the rest stop's pad and bar, along the leg; judgement: between the springs and the folded foot."""
+STOP_SEAT_MM = 0.6
+"""Depth of that pad's seat in the bar; judgement: it keeps a strip from creeping, and the blow from peeling it."""
 STOP_EDGE_MM = 2.5
 """Material of the body plates around the rest stop's tabs; judgement, as around the trays'."""
 LEVER_EYE_RADIUS_MM = 4.5

@@ -126,7 +126,6 @@ def _laid_out(
         axle_mm=chosen.axle_mm,
         stop_rad=math.radians(workshop.body.stop_deg),
         stop_pad=workshop.stop_pad,
-        stop_more=growth.stop,
         retention=chosen.retention,
         toe_half_width_mm=workshop.body.toe_half_width_mm,
     )

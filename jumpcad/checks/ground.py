@@ -4,9 +4,9 @@ import numpy as np
 from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
-from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM
+from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, STOP_PAD_MM
 from jumpcad.findings import Finding, at_least, limit
-from jumpcad.layout.stop import PAD_LENGTH_MM, TAB_MM
+from jumpcad.layout.stop import TAB_MM
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array, direction
@@ -84,7 +84,7 @@ def _body_discs(robot: Robot) -> tuple[Array, Array]:
     discs = [(place, pad) for place in layout.axles.values()]
     discs += [(place, STANDOFF_PAD_MM / 2.0) for place in layout.standoffs_mm]
     stop = layout.stop
-    boxes = [(stop.tab_mm, TAB_MM, STOP_EDGE_MM), (stop.middle_mm, (PAD_LENGTH_MM, stop.depth_mm), 0.0)]
+    boxes = [(stop.tab_mm, TAB_MM, STOP_EDGE_MM), (stop.middle_mm, (STOP_PAD_MM, stop.depth_mm), 0.0)]
     discs += [
         (middle + a * (size[0] / 2.0 + edge) * stop.along + b * (size[1] / 2.0 + edge) * stop.behind, 0.0)
         for middle, size, edge in boxes

@@ -10,14 +10,13 @@ import math
 from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
+from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.findings import Finding, at_most
-from jumpcad.layout.stop import EAR_MM, GIVE_ROOM_RAD, PAD_LENGTH_MM, SEAT_MM
+from jumpcad.layout.stop import EAR_MM, GIVE_ROOM_RAD
 from jumpcad.robot import Robot
+from jumpcad.strength.stop import BLOW_FACTOR
 from jumpcad.strength.stress import Beam
 
-BLOW_FACTOR = 2.0
-"""On the peak force, to the strength of the material; the peak is that without friction (bench review of the printed
-robot: plates for twice the peak)."""
 PAD_STRAIN = 0.5
 """Largest give of a pad over its thickness; judgement: rubber bumpers are pressed to half."""
 SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
@@ -29,7 +28,7 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
     low, high = robot.layout.lateral.inside
     span, width = high - low, robot.layout.sections.thickness_mm
     moment = BLOW_FACTOR * blow.force_n * (span - width / 2.0) / 4.0
-    stress = float(Beam(PAD_LENGTH_MM, stop.depth_mm - SEAT_MM, case.shell).stress_mpa(moment))
+    stress = float(Beam(STOP_PAD_MM, stop.depth_mm - STOP_SEAT_MM, case.shell).stress_mpa(moment))
     strength = robot.workshop.material("links").strength_in_plane_mpa
     remedy = f"choose a softer body.stop_pad, or {SOFTER.partition(', or ')[2]}"
     yield stress_finding("stop_strength", "the rest stop's bar at twice the blow", stress, strength, remedy, "stop")

@@ -104,7 +104,7 @@ def require_shaft(motor: Motor, lateral: Lateral) -> None:
 
 def require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y: Interval) -> None:
     """Reject a cam gear that collides with the springs or an axle."""
-    room = clearance(hub_things, axis[None], (0.0, 0.0), 0.0, y)[0] - tip_mm
+    room = clearance(hub_things, axis[None], (0.0, 0.0), 0.0, y, tip_mm)[0] - tip_mm
     if room < 0:
         raise CannotBuildError(
             f"the cam gear's tip radius of {tip_mm:.1f} mm is {-room:.1f} mm too large beside the leg's axle: "
@@ -125,7 +125,7 @@ def train_places(
     def motor_place(axis: Array, extra: list[Obstacle]) -> tuple[Array, float]:
         places, angles = ring_candidates(axis, stages[0].centre_distance_mm)
         others = [obstacle for obstacle in obstacles + extra if obstacle.name != meshes_with]
-        free = clearance(others, places, (0.0, 0.0), 0.0, lateral.gears[-1]) >= tip
+        free = clearance(others, places, (0.0, 0.0), 0.0, lateral.gears[-1], tip) >= tip
         if not free.any():
             raise CannotBuildError(f"no room for the pinion of {tip:.1f} mm radius on the motor: {remedy}")
         places, angles = places[free], angles[free]
@@ -163,9 +163,10 @@ def _idler_places(obstacles: list[Obstacle], drive: Drive, lateral: Lateral, cam
     """Return the places (n, 2) of an idler around the cam gear in which its wheel and its axle are free."""
     first, last = drive.train.stages[0], drive.train.stages[-1]
     places, _ = ring_candidates(cam_axis, last.centre_distance_mm)
-    wheel_free = clearance(obstacles, places, (0.0, 0.0), 0.0, lateral.gears[1]) - first.wheel.tip_radius_mm
+    tip = first.wheel.tip_radius_mm
+    wheel_free = clearance(obstacles, places, (0.0, 0.0), 0.0, lateral.gears[1], tip) - tip
     others = [obstacle for obstacle in obstacles if obstacle.name != "cam gear"]  # which its pinion meshes with
-    axle_free = clearance(others, places, (0.0, 0.0), 0.0, lateral.inside) - SPACER_RADIUS_MM
+    axle_free = clearance(others, places, (0.0, 0.0), 0.0, lateral.inside, SPACER_RADIUS_MM) - SPACER_RADIUS_MM
     return np.asarray(places[np.minimum(wheel_free, axle_free) >= 0])
 
 

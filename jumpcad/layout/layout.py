@@ -22,7 +22,7 @@ from jumpcad.layout.drive_places import (
 from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
 from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.room import Obstacle, disc
-from jumpcad.layout.stop import DEPTH_MM, GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
+from jumpcad.layout.stop import GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.strength.sizing import Sections
@@ -121,13 +121,12 @@ def make_layout(
     axle_mm: float,
     stop_rad: float,
     stop_pad: Pad,
-    stop_more: float = 1.0,
     retention: Retention = "plates",
     toe_half_width_mm: float = 0.0,
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
-    `stop_rad` is how far past rest the leg shall meet its stop, `stop_more` the factor by which that is stronger.
+    `stop_rad` is how far past rest the leg shall meet its stop.
 
     Raises
     ------
@@ -158,9 +157,7 @@ def make_layout(
     # close to the springs and to what moves, and without the leg, which meets the stop
     around_leg = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
     around_leg += [*_hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
-    stop = stop_place(
-        around_leg, linkage, sections, stop_rad, stop_pad, stop_more * DEPTH_MM, inside, lateral.left_plate
-    )
+    stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, inside, lateral.left_plate)
     beside_hub += stop_obstacles(stop, inside)
     spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
     obstacles = [*moving, *beside_hub, front_axle, *cam_things]

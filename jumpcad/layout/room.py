@@ -18,6 +18,8 @@ BAR_SPACING_MM = 4.0
 """Distance between the points of a bar; judgement: notches of 0.4 mm between discs of 5 mm radius."""
 BOX_POINT_MM = 1.0
 """Radius of the points of a box; they are twice that apart; judgement."""
+GROUP = 12
+"""Boxes measured at once, neighbours in their list: few points are near all of them."""
 
 
 @dataclass(frozen=True)
@@ -60,8 +62,11 @@ def clearance(
     half_mm: npt.ArrayLike,
     angles_rad: npt.ArrayLike,
     y_mm: tuple[float, float],
+    within_mm: float = 0.0,
 ) -> Array:
     """Return the smallest distance (k,) from k boxes to any obstacle that shares an interval of y; negative inside.
+
+    What is farther away than `within_mm` may be left out: the distance is then larger, or infinite.
 
     Parameters
     ----------
@@ -75,7 +80,13 @@ def clearance(
         Interval of y that the boxes occupy.
     """
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
-    return Cloud.of(obstacles, y_mm).clearance(centres_mm, half_mm, angles)
+    cloud = Cloud.of(obstacles, y_mm)
+    free = np.empty(len(centres_mm))
+    for first in range(0, len(centres_mm), GROUP):
+        group = slice(first, first + GROUP)
+        near = cloud.near(centres_mm[group], half_mm, within_mm)
+        free[group] = near.clearance(centres_mm[group], half_mm, angles[group])
+    return free
 
 
 @dataclass(frozen=True)
@@ -94,9 +105,9 @@ class Cloud:
         radii = [np.broadcast_to(obstacle.radius_mm, len(obstacle.points_mm)) for obstacle in met]
         return cls(np.concatenate([obstacle.points_mm for obstacle in met]), np.concatenate(radii))
 
-    def near(self, centres_mm: Array, half_mm: npt.ArrayLike) -> "Cloud":
-        """Return only the discs that can meet boxes of half sizes (2,), however turned, about centres (k, 2)."""
-        reach = np.hypot(*np.asarray(half_mm, dtype=float)) + self.radii_mm[:, None]
+    def near(self, centres_mm: Array, half_mm: npt.ArrayLike, within_mm: float = 0.0) -> "Cloud":
+        """Return the discs that can be within a distance of boxes of half sizes (2,), however turned, at (k, 2)."""
+        reach = np.hypot(*np.asarray(half_mm, dtype=float)) + within_mm + self.radii_mm[:, None]
         low, high = centres_mm.min(axis=0), centres_mm.max(axis=0)
         kept = ((self.points_mm > low - reach) & (self.points_mm < high + reach)).all(axis=1)
         return Cloud(self.points_mm[kept], self.radii_mm[kept])

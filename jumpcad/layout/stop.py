@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.catalogue import Pad
-from jumpcad.dimensions import CLEAR_MM, GAP_MM, STOP_EDGE_MM
+from jumpcad.dimensions import CLEAR_MM, GAP_MM, STOP_EDGE_MM, STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.room import Obstacle, box_obstacle, clearance
@@ -25,14 +25,8 @@ LEAST_DEG, STEP_DEG = 3.0, 0.5
 """
 GIVE_ROOM_RAD = math.radians(3.0)
 """Kept free, with the usual clearances, beyond the stop for the pad's give; judgement, checked by `stop_clearance`."""
-PAD_LENGTH_MM = 8.0
-"""Length along the leg of pad and bar; judgement: between the springs and the folded foot."""
 HEEL_MM = 0.2
 """By how much the leg's heel stands out beyond its boss, so that a flat face meets the pad; one layer."""
-SEAT_MM = 0.6
-"""Depth of the pad's seat in the bar; judgement: it keeps a strip from creeping, and the blow from peeling it."""
-DEPTH_MM = 6.0
-"""Least depth of the bar in the direction of the blow; judgement."""
 TAB_MM = (5.0, 4.0)
 """Size of the bar's tabs in the plates, along the leg and in the direction of the blow; judgement. They lie at the
 bar's edge nearest to the hub, so that the plates reach down no further than the bar."""
@@ -83,7 +77,7 @@ class StopPlace:
     @property
     def seat_mm(self) -> Array:
         """Middle (2,) of the bar's face, at the edge of the pad's seat."""
-        return self.face_mm + (self.pad.thickness_mm - SEAT_MM) * self.behind
+        return self.face_mm + (self.pad.thickness_mm - STOP_SEAT_MM) * self.behind
 
     @property
     def along(self) -> Array:
@@ -107,12 +101,12 @@ class StopPlace:
 
     def pad_n_per_mm(self, width_mm: float) -> float:
         """Return the stiffness of the pad, pressed flat by a leg of some thickness."""
-        return self.pad.rate_n_per_mm(width_mm, PAD_LENGTH_MM)
+        return self.pad.rate_n_per_mm(width_mm, STOP_PAD_MM)
 
 
 def tab_offset_mm(along: Array, behind: Array) -> Array:
     """Return the middle (2,) of the tabs from that of the bar's face."""
-    return (TAB_MM[0] - PAD_LENGTH_MM) / 2.0 * along + TAB_MM[1] / 2.0 * behind
+    return (TAB_MM[0] - STOP_PAD_MM) / 2.0 * along + TAB_MM[1] / 2.0 * behind
 
 
 def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> float:
@@ -152,7 +146,6 @@ def stop_place(
     sections: Sections,
     angle_rad: float,
     pad: Pad,
-    depth_mm: float,
     inside: Interval,
     plate: Interval,
 ) -> StopPlace:
@@ -174,9 +167,9 @@ def stop_place(
     radii = np.arange(NEAREST_MM, FARTHEST_MM + STEP_MM, STEP_MM)
     radii = radii[np.argsort(np.abs(radii - WANTED_MM), kind="stable")]
     faces = linkage.back_pivot_mm + radii[:, None] * along + heel * behind
-    half = (PAD_LENGTH_MM / 2.0, (pad.thickness_mm - SEAT_MM + depth_mm) / 2.0)
+    half = (STOP_PAD_MM / 2.0, (pad.thickness_mm - STOP_SEAT_MM + sections.stop_mm) / 2.0)
     room = clearance(obstacles, faces + half[1] * behind, half, -below, inside)
-    slots = faces + (pad.thickness_mm - SEAT_MM) * behind + tab_offset_mm(along, behind)
+    slots = faces + (pad.thickness_mm - STOP_SEAT_MM) * behind + tab_offset_mm(along, behind)
     edge = (TAB_MM[0] / 2.0 + STOP_EDGE_MM, TAB_MM[1] / 2.0 + STOP_EDGE_MM)
     room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate))
     if not (room >= 0.0).any():
@@ -185,10 +178,10 @@ def stop_place(
             "or raise rest_angle_deg"
         )
     best = int(np.argmax(room >= 0.0))
-    return StopPlace(angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), depth_mm, pad)
+    return StopPlace(angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), sections.stop_mm, pad)
 
 
 def stop_obstacles(stop: StopPlace, inside: Interval) -> Iterable[Obstacle]:
     """Yield the bar as an obstacle for what is placed after it."""
-    half = (PAD_LENGTH_MM / 2.0 + CLEAR_MM, stop.depth_mm / 2.0 + CLEAR_MM)
+    half = (STOP_PAD_MM / 2.0 + CLEAR_MM, stop.depth_mm / 2.0 + CLEAR_MM)
     yield box_obstacle("rest stop", stop.middle_mm, half, stop.turn_rad, inside)

@@ -7,6 +7,8 @@ import itertools
 from functools import lru_cache
 
 import numpy as np
+import numpy.typing as npt
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy.spatial import Delaunay
 
 from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, TAB_MM, TRAY_MM
@@ -19,6 +21,7 @@ from jumpcad.parts.stop import stop_slot
 from jumpcad.solids.outline import (
     SAGITTA_MM,
     Region,
+    contained,
     disc,
     filleted,
     grown,
@@ -197,17 +200,27 @@ def _letters(label: str, face: Region, mirrored: bool) -> Region | None:
     low_x, low_z, high_x, high_z = face.bounds()
     x, z = np.meshgrid(np.arange(low_x, high_x, TEXT_STEP_MM), np.arange(low_z, high_z, TEXT_STEP_MM))
     places = np.column_stack([x.ravel(), z.ravel()])
-    places = places[np.lexsort((np.abs(places[:, 0]), np.abs(places[:, 1])))]
+    outside = ~contained(face, places).reshape(x.shape)
+    order = np.lexsort((np.abs(places[:, 0]), np.abs(places[:, 1])))
     for words, height in itertools.product((label, label[-1]), TEXT_HEIGHTS_MM):
         letters = text(words, height)
         letters = letters.translate(tuple(-_middle(letters)))
         letters = letters.mirror((1.0, 0.0)) if mirrored else letters
         low_x, low_z, high_x, high_z = letters.bounds()
-        box = rectangle((high_x - low_x + 2.0 * TEXT_EDGE_MM, high_z - low_z + 2.0 * TEXT_EDGE_MM))
-        for place in places:
+        size = (high_x - low_x + 2.0 * TEXT_EDGE_MM, high_z - low_z + 2.0 * TEXT_EDGE_MM)
+        box, possible = rectangle(size), _possible(outside, size)
+        for place in places[order[possible[order]]]:
             if (box.translate(tuple(place)) - face).area() < 1e-6:
                 return letters.translate(tuple(place))
     return None
+
+
+def _possible(outside: npt.NDArray[np.bool_], size_mm: tuple[float, float]) -> npt.NDArray[np.bool_]:
+    """Return around which places (n,) of a grid a box covers none that is outside; the box may still cross an edge."""
+    reach_x, reach_z = (int((side / 2.0 - 1e-3) / TEXT_STEP_MM) for side in size_mm)
+    padded = np.pad(outside, ((reach_z, reach_z), (reach_x, reach_x)), constant_values=True)
+    covered = sliding_window_view(padded, (2 * reach_z + 1, 2 * reach_x + 1))
+    return ~covered.any(axis=(2, 3)).ravel()
 
 
 def _middle(region: Region) -> np.ndarray:

@@ -4,9 +4,8 @@ import math
 
 import numpy as np
 
-from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
+from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, STOP_PAD_MM
 from jumpcad.layout.layout import Layout
-from jumpcad.layout.stop import PAD_LENGTH_MM
 from jumpcad.mechanism.model import FRONT_LINK, MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, laid
@@ -38,7 +37,7 @@ def main_leg(layout: Layout, holes: HoleSizes) -> Drawing:
             disc(2.0 * sections.eye_radius_mm, ankle),
             disc(max(sections.leg_root_mm, 2.0 * sections.eye_radius_mm), pin),
             tapered_bar((0.0, 0.0), lever, sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM),
-            rectangle((PAD_LENGTH_MM + 2.0 * HEEL_MORE_MM, stop.heel_mm), (stop.radius_mm, -stop.heel_mm / 2.0)),
+            rectangle((STOP_PAD_MM + 2.0 * HEEL_MORE_MM, stop.heel_mm), (stop.radius_mm, -stop.heel_mm / 2.0)),
         ]
     )
     beam = filleted(outline, FILLET_MM) - union(

@@ -5,9 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.catalogue import Pad
-from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
+from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, TOE_TIP_WIDTH_MM
 from jumpcad.layout.layout import Layout
-from jumpcad.layout.stop import PAD_LENGTH_MM
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.parts import toes
@@ -33,10 +32,10 @@ def pads(layout: Layout, foot_pad: Pad | None) -> Iterator[BoughtPart]:
 def _stop_pad(layout: Layout) -> BoughtPart:
     """Return the stop's pad: as wide as the leg, in its seat."""
     stop, width = layout.stop, layout.sections.thickness_mm
-    box = rectangle((PAD_LENGTH_MM, stop.pad.thickness_mm)).rotate(float(np.degrees(stop.turn_rad)))
+    box = rectangle((STOP_PAD_MM, stop.pad.thickness_mm)).rotate(float(np.degrees(stop.turn_rad)))
     middle = stop.face_mm + stop.pad.thickness_mm / 2.0 * stop.behind
     slabs = [(-width / 2.0, width / 2.0, box)]
-    return _pad("stop_pad", stop.pad, BODY, slabs, (width, PAD_LENGTH_MM), (middle[0], 0.0, middle[1]))
+    return _pad("stop_pad", stop.pad, BODY, slabs, (width, STOP_PAD_MM), (middle[0], 0.0, middle[1]))
 
 
 def _nose_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.layout.layout import Layout
-from jumpcad.layout.stop import PAD_LENGTH_MM, SEAT_MM, TAB_MM
+from jumpcad.layout.stop import TAB_MM
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement
@@ -31,12 +32,12 @@ def stop_bar(layout: Layout, holes: HoleSizes) -> Drawing:
     body = hull(
         [
             _box(low, high, -END_SHARE * stop.depth_mm, 0.0),
-            _box(-pad / 2.0 - SEAT_MM, pad / 2.0 + SEAT_MM, -stop.depth_mm, 0.0),
+            _box(-pad / 2.0 - STOP_SEAT_MM, pad / 2.0 + STOP_SEAT_MM, -stop.depth_mm, 0.0),
         ]
     )
     tabs = _box(outer_low, outer_high, -TAB_MM[1], 0.0)
-    seat = _box(-pad / 2.0, pad / 2.0, -SEAT_MM - GLUE_MM, 1.0)
-    shape = Stack.of([(0.0, TAB_MM[0], union([body, tabs]) - seat), (TAB_MM[0], PAD_LENGTH_MM, body - seat)])
+    seat = _box(-pad / 2.0, pad / 2.0, -STOP_SEAT_MM - GLUE_MM, 1.0)
+    shape = Stack.of([(0.0, TAB_MM[0], union([body, tabs]) - seat), (TAB_MM[0], STOP_PAD_MM, body - seat)])
     return Drawing("stop_bar", "links", holes.chamfered(shape), (Placement(BODY, _pose(layout)),))
 
 
@@ -51,7 +52,7 @@ def _pose(layout: Layout) -> Array:
     """Return the pose (4, 4) of the bar's printing frame in the body's frame."""
     stop = layout.stop
     behind, along = stop.behind, stop.along
-    x, z = stop.seat_mm - PAD_LENGTH_MM / 2.0 * along
+    x, z = stop.seat_mm - STOP_PAD_MM / 2.0 * along
     return np.array(
         [
             [0.0, -behind[0], along[0], x],

@@ -54,6 +54,18 @@ def _unit_circle(count: int) -> Array:
     return corners
 
 
+def contained(region: Region, points_mm: Array) -> npt.NDArray[np.bool_]:
+    """Tell which points (n, 2) are inside a region: a ray from them crosses its sides an odd number of times."""
+    corners = region.to_polygons()
+    x0, z0 = np.concatenate(corners).T
+    x1, z1 = np.concatenate([np.roll(contour, -1, axis=0) for contour in corners]).T
+    x, z = points_mm[:, :1], points_mm[:, 1:]
+    spans = (z0 <= z) != (z1 <= z)
+    rise = np.where(z1 == z0, 1.0, z1 - z0)
+    crossed = spans & (x < x0 + (z - z0) / rise * (x1 - x0))
+    return np.asarray(crossed.sum(axis=1) % 2 == 1)
+
+
 def corners_key(region: Region) -> tuple[bytes, ...]:
     """Return the corners of a region's contours as bytes: the same for two regions that are made in the same way."""
     return tuple(contour.tobytes() for contour in region.to_polygons())

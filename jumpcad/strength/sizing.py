@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.dimensions import TOE_TIP_WIDTH_MM
+from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_MM
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
 from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
+from jumpcad.strength.stop import BLOW_FACTOR, PEAK_SHARE
 from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm
 from jumpcad.workshop import Fits, Workshop
 
@@ -46,6 +47,11 @@ the jaws of all templates then bear the blow at the end of their play."""
 LEVER_MORE = 1.47
 """Height of the lever's root over that which bears its bending; judgement: what bends the lever drives the released
 cam, and with this the gear motors of all templates bear its blow."""
+STOP_SHARE, STOP_SPAN_MM = 0.12, 39.0
+"""Share of the springs' energy that the rest stop takes, and the length of its bar; judgement: in strong designs it is
+0.08 to 0.125 and at most 39 mm; where it is more, the bar grows."""
+STOP_MIN_MM = 6.0
+"""Least depth of the rest stop's bar in the direction of the blow; judgement."""
 DOG_FACETS_MM = 0.05
 """What the corners and sides of two circles take from a jaw between them."""
 GROWTH_STEP = 1.1
@@ -60,7 +66,8 @@ class Sections:
 
     `thickness_mm` is across the robot (y); heights are in the plane of motion. `foot_depth_mm` is the distance from
     the line of ankle and front eye down to the printed sole, under which a pad of `pad_mm` is glued (0 without one).
-    `lug_thickness_mm` is that of lugs and rails, `dog_mm` the diameter of the dog that turns the cam.
+    `lug_thickness_mm` is that of lugs and rails, `dog_mm` the diameter of the dog that turns the cam, `stop_mm` the
+    depth of the rest stop's bar in the direction of the blow.
     """
 
     thickness_mm: float
@@ -77,6 +84,7 @@ class Sections:
     toe_root_mm: float
     toe_tip_height_mm: float
     dog_mm: float
+    stop_mm: float
     pad_mm: float = 0.0
 
     @property
@@ -162,6 +170,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         toe_root_mm=toe_root,
         toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
         dog_mm=_in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
+        stop_mm=_in_hundredths(growth.stop * _stop_mm(workshop, springs.energy_j, thickness, shell)),
         pad_mm=pad,
     )
 
@@ -194,6 +203,15 @@ def _stiff_mm(
             break
         root_mm *= STIFF_MORE * (share / share_max) ** (1.0 / 3.0)
     return root_mm
+
+
+def _stop_mm(workshop: Workshop, energy_j: float, width_mm: float, shell: Shell) -> float:
+    """Return the depth of the rest stop's bar, a beam on both plates with its pad's force on the leg's width."""
+    pad_n_per_mm = workshop.stop_pad.rate_n_per_mm(width_mm, STOP_PAD_MM)
+    force = PEAK_SHARE * math.sqrt(2.0 * STOP_SHARE * 1000.0 * energy_j * pad_n_per_mm)
+    moment = BLOW_FACTOR * force * (STOP_SPAN_MM - width_mm / 2.0) / 4.0
+    strength = workshop.material("links").strength_in_plane_mpa
+    return max(STOP_MIN_MM, STOP_SEAT_MM + height_for_mm(moment, STOP_PAD_MM, strength, shell))
 
 
 def dog_inside_mm(fits: Fits, axle_mm: float) -> float:

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from jumpcad.mechanism.flight import Blow
 from jumpcad.mechanism.model import Stop
 
+BLOW_FACTOR = 2.0
+"""On the peak force, to the strength of the material; the peak is that without friction (bench review of the printed
+robot: plates for twice the peak)."""
 PEAK_SHARE = 0.82
 """Peak force of a pad without rebound over that of a spring without loss (bench review of the printed robot)."""
 

@@ -20,7 +20,6 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import LEVER_HEAD_MM, LEVER_NUT_MM, Layout, make_layout
-from jumpcad.layout.stop import DEPTH_MM
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop
@@ -64,7 +63,6 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
         "plate_mm": load_workshop("default").body.plate_mm, "roller_width_mm": 4.0, "axle_mm": 3.0,
         "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
-        "stop_more": layout.stop.depth_mm / DEPTH_MM,
         "toe_half_width_mm": layout.toe_half_width_mm,
     }  # fmt: skip
     assert spring.pin_radius_mm == layout.leg_pin_mm
