@@ -3,7 +3,7 @@
 The same robot gives the same bytes.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +26,8 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
 from jumpcad.robot import Robot, require_name
+from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.engines import default_engine
 
 
 def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False) -> Bundle:
@@ -62,18 +64,31 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
 
 def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
     """Yield path and content of every file of a bundle but its manifest."""
+    seen = all_pictures(robot) if pictures else {}
+    paths: list[str] = []
+    glb: bytes | None = None
+    for path, content in _beside_report(robot, exporters, seen):
+        paths.append(path)
+        if pictures and path.endswith(".glb") and isinstance(content, bytes):
+            glb = content
+        yield path, content
+    jump = simulate(robot, Settings(flight="simulated", trajectory=pictures), default_engine())
+    shown = {name: seen[name] for name in RENDERS if name in seen}
+    yield "report.html", write_report(robot, shown, jump, glb, paths)
+
+
+def _beside_report(robot: Robot, exporters: Iterable[Exporter], seen: Mapping[str, bytes]) -> Files:
+    """Yield what the report links to, with the pictures that were seen."""
     yield DESIGN, robot.design.to_toml()
     yield WORKSHOP, robot.workshop.to_toml()
     for exporter in exporters:
         yield from exporter.files(robot)
     yield "bom.csv", write_bom(bill_of_materials(robot))
-    yield "assembly.md", write_guide(robot, pictures)
+    yield "assembly.md", write_guide(robot, bool(seen))
     yield "wiring.svg", wiring_svg(robot)
     yield from firmware_files(robot)
-    seen = all_pictures(robot) if pictures else {}
     for picture, png in seen.items():
         yield f"pictures/{picture}.png", png
-    yield "report.html", write_report(robot, {name: seen[name] for name in RENDERS if name in seen})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:
