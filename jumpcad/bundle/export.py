@@ -17,12 +17,13 @@ from jumpcad.bundle.joints import joint_facts
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
-from jumpcad.bundle.renders import RENDERS, all_pictures
+from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
 from jumpcad.bundle.wiring import wiring_svg
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
+from jumpcad.exporters.glb import write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
 from jumpcad.robot import Robot, require_name
@@ -72,9 +73,17 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
         if pictures and path.endswith(".glb") and isinstance(content, bytes):
             glb = content
         yield path, content
-    jump = simulate(robot, Settings(flight="simulated", trajectory=pictures), default_engine())
-    shown = {name: seen[name] for name in RENDERS if name in seen}
-    yield "report.html", write_report(robot, shown, jump, glb, paths)
+    yield "report.html", _page(robot, seen, glb, paths)
+
+
+def report_page(robot: Robot, files: Iterable[str] = ()) -> str:
+    """Return report.html alone, with links to files that lie beside it."""
+    return _page(robot, renders(robot), write_glb(robot), files)
+
+
+def _page(robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str]) -> str:
+    jump = simulate(robot, Settings(flight="simulated", trajectory=glb is not None), default_engine())
+    return write_report(robot, {name: seen[name] for name in RENDERS if name in seen}, jump, glb, tuple(files))
 
 
 def _beside_report(robot: Robot, exporters: Iterable[Exporter], seen: Mapping[str, bytes]) -> Files:
