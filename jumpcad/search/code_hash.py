@@ -4,6 +4,7 @@ Own code is walked: functions with the names that they look up, classes, and obj
 What an installed library holds counts by its name, what cannot be taken apart (a lock, an open file) by its type.
 """
 
+import copyreg
 import functools
 import hashlib
 import site
@@ -136,7 +137,8 @@ def _content(cell: Any) -> Any:
 def _reduced(value: Any) -> list[Any]:
     """Return the parts of which a copy of an object would be made: its class or function, arguments and state."""
     try:
-        parts = value.__reduce_ex__(4)
+        registered = copyreg.dispatch_table.get(type(value))
+        parts = registered(value) if registered else value.__reduce_ex__(4)
     except Exception:  # what cannot be copied
         return [type(value)]
     if not isinstance(parts, tuple):  # the name of something in its module
