@@ -55,7 +55,7 @@ def test_odd_texts_stay_texts_in_every_file(built: Path) -> None:
     assert "{WIND_S}" in (built / "firmware" / "README.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("function", ["gpio²", "gpio٣", "gpio", "gpio-4", "gpio 4", "gpio4.0", "gpio" + "9" * 40])
+@pytest.mark.parametrize("function", ["gpio²", "gpio٣", "gpio" + "9" * 40])
 def test_a_pin_has_a_number_or_is_refused(sandbox: Sandbox, function: str) -> None:
     pins = "".join(f'D{pin} = ["gpio{pin}", "pwm", "adc"]\n' for pin in range(1, 5))
     sandbox.write(
