@@ -59,7 +59,9 @@ def run(arguments: Sequence[str]) -> int:
         return complain(f"{usage} (see jumpcad --help)", WRONG_REQUEST) if usage else 0
     except JumpcadError as error:
         return complain(str(error), error.exit_code)
-    except Exception:
+    except KeyboardInterrupt:
+        raise
+    except BaseException:  # those of compiled libraries too, which are no Exception
         print(traceback.format_exc(), end="", file=sys.stderr)
         return BUG
 

@@ -1,5 +1,6 @@
 """Commands as tests call them."""
 
+import signal
 import sys
 from collections.abc import Callable
 
@@ -15,6 +16,10 @@ def exit_code_of(*arguments: str) -> int:
     """Run `jumpcad ARGUMENTS` in this process and return its exit code."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys, "argv", ["jumpcad", *arguments])
-        with pytest.raises(SystemExit) as caught:
-            cli.main()
+        handler = signal.getsignal(signal.SIGINT)
+        try:
+            with pytest.raises(SystemExit) as caught:
+                cli.main()
+        finally:
+            signal.signal(signal.SIGINT, handler)
     return int(caught.value.code or 0)
