@@ -3,9 +3,8 @@
 import filecmp
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support.commands import exit_code_of
@@ -19,7 +18,6 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
-from jumpcad.solids.skin import skin
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import OWN_PARTS, load_workshop
 
@@ -38,22 +36,6 @@ arm_length_mm = 25.0
 rate_nmm_per_deg = 4.2
 source = "a shop"
 """
-
-
-@pytest.fixture(autouse=True, scope="module")
-def skins() -> Iterator[None]:
-    """Keep the skins of solids by their outlines: most solids of a robot are those of the robot before."""
-    known: dict[Any, Any] = {}
-
-    def kept(heights_mm: Sequence[tuple[float, float]], contours_mm: Sequence[Sequence[Any]]) -> Any:
-        key = (tuple(heights_mm), tuple(tuple(contour.tobytes() for contour in slab) for slab in contours_mm))
-        if key not in known:
-            known[key] = skin(heights_mm, contours_mm)
-        return known[key]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("jumpcad.solids.stack.skin", kept)
-        yield
 
 
 @pytest.fixture

@@ -77,10 +77,11 @@ class Bundle:
     def poses(self) -> list[Pose]:
         """Return the positions: the cam's lift, the fall of the roller, and past rest with the cam running on."""
         turns = np.linspace(0.0, 2.0 * math.pi, 721)
-        top = int(np.argmin([self._leg_on_cam(turn) for turn in turns]))
-        lift = [Pose(self._leg_on_cam(turn), turn) for turn in np.linspace(0.0, turns[top], LIFTED)]
+        top = int(np.argmin(self._leg_on_cam(turns)))
+        lifts = np.linspace(0.0, turns[top], LIFTED)
+        lift = [Pose(*map(float, pair)) for pair in zip(self._leg_on_cam(lifts), lifts, strict=True)]
         ways = np.linspace(self.wound, self.stop + self.give, 25)
-        free = next(turn for turn in turns[top:] if all(self._roller_gap(leg, turn) > 0.0 for leg in ways))
+        free = float(next(turn for turn in turns[top:] if (self._roller_gap(ways, np.full(25, turn)) > 0.0).all()))
         play = self.manifest.get("drive", {}).get("release", {}).get("free_play_deg", DOG_DEG)
         drop = [Pose(leg, free) for leg in np.linspace(self.wound, 0.0, DROPPED)]
         past = [
@@ -118,16 +119,20 @@ class Bundle:
         return matrix
 
     def meetings(self) -> Iterator[tuple[str, str, float, Pose]]:
-        """Yield the pieces that meet: names, shared volume (mm³), position."""
+        """Yield the pieces that meet: names, shared volume (mm³), position; each relative position once."""
+        seen = set()
         for pose in self.poses():
             links = self.places(pose)
             solids = [self._placed(piece, links, pose) for piece in self.pieces]
             boxes = np.array([solid.bounding_box() for solid in solids])
-            for i, j in itertools.combinations(range(len(solids)), 2):
+            low, high = boxes[:, :3], boxes[:, 3:]
+            near = ((low[:, None] < high[None]) & (low[None] < high[:, None])).all(axis=-1)
+            for i, j in zip(*np.nonzero(np.triu(near, 1)), strict=True):
                 a, b = self.pieces[i], self.pieces[j]
-                apart = (boxes[i, :3] >= boxes[j, 3:]).any() or (boxes[j, :3] >= boxes[i, 3:]).any()
-                if apart or not self._moves(a, b, pose):
+                angles = (i, j, pose.leg if a.link != b.link else None, pose.cam if _turns(a, b) else None)
+                if angles in seen or not self._moves(a, b, pose):
                     continue
+                seen.add(angles)
                 volume = (solids[i] ^ solids[j]).volume()
                 if volume > TOLERANCE_MM3:
                     yield a.name, b.name, volume, pose
@@ -150,25 +155,38 @@ class Bundle:
             matrix = matrix @ there @ _turn(pose.cam) @ back
         return piece.solid.transform(matrix[:3])
 
-    def _roller_gap(self, leg: float, turn: float) -> float:
-        """Return the gap between roller and cam (mm); negative where they meet."""
-        at = self.joints["leg"] @ _turn(leg) @ np.array([self.roller_at[0] / 1e3, 0.0, self.roller_at[1] / 1e3, 1.0])
-        point, centre = 1000.0 * at[[0, 2]], self.axes["cam_gear"]
-        x, z = point - centre
-        cos, sin = math.cos(turn), math.sin(turn)  # turned back into the cam's frame
-        seen = shapely.Point(centre[0] + cos * x - sin * z, centre[1] + sin * x + cos * z)
-        inside = self.cam.contains(seen)
-        return -self.roller_mm if inside else self.cam.distance(seen) - self.roller_mm
+    def _roller_gap(self, leg: np.ndarray, turn: np.ndarray) -> np.ndarray:
+        """Return the gaps (n,) between roller and cam (mm); negative where they meet."""
+        cos, sin = np.cos(leg), np.sin(leg)
+        x, z = self.roller_at
+        turned = np.stack([cos * x + sin * z, np.zeros_like(leg), cos * z - sin * x])
+        joint = self.joints["leg"]
+        point = (joint[:3, :3] @ turned + 1000.0 * joint[:3, 3:])[[0, 2]]
+        centre = self.axes["cam_gear"]
+        x, z = point - centre[:, None]
+        cos, sin = np.cos(turn), np.sin(turn)  # turned back into the cam's frame
+        seen = shapely.points(centre[0] + cos * x - sin * z, centre[1] + sin * x + cos * z)
+        return shapely.distance(self.cam, seen) - self.roller_mm  # 0 inside the cam
 
-    def _leg_on_cam(self, turn: float) -> float:
-        """Return the leg's angle while its roller lies on the cam: the one nearest to rest without overlap."""
+    def _leg_on_cam(self, turns: np.ndarray) -> np.ndarray:
+        """Return the leg's angles (n,) while its roller lies on the cam: those nearest to rest without overlap."""
         legs = np.linspace(0.0, self.wound, 120)
-        free = next((i for i, leg in enumerate(legs) if self._roller_gap(leg, turn) >= -FACET_MM), len(legs) - 1)
-        low, high = legs[max(free - 1, 0)], legs[free]
+        high = np.full(len(turns), legs[-1])
+        low, found = np.full(len(turns), legs[-2]), np.zeros(len(turns), dtype=bool)
+        for before, leg in itertools.pairwise([legs[0], *legs]):
+            asked = np.flatnonzero(~found)
+            free = asked[self._roller_gap(np.full(len(asked), leg), turns[asked]) >= -FACET_MM]
+            low[free], high[free], found[free] = before, leg, True
         for _ in range(30):
             middle = (low + high) / 2.0
-            low, high = (middle, high) if self._roller_gap(middle, turn) < -FACET_MM else (low, middle)
-        return float(high)
+            meets = self._roller_gap(middle, turns) < -FACET_MM
+            low, high = np.where(meets, middle, low), np.where(meets, high, middle)
+        return high
+
+
+def _turns(a: Piece, b: Piece) -> bool:
+    """Tell whether the cam's angle moves one of two pieces past the other."""
+    return len({piece.name in ("cam", "cam_gear") for piece in (a, b)}) == 2
 
 
 def _section(solid: Manifold, y_mm: float) -> shapely.Geometry:
