@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.built import checked
 
-from jumpcad.checks.printability import printability_findings
+from jumpcad.checks.printability import bed_findings, printability_findings
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY
@@ -20,6 +20,7 @@ from jumpcad.workshop import load_workshop
 Slabs = list[tuple[float, float, Region]]
 
 BLOCK = rectangle((30.0, 20.0))
+KINDS = ("walls", "holes", "pins", "overhangs", "bridges", "solid", "bed_fit")
 
 
 def robot_of(kenan: Robot, shape: Stack | Blocks) -> Robot:
@@ -34,9 +35,7 @@ def found(kenan: Robot, shape: Stack | Blocks) -> dict[str, Finding]:
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
     severity = {finding.name: finding.severity for finding in checked(name)}
-    assert {severity[kind] for kind in ("walls", "holes", "pins", "overhangs", "bridges", "solid", "bed_fit")} == {
-        "info"
-    }
+    assert {severity[kind] for kind in KINDS} == {"info"}
 
 
 @pytest.mark.parametrize(
