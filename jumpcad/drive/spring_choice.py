@@ -37,12 +37,17 @@ def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: Sp
         If no wire is strong enough in the available room.
     """
     for length in limits.body_lengths_max_mm:
+        smallest = [
+            (arms, tensile)
+            for d, tensile in zip(wire.diameters_mm, wire.tensile_strength_mpa, strict=True)
+            if (arms := _smallest_arms(d, tensile, on_leg, wire, limits, length))
+        ]
         for plate_pin in limits.plate_pins_rad:
             between = between_pins_rad(plate_pin, leg_pin_rad)
             springs = [
                 _finished(arms, on_leg, tensile, wire, limits, (plate_pin, leg_pin_rad))
-                for d, tensile in zip(wire.diameters_mm, wire.tensile_strength_mpa, strict=True)
-                if (arms := _arms_of_wire(d, tensile, on_leg, between, wire, limits, length))
+                for least, tensile in smallest
+                if (arms := _arms_between(least, on_leg, between, wire, limits))
             ]
             if springs:
                 return min(springs, key=lambda spring: (spring.outer_diameter_mm, spring.mass_g))
@@ -55,45 +60,51 @@ def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: Sp
     )
 
 
-def _arms_of_wire(
-    d: float,
-    tensile_mpa: float,
-    on_leg: Spring,
-    between_rad: float,
-    wire: Wire,
-    limits: SpringLimits,
-    length_max_mm: float,
+def _smallest_arms(
+    d: float, tensile_mpa: float, on_leg: Spring, wire: Wire, limits: SpringLimits, length_max_mm: float
 ) -> Arms | None:
-    """Return the smallest coil of one wire whose arms meet pins an angle apart, or nothing where none fits."""
+    """Return the smallest coil of one wire that strength, length and bushing allow, or nothing where none does."""
     loaded = (on_leg.wind_rad + on_leg.preload_rad) / FULL_TURN_RAD
     index = _least_index(limits.stress_share * tensile_mpa / plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d))
     product = _product_mm(d, on_leg, wire)
     loaded_mean = limits.mandrel_min_mm + limits.mandrel_clearance_mm + d
     longest = length_max_mm / d - 1 - loaded
-
-    def arms_of(mean: float) -> Arms:
-        return Arms.to_pins(mean, d, limits.pin_mm, limits.pin_radius_mm(mean + d))
-
     mean = max(index, INDEX_MIN) * d
     if not (longest > 0 and mean < INDEX_MAX * d):
         return None
-    for _ in range(ROUNDS):  # the least diameter that strength, length and bushing allow
-        body = product - mean * arms_of(mean).arm_turns
+    for _ in range(ROUNDS):
+        body = product - mean * _arms_of(mean, d, limits).arm_turns
         if body <= 0 or 1 / loaded_mean <= loaded / body:
             return None
-        mean = max(index * d, body / longest, 1 / (1 / loaded_mean - loaded / body))
-    arms = arms_of(mean)
-    turns = product / mean - arms.arm_turns
-    # What the pins ask for is left when whole turns are taken away; fewer turns make the coil wider.
+        before, mean = mean, max(index * d, body / longest, 1 / (1 / loaded_mean - loaded / body))
+        if mean == before:
+            break
+    return _arms_of(mean, d, limits)
+
+
+def _arms_between(least: Arms, on_leg: Spring, between_rad: float, wire: Wire, limits: SpringLimits) -> Arms | None:
+    """Return the smallest coil, of the least one's wire, whose arms meet pins an angle apart, or nothing.
+
+    What the pins ask for is left when whole turns are taken away; fewer turns make the coil wider.
+    """
+    arms, d = least, least.wire_mm
+    product = _product_mm(d, on_leg, wire)
+    turns = product / arms.mean_mm - arms.arm_turns
     asked = between_rad - on_leg.preload_rad
     whole = math.floor((FULL_TURN_RAD * turns + 2 * arms.turn_rad - asked) / FULL_TURN_RAD + 1e-9)
     for _ in range(ROUNDS):
         turns = whole + (asked - 2 * arms.turn_rad) / FULL_TURN_RAD
         if turns < TURNS_MIN:
             return None
-        arms = arms_of(round(product / (turns + arms.arm_turns), DIAMETER_DIGITS))
+        before, arms = arms, _arms_of(round(product / (turns + arms.arm_turns), DIAMETER_DIGITS), d, limits)
+        if arms == before:
+            break
     fits = arms.mean_mm <= INDEX_MAX * d and arms.mean_mm + d <= limits.outer_max_mm
     return arms if fits else None
+
+
+def _arms_of(mean_mm: float, wire_mm: float, limits: SpringLimits) -> Arms:
+    return Arms.to_pins(mean_mm, wire_mm, limits.pin_mm, limits.pin_radius_mm(mean_mm + wire_mm))
 
 
 def _product_mm(d: float, on_leg: Spring, wire: Wire) -> float:

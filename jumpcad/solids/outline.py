@@ -59,11 +59,13 @@ def contained(region: Region, points_mm: Array) -> npt.NDArray[np.bool_]:
     corners = region.to_polygons()
     x0, z0 = np.concatenate(corners).T
     x1, z1 = np.concatenate([np.roll(contour, -1, axis=0) for contour in corners]).T
-    x, z = points_mm[:, :1], points_mm[:, 1:]
-    spans = (z0 <= z) != (z1 <= z)
-    rise = np.where(z1 == z0, 1.0, z1 - z0)
-    crossed = spans & (x < x0 + (z - z0) / rise * (x1 - x0))
-    return np.asarray(crossed.sum(axis=1) % 2 == 1)
+    inside = np.zeros(len(points_mm), dtype=bool)
+    for z in np.unique(points_mm[:, 1]):
+        row, spans = points_mm[:, 1] == z, (z0 <= z) != (z1 <= z)
+        share = (z - z0[spans]) / (z1[spans] - z0[spans])
+        crossed = np.sort(x0[spans] + share * (x1[spans] - x0[spans]))
+        inside[row] = (len(crossed) - np.searchsorted(crossed, points_mm[row, 0], side="right")) % 2 == 1
+    return inside
 
 
 def corners_key(region: Region) -> tuple[bytes, ...]:

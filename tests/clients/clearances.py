@@ -5,7 +5,6 @@ files, shapely for roller and cam, manifold3d for volumes. The leg's angle follo
 down on the cam's outline; the five-bar is closed with circles. `python clearances.py BUNDLE` prints what meets.
 """
 
-import itertools
 import json
 import math
 import sys
@@ -77,11 +76,11 @@ class Bundle:
     def poses(self) -> list[Pose]:
         """Return the positions: the cam's lift, the fall of the roller, and past rest with the cam running on."""
         turns = np.linspace(0.0, 2.0 * math.pi, 721)
-        top = int(np.argmin(self._leg_on_cam(turns)))
-        lifts = np.linspace(0.0, turns[top], LIFTED)
-        lift = [Pose(*map(float, pair)) for pair in zip(self._leg_on_cam(lifts), lifts, strict=True)]
+        top = int(np.argmin(self._legs_on_cam(turns)))
+        lifting = np.linspace(0.0, turns[top], LIFTED)
+        lift = [Pose(float(leg), float(turn)) for leg, turn in zip(self._legs_on_cam(lifting), lifting, strict=True)]
         ways = np.linspace(self.wound, self.stop + self.give, 25)
-        free = float(next(turn for turn in turns[top:] if (self._roller_gap(ways, np.full(25, turn)) > 0.0).all()))
+        free = next(float(turn) for turn in turns[top:] if (self._roller_gaps(ways, turn) > 0.0).all())
         play = self.manifest.get("drive", {}).get("release", {}).get("free_play_deg", DOG_DEG)
         drop = [Pose(leg, free) for leg in np.linspace(self.wound, 0.0, DROPPED)]
         past = [
@@ -119,20 +118,16 @@ class Bundle:
         return matrix
 
     def meetings(self) -> Iterator[tuple[str, str, float, Pose]]:
-        """Yield the pieces that meet: names, shared volume (mm³), position; each relative position once."""
-        seen = set()
+        """Yield the pieces that meet: names, shared volume (mm³), position."""
         for pose in self.poses():
             links = self.places(pose)
             solids = [self._placed(piece, links, pose) for piece in self.pieces]
             boxes = np.array([solid.bounding_box() for solid in solids])
-            low, high = boxes[:, :3], boxes[:, 3:]
-            near = ((low[:, None] < high[None]) & (low[None] < high[:, None])).all(axis=-1)
-            for i, j in zip(*np.nonzero(np.triu(near, 1)), strict=True):
+            beyond = (boxes[:, None, :3] >= boxes[None, :, 3:]).any(axis=2)
+            for i, j in np.argwhere(np.triu(~(beyond | beyond.T), 1)):
                 a, b = self.pieces[i], self.pieces[j]
-                angles = (i, j, pose.leg if a.link != b.link else None, pose.cam if _turns(a, b) else None)
-                if angles in seen or not self._moves(a, b, pose):
+                if not self._moves(a, b, pose):
                     continue
-                seen.add(angles)
                 volume = (solids[i] ^ solids[j]).volume()
                 if volume > TOLERANCE_MM3:
                     yield a.name, b.name, volume, pose
@@ -155,38 +150,28 @@ class Bundle:
             matrix = matrix @ there @ _turn(pose.cam) @ back
         return piece.solid.transform(matrix[:3])
 
-    def _roller_gap(self, leg: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    def _roller_gaps(self, legs: np.ndarray, turns: np.ndarray | float) -> np.ndarray:
         """Return the gaps (n,) between roller and cam (mm); negative where they meet."""
-        cos, sin = np.cos(leg), np.sin(leg)
-        x, z = self.roller_at
-        turned = np.stack([cos * x + sin * z, np.zeros_like(leg), cos * z - sin * x])
-        joint = self.joints["leg"]
-        point = (joint[:3, :3] @ turned + 1000.0 * joint[:3, 3:])[[0, 2]]
-        centre = self.axes["cam_gear"]
-        x, z = point - centre[:, None]
-        cos, sin = np.cos(turn), np.sin(turn)  # turned back into the cam's frame
+        frame, centre = self.joints["leg"], self.axes["cam_gear"]
+        right, up = self.roller_at / 1e3  # a turn about y brings x towards -z
+        turned = np.stack([np.cos(legs) * right + np.sin(legs) * up, np.cos(legs) * up - np.sin(legs) * right])
+        x, z = 1e3 * (frame[np.ix_([0, 2], [0, 2])] @ turned + frame[[0, 2], 3][:, None]) - centre[:, None]
+        cos, sin = np.cos(turns), np.sin(turns)  # turned back into the cam's frame
         seen = shapely.points(centre[0] + cos * x - sin * z, centre[1] + sin * x + cos * z)
-        return shapely.distance(self.cam, seen) - self.roller_mm  # 0 inside the cam
+        return np.where(self.cam.contains(seen), 0.0, self.cam.distance(seen)) - self.roller_mm
 
-    def _leg_on_cam(self, turns: np.ndarray) -> np.ndarray:
+    def _legs_on_cam(self, turns: np.ndarray) -> np.ndarray:
         """Return the leg's angles (n,) while its roller lies on the cam: those nearest to rest without overlap."""
         legs = np.linspace(0.0, self.wound, 120)
-        high = np.full(len(turns), legs[-1])
-        low, found = np.full(len(turns), legs[-2]), np.zeros(len(turns), dtype=bool)
-        for before, leg in itertools.pairwise([legs[0], *legs]):
-            asked = np.flatnonzero(~found)
-            free = asked[self._roller_gap(np.full(len(asked), leg), turns[asked]) >= -FACET_MM]
-            low[free], high[free], found[free] = before, leg, True
+        free = np.full(len(turns), len(legs) - 1)
+        for i in range(len(legs))[::-1]:
+            free[self._roller_gaps(np.full(len(turns), legs[i]), turns) >= -FACET_MM] = i
+        low, high = legs[np.maximum(free - 1, 0)], legs[free]
         for _ in range(30):
             middle = (low + high) / 2.0
-            meets = self._roller_gap(middle, turns) < -FACET_MM
-            low, high = np.where(meets, middle, low), np.where(meets, high, middle)
+            meet = self._roller_gaps(middle, turns) < -FACET_MM
+            low, high = np.where(meet, middle, low), np.where(meet, high, middle)
         return high
-
-
-def _turns(a: Piece, b: Piece) -> bool:
-    """Tell whether the cam's angle moves one of two pieces past the other."""
-    return len({piece.name in ("cam", "cam_gear") for piece in (a, b)}) == 2
 
 
 def _section(solid: Manifold, y_mm: float) -> shapely.Geometry:

@@ -87,3 +87,14 @@ def test_regions_made_alike_have_one_key():
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     apart = outline.polygon(square, square + 5.0)
     assert len(outline.corners_key(apart)) == 2
+
+
+def test_what_a_ring_contains_is_between_its_circles():
+    about = outline.ring(10.0, 4.0, (1.0, 2.0))
+    distance = np.linspace(0.0, 8.0, 41)
+    for angle in np.linspace(0.0, 2.0 * math.pi, 25):
+        points = np.array([1.0, 2.0]) + distance[:, None] * np.array([math.cos(angle), math.sin(angle)])
+        clear = (np.abs(distance - 2.0) > 0.05) & (np.abs(distance - 5.0) > 0.05)
+        np.testing.assert_array_equal(
+            outline.contained(about, points)[clear], ((distance > 2.0) & (distance < 5.0))[clear]
+        )
