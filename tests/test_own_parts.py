@@ -93,6 +93,12 @@ def bearing(place: str, bore: float, outer: float, width: float, more: str = "")
     return f'[bought]\n{place} = "own"\n{more}[bearings.own]\nlike = "623"\nsource = "test"\n{size}'
 
 
+def both(one: str, other: str) -> str:
+    """Return a workshop with the parts of two: what is bought is one table."""
+    bought, _, parts = other.removeprefix("[bought]\n").partition("[")
+    return one.replace("[bought]\n", f"[bought]\n{bought}") + f"[{parts}"
+
+
 FITS = {
     "gear motor of 25 mm, shaft of 4 mm": large(),
     "square body of 12 mm": motor(width_mm=12.0),
@@ -104,12 +110,13 @@ FITS = {
     "shaft of 40 mm": motor(shaft_length_mm=40.0),
     "boss higher than the cap": motor(boss_length_mm=6.0, shaft_length_mm=14.0),
     "boss as wide as the body": motor(boss_mm=10.0),
-    "battery of 100 mm": battery(100.0, 40.0, 30.0),
-    "battery as wide as the plates are apart": battery(35.0, 37.0, 8.0),
-    "battery of 1 mm": battery(1.0, 1.0, 1.0),
-    "boards of 5 mm": boards(5.0, 4.0),
-    "bearing 693 in the hub": bearing("leg_bearing", 3.0, 8.0, 4.0),
-    "bearing 693 for the roller": bearing("roller", 3.0, 8.0, 4.0),
+    "battery of 100 mm, bearing 693 in the hub": both(
+        battery(100.0, 40.0, 30.0), bearing("leg_bearing", 3.0, 8.0, 4.0)
+    ),
+    "battery as wide as the plates are apart, bearing 693 for the roller": both(
+        battery(35.0, 37.0, 8.0), bearing("roller", 3.0, 8.0, 4.0)
+    ),
+    "battery of 1 mm, boards of 5 mm": both(battery(1.0, 1.0, 1.0), boards(5.0, 4.0)),
     "bearing hardly wider than the axle": bearing("leg_bearing", 3.0, 5.0, 2.0),
 }  # fmt: skip
 REFUSED = {
