@@ -1,5 +1,6 @@
 """Commands as tests call them."""
 
+import signal
 import sys
 from collections.abc import Callable
 
@@ -9,6 +10,11 @@ from jumpcad import cli
 
 Run = Callable[..., tuple[int, str, str]]
 """`run("new", "frog.toml")` returns exit code, standard output and standard error."""
+
+
+def interruptible() -> None:
+    """Let Ctrl-C end this process: called before a command starts, for tests run with & or nohup, which ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def exit_code_of(*arguments: str) -> int:
