@@ -16,6 +16,9 @@ from jumpcad.bundle.export import export
 from jumpcad.robot import Robot
 from jumpcad.solids.skin import skin
 
+KEPT = 1000
+"""Skins kept, those of 17 robots: 80 MB."""
+
 
 @pytest.fixture(scope="session", autouse=True)
 def skins() -> Iterator[None]:
@@ -25,6 +28,8 @@ def skins() -> Iterator[None]:
     def kept(heights_mm: Sequence[tuple[float, float]], contours_mm: Sequence[Sequence[np.ndarray]]) -> Any:
         key = (tuple(heights_mm), tuple(tuple(contour.tobytes() for contour in slab) for slab in contours_mm))
         if key not in known:
+            if len(known) == KEPT:
+                del known[next(iter(known))]  # the oldest
             known[key] = skin(heights_mm, contours_mm)
         return known[key]
 
