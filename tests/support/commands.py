@@ -12,6 +12,11 @@ Run = Callable[..., tuple[int, str, str]]
 """`run("new", "frog.toml")` returns exit code, standard output and standard error."""
 
 
+def interruptible() -> None:
+    """Let Ctrl-C end this process: called before a command starts, for tests run with & or nohup, which ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def exit_code_of(*arguments: str) -> int:
     """Run `jumpcad ARGUMENTS` in this process and return its exit code."""
     with pytest.MonkeyPatch.context() as patch:
