@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from jumpcad.exporters.dxf import dxf_files
 from jumpcad.exporters.glb import glb_files
-from jumpcad.exporters.mjcf import mjcf_files
+from jumpcad.exporters.mjcf_robot import mjcf_files
 from jumpcad.exporters.sdf import sdf_files
 from jumpcad.exporters.step import require_step, step_files
 from jumpcad.exporters.stl import stl_files
