@@ -28,7 +28,14 @@ from jumpcad.findings import errors
 from jumpcad.robot import Robot, require_name
 
 
-def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False) -> Bundle:
+def export(
+    robot: Robot,
+    folder: str | Path,
+    pictures: bool = True,
+    step: bool = False,
+    force: bool = False,
+    ros2: bool = False,
+) -> Bundle:
     """Write a robot's bundle.
 
     Parameters
@@ -44,6 +51,8 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
         Whether to write STEP files too; needs the extra `step`.
     force
         Whether to replace another bundle too, and files that a user edited or added under a name of ours.
+    ros2
+        Whether to write a ROS 2 description package too.
 
     Raises
     ------
@@ -56,7 +65,7 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
     require_name(robot.name)
     if wrong := errors(electronics_findings(robot)):
         raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
-    exporters = chosen(["step"] if step else [])
+    exporters = chosen([name for name, wanted in (("step", step), ("ros2", ros2)) if wanted])
     return write_folder(folder, robot.name, _facts(robot), contents(robot, exporters, pictures), force)
 
 

@@ -36,6 +36,7 @@ def build(
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Folder of the bundle [exports/NAME].")] = None,
     pictures: Annotated[bool, typer.Option(help="Draw the robot.")] = True,
     step: Annotated[bool, typer.Option("--step", help="Write STEP files of the parts too.")] = False,
+    ros2: Annotated[bool, typer.Option("--ros2", help="Write a ROS 2 description package too.")] = False,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -57,7 +58,7 @@ def build(
     if not force:
         _require_same_design_file(robot, design_file(design), folder)
     with progress(f"writing {robot.name}"):
-        bundle = export(robot, folder, pictures, step, force)
+        bundle = export(robot, folder, pictures, step, force, ros2)
     with progress(f"simulating {robot.name}"):
         engine = default_engine()
         printed, capsule = (simulate(one, engine=engine) for one in (robot, capsule_robot(robot.design)))

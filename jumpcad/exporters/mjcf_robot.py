@@ -8,13 +8,11 @@ The motor `cam` holds the loaded leg against a limit and releases it; the equali
 switch constraints. MuJoCo's key frames hold no switched constraints, so `wound` comes with the motor.
 """
 
-import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from jumpcad.dimensions import MESHES_FROM_BESIDE
+from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.mjcf import (
     CONTACT_IMPEDANCE,
     FREE_RAD,
@@ -28,28 +26,17 @@ from jumpcad.exporters.mjcf import (
     stiff,
 )
 from jumpcad.exporters.mjcf_scene import HOLD, readme, write_scene
-from jumpcad.exporters.xml import Value, add, document, wxyz
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism
-from jumpcad.mechanism.poses import body_poses, release_pose, standing
+from jumpcad.exporters.xml import Value, add, document, shorten, wxyz
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
+from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients
-from jumpcad.transforms import Array
 
 STEP_S = 0.00025
 """Time step: twice that of the project's own runs; four templates jump as far within 0.06 %, at 1 ms within 2 %."""
-SLIM = 0.6
-"""Radius of the links' capsules over the height of the ankle, so that only spheres stand on the ground."""
-CLEAR_M = 0.001
-"""How far above the ground the body's box ends in the loaded pose."""
 TOUCH = 1.2
 """Radius of a touch sensor's volume over that of the sphere in it."""
-DIGITS = 12
-"""Significant digits, fewer than those in which processors differ."""
-TEXTS = {"model", "name", "class", "childclass", "file", "mesh", "material", "meshdir", "body1", "body2", "joint",
-         "joint1", "site", "site1", "site2", "actuator", "objname", "body"}  # fmt: skip
-"""Attributes that are names, whatever they look like."""
-NUMBERS = re.compile(r"[-+.e\d ]*\d[-+.e\d ]*")
 
 
 def mjcf_files(robot: Robot) -> Iterator[tuple[str, str]]:
@@ -67,15 +54,17 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = ()) -> str:
     add_options(root, settings)
     _assets(root, visible)
     _defaults(root, mechanism, settings)
-    box = _body_box(mechanism, [shape for shape in visible if shape.body == BODY])
+    box = body_box(mechanism, visible)
 
     def dress(node: ET.Element, body: Body) -> None:
         for shape in (shape for shape in visible if shape.body == body.name):
             _visual(node, shape)
-        for number, (start, end, radius) in enumerate(_capsules(mechanism, body.name), start=1):
-            _collision(node, f"{body.name}_{number}", body, type="capsule", fromto=(*start, *end), size=radius)
+        for number, link in enumerate(capsules(mechanism, body.name), start=1):
+            _collision(node, f"{body.name}_{number}", body, type="capsule", fromto=(*link.start_m, *link.end_m),
+                       size=link.radius_m)  # fmt: skip
         if body.name == BODY and box is not None:
-            _collision(node, BODY, body, type="box", pos=box.mean(axis=0), size=(box[1] - box[0]) / 2.0)
+            _collision(node, BODY, body, type="box", pos=(box.low_m + box.high_m) / 2.0,
+                       size=(box.high_m - box.low_m) / 2.0)  # fmt: skip
         for contact in body.contacts:
             _collision(node, f"{body.name}_{contact.name}", body, type="sphere", pos=contact.centre_m,
                        size=contact.radius_m)  # fmt: skip
@@ -105,7 +94,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = ()) -> str:
     add_key(keys, "wound", standing(mechanism, 1.0), order, ctrl=-hold)
     if mechanism.roller_off:
         add_key(keys, "released", release_pose(mechanism), order, ctrl=0.0)
-    _shorten(root)
+    shorten(root)
     return document(root)
 
 
@@ -145,41 +134,6 @@ def _material(colour: Colour) -> str:
     return "colour_" + "".join(f"{round(255.0 * part):02x}" for part in colour)
 
 
-def _capsules(mechanism: Mechanism, body: str) -> Iterator[tuple[Array, Array, float]]:
-    """Yield both ends (3,) and the radius of a link's capsules (m), in the link's frame."""
-    design, origin = mechanism.design, np.zeros(3)
-    radius = round(SLIM * mechanism.foot_depth_m, 6)
-    lengths = dict(zip(BODY_NAMES, (0.0, design.l2_mm, design.l3_mm, design.l4_mm), strict=True))
-    if lengths[body]:
-        yield origin, np.array([lengths[body] / 1000.0, 0.0, 0.0]), radius
-    for toe in (contact for contact in mechanism.bodies[body].contacts if _is_toe(contact)):
-        yield origin, toe.centre_m, min(radius, round(0.8 * toe.radius_m, 6))
-
-
-def _is_toe(contact: ContactSphere) -> bool:
-    return contact.surface == FOOT and contact.centre_m[0] < 0.0
-
-
-def _body_box(mechanism: Mechanism, shapes: Sequence[Visual]) -> Array | None:
-    """Return the corners (2, 3) of a box about the body's parts (m), or None where none are seen.
-
-    It ends above the ground in the loaded pose, which its lower corners, where the body is rounded off, may not.
-    """
-    if not shapes:
-        return None
-    corners = []
-    for shape in shapes:
-        low, high = shape.mesh.bounds / 1000.0
-        ends = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-        corners.append((shape.T_body_mesh[:3, :3] * ends[:, None, :]).sum(axis=2) + shape.T_body_mesh[:3, 3])
-    every = np.round(np.concatenate(corners), 4)
-    box: Array = np.array([every.min(axis=0), every.max(axis=0)])
-    pose = body_poses(mechanism, 1.0)[BODY]
-    lowest = max((CLEAR_M - pose[2, 3] - pose[2, 0] * x) / pose[2, 2] for x in box[:, 0])
-    box[0, 2] = max(box[0, 2], round(float(lowest), 4))
-    return box if box[0, 2] < box[1, 2] else None
-
-
 def _apart(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
     """Yield the pairs of bodies without a common joint, which MuJoCo would let touch."""
     joined = {frozenset((joint.parent, joint.child)) for joint in mechanism.joints}
@@ -200,13 +154,3 @@ def _sensors(root: ET.Element, mechanism: Mechanism) -> None:
     add(sensor, "actuatorfrc", name="cam_torque", actuator="cam")
     add(sensor, "subtreecom", name="com", body=BODY)
     add(sensor, "subtreelinvel", name="com_velocity", body=BODY)
-
-
-def _shorten(root: ET.Element) -> None:
-    """Write numbers with `DIGITS` digits, and those that are nothing beside their neighbours as 0."""
-    for node in root.iter():
-        for key, text in node.attrib.items():
-            if key not in TEXTS and NUMBERS.fullmatch(text):
-                values = [float(word) for word in text.split()]
-                least = 10.0**-DIGITS * max(map(abs, values))
-                node.set(key, " ".join(f"{value if abs(value) > least else 0.0:.{DIGITS}g}" for value in values))

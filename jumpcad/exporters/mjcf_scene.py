@@ -30,8 +30,8 @@ while data.time < 0.4:
 print(data.sensor("com").data)          # of the centre of mass, m
 ```
 
-The equality `latch` holds the leg as well: set `data.eq_active[model.equality("latch").id] = 1` in the pose `wound`, and
-0 to release. Key frames do not store it.
+The equality `latch` holds the leg as well: set `data.eq_active[model.equality("latch").id] = 1` in the pose `wound`,
+and 0 to release. Key frames do not store it.
 
 ## In your own scene
 
@@ -42,18 +42,18 @@ scene.attach(robot, prefix="jumper-", frame=scene.worldbody.add_frame(pos=[0, 0,
 model = scene.compile()
 ```
 
-Tested with MuJoCo {mujoco}. Attached, the robot keeps its contacts, joints and springs, but the scene's options hold: set
-`timestep` to 0.00025, `integrator` to `implicitfast`, `cone` to `elliptic` and `impratio` to 100 for the figures of the
-bundle. Ranges of four templates differ by up to 2 % at a time step of 1 ms and 5 % at 2 ms; with MuJoCo's own options
-feet creep, and they jump 4 to 13 % shorter. A key frame of the robot poses the robot alone, in the world and not in
-your frame: add the frame's position to `data.joint("jumper-free").qpos[:3]`.
+Tested with MuJoCo {mujoco}. Attached, the robot keeps its contacts, joints and springs, but the scene's options hold:
+set `timestep` to 0.00025, `integrator` to `implicitfast`, `cone` to `elliptic` and `impratio` to 100 for the figures of
+the bundle. Ranges of four templates differ by up to 2 % at a time step of 1 ms and 5 % at 2 ms; with MuJoCo's own
+options feet creep, and they jump 4 to 13 % shorter. A key frame of the robot poses the robot alone, in the world and
+not in your frame: add the frame's position to `data.joint("jumper-free").qpos[:3]`.
 
 ## What it is
 
 Contacts: spheres under nose, toes and body, capsules along the links, a box about the body; they touch everything in a
 scene but the robot itself. Friction and stiffness are the robot's (priority 1): {foot:g} under the feet, {body:g}
-elsewhere. Springs that only push are the tendon `springs`; the rest stop is the upper limit of the joint `leg`; the loop
-is the equality `loop`. The motor, its gears and the cam's turn are not modelled: winding takes no time here.
+elsewhere. Springs that only push are the tendon `springs`; the rest stop is the upper limit of the joint `leg`; the
+loop is the equality `loop`. The motor, its gears and the cam's turn are not modelled: winding takes no time here.
 """
 HOLD = 1.25
 """Torque with which the motor holds the leg against its limit, over the springs' in the loaded pose; judgement."""
