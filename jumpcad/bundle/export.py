@@ -15,6 +15,7 @@ from jumpcad.bundle.guide import write_guide
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.joints import joint_facts
 from jumpcad.bundle.manifest import Bundle
+from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures
@@ -23,6 +24,7 @@ from jumpcad.bundle.stop import stop_facts
 from jumpcad.bundle.wiring import wiring_svg
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
+from jumpcad.exporters.animation import animated
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
 from jumpcad.robot import Robot, require_name
@@ -46,7 +48,7 @@ def export(
         Is made, with its parents; may be empty or hold an older bundle of the robot. The files that it lists are
         replaced; what a user added stays.
     pictures
-        Whether to draw the robot, which takes a quarter of the time.
+        Whether to draw the robot and to animate its jump in the GLB file, which takes a quarter of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
     force
@@ -73,8 +75,11 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
     """Yield path and content of every file of a bundle but its manifest."""
     yield DESIGN, robot.design.to_toml()
     yield WORKSHOP, robot.workshop.to_toml()
+    motion = jump_motion(robot) if pictures else None
     for exporter in exporters:
-        yield from exporter.files(robot)
+        for path, content in exporter.files(robot):
+            moves = motion is not None and isinstance(content, bytes) and path.endswith(".glb")
+            yield path, animated(content, motion) if moves else content
     yield "bom.csv", write_bom(bill_of_materials(robot))
     yield "assembly.md", write_guide(robot, pictures)
     yield "wiring.svg", wiring_svg(robot)

@@ -94,7 +94,7 @@ def write_loop(mechanism: Mechanism) -> str:
 
 
 def add_link(root: ET.Element, body: Body, visible: "list[Visual]", meshes: str) -> ET.Element:
-    """Append a body with its visible meshes, which lie in the folder or at the URI `meshes`, and its contact spheres."""
+    """Append a body with its visible meshes, which lie at the path or URI `meshes`, and its contact spheres."""
     link = add(root, "link", name=body.name)
     moments, axes = principal_axes(body.inertia_kg_m2)
     inertial = add(link, "inertial")
