@@ -78,8 +78,10 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
     motion = jump_motion(robot) if pictures else None
     for exporter in exporters:
         for path, content in exporter.files(robot):
-            moves = motion is not None and isinstance(content, bytes) and path.endswith(".glb")
-            yield path, animated(content, motion) if moves else content
+            if motion is not None and isinstance(content, bytes) and path.endswith(".glb"):
+                yield path, animated(content, motion)
+            else:
+                yield path, content
     yield "bom.csv", write_bom(bill_of_materials(robot))
     yield "assembly.md", write_guide(robot, pictures)
     yield "wiring.svg", wiring_svg(robot)

@@ -59,11 +59,13 @@ def animated(glb: bytes, motion: Motion) -> bytes:
 def _continuous(quaternions: Array) -> Array:
     """Return quaternions (n, 4) of which neighbours have the same sign: viewers take the straight way between them."""
     turned = np.cumprod(np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))
-    return quaternions * np.append(1.0, turned)[:, None]
+    continuous: Array = quaternions * np.append(1.0, turned)[:, None]
+    return continuous
 
 
 def _rounded(values: Array) -> Array:
-    return np.round(values, DIGITS) + 0.0
+    rounded: Array = np.round(values, DIGITS) + 0.0
+    return rounded
 
 
 def _take_matrix(node: dict[str, Any]) -> None:
