@@ -48,7 +48,10 @@ def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
     with matplotlib.rc_context(STYLE):
         figure.savefig(drawn, format="svg", metadata={"Date": None})
         figure.savefig(pixels, format="png", dpi=PNG_DPI, metadata={"Software": None})
-    files = {f"{name}.svg": sealed(drawn.getvalue(), "<!-- {} -->"), f"{name}.png": sealed_png(pixels.getvalue())}
+    files: dict[str, str | bytes] = {
+        f"{name}.svg": sealed(drawn.getvalue(), "<!-- {} -->"),
+        f"{name}.png": sealed_png(pixels.getvalue()),
+    }
     path, _ = write_files(Path(folder), files)
     return path
 
