@@ -11,7 +11,8 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.scene.camera import View
+from jumpcad.scene.camera import View, aimed
+from jumpcad.scene.floor import STRIPE_M, with_floor
 from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
@@ -68,14 +69,18 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
-    """Return an animated GIF of a recorded jump, at equal time steps from release on."""
+    """Return an animated GIF of a recorded jump above a striped floor, at equal time steps from release on."""
     things = visuals(robot)
     times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
     frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
     corners = np.concatenate([_corners(things, poses) for poses in frames])
     scene = _renderer(things)
-    return _gif([scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames])
+    camera = aimed(corners, JUMP_VIEW, size[0] / size[1])
+    slower = 0.001 * FRAME_MS * (JUMP_FRAMES - 1) / (times[-1] - times[0])
+    caption = f"slow motion, {slower:.0f} times; stripes of {1000.0 * STRIPE_M:.0f} mm"
+    pictures = [scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames]
+    return _gif([with_floor(picture, camera, corners, caption) for picture in pictures])
 
 
 def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:

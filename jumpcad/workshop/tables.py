@@ -43,13 +43,15 @@ class Process(TomlTable):
 
 
 class Material(TomlTable):
-    """A material: strengths along the layers and between them, and its price where one is entered."""
+    """A material: strengths along the layers and between them, and what is known of its temperatures and price."""
 
     density_g_cm3: Annotated[float, Field(ge=0.3, le=10)]
     strength_in_plane_mpa: Stress
     strength_interlayer_mpa: Stress
     modulus_mpa: Annotated[float, Field(ge=1, le=1e6)]
     price_eur_per_kg: Positive | None = None
+    nozzle_c: Annotated[float, Field(ge=100, le=500)] | None = None
+    bed_c: Annotated[float, Field(ge=0, le=200)] | None = None
     source: Text = ""
 
 
