@@ -69,7 +69,7 @@ def _table(head: str, items: Sequence[BillLine], printed: bool) -> Iterator[str]
 
 def _steps(robot: Robot, pictures: bool) -> Iterator[str]:
     for number, step in enumerate(assembly_steps(robot), start=1):
-        yield from ("", f"## {number}. {step.title}", "", step.text, "")
+        yield from ("", f"## {number}. {step.title}", "", *step.text, "")
         if pictures:
             yield from (f"![{step.title}](pictures/step-{number}.png)", "")
         for label, count in Counter(_label(shape) for shape in step.added if _counts(shape)).items():
