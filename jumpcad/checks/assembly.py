@@ -7,13 +7,16 @@ between two positions is missed; for other shapes the thing in the way is moved 
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from manifold3d import Manifold
 
 from jumpcad.checks.interference import INTENDED, Component, shared_volume_mm3
 from jumpcad.findings import Finding
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.parts.part import Part
+from jumpcad.parts.part import Drawing, Part
+from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import Tool
 from jumpcad.scene.assembly_steps import SIDES, Placed, Step, assembly_steps, travel
@@ -93,7 +96,7 @@ class Way:
 def assembly_ways(robot: Robot) -> list[Way]:
     """Return every move of every step."""
     poses = body_poses(robot)
-    pieces = {thing.name: _component(thing, poses[thing.body]) for thing in visuals(robot)}
+    pieces = {thing.name: _piece(thing, poses[thing.body]) for thing in visuals(robot)}
     built: dict[str, list[Component]] = {}
     ways = []
     for step in assembly_steps(robot):
@@ -120,12 +123,24 @@ def assembly_ways(robot: Robot) -> list[Way]:
     return ways
 
 
-def _component(thing: Visual, T_world_body: Array) -> Component:
+@dataclass(frozen=True)
+class _Piece(Component):
+    """A thing on the robot, whose solid others may have made already."""
+
+    source: Drawing | BoughtPart
+
+    @cached_property
+    def solid(self) -> Manifold:
+        """The piece in its own frame (mm)."""
+        return self.source.solid
+
+
+def _piece(thing: Visual, T_world_body: Array) -> Component:
     """Return a thing at its place in the world (mm)."""
-    shape = thing.source.drawing.shape if isinstance(thing.source, Part) else thing.source.shape
+    source = thing.source.drawing if isinstance(thing.source, Part) else thing.source
     pose = chained(T_world_body, thing.T_body_mesh)
     pose[:3, 3] *= 1000.0
-    return Component(thing.name, thing.body, shape, pose)
+    return _Piece(thing.name, thing.body, source.shape, pose, source)
 
 
 def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:

@@ -348,15 +348,9 @@ ORDER: tuple[Plan, ...] = (
         ),
     ),
     Plan(
-        "arm", "The springs' pin in the leg; left plate", ROBOT,
+        "arm", "The springs' pin in the leg", ROBOT,
         (
             *_pin("leg_spring_pin", "from the front", ("from the front", "from the front")),
-            Move("body_plate_left"),
-            Move("standoff_\\d+_screw_left", "head last", tool=HEX_M3),
-            Move(f"{AXLES}|spring_pin", "head last", tool=HEX_AXLE, retention=("nuts",)),
-            Move(f"({AXLES}|spring_pin)_nut", "from the right", past=f"{AXLES}|spring_pin", tool=NUT_M3,
-                 reach="from the right"),
-            *_clips(f"{AXLES}|spring_pin"),
         ),
         (
             Words("With the leg on its stop push the pin ({leg_pin}) through it from the left, on the side of both "
@@ -369,6 +363,19 @@ ORDER: tuple[Plan, ...] = (
             Words("Bend the split pin's ends around the pin and cut off what stands out.",
                   needs="leg_spring_pin_split_pin"),
             Words("Press the clips into the pin's grooves.", needs="leg_spring_pin_clip_.*"),
+        ),
+    ),
+    Plan(
+        "close", "Left plate, for good", ROBOT,
+        (
+            Move("body_plate_left"),
+            Move("standoff_\\d+_screw_left", "head last", tool=HEX_M3),
+            Move(f"{AXLES}|spring_pin", "head last", tool=HEX_AXLE, retention=("nuts",)),
+            Move(f"({AXLES}|spring_pin)_nut", "from the right", past=f"{AXLES}|spring_pin", tool=NUT_M3,
+                 reach="from the right"),
+            *_clips(f"{AXLES}|spring_pin"),
+        ),
+        (
             Words("Left plate and its screws for good, {torque_plastic} N·m. The closed bores of both plates hold the "
                   "axles.", lacks=".*_axle_(nut|clip_1)"),
             Words("Left plate and its screws for good, {torque_plastic} N·m. Put the axles' screws in from the left, "
