@@ -12,6 +12,7 @@ from jumpcad.bundle.electronics import electronics_facts
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
+from jumpcad.bundle.guide_page import write_page
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.joints import joint_facts
 from jumpcad.bundle.manifest import Bundle
@@ -67,12 +68,14 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
     for exporter in exporters:
         yield from exporter.files(robot)
     yield "bom.csv", write_bom(bill_of_materials(robot))
-    yield "assembly.md", write_guide(robot, pictures)
-    yield "wiring.svg", wiring_svg(robot)
     yield from firmware_files(robot)
     seen = all_pictures(robot) if pictures else {}
-    for picture, png in seen.items():
-        yield f"pictures/{picture}.png", png
+    files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
+    yield from files.items()
+    wiring, guide = wiring_svg(robot), write_guide(robot, list(seen))
+    yield "wiring.svg", wiring
+    yield "assembly.md", guide
+    yield "assembly.html", write_page(guide, robot.name, files | {"wiring.svg": wiring.encode()})
     yield "report.html", write_report(robot, {name: seen[name] for name in RENDERS if name in seen})
 
 

@@ -225,8 +225,8 @@ ORDER: tuple[Plan, ...] = (
             Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
                   "and let go after a second: the motor stops {after_ms} ms later and the count is 1."),
-            Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn}. If it turns the other way, "
-                  "exchange its two wires at the driver."),
+            Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
+                  "not, exchange its two wires at the driver."),
         ),
         (
             Words("Something becomes hot or smells: switch off, unplug, look for the short. Do not leave a connected "
@@ -273,9 +273,9 @@ ORDER: tuple[Plan, ...] = (
             Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
                   "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
             Words("Leg axle: bushing, thick end up; over it the LEFT-HAND spring; the leg with the roller up; the "
-                  "RIGHT-HAND spring; its bushing, thick end down. The outer arm of either spring lies "
-                  "against the springs' pin, on the side away from the cam; the inner arms lie beside the leg, where "
-                  "its pin will come. Left-hand: held upright, the coil in front rises to the left."),
+                  "RIGHT-HAND spring; its bushing, thick end down. Seen on the standing robot, the outer arm of either "
+                  "spring lies below the springs' pin, and the inner arms beside the leg, above the hole for its pin. "
+                  "Left-hand: held upright, the wire in front rises to the left."),
             Words("Front axle: tube, front link, tube ({front_tubes}). Cam axle: its tube ({cam_tube} mm)."),
         ),
         (
@@ -353,9 +353,8 @@ ORDER: tuple[Plan, ...] = (
             *_pin("leg_spring_pin", "from the front", ("from the front", "from the front")),
         ),
         (
-            Words("With the leg on its stop push the pin ({leg_pin}) through it from the left, on the side of both "
-                  "springs' inner arms that is turned away from the cam: the arms lie between it and the springs' "
-                  "other pin."),
+            Words("With the leg on its stop push the pin ({leg_pin}) through it from the left, below the inner arms of "
+                  "both springs: all four arms then lie between it and the springs' other pin."),
             Words("A bought spring's arms may stand up to 10° off: push the arm aside with a screwdriver; 10° take "
                   "{arm_n} N. Arms that are more than 15° off are not those of the order."),
             Words("The springs are loaded by {preload}° in this pose: hold either arm back with pliers, {preload_n} N, "
@@ -385,7 +384,7 @@ ORDER: tuple[Plan, ...] = (
                   "end of every axle.", needs=".*_axle_clip_1"),
         ),
         (
-            Words("From now on the springs can be loaded: {energy} J, a foot that moves at up to {leg_speed} m/s. Keep "
+            Words("From now on the springs can be loaded: {energy} J, set free within {push_ms} ms. Keep "
                   "fingers out from between leg and body and away from foot, cam and gears, and your eyes away, "
                   "whenever the battery is plugged in or the leg is off its stop."),
         ),

@@ -61,7 +61,7 @@ class Step:
 def assembly_steps(robot: Robot) -> list[Step]:
     """Return the steps that a robot needs; everything on it is put on in exactly one of them."""
     left = list(visuals(robot))
-    names = [thing.name for thing in left]
+    names = [thing.name for thing in left] + ["preload"] * (robot.layout.drive.spring.preload_rad > 0.0)
     built: dict[str, list[Visual]] = {}
     steps = []
     for plan in ORDER:

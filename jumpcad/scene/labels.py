@@ -46,15 +46,16 @@ def labelled(
     size = (picture.width + 2 * margin_px, picture.height)
     sheet = Image.new("RGB", size, (255, 255, 255))
     sheet.paste(picture, (margin_px, 0))
-    ends = np.asarray(at_px, dtype=float).reshape(-1, 2) + [margin_px, 0.0]
-    goals = np.asarray(place_px, dtype=float).reshape(-1, 2) + [margin_px, 0.0]
+    beside = np.array([margin_px, 0.0])
+    ends = np.asarray(at_px, dtype=float).reshape(-1, 2) + beside
+    goals = np.asarray(place_px, dtype=float).reshape(-1, 2) + beside
     large = sheet.resize((FINE * size[0], FINE * size[1]), Image.Resampling.NEAREST)
     draw = ImageDraw.Draw(large)
     for end, goal in zip(ends, goals, strict=True):
         if np.hypot(*(goal - end)) > 2.0 * HEAD_PX:
             _arrow(draw, end, goal)
     for line in turns_px:
-        curve = np.asarray(line) + [margin_px, 0.0]
+        curve = np.asarray(line) + beside
         draw.line([tuple(FINE * point) for point in curve[:-1]], fill=ARROW, width=2 * FINE)
         _arrow(draw, curve[-3], curve[-1])
     for name, end, (x, y), left in _rows(names, ends, size):

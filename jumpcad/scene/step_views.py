@@ -139,9 +139,13 @@ def _view(
     view = inset.view if inset else _direction(step)
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
     corners = middle + (inset.room if inset else 1.0) * (corners - middle)
-    turns = () if inset else tuple(_turn(thing, pose, TURNS[step.key][1] or motor) for thing, pose in zip(things, at, strict=True)
-                                   if step.key in TURNS and thing.name == TURNS[step.key][0])  # fmt: skip
-    return StepView(name, title, tuple(things), tuple(at), pale, labels, corners, view, turns)
+    turning, sense = TURNS.get(step.key, ("", 0))
+    turns = [
+        _turn(thing, pose, sense or motor)
+        for thing, pose in zip(things, at, strict=True)
+        if thing.name == turning and not inset
+    ]
+    return StepView(name, title, tuple(things), tuple(at), pale, labels, corners, view, tuple(turns))
 
 
 def _turn(thing: Visual, pose: Array, senses: int) -> Array:
@@ -163,7 +167,7 @@ def _direction(step: Step) -> View:
 
 
 def _apart(robot: Robot, step: Step, poses: dict[str, Array]) -> dict[str, Array]:
-    """Return by how much (3,) every thing of a step is moved back on its path, so that those of one path stand apart."""
+    """Return by how much (3,) everything of a step is moved back on its path, so that those of one path are apart."""
     moved: dict[str, Array] = {}
     stacked: list[tuple[Array, Array, float]] = []
     for placed in step.placed:
