@@ -16,9 +16,10 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
     lever = spring.arms.lever_mm
     yield from ("", "## When things arrive", "")
     yield (
-        f"**Springs.** Put the coil on a rod that fills it, hold one arm fast, and let the other press on a kitchen "
-        f"scale, straight down, {lever:.1f} mm from the middle of the coil's side where the arm begins. Turn the rod, "
-        "with a protractor, by the angles of the table in the closing direction, and read the scale:"
+        "**Springs.** Hold a rod that fills the coil level in a vice, a nail beside one arm so that it cannot turn. "
+        "Lay the other arm level on a block on a kitchen scale, so that it touches "
+        f"{lever:.1f} mm along the arm from where it leaves the coil. Raise the scale until the arm has turned by an "
+        "angle of the table, in the closing direction (draw the angle on card behind it), and read:"
     )
     yield from ("", "| turned by | scale, as computed | accept |", "|--:|--:|--:|")
     for angle in AT_DEG:

@@ -46,7 +46,7 @@ def _drive(robot: Robot) -> dict[str, str]:
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
     boards_a = supply.boards_w / supply.nominal_v
     battery = chosen.battery
-    charge_how = "at its own USB socket, through the controller, with the switch on: its charger must not give more."
+    charge_how = "through the controller's USB socket, with the switch on; its charger must not give more."
     if chosen.regulator is not None:
         charge_how = f"by a charger with a balance lead, set to LiPo {battery.cells}S, outside the robot."
     both = {1: "counter-clockwise", -1: "clockwise"}
@@ -102,6 +102,8 @@ def _sizes(robot: Robot) -> dict[str, str]:
         "axle_length": f"{outside[1] - outside[0]:.0f}",
         "front_tubes": f"{heights['front_spacer_right']:.1f} mm on the right, {heights['front_spacer_left']:.1f} mm on "
         "the left",
+        "bushing_left": f"{heights['spring_bushing_left']:.1f}",
+        "bushing_right": f"{heights['spring_bushing_right']:.1f}",
         "cam_tube": f"{heights['cam_spacer_right']:.1f}",
         "ankle_pin": articles["ankle_pin"],
         "front_pin": articles["front_eye_pin"],
@@ -119,9 +121,9 @@ def _jump(robot: Robot) -> dict[str, str]:
         jump = simulate(robot, engine=default_engine())
     except JumpcadError:
         return {"range": "?", "rise": "?", "far": "3", "high": "2"}
-    if jump.verdict != "jump":
-        return {"range": "0", "rise": "0", "far": "3", "high": "2"}
     reach, rise = jump.ballistic_range_m, jump.com_rise_m
+    if jump.verdict != "jump" or reach is None or rise is None:
+        return {"range": "0", "rise": "0", "far": "3", "high": "2"}
     return {
         "range": f"{10.0 * round(100.0 * reach):.0f}",
         "rise": f"{10.0 * round(100.0 * rise):.0f}",

@@ -19,6 +19,7 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures
+from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
 from jumpcad.bundle.wiring import wiring_svg
@@ -69,6 +70,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
         yield from exporter.files(robot)
     yield "bom.csv", write_bom(bill_of_materials(robot))
     yield from firmware_files(robot)
+    yield from spring_sheets(robot)
     seen = all_pictures(robot) if pictures else {}
     files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     yield from files.items()

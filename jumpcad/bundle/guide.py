@@ -12,6 +12,7 @@ from jumpcad.bundle.springs import spring_order
 from jumpcad.bundle.wiring import wiring_lines
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order import ROBOT
 from jumpcad.scene.assembly_steps import Step, assembly_steps
 from jumpcad.scene.step_views import label_of
 from jumpcad.scene.visuals import Visual
@@ -97,21 +98,23 @@ def _steps(robot: Robot, steps: Sequence[Step], pictures: Sequence[str]) -> Iter
 
 def _put_on(step: Step) -> Iterator[str]:
     """Yield a line for every kind of thing that a step puts on: how many, what it is called, from where, which tool."""
-    lines: Counter[tuple[str, str]] = Counter()
-    for placed in step.placed:
+    lines: Counter[str] = Counter()
+    for index, placed in enumerate(step.placed):
         move = placed.move
-        if move.brings:
-            yield f"- the {move.brings}, {move.along}"
-            continue
         if move.trial:
             continue
-        way = "" if move.way == "laid" else f", {move.along}"
+        base = index == 0 and step.onto not in (ROBOT,)
+        way = "" if move.way == "laid" or base or "body_plate_right" in move.parts else f", {move.along}"
         tool = f"; {move.tool.name}" if move.tool else ""
+        if move.brings:
+            lines[f"the {move.brings}{way}"] = 0
+            continue
         for thing in placed.things:
             if _counts(thing):
-                lines[_label(thing), f"{label_of(thing)}{way}{tool}"] += 1
-    yield from (f"- {count} × {article} ({how})" for (article, how), count in lines.items())
-    yield ""
+                lines[f"{_label(thing)} ({label_of(thing)}{way}{tool})"] += 1
+    yield from (f"- {count} × {words}" if count else f"- {words}" for words, count in lines.items())
+    if lines:
+        yield ""
 
 
 def _label(shape: Visual) -> str:

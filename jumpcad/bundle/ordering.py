@@ -1,4 +1,4 @@
-"""What to order and cut, where a bill's line is no article of a shop: rods, standoffs, strips, wire; tools; settings."""
+"""What to order and cut where a bill's line is no article of a shop: rods, standoffs, strips, wire; tools; printing."""
 
 import math
 import re
@@ -56,7 +56,7 @@ def print_lines(robot: Robot) -> Iterator[str]:
         f"For every plate: nozzle {workshop.printer.nozzle_mm:g} mm, layers {process.layer_height_mm:g} mm (first "
         f"{process.first_layer_mm:g} mm), lines {process.line_width_mm:g} mm wide, {process.perimeters} perimeters, "
         f"{process.top_layers} top and {process.bottom_layers} bottom layers, {100.0 * process.infill:.0f} % infill "
-        f"({process.infill_pattern}), no supports, no brim. Parts lie as they are to be printed: do not turn them over. "
+        f"({process.infill_pattern}), no supports, no brim. Parts lie as they are to be printed: do not turn them. "
         "Mass and strength are computed for these settings."
     )
     yield from ("", "| file | material | parts |", "|---|---|---|")
@@ -129,8 +129,8 @@ def _motor(robot: Robot) -> Iterator[str]:
     motor = robot.layout.drive.train.motor
     sure = {"stated": "as its source states", "derived": "derived", "memory": "from memory"}[motor.confidence]
     yield (
-        f"- gear motor: {motor.article or motor.name}. Compare before you order: {motor.ratio:.0f}:1, {motor.voltage_v:g} "
-        f"V, {motor.no_load_rpm:.0f} rpm and {1000.0 * motor.no_load_current_a:.0f} mA without load, "
+        f"- gear motor: {motor.article or motor.name}. Compare before you order: {motor.ratio:.0f}:1, "
+        f"{motor.voltage_v:g} V, {motor.no_load_rpm:.0f} rpm and {1000.0 * motor.no_load_current_a:.0f} mA without load, "
         f"{motor.stall_torque_nm:.3f} N·m and {motor.stall_current_a:g} A stalled, shaft {motor.shaft_mm:g} mm with a "
         f"flat, {motor.shaft_length_mm:g} mm long ({sure}: {motor.source})"
     )

@@ -12,6 +12,7 @@ from jumpcad.scene.labels import labelled
 from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.step_views import StepView, step_views
 from jumpcad.scene.visuals import Visual
+from jumpcad.transforms import Array
 
 SIZE = (560, 520)
 MARGIN = 190
@@ -44,7 +45,8 @@ def named_views(robot: Robot) -> list[tuple[str, StepView]]:
 
 
 def _picture(view: StepView, number: dict[str, int], scene: Renderer, size: tuple[int, int]) -> bytes:
-    poses, pale = [None] * len(number), [False] * len(number)
+    poses: list[Array | None] = [None] * len(number)
+    pale = [False] * len(number)
     for thing, pose, hint in zip(view.things, view.poses, view.pale, strict=True):
         poses[number[thing.name]], pale[number[thing.name]] = pose, hint
     middle = (view.frame_m.min(axis=0) + view.frame_m.max(axis=0)) / 2.0

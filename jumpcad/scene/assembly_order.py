@@ -94,7 +94,7 @@ class Plan:
 def _pin(name: str, reach: str, clips: tuple[str, str] = ("from the right", "from the left")) -> tuple[Move, ...]:
     """Return the moves of a pin with its split pin, to which pliers come from a side, or with its clips."""
     return (
-        Move(name, "head last"),
+        Move(name, "from the left"),
         Move(rf"{name}_split_pin", "from the front", "bent", past=name, tool=PLIERS, reach=reach),
         *_clips(name, clips),
     )
@@ -120,7 +120,7 @@ ORDER: tuple[Plan, ...] = (
             Move("hub_bearing_2", "from the left"),
             Move("roller_washer"),
             Move("roller"),
-            Move("roller_screw", "head last", tool=HEX_M3),
+            Move("roller_screw", "from the left", tool=HEX_M3),
             Move("roller_nut", "from the right", past="roller_screw", tool=NUT_M3, reach="from the right"),
         ),
         (
@@ -136,7 +136,7 @@ ORDER: tuple[Plan, ...] = (
         checks=(Words("The roller's outer ring spins freely; the leg turns freely on a piece of its axle."),),
     ),
     Plan(
-        "foot", "Foot", FOOT,
+        "foot", "Foot and front link", FOOT,
         (
             Move("foot"),
             Move("toe_(left|right)", "from outside"),
@@ -159,10 +159,10 @@ ORDER: tuple[Plan, ...] = (
         (
             Move("body_plate_right"),
             Move("standoff_\\d+"),
-            Move("standoff_\\d+_screw_right", "head last", tool=HEX_M3),
+            Move("standoff_\\d+_screw_right", "from the right", tool=HEX_M3),
             Move("motor|motor_shaft"),
             Move("motor_cap"),
-            Move("cap_screw_.*", "head last", tool=HEX_M2),
+            Move("cap_screw_.*", "from the left", tool=HEX_M2),
         ),
         (
             Words("Solder the motor's two wires first ({motor_wire} mm each): its terminals are behind the plate's "
@@ -272,8 +272,9 @@ ORDER: tuple[Plan, ...] = (
                   "that comes first on each holds it upright, so push that down to the plate.", lacks=".*_axle_nut"),
             Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
                   "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
-            Words("Leg axle: bushing, thick end up; over it the LEFT-HAND spring; the leg with the roller up; the "
-                  "RIGHT-HAND spring; its bushing, thick end down. Seen on the standing robot, the outer arm of either "
+            Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
+                  "up; the RIGHT-HAND spring; the bushing of {bushing_left} mm. A bushing's thicker end is at "
+                  "the leg. Seen on the standing robot, the outer arm of either "
                   "spring lies below the springs' pin, and the inner arms beside the leg, above the hole for its pin. "
                   "Left-hand: held upright, the wire in front rises to the left."),
             Words("Front axle: tube, front link, tube ({front_tubes}). Cam axle: its tube ({cam_tube} mm)."),
@@ -285,7 +286,7 @@ ORDER: tuple[Plan, ...] = (
         (Words("The leg swings freely from the motor to its end, and falls by its own weight."),),
     ),
     Plan(
-        "stop", "Rest stop", STOP,
+        "stop", "Pad of the rest stop", STOP,
         (Move("stop_bar"), Move("stop_pad", "from the leg", "straight")),
         (Words("Glue the pad into its seat in the bar, the one with raised edges."),),
     ),
@@ -329,7 +330,7 @@ ORDER: tuple[Plan, ...] = (
         (
             Move("motor_pinion", past="motor_shaft", tool=PRESS, reach="from the left"),
             Move("body_plate_left", trial=True),
-            Move("standoff_\\d+_screw_left", "head last", tool=HEX_M3, trial=True),
+            Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3, trial=True),
         ),
         (
             Words("Press the pinion onto the motor's shaft, flat to flat and its teeth between the wheel's, until it "
@@ -368,8 +369,8 @@ ORDER: tuple[Plan, ...] = (
         "close", "Left plate, for good", ROBOT,
         (
             Move("body_plate_left"),
-            Move("standoff_\\d+_screw_left", "head last", tool=HEX_M3),
-            Move(f"{AXLES}|spring_pin", "head last", tool=HEX_AXLE, retention=("nuts",)),
+            Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3),
+            Move(f"{AXLES}|spring_pin", "from the left", tool=HEX_AXLE, retention=("nuts",)),
             Move(f"({AXLES}|spring_pin)_nut", "from the right", past=f"{AXLES}|spring_pin", tool=NUT_M3,
                  reach="from the right"),
             *_clips(f"{AXLES}|spring_pin"),

@@ -79,7 +79,7 @@ def assembly_steps(robot: Robot) -> list[Step]:
 def travel(robot: Robot, thing: Visual, move: Move) -> Array:
     """Return the direction (3,) in which a thing moves to its place, in its body's frame.
 
-    Screws and pins are put in with their heads last, toes from outside onto the foot's stubs.
+    Toes come from outside onto the foot's stubs, their screws with their heads last.
     """
     if move.along in SIDES:
         return SIDES[move.along]

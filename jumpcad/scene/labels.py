@@ -70,7 +70,7 @@ def _rows(
     names: Sequence[str], ends: Array, size: tuple[int, int]
 ) -> list[tuple[str, Array, tuple[float, float], bool]]:
     """Return each name with its end, the point where its words meet their line, and whether it stands on the left."""
-    order = np.argsort(ends[:, 0], kind="stable") if len(ends) else []
+    order: list[int] = np.argsort(ends[:, 0], kind="stable").tolist()
     half = len(order) // 2
     rows = []
     for side, indices in ((True, order[:half]), (False, order[half:])):
