@@ -130,7 +130,7 @@ def _motor(robot: Robot) -> Iterator[str]:
     sure = {"stated": "as its source states", "derived": "derived", "memory": "from memory"}[motor.confidence]
     yield (
         f"- gear motor: {motor.article or motor.name}. Compare before you order: {motor.ratio:.0f}:1, "
-        f"{motor.voltage_v:g} V, {motor.no_load_rpm:.0f} rpm and {1000.0 * motor.no_load_current_a:.0f} mA without load, "
+        f"{motor.voltage_v:g} V, {motor.no_load_rpm:.0f} rpm, {1000.0 * motor.no_load_current_a:.0f} mA without load, "
         f"{motor.stall_torque_nm:.3f} N·m and {motor.stall_current_a:g} A stalled, shaft {motor.shaft_mm:g} mm with a "
         f"flat, {motor.shaft_length_mm:g} mm long ({sure}: {motor.source})"
     )
