@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -92,16 +93,16 @@ def _springs(robot: Robot) -> dict[str, str]:
 
 
 def _sizes(robot: Robot) -> dict[str, str]:
-    """Return lengths and articles that tell one thing from another."""
-    articles = {item.name: item.article for item in robot.hardware}
-    heights = {part.name: float(np.ptp(part.drawing.shape.bounds_mm[:, 2])) for part in robot.parts}
+    """Return lengths and articles that tell one thing from another; nothing of what a robot lacks."""
+    articles = defaultdict(str, {item.name: item.article for item in robot.hardware})
+    heights = defaultdict(float, {part.name: float(np.ptp(part.drawing.shape.bounds_mm[:, 2])) for part in robot.parts})
     outside = robot.layout.lateral.outside
+    right, left = heights["front_spacer_right"], heights["front_spacer_left"]
     return {
         "eye_drill": f"{robot.layout.axle_mm + REAMED_MM:g}",
         "end_play": f"{2.0 * AXLE_END_PLAY_MM:g}",
         "axle_length": f"{outside[1] - outside[0]:.0f}",
-        "front_tubes": f"{heights['front_spacer_right']:.1f} mm on the right, {heights['front_spacer_left']:.1f} mm on "
-        "the left",
+        "front_tubes": f"{right:.1f} mm on the right, {left:.1f} mm on the left",
         "bushing_left": f"{heights['spring_bushing_left']:.1f}",
         "bushing_right": f"{heights['spring_bushing_right']:.1f}",
         "cam_tube": f"{heights['cam_spacer_right']:.1f}",

@@ -50,13 +50,13 @@ def _picture(view: StepView, number: dict[str, int], scene: Renderer, size: tupl
     for thing, pose, hint in zip(view.things, view.poses, view.pale, strict=True):
         poses[number[thing.name]], pale[number[thing.name]] = pose, hint
     middle = (view.frame_m.min(axis=0) + view.frame_m.max(axis=0)) / 2.0
-    frame = middle + ROOM * (view.frame_m - middle)
+    frame = np.round(middle + ROOM * (view.frame_m - middle), 6)
     picture = scene.picture(poses, size, view.view, frame, pale)
     camera = aimed(frame, view.view, size[0] / size[1])
     points = np.array([[label.at_m, label.place_m] for label in view.labels]).reshape(-1, 2, 3)
-    seen, _ = camera.seen(points, size)
+    seen = np.round(camera.seen(points, size)[0], 2)
     names = [label.text for label in view.labels]
-    turns = [camera.seen(curve, size)[0] for curve in view.turns_m]
+    turns = [np.round(camera.seen(curve, size)[0], 2) for curve in view.turns_m]
     sheet = labelled(picture, names, seen[:, 0], seen[:, 1], MARGIN, turns)
     stream = io.BytesIO()
     sheet.quantize(COLOURS, dither=Image.Dither.NONE).save(stream, "PNG", optimize=True)

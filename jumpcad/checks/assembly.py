@@ -105,10 +105,7 @@ def assembly_ways(robot: Robot) -> list[Way]:
             if placed.move.brings:
                 built.pop(placed.move.brings)
             movers = [pieces[thing.name] for thing in placed.things]
-            along = [
-                np.einsum("ij,j->i", poses[thing.body][:3, :3], travel(robot, thing, placed.move))
-                for thing in placed.things
-            ]
+            along = [travel(robot, thing, placed.move, poses[thing.body]) for thing in placed.things]
             if placed.move.brings:  # one piece: all of it moves as its first thing does
                 along = [along[0]] * len(along)
             snapped = placed.move.way == "snapped"

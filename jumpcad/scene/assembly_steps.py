@@ -13,7 +13,7 @@ import numpy as np
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import ORDER, ROBOT, Move, Plan, Words
 from jumpcad.scene.visuals import Visual, visuals
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, chained
 
 SIDES = {
     "from the left": np.array([0.0, -1.0, 0.0]),
@@ -23,7 +23,7 @@ SIDES = {
     "from the front": np.array([-1.0, 0.0, 0.0]),
     "from behind": np.array([1.0, 0.0, 0.0]),
 }
-"""Directions of travel in the frame of the thing's body."""
+"""Directions of travel."""
 REST = "Everything else"
 
 
@@ -76,21 +76,21 @@ def assembly_steps(robot: Robot) -> list[Step]:
     return steps
 
 
-def travel(robot: Robot, thing: Visual, move: Move) -> Array:
-    """Return the direction (3,) in which a thing moves to its place, in its body's frame.
+def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Array:
+    """Return the direction (3,) in the world in which a thing moves to its place on the standing robot.
 
     Toes come from outside onto the foot's stubs, their screws with their heads last.
     """
     if move.along in SIDES:
         return SIDES[move.along]
-    own = thing.T_body_mesh[:3, :3]
+    own = chained(T_world_body, thing.T_body_mesh)[:3, :3]
     if move.along == "head last":
         return np.asarray(own[:, 2] * (-1.0 if _head_up(thing) else 1.0))
     if move.along == "from outside":
         return np.asarray(own[:, 1] * (1.0 if thing.name == "toe_left" else -1.0))
     if move.along == "from the leg":
         x, z = robot.layout.stop.behind
-        return np.array([x, 0.0, z])
+        return np.asarray(np.einsum("ij,j->i", T_world_body[:3, :3], np.array([x, 0.0, z])))
     raise ValueError(f"no direction {move.along}")
 
 

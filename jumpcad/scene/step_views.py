@@ -10,13 +10,17 @@ from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import Placed, Step, assembly_steps, travel
 from jumpcad.scene.camera import View
 from jumpcad.scene.visuals import Visual
-from jumpcad.transforms import Array, pose_at
+from jumpcad.transforms import Array, chained, pose_at
 
 FROM_LEFT = View(yaw_deg=62.0, pitch_deg=28.0)
 """From the left, from where things are put on the axles."""
 FROM_RIGHT = View(yaw_deg=-118.0, pitch_deg=28.0)
 APART_M = 0.006
 """Least distance between things that stand before their places; judgement."""
+NEAREST_M = 0.03
+"""At least this much is shown around what a step puts on."""
+DIGITS = 8
+"""Of lengths in m: the last digits of sums and sines differ between processors."""
 FARTHEST_M = 0.11
 """From its place, of anything; judgement: otherwise the picture becomes small."""
 
@@ -68,7 +72,7 @@ INSETS = (
     Inset("arm", "springs", "Springs, seen from the left: arms and pins",
           "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_(left|right).*|leg_spring_pin", View(75.0, 12.0)),
     Inset("cam", "dog", "Dog: jaws of the cam, pockets of the gear", "cam|cam_gear|cam_axle", "cam|cam_gear",
-          View(62.0, 18.0)),
+          View(24.0, 20.0)),
 )  # fmt: skip
 
 
@@ -99,7 +103,7 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
         moved = _apart(robot, step, poses)
         views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot))]
         for inset in INSETS:
-            if inset.step == step.key:
+            if inset.step == step.key and any(re.fullmatch(inset.framed, thing.name) for thing in there):
                 views[step.key].append(_view(inset.name, inset.title, step, before, moved, poses, inset))
     return views
 
@@ -125,15 +129,16 @@ def _view(
     if inset is not None:
         things = [thing for thing in things if re.fullmatch(inset.shown, thing.name)]
     new = {thing.name for thing in added}
-    at = [_shifted(poses[thing.body] @ thing.T_body_mesh, moved.get(thing.name)) for thing in things]
+    at = [_shifted(_at_place(thing, poses), moved.get(thing.name)) for thing in things]
     framed = [
         index for index, thing in enumerate(things)
         if (re.fullmatch(inset.framed, thing.name) if inset else thing.name in new or not new)
     ]  # fmt: skip
     corners = np.concatenate([_corners(things[index], at[index]) for index in framed])
-    places = [_corners(things[index], poses[things[index].body] @ things[index].T_body_mesh) for index in framed]
+    places = [_corners(things[index], _at_place(things[index], poses)) for index in framed]
     if not inset:
-        corners = np.concatenate([corners, *places])
+        middle = corners.mean(axis=0)
+        corners = np.concatenate([corners, *places, [middle - NEAREST_M, middle + NEAREST_M]])
     pale = tuple(thing.name not in new and bool(new) for thing in things)
     labels = _labels(things, at, poses, new if not inset else {things[i].name for i in framed}, step)
     view = inset.view if inset else _direction(step)
@@ -172,20 +177,20 @@ def _apart(robot: Robot, step: Step, poses: dict[str, Array]) -> dict[str, Array
     stacked: list[tuple[Array, Array, float]] = []
     for placed in step.placed:
         way = _way(robot, placed, poses)
-        if placed.move.way == "laid" or way is None:
+        if placed.move.way == "laid":
             continue
-        corners = np.concatenate([_corners(thing, poses[thing.body] @ thing.T_body_mesh) for thing in placed.things])
+        corners = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in placed.things])
         along = np.einsum("ni,i->n", corners, way)
         back = 2.0 * APART_M if stacked or step.placed[0] is not placed else 0.0
         for other_way, other, offset in stacked:
-            if other_way @ way > 0.99 and _beside(corners, other, way):
+            if (other_way * way).sum() > 0.99 and _beside(corners, other, way):
                 # its front must stay behind the rear of what comes before it
                 back = max(back, offset + float(along.max() - np.einsum("ni,i->n", other, way).min()) + APART_M)
         back = min(back, FARTHEST_M)
         stacked.append((way, corners, back))
         for thing in placed.things:
-            own = poses[thing.body][:3, :3] @ travel(robot, thing, placed.move) if not placed.move.brings else way
-            moved[thing.name] = -back * own
+            own = way if placed.move.brings else travel(robot, thing, placed.move, poses[thing.body])
+            moved[thing.name] = np.round(-back * own, DIGITS)
     return moved
 
 
@@ -193,15 +198,15 @@ def _beside(one: Array, other: Array, way: Array) -> bool:
     """Tell whether two sets of corners (n, 3) overlap as seen along a path."""
     across = np.cross(way, [0.0, 0.0, 1.0] if abs(way[2]) < 0.9 else [1.0, 0.0, 0.0])
     for axis in (across, np.cross(way, across)):
-        a, b = one @ axis, other @ axis
+        a, b = (np.einsum("ni,i->n", corners, axis) for corners in (one, other))
         if a.min() >= b.max() or b.min() >= a.max():
             return False
     return True
 
 
-def _way(robot: Robot, placed: Placed, poses: dict[str, Array]) -> Array | None:
+def _way(robot: Robot, placed: Placed, poses: dict[str, Array]) -> Array:
     first = placed.things[0]
-    return np.asarray(poses[first.body][:3, :3] @ travel(robot, first, placed.move))
+    return travel(robot, first, placed.move, poses[first.body])
 
 
 def _shifted(pose: Array, by_m: Array | None) -> Array:
@@ -217,9 +222,9 @@ def _labels(
     for thing, pose in zip(things, at, strict=True):
         if thing.name in wanted and not thing.name.startswith("motor_shaft"):
             text = brought.get(thing.name, "") or label_of(thing)
-            middle = np.append(thing.mesh.bounds.mean(axis=0) / 1000.0, 1.0)
-            place = poses[thing.body] @ thing.T_body_mesh
-            found.setdefault(text, []).append(((pose @ middle)[:3], (place @ middle)[:3]))
+            ends = (_corners(thing, one).mean(axis=0) for one in (pose, _at_place(thing, poses)))
+            here, there = (np.round(end, DIGITS) for end in ends)
+            found.setdefault(text, []).append((here, there))
     return tuple(
         Label(text if len(ends) == 1 or text in brought.values() or "spring" in text else f"{len(ends)} x {text}",
               *ends[0])
@@ -231,4 +236,9 @@ def _corners(thing: Visual, pose: Array) -> Array:
     """Return the corners (8, 3) of a thing's bounding box in the world (m)."""
     low, high = thing.mesh.bounds / 1000.0
     box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    return np.asarray(box @ pose[:3, :3].T + pose[:3, 3])
+    return np.asarray(np.round(np.einsum("ij,nj->ni", pose[:3, :3], box) + pose[:3, 3], DIGITS))
+
+
+def _at_place(thing: Visual, poses: dict[str, Array]) -> Array:
+    """Return the pose (4, 4) in the world of a thing at its place (m)."""
+    return chained(poses[thing.body], thing.T_body_mesh)

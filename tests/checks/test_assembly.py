@@ -1,4 +1,4 @@
-"""Assembly: what is put on in the order of the guide has a free path, and its tool reaches it; another order does not."""
+"""Assembly: in the guide's order all paths are free and tools reach their fasteners; in another they do not."""
 
 from dataclasses import replace
 
@@ -24,28 +24,10 @@ ROBOTS = {
 }
 
 
-def _bought(name: str, **chosen: str) -> Robot:
+def _bought(name: str, kit: str = "light-1s", **chosen: str) -> Robot:
     shop = load_workshop()
-    table = shop.bought.model_dump() | chosen
-    if "kit" in chosen:  # what the default kit has filled in
-        table = {key: value for key, value in chosen.items()}
-    text = "\n".join(f'{key} = "{value}"' for key, value in table.items() if key in chosen)
-    return build(load_design(name), _workshop(text), name)
-
-
-def _workshop(text: str):  # type: ignore[no-untyped-def]
-    import tempfile
-    from pathlib import Path
-
-    from jumpcad.files import templates_folder
-
-    lines = (templates_folder() / "workshops" / "default.toml").read_text(encoding="utf-8").splitlines()
-    keys = {line.split(" = ")[0]: line for line in text.splitlines()}
-    changed = [keys.get(line.split(" = ")[0], line) for line in lines]
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "shop.toml"
-        path.write_text("\n".join(changed), encoding="utf-8")
-        return load_workshop(str(path))
+    parts = shop.catalogue.kits[kit].model_dump() | {"kit": kit} | chosen
+    return build(load_design(name), shop.model_copy(update={"bought": shop.bought.model_copy(update=parts)}), name)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
