@@ -100,7 +100,7 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
             there += [] if placed.move.trial else placed.things
         if not before and not step.placed:
             continue
-        moved = _apart(robot, step, poses)
+        moved = _apart(robot, step, poses, bool(before))
         views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot))]
         for inset in INSETS:
             if inset.step == step.key and any(re.fullmatch(inset.framed, thing.name) for thing in there):
@@ -171,8 +171,11 @@ def _direction(step: Step) -> View:
     return FROM_RIGHT if right > len(step.placed) / 2 else FROM_LEFT
 
 
-def _apart(robot: Robot, step: Step, poses: dict[str, Array]) -> dict[str, Array]:
-    """Return by how much (3,) everything of a step is moved back on its path, so that those of one path are apart."""
+def _apart(robot: Robot, step: Step, poses: dict[str, Array], onto: bool) -> dict[str, Array]:
+    """Return by how much (3,) everything of a step is moved back on its path, so that those of one path are apart.
+
+    The first thing stays where it is, unless there is something `onto` which it is put.
+    """
     moved: dict[str, Array] = {}
     stacked: list[tuple[Array, Array, float]] = []
     for placed in step.placed:
@@ -181,7 +184,7 @@ def _apart(robot: Robot, step: Step, poses: dict[str, Array]) -> dict[str, Array
             continue
         corners = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in placed.things])
         along = np.einsum("ni,i->n", corners, way)
-        back = 2.0 * APART_M if stacked or step.placed[0] is not placed else 0.0
+        back = 2.0 * APART_M if onto or step.placed[0] is not placed else 0.0
         for other_way, other, offset in stacked:
             if (other_way * way).sum() > 0.99 and _beside(corners, other, way):
                 # its front must stay behind the rear of what comes before it
