@@ -12,6 +12,7 @@ from jumpcad.bundle.electronics import electronics_facts
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
+from jumpcad.bundle.guide_page import write_page
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.joints import joint_facts
 from jumpcad.bundle.jump_motion import jump_motion
@@ -19,6 +20,7 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
+from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
 from jumpcad.bundle.wiring import wiring_svg
@@ -109,11 +111,14 @@ def _beside_report(robot: Robot, exporters: Iterable[Exporter], seen: Mapping[st
             else:
                 yield path, content
     yield "bom.csv", write_bom(bill_of_materials(robot))
-    yield "assembly.md", write_guide(robot, bool(seen))
-    yield "wiring.svg", wiring_svg(robot)
     yield from firmware_files(robot)
-    for picture, png in seen.items():
-        yield f"pictures/{picture}.png", png
+    yield from spring_sheets(robot)
+    files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
+    yield from files.items()
+    wiring, guide = wiring_svg(robot), write_guide(robot, list(seen))
+    yield "wiring.svg", wiring
+    yield "assembly.md", guide
+    yield "assembly.html", write_page(guide, robot.name, files | {"wiring.svg": wiring.encode()})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

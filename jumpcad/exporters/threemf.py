@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from jumpcad.exporters.thumbnail import thumbnail
 from jumpcad.exporters.xml import allowed
+from jumpcad.files.markdown import plain
 from jumpcad.printing.plates import Placed, Printable, PrintPlate, packed
 from jumpcad.printing.project import project_settings, settings_in_words, temperatures_in_words
 from jumpcad.robot import Robot
@@ -130,14 +131,14 @@ def _in_words(plates: Sequence[PrintPlate], workshop: Workshop) -> str:
         "its speeds and its G-code at start and end, and keep the print settings. Other slicers, such as Bambu Studio,",
         "OrcaSlicer and Cura, read the parts and their places alone: enter the settings there.",
         "",
-        *(f"- {line}" for line in settings_in_words(workshop.printer, workshop.process)),
+        *(f"- {plain(line)}" for line in settings_in_words(workshop.printer, workshop.process)),
         "",
         "The masses of the robot hold for these settings; with others it is heavier or lighter, and its springs no",
         "longer suit it as well.",
     ]
     for plate in plates:
         heat = temperatures_in_words(workshop.materials[plate.material])
-        lines += ["", f"## {plate.name}.3mf", "", f"{plate.material}: {heat}", ""]
+        lines += ["", f"## {plain(plate.name)}.3mf", "", f"{plain(plate.material)}: {plain(heat)}", ""]
         copies = Counter(placed.part.name for placed in plate.items)
         lines += [f"- {count} × {name}" for name, count in copies.items()]
     return "\n".join(lines) + "\n"

@@ -209,7 +209,7 @@ def _stop_mm(workshop: Workshop, energy_j: float, width_mm: float, shell: Shell)
     """Return the depth of the rest stop's bar, a beam on both plates with its pad's force on the leg's width."""
     pad_n_per_mm = workshop.stop_pad.rate_n_per_mm(width_mm, STOP_PAD_MM)
     force = PEAK_SHARE * math.sqrt(2.0 * STOP_SHARE * 1000.0 * energy_j * pad_n_per_mm)
-    moment = BLOW_FACTOR * force * (STOP_SPAN_MM - width_mm / 2.0) / 4.0
+    moment = BLOW_FACTOR * force * max(STOP_SPAN_MM - width_mm / 2.0, 0.0) / 4.0
     strength = workshop.material("links").strength_in_plane_mpa
     return max(STOP_MIN_MM, STOP_SEAT_MM + height_for_mm(moment, STOP_PAD_MM, strength, shell))
 
