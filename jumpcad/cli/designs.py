@@ -52,7 +52,7 @@ def new(
     if for_workshop:
         _new_workshop(file, workshop, printer, material, as_json)
     else:
-        _new_design(file, template or TEMPLATE, as_json)
+        _new_design(file, TEMPLATE if template is None else template, as_json)
 
 
 def _new_design(file: Path, template: str, as_json: bool) -> None:
@@ -73,7 +73,7 @@ def _new_workshop(file: Path, base: str | None, printer: str | None, material: s
     from jumpcad.files.outputs import write_atomically
     from jumpcad.workshop import DEFAULT, load_workshop
 
-    base = base or DEFAULT
+    base = DEFAULT if base is None else base
     workshop, name = load_workshop(base, printer, material), escaped(str(file))
     write_atomically(file, commented_workshop(workshop, escaped(base)))
     if as_json:
