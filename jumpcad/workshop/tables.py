@@ -171,7 +171,8 @@ class Safety(TomlTable):
     """Safety factors, what springs, motor and legs may be loaded with, and reserves for what differs from a drawing.
 
     Loads are taken as those of the stiffest springs within `spring_rate_scatter`, and more by `stress_reserve`. Other
-    reserves are kept below the motor's torque and the cam's pressure angle, and above gaps.
+    reserves are kept below the motor's torque and the cam's pressure angle, and above gaps; `kick_reserve` is added to
+    the blow that the released cam gives the gear motor.
     """
 
     strength_factor: Annotated[float, Field(ge=1, le=20)]
@@ -181,6 +182,7 @@ class Safety(TomlTable):
     spring_stress_share: Share
     spring_rate_scatter: Annotated[float, Field(ge=0, le=0.5)]
     stress_reserve: Annotated[float, Field(ge=0, le=1)]
+    kick_reserve: Annotated[float, Field(ge=0, le=1)]
     motor_torque_reserve: Annotated[float, Field(ge=0, le=0.9)]
     pressure_angle_reserve_deg: Annotated[float, Field(ge=0, le=20)]
     gap_reserve_mm: Annotated[float, Field(ge=0, le=1)]
@@ -226,6 +228,7 @@ class ReleaseTable(TomlTable):
     backlash_deg: Annotated[tuple[Backlash, Backlash], Field(strict=False)]
     rebound: Annotated[float, Field(ge=0, le=1)]
     train_nm_per_rad: Positive
+    contact_n_per_mm: Annotated[float, Field(ge=100, le=1e6)]
     energy_ratio_min: Share
 
     @property
