@@ -19,15 +19,18 @@ class Step:
 ORDER: tuple[tuple[str, str, str], ...] = (
     (
         "Main leg",
-        r"main_leg|hub_bearing_\d+|leg_spring_pin.*|roller.*",
-        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer 0.1 mm wider than its pin, "
-        "until that turns in it without rocking. Push the springs' pin through the beam and keep it as the list says: "
-        "bend the split pin's ends, or press the clips into their grooves. Screw the roller to the lever's left side "
-        "with the washer between them and the lock nut on the right; the roller must spin freely.",
+        r"main_leg|main_leg_end|main_leg_bar|hub_bearing_\d+|leg_spring_pin.*|roller.*",
+        "Legs with a bar first: cut the bars to length, sand their ends and the sockets and degrease them. Glue "
+        "each bar with epoxy into the sockets of both ends, as deep as it goes, all lying on a flat plate, and let "
+        "it cure. Press the bearings into the hub. Open the eye at the ankle with a drill or reamer 0.1 mm wider "
+        "than its pin, until that turns in it without rocking. Push the springs' pin through the beam and keep it "
+        "as the list says: bend the split pin's ends, or press the clips into their grooves. Screw the roller to "
+        "the lever's left side with the washer between them and the lock nut on the right; the roller must spin "
+        "freely.",
     ),
     (
         "Foot",
-        r"foot|toe_.*|nose_pad_.*|front_link|ankle_pin.*|front_eye_pin.*",
+        r"foot|toe_.*|nose_pad_.*|front_link|front_link_bar|ankle_pin.*|front_eye_pin.*",
         "Toes that are parts of their own are screwed to the foot from outside first. Set the main leg between the "
         "lugs where the toes meet and push the ankle pin through. Do the same with the front link at the nose, whose "
         "eyes are opened like the leg's. Both must swing freely. Bend the split pins' ends around the pins, or press "

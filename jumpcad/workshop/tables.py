@@ -99,6 +99,7 @@ class BoughtParts(TomlTable):
     `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
+    `leg` is the bar that main leg and front link are made of between printed ends, empty where they are printed whole.
     `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
     in grooves, or screws as axles with lock nuts; pins of foot and leg have clips too, or are clevis pins.
     """
@@ -119,6 +120,7 @@ class BoughtParts(TomlTable):
     wire: OptionalName
     pins: dict[Literal["motor", "sleep", "ready", "battery"], Name] = Field(default_factory=dict)
     spring: OptionalName
+    leg: OptionalName
     axle_mm: Length
     axle: Name
     retention: Literal["plates", "clips", "nuts"]

@@ -18,6 +18,7 @@ from jumpcad.catalogue import (
     Bearing,
     Board,
     Catalogue,
+    LegBar,
     Motor,
     OwnParts,
     Pad,
@@ -91,6 +92,11 @@ class Workshop(Record):
     def stock_spring(self) -> StockSpring | None:
         """The springs from stock, or None where they are made to order."""
         return self.catalogue.springs[self.bought.spring] if self.bought.spring else None
+
+    @property
+    def leg_bar(self) -> LegBar | None:
+        """The bar of main leg and front link, or None where they are printed whole."""
+        return self.catalogue.bars[self.bought.leg] if self.bought.leg else None
 
     @property
     def foot_pad(self) -> Pad | None:
