@@ -153,7 +153,7 @@ class Workshop(Record):
         yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
         yield from _release_contradictions(self.release)
         if not self.body.stop_pad:
-            known = ", ".join(self.catalogue.pads)
+            known = ", ".join(name for name, pad in self.catalogue.pads.items() if pad.thickness_mm >= STOP_PAD_MIN_MM)
             reason = f"the rest stop needs a pad of at least {STOP_PAD_MIN_MM:g} mm: name one of {known}"
             yield ("body", "stop_pad"), self.body.stop_pad, reason
         for role, name in self.roles.model_dump().items():
