@@ -1,6 +1,6 @@
 """What the workshop's choices for less weight do: mass, range and rise of two templates, or the finding that stops one.
 
-Run `python benchmarks/weight.py` from the repository; it prints the table of `docs/weight.md`.
+Run `python benchmarks/weight.py` from the repository; it prints the tables of `docs/decisions/weight.md`.
 """
 
 from typing import Any
