@@ -28,7 +28,8 @@ HEX_M3 = Tool("hex key 2 mm, long end", 3.0, 50.0)
 HEX_M2 = Tool("hex key 1.3 mm, long end", 2.0, 40.0)
 HEX_AXLE = Tool("hex key 2.5 mm, long end", 3.5, 50.0)
 NUT_M3 = Tool("nut driver 5.5 mm", 9.0, 40.0)
-PLIERS = Tool("needle-nose pliers", 5.0, 40.0)
+PLIERS = Tool("needle-nose pliers", 4.0, 40.0)
+"""Both jaws together at the tip of electronics pliers; judgement."""
 CLIP = Tool("clip applicator", 6.0, 30.0)
 PRESS = Tool("flat-ended bolt or thumb", 8.0, 40.0)
 
@@ -116,6 +117,7 @@ ORDER: tuple[Plan, ...] = (
         "leg", "Main leg", LEG,
         (
             Move("main_leg"),
+            Move("main_leg_bar|main_leg_end", way="laid"),
             Move("hub_bearing_1", "from the right"),
             Move("hub_bearing_2", "from the left"),
             Move("roller_washer"),
@@ -124,6 +126,9 @@ ORDER: tuple[Plan, ...] = (
             Move("roller_nut", "from the right", past="roller_screw", tool=NUT_M3, reach="from the right"),
         ),
         (
+            Words("Cut the bars of leg and front link to length, sand their ends, degrease them and the sockets. Glue "
+                  "each bar with epoxy into the sockets of its two ends, as deep as it goes, lying on a flat plate, "
+                  "and let it cure.", needs="main_leg_bar"),
             Words("Press one bearing into either side of the hub, between flat jaws with a sheet of card, until it is "
                   "flush: push on its outer ring alone.", needs="hub_bearing.*"),
             Words("Open the eye at the leg's lower end with a drill or reamer of {eye_drill} mm, turned by hand, until "
@@ -150,7 +155,7 @@ ORDER: tuple[Plan, ...] = (
                   "either toe's tip, and around both lugs of the nose, from the sole up its round front. Leave them "
                   "for an hour before the first jump.", needs="nose_pad_.*"),
             Words("Open the eyes of the front link with the drill of {eye_drill} mm, as the leg's; the holes of the "
-                  "foot must let the pins through without force.", needs="front_link"),
+                  "foot must let the pins through without force.", needs=r"front_link(_\d)?"),
         ),
         checks=(Words("Both pins turn in their eyes and do not rock."),),
     ),
@@ -262,7 +267,7 @@ ORDER: tuple[Plan, ...] = (
             Move("spring_left(_leg_arm)?"),
             Move("spring_bushing_left"),
             Move("front_spacer_right"),
-            Move("front_link"),
+            Move(r"front_link(_\d|_bar)?"),
             Move("front_spacer_left"),
             Move("cam_spacer_right"),
             Move("idler_spacer_right"),
