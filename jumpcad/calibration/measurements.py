@@ -108,7 +108,8 @@ def _unsaid(series: Jumps) -> Iterator[Contradiction]:
     for what, kinds in (("distance", DISTANCES), ("height", HEIGHTS)):
         values, of = getattr(series, f"{what}_mm"), getattr(series, f"{what}_of")
         if values and of is None:
-            reason = f"what was measured? say {what}_of = {', '.join(f'"{kind}"' for kind in kinds)} or \"unknown\""
+            names = ", ".join(f'"{kind}"' for kind in kinds)
+            reason = f'what was measured? say {what}_of = {names} or "unknown"'
             yield ("jumps", f"{what}_mm"), values[0], reason
         if of is not None and not values:
             yield ("jumps", f"{what}_of"), of, f"is of nothing: give {what}_mm too"
