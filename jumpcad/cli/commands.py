@@ -10,7 +10,7 @@ import typer
 from pydantic import ValidationError
 from typer.exceptions import TyperException
 
-from jumpcad.cli import bundle, check, coupon, designs, explore, optimize, reproduce, simulate, slicing, study
+from jumpcad.cli import bundle, calibrate, check, coupon, designs, explore, optimize, reproduce, simulate, slicing, study
 from jumpcad.cli.output import OutputClosed, complain, standard_output
 from jumpcad.errors import JumpcadError
 
@@ -21,7 +21,7 @@ OUTPUT_CLOSED = 141
 _parser = cache(typer.main.get_command)
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
-for module in (designs, bundle, check, slicing, coupon, simulate, reproduce, explore, optimize, study):
+for module in (designs, bundle, check, slicing, coupon, simulate, calibrate, reproduce, explore, optimize, study):
     module.register(app)
 
 
