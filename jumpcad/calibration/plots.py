@@ -22,8 +22,8 @@ def parameters(posterior: Posterior) -> Figure:
     normal = np.random.default_rng(0).standard_normal(len(posterior.z))
     for axes, one, summary in zip(all_axes, posterior.model.parameters, posterior.summaries(), strict=True):
         before, after = one.prior.at(normal), posterior.values[one.key]
-        ends = np.quantile(np.concatenate([before, after]), (0.002, 0.998))
-        bins = np.linspace(*ends, BINS)
+        low, high = np.quantile(np.concatenate([before, after]), (0.002, 0.998)).tolist()
+        bins = np.linspace(low, high, BINS).tolist()
         axes.hist(before, bins=bins, density=True, color=GREY, alpha=0.4, label="prior")
         axes.hist(after, bins=bins, density=True, histtype="step", color=BLUE, lw=1.4, label="posterior")
         axes.set_yticks([])

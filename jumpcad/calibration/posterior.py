@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.special import logsumexp
 
 from jumpcad.arguments import typed
 from jumpcad.calibration.likelihood import Datum, Model, Parameter, Predicted, energy_per_mass, predict
-from jumpcad.calibration.subject import Subject, load_subject, renamed
+from jumpcad.calibration.subject import load_subject, renamed
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array
 
@@ -215,7 +214,7 @@ def _verdict(spread: float, shift: float) -> str:
 def _residual(datum: Datum, predicted: Predicted) -> dict[str, Any]:
     """Return one measurement beside its prediction, under the reading that is likeliest."""
     chances = Model.log_readings(datum, predicted)
-    share = np.exp(chances - logsumexp(chances, axis=0)).mean(axis=1)
+    share = np.exp(chances - np.logaddexp.reduce(chances, axis=0)).mean(axis=1)
     likeliest = datum.readings[int(np.argmax(share))]
     value = predicted.of(datum.what, likeliest)
     middle = float(np.median(value))

@@ -1,7 +1,6 @@
 """What a calibration says of a robot that it has not seen: its jump with an interval, beside what was measured."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -109,6 +108,12 @@ def explanations(prediction: Prediction, distance_m: float) -> list[Explanation]
     ]
 
 
+def growth(posterior: Posterior, name: str, prediction: Prediction) -> Array:
+    """Return how many times the range of a calibrated robot the predicted one jumps (draws,); NaN without a jump."""
+    times: Array = prediction.predicted.jump.range_m / posterior.predicted[name].jump.range_m
+    return times
+
+
 def _crossing(at: Array, values: Array, goal: float) -> float | None:
     """Return where growing values pass a goal; None if they do not."""
     known = np.isfinite(values)
@@ -116,10 +121,3 @@ def _crossing(at: Array, values: Array, goal: float) -> float | None:
         return None
     index = int(np.argmax(np.where(known, values, -math.inf) >= goal))
     return float(at[index])
-
-
-def growth(posterior: Posterior, names: Sequence[str]) -> float:
-    """Return the share of draws in which the second robot's range is at least as many times the first's as measured."""
-    first, second = (posterior.predicted[name].jump.range_m for name in names)
-    measured = [next(one.value for one in posterior.model.data if one.subject == name) for name in names]
-    return float((second / first >= measured[1] / measured[0]).mean())

@@ -37,9 +37,10 @@ class Prior:
             return np.maximum(self.first + self.second * z, self.least)
         if self.shape == "lognormal":
             return self.first * np.exp(self.second * z)
+        share = np.asarray(ndtr(z))
         if self.shape == "uniform":
-            return self.first + (self.second - self.first) * ndtr(z)
-        return self.second * ndtri(np.clip(0.5 * (1.0 + ndtr(z)), 0.5, 1.0 - EDGE))
+            return self.first + (self.second - self.first) * share
+        return self.second * np.asarray(ndtri(np.clip(0.5 * (1.0 + share), 0.5, 1.0 - EDGE)))
 
     def quantiles(self, shares: tuple[float, ...]) -> tuple[float, ...]:
         """Return quantiles."""

@@ -5,7 +5,6 @@ import numpy as np
 from jumpcad.calibration.posterior import Posterior
 from jumpcad.files import to_toml
 from jumpcad.files.outputs import sealed
-from jumpcad.settings import Settings
 
 SAVED = 100
 """Draws in the file."""
@@ -19,9 +18,7 @@ def settings_toml(posterior: Posterior) -> str:
     The friction of the floor is written where there was one robot and its floor was tested; mass and rate of the
     springs belong to the workshop and the design.
     """
-    values = {
-        key: np.clip(np.round(posterior.values[key], DIGITS), *_limits(key)) for key in KEYS
-    }
+    values = {key: np.clip(np.round(posterior.values[key], DIGITS), *_limits(key)) for key in KEYS}
     names = ", ".join(subject.name for subject in posterior.model.subjects)
     comment = [f"# Calibrated on {names} by jumpcad calibrate: medians, and under [draws] what stays open."]
     if "drive_efficiency" in posterior.values:

@@ -69,6 +69,12 @@ class Subject:
                 further.append(jump.touchdown_distance_m - jump.ballistic_range_m)
         return (float(np.mean(further)), float(np.std(further))) if further else (0.0, 0.02)
 
+    def remeasured(self, measured: Measurements, seen: tuple[TakeoffSeen, ...] = ()) -> "Subject":
+        """Return the same robot with other measurements, without letting it jump again; they are not checked."""
+        other = replace(self, measured=measured, seen=seen)
+        vars(other).update({name: getattr(self, name) for name in ("surface", "standing_m", "beyond_m")})
+        return other
+
     @property
     def electrical_j(self) -> float:
         """Energy from the battery for one winding, by the model (J)."""
@@ -110,7 +116,9 @@ class Subject:
         """Friction of the feet on the floor."""
         weight_n = self.robot.mass_kg * self.mass.first * GRAVITY_M_S2
         tests = self.measured.floor
-        found = [pull / weight_n for pull in tests.pull_n] + [math.tan(math.radians(slope)) for slope in tests.slope_deg]
+        found = [pull / weight_n for pull in tests.pull_n] + [
+            math.tan(math.radians(slope)) for slope in tests.slope_deg
+        ]
         return tested_floor(found) if found else FLOOR
 
 

@@ -24,6 +24,8 @@ ENERGY = (0.3, 0.4, 0.5, 0.62, 0.8, 1.0, 1.3, 1.7, 2.3, 3.0)
 """Springs' energy over mass, over the model's."""
 PINS = (0.0, 0.25, 0.9)
 FLOORS = (0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 1.0, 1.3)
+Nodes = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
+NODES: Nodes = (ENERGY, PINS, FLOORS)
 FINE = (81, 25, 67)
 """Points along each axis between which the surface is linear."""
 DT_S = 1e-3
@@ -56,10 +58,14 @@ class JumpAt:
 
 @dataclass(frozen=True, repr=False)
 class Surface:
-    """Figures (4, FINE) of a robot's jump over the logarithm of energy, pins and floor, on even points."""
+    """Figures (4, FINE) of a robot's jump over the logarithm of energy, pins and floor, on even points.
+
+    `nodes` are those at which the engine jumped.
+    """
 
     mechanism: Mechanism
     settings: Settings
+    nodes: Nodes
     values: Array
 
     def at(self, energy: Array, pins: Array, floor: Array) -> JumpAt:
@@ -68,15 +74,14 @@ class Surface:
         An energy beyond the ends is no jump.
         """
         shape = np.broadcast_shapes(np.shape(energy), np.shape(pins), np.shape(floor))
-        log_energy, ends = np.log(energy), np.log(ENERGY)[[0, -1]]
+        log_energy = np.log(energy)
         places = [
-            (count - 1) * np.clip((value - low) / (high - low), 0.0, 1.0)
-            for value, count, (low, high) in zip(
-                (log_energy, pins, floor), FINE, (ends, (PINS[0], PINS[-1]), (FLOORS[0], FLOORS[-1])), strict=True
-            )
+            (count - 1) * np.clip((value - axis[0]) / (axis[-1] - axis[0]), 0.0, 1.0)
+            for value, count, axis in zip((log_energy, pins, floor), FINE, _axes(self.nodes), strict=True)
         ]
         where = np.stack([np.broadcast_to(place, shape) for place in places])
-        outside = np.broadcast_to((log_energy < ends[0]) | (log_energy > ends[1]), shape)
+        low, high = _axes(self.nodes)[0][[0, -1]]
+        outside = np.broadcast_to((log_energy < low) | (log_energy > high), shape)
         figures = [map_coordinates(figure, where, order=1) for figure in self.values]
         return JumpAt(*(np.where(outside, np.nan, figure) for figure in figures))
 
@@ -95,11 +100,12 @@ class Surface:
         engine = [_jump(self.mechanism, self.settings, *point) for point in zip(energy, pins, floor, strict=True)]
         ranges = np.array([jump.ballistic_range_m or np.nan for jump in engine])
         off = np.abs(found / ranges - 1.0)
-        return off[np.isfinite(off)]
+        known: Array = off[np.isfinite(off)]
+        return known
 
 
-def surface_of(mechanism: Mechanism, settings: Settings | None = None) -> Surface:
-    """Return the surface of a printed robot.
+def surface_of(mechanism: Mechanism, settings: Settings | None = None, nodes: Nodes = NODES) -> Surface:
+    """Return the surface of a printed robot from its jumps at every combination of nodes.
 
     Raises
     ------
@@ -107,10 +113,10 @@ def surface_of(mechanism: Mechanism, settings: Settings | None = None) -> Surfac
         If it jumps nowhere on it.
     """
     settings = (settings or Settings()).model_copy(update={"dt_s": DT_S})
-    grid = np.full((len(FIGURES), len(ENERGY), len(PINS), len(FLOORS)), np.nan)
-    for i, energy in enumerate(ENERGY):
-        for j, pins in enumerate(PINS):
-            for k, floor in enumerate(FLOORS):
+    grid = np.full((len(FIGURES), *map(len, nodes)), np.nan)
+    for i, energy in enumerate(nodes[0]):
+        for j, pins in enumerate(nodes[1]):
+            for k, floor in enumerate(nodes[2]):
                 jump = _jump(mechanism, settings, energy, pins, floor)
                 grid[:, i, j, k] = _figures(jump)
                 if jump.energy is not None and abs(jump.energy.slip_j) < STICKS * jump.spring_energy_j:
@@ -120,7 +126,7 @@ def surface_of(mechanism: Mechanism, settings: Settings | None = None) -> Surfac
         raise JumpcadError(
             "the robot jumps with no energy, friction or floor that a calibration tries: run jumpcad simulate on it"
         )
-    return Surface(mechanism, settings, _refined(grid))
+    return Surface(mechanism, settings, nodes, _refined(grid, nodes))
 
 
 def _jump(mechanism: Mechanism, settings: Settings, energy: float, pins: float, floor: float) -> Jump:
@@ -138,12 +144,17 @@ def _figures(jump: Jump) -> tuple[float, ...]:
     return jump.ballistic_range_m, jump.com_rise_m, float(forward), float(up)
 
 
-def _refined(grid: Array) -> Array:
+def _refined(grid: Array, nodes: Nodes) -> Array:
     """Return the grid on even points, by monotone cubics along one axis after the other."""
-    for axis, (nodes, count) in enumerate(zip((np.log(ENERGY), PINS, FLOORS), FINE, strict=True), start=1):
-        even = np.linspace(nodes[0], nodes[-1], count)
-        grid = np.apply_along_axis(_line, axis, grid, np.array(nodes), even)
+    for axis, (known, count) in enumerate(zip(_axes(nodes), FINE, strict=True), start=1):
+        grid = np.apply_along_axis(_line, axis, grid, known, np.linspace(known[0], known[-1], count))
     return grid
+
+
+def _axes(nodes: Nodes) -> tuple[Array, Array, Array]:
+    """Return the nodes along each axis, of energy as logarithms."""
+    energy, pins, floors = nodes
+    return np.log(energy), np.array(pins), np.array(floors)
 
 
 def _line(values: Array, nodes: Array, even: Array) -> Array:

@@ -71,9 +71,7 @@ class Group:
     apply: Apply
 
 
-def uncertain_jump(
-    robot: Robot, settings: Settings, engine: str, seed: int = 0, samples: int = SAMPLES
-) -> Uncertainty:
+def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0, samples: int = SAMPLES) -> Uncertainty:
     """Return a printed robot's jump with what is not known of it.
 
     Parameters
@@ -178,9 +176,7 @@ def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
     }
 
 
-def _jump(
-    robot: Robot, settings: Settings, engine: str, changes: list[tuple[Apply, Array]]
-) -> tuple[float, ...]:
+def _jump(robot: Robot, settings: Settings, engine: str, changes: list[tuple[Apply, Array]]) -> tuple[float, ...]:
     """Return the figures of one jump; 0 for what does not jump."""
     try:
         for apply, value in changes:

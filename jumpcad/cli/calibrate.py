@@ -64,12 +64,7 @@ def calibrate(
     if as_json:
         print_json(document)
     else:
-        print(escaped_lines(_lines(document)))
-
-
-def escaped_lines(lines: list[str]) -> str:
-    """Return lines with the control characters within them escaped."""
-    return "\n".join(map(escaped, lines))
+        print("\n".join(map(escaped, _lines(document))))
 
 
 def _document(posterior: "Posterior", seed: int) -> dict[str, Any]:
@@ -114,7 +109,9 @@ def _lines(document: dict[str, Any]) -> list[str]:
     for row in document["residuals"]:
         factor, unit = UNITS[row["what"]]
         predicted = _three([factor * value for value in row["predicted"]])
-        read = "" if row["of"] == row["as"] else f", likeliest as {row['as']} ({100 * row['readings'][row['as']]:.0f} %)"
+        read = (
+            "" if row["of"] == row["as"] else f", likeliest as {row['as']} ({100 * row['readings'][row['as']]:.0f} %)"
+        )
         lines.append(
             f"{row['robot']}: {row['what']} {factor * row['measured']:.3g} {unit}, calibrated model {predicted}{read}, "
             f"off by {row['off_by_deviations']:+.1f} standard deviations"

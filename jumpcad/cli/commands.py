@@ -10,7 +10,19 @@ import typer
 from pydantic import ValidationError
 from typer.exceptions import TyperException
 
-from jumpcad.cli import bundle, calibrate, check, coupon, designs, explore, optimize, reproduce, simulate, slicing, study
+from jumpcad.cli import (
+    bundle,
+    calibrate,
+    check,
+    coupon,
+    designs,
+    explore,
+    optimize,
+    reproduce,
+    simulate,
+    slicing,
+    study,
+)
 from jumpcad.cli.output import OutputClosed, complain, standard_output
 from jumpcad.errors import JumpcadError
 
