@@ -31,7 +31,8 @@ JUMPS = 5
 RATE_SHARE, SCALE_SHARE = 0.03, 0.01
 FRAMES, CLOCK_S, PIXEL_M = 20, 1.0 / 120.0, 0.002
 """Frames of a video, their distance in time, and how well a point is seen."""
-STEPS = 1000
+SHORT = {"steps": 400, "most_steps": 400, "walkers_each": 40}
+"""Many walkers on short chains, some 2,000 independent draws: for hundreds of calibrations."""
 
 
 def hidden(subject: Subject, rng: np.random.Generator) -> tuple[dict[str, float], Jump]:
@@ -92,7 +93,7 @@ def trials(robot: str, count: int, seed: int) -> dict[str, Any]:
         for trial in range(count):
             rng = np.random.default_rng([seed, trial])
             true, jump = hidden(subject, rng)
-            posterior = sampled(Model([measured(subject, true, jump, plan, rng)]), trial, STEPS)
+            posterior = sampled(Model([measured(subject, true, jump, plan, rng)]), trial, **SHORT)
             true["energy per mass"] = true["spring_efficiency"] * true["rate"] / true["mass"]
             found = {key.split(":")[0]: values for key, values in posterior.values.items()}
             found["energy per mass"] = found["spring_efficiency"] * found["rate"] / found["mass"]

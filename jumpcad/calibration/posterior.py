@@ -127,8 +127,12 @@ def calibrate(files: Sequence[str | Path], seed: int = 0) -> Posterior:
     return sampled(Model(renamed([load_subject(file) for file in files])), seed)
 
 
-def sampled(model: Model, seed: int = 0, steps: int = STEPS) -> Posterior:
-    """Sample the posterior of a model, with chains that are doubled until they are long enough.
+def sampled(
+    model: Model, seed: int = 0, steps: int = STEPS, most_steps: int = MOST_STEPS, walkers_each: int = WALKERS_EACH
+) -> Posterior:
+    """Sample the posterior of a model, with chains that are doubled until they are long enough, or too long.
+
+    Many walkers on short chains cost less where much the same is sampled again and again.
 
     Raises
     ------
@@ -138,7 +142,7 @@ def sampled(model: Model, seed: int = 0, steps: int = STEPS) -> Posterior:
     require_data(model)
     emcee = _emcee()
     dimension = len(model.parameters)
-    walkers = 2 * (WALKERS_EACH * dimension // 2)
+    walkers = 2 * (walkers_each * dimension // 2)
     sampler = emcee.EnsembleSampler(
         walkers,
         dimension,
@@ -155,7 +159,7 @@ def sampled(model: Model, seed: int = 0, steps: int = STEPS) -> Posterior:
         if not math.isfinite(length):
             length = float(sampler.iteration)
         left = sampler.iteration - burnt
-        if left >= LENGTHS * length or sampler.iteration >= MOST_STEPS:
+        if left >= LENGTHS * length or sampler.iteration >= most_steps:
             break
         sampler.run_mcmc(None, sampler.iteration)
     chain = sampler.get_chain(discard=burnt, flat=True)

@@ -5,7 +5,7 @@ import pytest
 from jumpcad.calibration.subject import Subject, load_subject
 from jumpcad.calibration.surface import Surface, surface_of
 
-COARSE = ((0.45, 0.7, 1.0, 1.6, 2.5), (0.0, 0.3, 0.9), (0.3, 0.5, 0.65, 1.0))
+COARSE = ((0.45, 0.7, 1.0, 1.6, 2.5), (0.0, 0.3, 0.9), (0.3, 0.4, 0.5, 0.57, 0.65, 1.0))
 
 
 @pytest.fixture(scope="session")

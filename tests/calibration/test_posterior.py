@@ -16,6 +16,8 @@ from jumpcad.errors import JumpcadError
 
 SAID: dict[str, Any] = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
 STEPS = 600
+SHORT = {"steps": 300, "most_steps": 300, "walkers_each": 30}
+"""Some 1,000 independent draws."""
 
 
 def measured(subject: Subject, **data: Any) -> Subject:
@@ -25,14 +27,14 @@ def measured(subject: Subject, **data: Any) -> Subject:
 
 def fitted(subject: Subject, **data: Any) -> Posterior:
     """Return the posterior of some measurements."""
-    return sampled(Model([measured(subject, **data)]), 1, STEPS)
+    return sampled(Model([measured(subject, **data)]), 1, **SHORT)
 
 
 @pytest.fixture(scope="module")
 def posterior(subject: Subject) -> Posterior:
-    """Of a weighed robot with a distance, and the energy of its battery."""
+    """Of a weighed robot with a distance, and the energy of its battery; with chains as long as by default."""
     jumps = ({"distance_mm": (240.0,), "distance_of": "centre-of-mass", "battery_j": (1.6,)},)
-    return fitted(subject, jumps=jumps, mass={"robot_g": 103.0})
+    return sampled(Model([measured(subject, jumps=jumps, mass={"robot_g": 103.0})]), 1, STEPS)
 
 
 def test_the_drive_has_the_answer_of_normal_logarithms(posterior: Posterior, subject: Subject) -> None:
@@ -75,8 +77,10 @@ def test_distance_of_an_unknown_kind_is_wider(subject: Subject, posterior: Poste
 def test_a_weighed_robot_tells_more_of_its_springs(subject: Subject, posterior: Posterior) -> None:
     jumps = ({"distance_mm": (240.0,), "distance_of": "centre-of-mass"},)
     light = fitted(subject, jumps=jumps)
-    width = {one: np.ptp(np.quantile(one.values["mass:kenan-2.0"], (0.1, 0.9))) for one in (light, posterior)}
-    assert width[posterior] < 0.2 * width[light]
+    unweighed, weighed = (
+        float(np.ptp(np.quantile(one.values["mass:kenan-2.0"], (0.1, 0.9)))) for one in (light, posterior)
+    )
+    assert weighed < 0.2 * unweighed
 
 
 def test_hidden_parameters_lie_in_their_intervals(subject: Subject) -> None:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from jumpcad.calibration.priors import Prior, release_share, tested_floor, weighed_mass
+from jumpcad.calibration import priors
+from jumpcad.calibration.priors import Prior, release_share, weighed_mass
 
 SHARES = (0.05, 0.1, 0.5, 0.9, 0.99)
 
@@ -30,7 +31,7 @@ def test_weights_and_floors() -> None:
     """A robot of 110 g by the model that weighs 121 ± 2 g; pulls of 0.5 and 0.7 have the mean 0.6."""
     mass = weighed_mass(121.0, 110.0, 2.0)
     assert (mass.first, mass.second) == pytest.approx((1.1, 2.0 / 110.0))
-    assert tested_floor([0.5, 0.7]).first == pytest.approx(0.6)
+    assert priors.tested_floor([0.5, 0.7]).first == pytest.approx(0.6)
 
 
 def test_a_release_keeps_all_or_what_a_standing_cam_leaves() -> None:

@@ -14,7 +14,7 @@ from jumpcad.simulation import simulate
 
 def test_it_is_the_engine_at_its_nodes(surface: Surface, subject: Subject) -> None:
     settings = Settings(dt_s=DT_S, pin_friction=0.3, ground_friction=0.5)
-    for energy in (0.7, 1.6):
+    for energy in (1.0, 1.6):
         jump = simulate(with_spring_factor(subject.robot, energy), settings, "planar")
         found = surface.at(np.array([energy]), np.array([0.3]), np.array([0.5]))
         assert jump.ballistic_range_m is not None
@@ -26,8 +26,9 @@ def test_it_is_the_engine_at_its_nodes(surface: Surface, subject: Subject) -> No
 
 
 def test_its_error_is_said(surface: Surface) -> None:
-    """A coarse grid: 5 % at most."""
-    assert 0.0 < surface.error <= surface.errors.max() < 0.05
+    """A coarse grid: within 1 % where the foot sticks, within 5 % where it begins to slip."""
+    assert 0.0 < surface.error < 0.01
+    assert surface.errors.max() < 0.05
 
 
 def test_weaker_springs_are_a_heavier_robot(subject: Subject) -> None:
@@ -37,10 +38,9 @@ def test_weaker_springs_are_a_heavier_robot(subject: Subject) -> None:
         name: replace(body, mass_kg=factor * body.mass_kg, inertia_kg_m2=factor * body.inertia_kg_m2)
         for name, body in robot.bodies.items()
     }
-    assert robot.stop is not None
-    heavy = replace(robot, bodies=bodies, stop=replace(robot.stop, stiffness_nm_per_rad=factor * 1e3))
-    one = simulate(heavy, Settings(), "planar")
-    other = simulate(with_spring_factor(robot, 1.0 / factor), Settings(), "planar")
+    weak = with_spring_factor(robot, 1.0 / factor)
+    heavy = replace(robot, bodies=bodies, roller_off=weak.roller_off)
+    one, other = (simulate(each, Settings(), "planar") for each in (heavy, weak))
     assert one.ballistic_range_m == pytest.approx(other.ballistic_range_m, rel=1e-6)
     assert one.com_rise_m == pytest.approx(other.com_rise_m, rel=1e-6)
 
