@@ -13,6 +13,7 @@ from jumpcad.checks import quick_findings
 from jumpcad.exporters.xml import allowed
 from jumpcad.findings import Finding
 from jumpcad.robot import Robot
+from jumpcad.simulation import simulate
 
 STYLE = """
 body { font: 15px/1.45 sans-serif; color: #222; max-width: 60em; margin: 2em auto; padding: 0 1em; }
@@ -24,8 +25,10 @@ img { width: 100%; }
 .error { color: #b3322b; font-weight: bold; }
 .warning { color: #a8641b; font-weight: bold; }
 """
-NUMERIC = ("quantity", "g each", "€", "margin", "value")
+NUMERIC = ("quantity", "g each", "€", "margin", "value", "mJ", "%")
 """Columns that are right-aligned."""
+COLOURS = ("#1f5fa8", "#d9822b", "#8a8f98", "#b3322b", "#4f9d69", "#8d5fa8", "#6b4a2f")
+"""Of the energy account: useful, internal, springs, release, pins, slip, contact."""
 
 
 def write_report(robot: Robot, pictures: Mapping[str, bytes]) -> str:
@@ -41,6 +44,7 @@ def write_report(robot: Robot, pictures: Mapping[str, bytes]) -> str:
             *_pictures(pictures),
             "<h2>Figures</h2>",
             *_table(("figure", "value", "unit"), _figures(robot)),
+            *_jump(robot),
             *_limits(robot),
             *_parts(robot),
             "</body>",
@@ -75,6 +79,34 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
     yield "… of it, the boards' while winding", f"{train.boards_j:.2f}", "J"
     yield "motor current, mean", f"{1000.0 * train.mean_current_a:.0f}", "mA"
     yield "motor current, peak", f"{1000.0 * train.peak_current_a:.0f}", "mA"
+
+
+def _jump(robot: Robot) -> Iterator[str]:
+    """Yield the jump by the planar engine, which every machine has, and where the springs' energy went."""
+    jump = simulate(robot, engine="planar")
+    yield "<h2>Jump</h2>"
+    account = jump.energy_account_j
+    if account is None:
+        yield f"<p>No jump: {escape(jump.verdict)}.</p>"
+        return
+    figures = (
+        ("range", jump.ballistic_range_m, 1000.0, "mm"), ("rise of the centre of mass", jump.com_rise_m, 1000.0, "mm"),
+        ("take-off speed", jump.takeoff_speed_m_s, 1.0, "m/s"), ("take-off angle", jump.takeoff_angle_deg, 1.0, "°"),
+    )  # fmt: skip
+    yield from _table(
+        ("figure", "value", "unit"), ((name, f"{(value or 0.0) * by:.3g}", unit) for name, value, by, unit in figures)
+    )
+    yield "<p>Where the energy of the springs is at take-off:</p>"
+    total = math.fsum(account.values())
+    rows = [(name, round(1000.0 * value), round(100.0 * value / total, 1)) for name, value in account.items()]
+    yield from _table(("energy", "mJ", "%"), ((name, f"{mj:d}", f"{share:g}") for name, mj, share in rows))
+    yield '<svg viewBox="0 0 100 4" width="100%" height="24" role="img" aria-label="shares of the springs\' energy">'
+    left = 0.0
+    for (name, _, share), colour in zip(rows, COLOURS, strict=True):
+        width = max(share, 0.0)
+        yield f'<rect x="{left:.1f}" y="0" width="{width:.1f}" height="4" fill="{colour}"><title>{name}</title></rect>'
+        left += width
+    yield "</svg>"
 
 
 def _limits(robot: Robot) -> Iterator[str]:

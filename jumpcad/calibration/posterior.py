@@ -20,7 +20,7 @@ WALKERS_EACH = 6
 STEPS, MOST_STEPS = 1500, 12_000
 LENGTHS = 50
 """Autocorrelation times that a chain must have (Foreman-Mackey et al. 2013; emcee's documentation)."""
-KEPT = 4000
+KEPT = 20_000
 """Draws that are kept."""
 SHARES = (0.1, 0.5, 0.9)
 IDENTIFIED, PARTLY = 0.5, 0.85

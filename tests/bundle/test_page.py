@@ -13,6 +13,7 @@ from jumpcad.bundle.page import write_report
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
 from jumpcad.robot import Robot
+from jumpcad.simulation import default_engine, simulate
 
 PNG = b"\x89PNG\r\n\x1a\n and so on"
 
@@ -59,6 +60,19 @@ def test_says_what_the_robot_is(robot: Robot) -> None:
     assert {part.name for part in robot.parts} <= set(found)
     assert {thing.article for thing in robot.hardware} <= set(found)
     assert found["electronics_tray"][2] == "2"
+
+
+def test_the_jump_and_where_its_energy_went(robot: Robot) -> None:
+    """Another engine's jump, and shares that add up to all of the energy, of which the bar shows the same."""
+    page = write_report(robot, {})
+    found, jump = cells(page), simulate(robot, engine=default_engine())
+    assert float(found["range"][1]) == pytest.approx(1000.0 * (jump.ballistic_range_m or 0.0), rel=0.01)
+    assert jump.energy_account_j is not None
+    assert float(found["useful"][1]) == pytest.approx(1000.0 * jump.energy_account_j["useful"], rel=0.02)
+    shares = {name: float(found[name][2]) for name in jump.energy_account_j}
+    assert sum(shares.values()) == pytest.approx(100.0, abs=0.4)
+    bars = {bar[0].text: float(bar.attrib["width"]) for bar in parsed(page).iter("rect")}
+    assert bars == {name: max(share, 0.0) for name, share in shares.items()}
 
 
 def test_what_is_violated_stands_out_and_names_are_escaped(robot: Robot) -> None:

@@ -1,5 +1,7 @@
 """Propagation: indices of functions whose indices are known, and the robot's interval."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -22,7 +24,7 @@ def test_indices_of_a_sum_and_a_product() -> None:
 def test_a_group_of_two_counts_together() -> None:
     rng = np.random.default_rng(0)
     pair, other = rng.standard_normal((4096, 2)), rng.standard_normal((4096, 1))
-    figures = (pair[:, :1] ** 2 + pair[:, 1:] + other) / 1.0  # variances 2, 1 and 1
+    figures = pair[:, :1] ** 2 + pair[:, 1:] + other  # variances 2, 1 and 1
     found = _first_order({"pair": pair, "other": other}, figures, np.arange(4096))
     assert found[:, 0] == pytest.approx([0.75, 0.25], abs=0.03)
 
@@ -41,15 +43,11 @@ def test_interval_holds_the_jump_and_shrinks_with_a_calibration(subject: Subject
         assert (found.jumps, found.jumps_share) == (64, 1.0)
     assert widths[1] < widths[0]
     assert (vague.calibrated, sharp.calibrated) == (False, True)
-    index = {
-        found: found_.first_order["calibration"]["ballistic_range_m"] for found, found_ in enumerate((vague, sharp))
-    }
-    assert index[1] < index[0]
+    share = [found.first_order["calibration"]["ballistic_range_m"] for found in (vague, sharp)]
+    assert share[1] < share[0]
 
 
 def test_the_workshop_says_how_much_springs_scatter(subject: Subject) -> None:
-    from dataclasses import replace
-
     safety = subject.robot.workshop.safety.model_copy(update={"spring_rate_scatter": 0.0})
     exact = replace(subject.robot, workshop=subject.robot.workshop.model_copy(update={"safety": safety}))
     found = uncertain_jump(exact, Settings(), "planar", samples=32)
