@@ -150,7 +150,8 @@ def sampled(
         vectorize=True,
         moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)],
     )
-    start = _start(model, walkers, np.random.default_rng(seed))
+    generator = np.random.default_rng(seed)
+    start = _start(model, walkers, generator)
     state = emcee.State(start, random_state=np.random.RandomState(seed).get_state())  # what emcee takes
     sampler.run_mcmc(state, steps)
     while True:
@@ -163,7 +164,8 @@ def sampled(
             break
         sampler.run_mcmc(None, sampler.iteration)
     chain = sampler.get_chain(discard=burnt, flat=True)
-    chosen = np.linspace(0, len(chain) - 1, min(KEPT, len(chain))).astype(int)
+    # At random: even steps through the chain could meet the same walkers again and again.
+    chosen = np.sort(generator.choice(len(chain), min(KEPT, len(chain)), replace=False))
     return Posterior(model, chain[chosen], length, left, walkers)
 
 
