@@ -216,15 +216,36 @@ class Board(Article):
         return tuple(name for name, functions in self.pins.items() if function in functions)
 
 
+class Travel(TomlTable):
+    """A switch's plunger: positions of its tip from the base of the case, as data sheets give them (mm, N).
+
+    Free at most, operating with its tolerance, at the end of its travel at most; how far it must go back to open, its
+    diameter, that of the seal around it, and the force that operates it.
+    """
+
+    free_mm: Length
+    operating_mm: Length
+    operating_tolerance_mm: Annotated[float, Field(ge=0, le=5)]
+    total_mm: Length
+    differential_mm: Annotated[float, Field(ge=0, le=5)]
+    pin_mm: Length
+    seal_mm: Length
+    force_n: Positive
+
+
 class Component(Article):
     """A small electrical part: sensor, switch, plug, capacitor, diode or wire; `terminals` as its maker names them.
 
-    `rated_a` and `rated_v` are the most that it bears, `drop_v` is lost in it; a wire's mass is that of `pieces` leads
-    of usual length together.
+    `rated_a` and `rated_v` are the most that it bears, `drop_v` is lost in it. Length, width and height are those of
+    its case without terminals; `travel` is that of a sensor's plunger, in the middle of the case, along its height.
     """
 
     description: Source
     mass_g: Mass
+    length_mm: Side | None = None
+    width_mm: Side | None = None
+    height_mm: Side | None = None
+    travel: Travel | None = None
     terminals: Annotated[tuple[Text, ...], Field(strict=False)] = ()
     rated_a: Positive | None = None
     rated_v: Positive | None = None

@@ -22,6 +22,7 @@ from jumpcad.layout.drive_places import (
 from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
 from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.room import Obstacle, disc
+from jumpcad.layout.sensor import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.layout.stop import DEPTH_MM, GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
@@ -69,6 +70,7 @@ class Layout:
     tray_mm: Array
     standoffs_mm: tuple[Array, ...]
     stop: StopPlace
+    sensor: SensorPlace | None = None
 
     @property
     def design(self) -> Design:
@@ -124,10 +126,12 @@ def make_layout(
     stop_more: float = 1.0,
     retention: Retention = "plates",
     toe_half_width_mm: float = 0.0,
+    sensor: SensorNeeds | None = None,
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
     `stop_rad` is how far past rest the leg shall meet its stop, `stop_more` the factor by which that is stronger.
+    Without `sensor` no switch says when the robot is wound.
 
     Raises
     ------
@@ -167,6 +171,12 @@ def make_layout(
     obstacles += spring_obstacles(hub, spring_pin, drive.spring, inside)
     idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis)
     obstacles += train_obstacles(motor, angle, idler, drive, lateral)
+    seats = {"leg": hub, "front": front, "cam": cam_axis, "spring": spring_pin}
+    seats |= {} if idler is None else {"idler": idler}
+    felt = None
+    if sensor is not None:
+        felt = sensor_place(obstacles, drive, lateral, cam_axis, seats, motor, axle_mm, sensor)
+    obstacles += [sensor_obstacle(felt, lateral)] if felt else []
     tray = tray_place(obstacles, electronics, linkage.l1, inside)
     obstacles.append(electronics_obstacle(electronics, tray, inside))
     standoffs = standoff_places(obstacles, cam_axis, front, electronics, tray, inside)
@@ -192,6 +202,7 @@ def make_layout(
         tray_mm=tray,
         standoffs_mm=standoffs,
         stop=stop,
+        sensor=felt,
     )
 
 

@@ -15,6 +15,7 @@ from jumpcad.layout.stop import EAR_MM
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, laid
+from jumpcad.parts.sensor import plate_opening, plate_pad
 from jumpcad.parts.stop import stop_slot
 from jumpcad.solids.outline import (
     SAGITTA_MM,
@@ -54,9 +55,13 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     common = closed - _bores(layout, holes)
     y0, y1 = lateral.left_plate
     shaft = hole(holes.loose(motor.shaft_mm), layout.motor_mm)
+    covered = union([])
+    if layout.sensor is not None:
+        shaft, covered = shaft + plate_opening(layout.sensor, holes), plate_pad(layout.sensor)
     slabs = [(y0, y1 - floor, common - shaft), *_floor(y1 - floor, y1, closed - shaft)]
     slabs += _boss(layout, holes, y0 - layout.boss_mm, y0)
-    left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), name and f"{label} L".strip(), "left")
+    words = name and f"{label} L".strip()
+    left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
     play = 2.0 * holes.fits.sliding_mm
     cavity = _motor_box(layout, motor.width_mm + play, motor.height_mm + play)
@@ -120,6 +125,7 @@ def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
     slot = (TAB_MM + 5.0 + more, TRAY_MM + 5.0 + more)
     pads += [rectangle(slot, place, 1.0 + more_mm) for place in tray_slots(layout)]
     pads.append(grown(socket_outline(layout), more_mm))
+    pads += [plate_pad(layout.sensor, more_mm)] if layout.sensor is not None else []
     return pads
 
 
@@ -179,10 +185,12 @@ def _drawing(
     engraved_y: tuple[float, float],
     label: str,
     face: Face,
+    covered: Region | None = None,
 ) -> Drawing:
-    """Lay a plate outside down and engrave its label where its face, the first slab, has room for it."""
+    """Lay a plate outside down and engrave its label where its face, the first slab, has room and nothing covers it."""
     stack, pose = laid(slabs, face)
-    letters = _letters(label, slabs[0][2], mirrored=face == "left") if label else None
+    bare = slabs[0][2] if covered is None else slabs[0][2] - covered
+    letters = _letters(label, bare, mirrored=face == "left") if label else None
     if letters is not None:
         cut, _ = laid([(*engraved_y, letters)], face)
         stack = stack.minus(cut)

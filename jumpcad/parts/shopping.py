@@ -14,7 +14,7 @@ from jumpcad.layout.electronics import BOARDS_APART_MM
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
-from jumpcad.parts import axles, toes
+from jumpcad.parts import axles, sensor, toes
 from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.purchased import BoughtPart, bought
@@ -39,6 +39,7 @@ def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen:
         *_springs(layout, catalogue),
         *_motor_things(layout, catalogue),
         *_standoffs(layout, catalogue),
+        *_sensor(layout, catalogue),
         *_electronics(layout, catalogue, chosen),
         *_toe_screws(layout, holes, catalogue),
     ]
@@ -184,13 +185,28 @@ def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> I
                    board.height_mm, board.mass_g)  # fmt: skip
         start += board.width_mm + BOARDS_APART_MM
     # Until they have places of their own: flat in the gap above the battery, where their mass is about right.
-    small = [(role, getattr(chosen, role)) for role in COMPONENTS if getattr(chosen, role)]
+    placed = {"sensor"} if layout.sensor else set()
+    small = [(role, getattr(chosen, role)) for role in COMPONENTS if getattr(chosen, role) and role not in placed]
     size, above = battery.length_mm / max(1, len(small)), z + TRAY_MM + battery.height_mm
     for number, (role, name) in enumerate(small):
         component = catalogue.components[name]
         at = x - battery.length_mm / 2.0 + (number + 0.5) * size
         yield _box(f"wiring_{role}", component.description, at, middle, above + 0.25 * BOARDS_APART_MM, 0.8 * size,
                    battery.width_mm / 2.0, 0.5 * BOARDS_APART_MM, component.mass_g)  # fmt: skip
+
+
+def _sensor(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
+    """Yield the switch over the cam gear's track and the screws of its mount."""
+    felt, outside = layout.sensor, layout.lateral.left_plate[1]
+    if felt is None:
+        return
+    part, at = felt.needs.part, (felt.place_mm[0], outside + felt.base_mm, felt.place_mm[1])
+    slabs = sensor.sensor_slabs(part, felt.needs.travel)
+    yield bought("sensor", part.description, BODY, part.mass_g, slabs, at, felt.turn_rad)
+    head = outside + sensor.ear_height_mm(layout)
+    for number, place in enumerate(sensor.screw_places(felt), start=1):
+        shank = (head - sensor.screw_mm(), head)
+        yield _screw(f"sensor_screw_{number}", BODY, place, shank, 1.0, catalogue.screws["M2"], catalogue)
 
 
 def _box(

@@ -72,7 +72,7 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     ),
     (
         "Left plate",
-        r"body_plate_left|standoff_.*|(leg|front|cam|idler)_axle_.*|spring_pin_.*",
+        r"body_plate_left|sensor.*|standoff_.*|(leg|front|cam|idler)_axle_.*|spring_pin_.*",
         "Screw the standoffs to the right plate. Lower the left plate over axles, spring pin, stop bar and tabs, with "
         "the left spring's body arm below the pin, and screw it to the standoffs: the plates' closed bores then hold "
         "the axles. Otherwise press a clip into the groove at either end of every axle, or put in the screws from the "

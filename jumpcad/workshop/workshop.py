@@ -41,6 +41,7 @@ from jumpcad.workshop.tables import (
     ReleaseTable,
     Roles,
     Safety,
+    Seats,
     SpringTable,
 )
 
@@ -66,6 +67,7 @@ class Workshop(Record):
     fits: Fits
     bought: BoughtParts
     body: BodyPlates
+    seats: Seats
     ground: Ground
     pins: Pins
     spring: SpringTable
