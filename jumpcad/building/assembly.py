@@ -23,7 +23,7 @@ from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface, five_bar
-from jumpcad.parts import axles, body_plate, foot, links, sensor, shopping, small, stop, toes, train
+from jumpcad.parts import axles, body_plate, foot, links, sensor, shopping, small, stop, toes, train, trays
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.pads import pads
 from jumpcad.parts.part import Drawing, Part
@@ -113,7 +113,15 @@ def _laid_out(
     axles.require_retention(workshop.catalogue, workshop.bought)
     chosen = workshop.bought
     carried = chosen_parts(workshop)
-    electronics = Electronics(carried.battery, carried.controller, carried.driver, carried.regulator)
+    parts = carried.components
+    electronics = Electronics(
+        carried.battery,
+        carried.controller,
+        carried.driver,
+        carried.regulator,
+        parts.get("plug"),
+        parts.get("capacitor"),
+    )
     layout = make_layout(
         settled.linkage,
         settled.sections,
@@ -132,6 +140,7 @@ def _laid_out(
         retention=chosen.retention,
         toe_half_width_mm=workshop.body.toe_half_width_mm,
         sensor=_sensor_needs(workshop, carried, settled.drive),
+        switch=parts.get("switch"),
     )
     return layout, settled.holes
 
@@ -184,7 +193,7 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
         small.spacer(layout, holes, "front_spacer_left", [front_left]),
         small.spacer(layout, holes, "front_spacer_right", [front_right]),
         small.spacer(layout, holes, "cam_spacer_right", [cam_right]),
-        small.trays(layout, holes),
+        *trays.trays(layout, holes),
         stop.stop_bar(layout, holes),
         *sensor.sensor_mount(layout, holes),
     ]

@@ -189,7 +189,9 @@ class Board(Article):
     `gpio6` with its number, `adc`, `pwm`,
     `strapping` (its level at start chooses how the chip boots), `boot_log` (the chip writes on it at start); of a
     driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs that need a diode before them,
-    `button` the pin of a push button on the board. Currents are those of the board alone (`quiescent_a`, radio off)
+    `button` the pin of a push button on the board. `usb_mm` is the opening (width, height) that the plug of its USB
+    socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its length.
+    Currents are those of the board alone (`quiescent_a`, radio off)
     and what it can give (`output_a`).
     """
 
@@ -202,6 +204,8 @@ class Board(Article):
     pins: dict[Name, Annotated[tuple[Name, ...], Field(strict=False)]] = Field(default_factory=dict)
     diode_at: Annotated[tuple[Name, ...], Field(strict=False)] = ()
     button: OptionalName = ""
+    usb_mm: Annotated[tuple[Side, Side], Field(strict=False)] | None = None
+    usb_height_mm: Positive = 2.8
     logic_v: Positive | None = None
     adc_max_v: Positive | None = None
     output_v: Positive | None = None

@@ -33,6 +33,7 @@ TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
 INTENDED = (
     ("cap_screw", "body_plate_right", "thread"),
     ("sensor_screw", "body_plate_left", "thread"),
+    ("switch_screw", "switch", "thread"),
     ("standoff", "standoff", "thread"),
     ("toe", "foot", "thread"),
     ("motor_pinion", "motor_shaft", "crush ribs"),

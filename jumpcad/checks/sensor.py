@@ -62,7 +62,7 @@ def _angles(robot: Robot, sensor: SensorPlace) -> Iterator[Finding]:
     margin = min(opens - scatter, end - last)
     yield at_least(
         "sensor_open", margin, 0.0, "°",
-        f"the sensor opens {opens:.1f} +- {scatter:.1f}° after the drop begins; the motor stands {last:.1f}° after it at "
-        f"the latest, before the next lift at {end:.1f}°",
+        f"the sensor opens {opens:.1f} +- {scatter:.1f}° after the drop begins; the motor stands {last:.1f}° after it"
+        f" at the latest, before the next lift at {end:.1f}°",
         f"raise seats.sensor_reserve_deg, or lower {SCATTER}",
     )  # fmt: skip

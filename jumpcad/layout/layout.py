@@ -6,9 +6,17 @@ In-plane places are in the body frame's x-z plane; intervals of y come from the 
 from dataclasses import dataclass
 from typing import Literal
 
-from jumpcad.catalogue import Bearing, Pad
+from jumpcad.catalogue import Bearing, Component, Pad
 from jumpcad.design import Design
-from jumpcad.dimensions import AXLE_BOSS_MM, AXLE_FLOOR_MM, CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
+from jumpcad.dimensions import (
+    AXLE_BOSS_MM,
+    AXLE_FLOOR_MM,
+    CLEAR_MM,
+    GAP_MM,
+    PAD_WALL_MM,
+    SPACER_RADIUS_MM,
+    STANDOFF_PAD_MM,
+)
 from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
@@ -20,6 +28,7 @@ from jumpcad.layout.drive_places import (
     train_places,
 )
 from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
+from jumpcad.layout.fittings import Fittings, fittings_of
 from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.room import Obstacle, disc
 from jumpcad.layout.sensor import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
@@ -70,6 +79,7 @@ class Layout:
     tray_mm: Array
     standoffs_mm: tuple[Array, ...]
     stop: StopPlace
+    fittings: Fittings
     sensor: SensorPlace | None = None
 
     @property
@@ -127,6 +137,7 @@ def make_layout(
     retention: Retention = "plates",
     toe_half_width_mm: float = 0.0,
     sensor: SensorNeeds | None = None,
+    switch: Component | None = None,
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
@@ -180,6 +191,9 @@ def make_layout(
     tray = tray_place(obstacles, electronics, linkage.l1, inside)
     obstacles.append(electronics_obstacle(electronics, tray, inside))
     standoffs = standoff_places(obstacles, cam_axis, front, electronics, tray, inside)
+    obstacles += [disc("standoff", place, STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]
+    beside = [*seats.values(), stop.tab_mm]
+    fittings = fittings_of(obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + PAD_WALL_MM)
     return Layout(
         linkage=linkage,
         sections=sections,
@@ -202,6 +216,7 @@ def make_layout(
         tray_mm=tray,
         standoffs_mm=standoffs,
         stop=stop,
+        fittings=fittings,
         sensor=felt,
     )
 

@@ -6,16 +6,17 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.catalogue import Bearing, Catalogue, Screw
-from jumpcad.dimensions import ROLLER_WASHER_MM, TRAY_MM
+from jumpcad.catalogue import Battery, Bearing, Board, Catalogue, Component, Screw
+from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.electronics.chosen import COMPONENTS
 from jumpcad.layout.drive_places import arm_line
-from jumpcad.layout.electronics import BOARDS_APART_MM
+from jumpcad.layout.electronics import TAPE_MM
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
 from jumpcad.parts import axles, sensor, toes
 from jumpcad.parts.body_plate import ear_places
+from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
@@ -28,6 +29,12 @@ TOE_THREAD_MM = 4.0
 """Least length of thread of a toe's screw in the foot's stub."""
 SCREW_END_MM = 6.0
 """Length of thread of a standoff's screw inside the standoff."""
+SWITCH_EAR_MM = 0.5
+"""Thickness of the ears of a slide switch, tapped M2; usual."""
+STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm", (10.0, 1.0), 0.8
+TIE, TIE_MM, TIE_G = "cable tie 2.5 x 100 mm, polyamide", (2.5, 1.1), 0.3
+TAPE, TAPE_G_CM3 = "double-sided foam tape 1 mm", 0.5
+"""What holds battery and boards: order text, width and thickness, mass or density; memory: weigh yours."""
 
 
 def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> list[BoughtPart]:
@@ -171,28 +178,51 @@ def _toe_screws(layout: Layout, holes: HoleSizes, catalogue: Catalogue) -> Itera
 
 
 def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
-    """Yield battery and boards on their trays, in the middle across the robot, and the small parts between."""
-    electronics = layout.electronics
-    middle = (layout.lateral.inside[0] + layout.lateral.inside[1]) / 2.0
+    """Yield battery, boards, plug and capacitor on their seats, what holds them, and the small parts in the wires."""
+    electronics, inside = layout.electronics, layout.lateral.inside
     x, z = layout.tray_mm
-    battery = electronics.battery
-    yield _box("battery", battery.description, x, middle, z + TRAY_MM, battery.length_mm, battery.width_mm,
-               battery.height_mm, battery.mass_g)  # fmt: skip
-    top = z + electronics.upper_tray_mm + TRAY_MM
-    start = x - electronics.boards_mm / 2.0
-    for name, board in electronics.boards.items():
-        yield _box(name, board.description, start + board.width_mm / 2.0, middle, top, board.width_mm, board.length_mm,
-                   board.height_mm, board.mass_g)  # fmt: skip
-        start += board.width_mm + BOARDS_APART_MM
-    # Until they have places of their own: flat in the gap above the battery, where their mass is about right.
-    placed = {"sensor"} if layout.sensor else set()
+    items: dict[str, Battery | Board | Component] = {
+        "battery": electronics.battery,
+        **electronics.boards,
+        **electronics.tied,
+    }
+    for role, seat in electronics.seats(inside).items():
+        item, (length, width, height) = items[role], seat.size_mm
+        at, top = (x + seat.x_mm, seat.y_mm), z + seat.bottom_mm + height
+        yield _box(role, item.description, *at, z + seat.bottom_mm, length, width, height, item.mass_g)
+        if role == "battery":
+            yield _box("strap_battery", STRAP, *at, top, STRAP_MM[0], width, STRAP_MM[1], STRAP_G)
+        elif role in electronics.boards:
+            yield _box(f"tie_{role}", TIE, *at, top, length, TIE_MM[0], TIE_MM[1], TIE_G)
+            mass = TAPE_G_CM3 * length * width * TAPE_MM / 1000.0
+            yield _box(f"tape_{role}", TAPE, *at, z + seat.bottom_mm - TAPE_MM, length, width, TAPE_MM, mass)
+        else:
+            yield _box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
+    yield from _switch(layout, catalogue)
+    placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
     small = [(role, getattr(chosen, role)) for role in COMPONENTS if getattr(chosen, role) and role not in placed]
-    size, above = battery.length_mm / max(1, len(small)), z + TRAY_MM + battery.height_mm
+    # Wire, and what is soldered into it, is everywhere: flat in the gap above the battery its mass is about right.
+    size = electronics.battery.length_mm / max(1, len(small))
+    above = z + electronics.upper_tray_mm - 0.5
     for number, (role, name) in enumerate(small):
         component = catalogue.components[name]
-        at = x - battery.length_mm / 2.0 + (number + 0.5) * size
-        yield _box(f"wiring_{role}", component.description, at, middle, above + 0.25 * BOARDS_APART_MM, 0.8 * size,
-                   battery.width_mm / 2.0, 0.5 * BOARDS_APART_MM, component.mass_g)  # fmt: skip
+        at = x - electronics.battery.length_mm / 2.0 + (number + 0.5) * size
+        yield _box(f"wiring_{role}", component.description, at, sum(inside) / 2.0, above, 0.8 * size,
+                   electronics.battery.width_mm / 2.0, 0.4, component.mass_g)  # fmt: skip
+
+
+def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
+    """Yield the switch behind the right plate and the screws through its ears."""
+    place, switch, low = layout.fittings.switch_mm, layout.fittings.switch, layout.lateral.inside[0]
+    if place is None or switch is None:
+        return
+    slabs = [(0.0, switch.height_mm or 0.0, _box_of(switch.length_mm or 0.0, switch.width_mm or 0.0))]
+    yield bought("switch", switch.description, BODY, switch.mass_g, slabs, (place[0], low, place[1]))
+    screw, outer = catalogue.screws["M2"], layout.lateral.outside[0]
+    length = screw.length_for(low - outer + SWITCH_EAR_MM)
+    for number, sign in enumerate((-1.0, 1.0), start=1):
+        at = np.array([place[0] + sign * SWITCH_SCREWS_MM, place[1]])
+        yield _screw(f"switch_screw_{number}", BODY, at, (outer, outer + length), -1.0, screw, catalogue)
 
 
 def _sensor(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:

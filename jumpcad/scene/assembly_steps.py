@@ -66,7 +66,7 @@ ORDER: tuple[tuple[str, str, str], ...] = (
     ),
     (
         "Electronics",
-        r"electronics_tray.*|battery|controller|driver|regulator|wiring_.*",
+        r"electronics_tray.*|battery|controller|driver|regulator|capacitor|plug|switch.*|(tie|tape|strap|wiring)_.*",
         "Put the trays' tabs into the slots of the right plate. The battery is strapped to the lower tray, the boards "
         "lie on the upper one.",
     ),
