@@ -10,7 +10,7 @@ cam_dog_strength, toe_bar_strength; `steel` leg_axle_strength, cam_axle_strength
 leg_pin_strength, foot_pin_strength, roller_screw_strength, axle_retention, pin_retention, spring_fatigue,
 axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque, release_*; `electronics`
 supply_voltage_*, motor_current_*, gearbox_torque, wiring_*; `sensor` sensor_press,
-sensor_overtravel, sensor_free, sensor_ready, sensor_open; `holding` electronics_hold;
+sensor_overtravel, sensor_free, sensor_ready, sensor_open; `holding` electronics_hold; `leads` wires_clear;
 `ground` ground_clearance, foot_clearance; `sideways`
 sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs, bridges, solid; `interference` interference;
 `stop` stop_strength, stop_plates, stop_leg, stop_pad, stop_clearance; `engraving` engraving.
@@ -26,6 +26,7 @@ from jumpcad.checks.engraving import engraving_findings
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.holding import holding_findings
 from jumpcad.checks.interference import interference_findings
+from jumpcad.checks.leads import lead_findings
 from jumpcad.checks.printability import bed_findings, printability_findings
 from jumpcad.checks.sensor import sensor_findings
 from jumpcad.checks.sideways import sideways_findings
@@ -60,6 +61,7 @@ CHECKS = (
     Check(electronics_findings, cheap=True),
     Check(sensor_findings, cheap=True),
     Check(holding_findings, cheap=True),
+    Check(lead_findings),
     Check(ground_findings, cheap=True),
     Check(sideways_findings, cheap=True),
     Check(bed_findings, cheap=True),

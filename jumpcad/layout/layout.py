@@ -230,6 +230,15 @@ def _moving(
     return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, gap_mm, reach_rad)
 
 
+def moving_obstacles(layout: Layout) -> list[Obstacle]:
+    """Return the room that links, cam and gears sweep, without a clearance."""
+    drive, lateral = layout.drive, layout.lateral
+    found = _moving(layout.linkage, layout.sections, drive, lateral, layout.stop.reach_rad, 0.0)
+    found += [o for o in _cam_obstacles(layout.cam_axis_mm, drive, lateral) if o.name != "cam axle"]
+    pinion = drive.train.stages[0].pinion.tip_radius_mm
+    return [*found, disc("pinion", layout.motor_mm, pinion, lateral.gears[-1])]
+
+
 def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
     room = legs_apart_mm(linkage, sections) - GAP_MM
     if room < 0:

@@ -8,9 +8,11 @@ import numpy as np
 
 from jumpcad.catalogue import Battery, Bearing, Board, Catalogue, Component, Screw
 from jumpcad.dimensions import ROLLER_WASHER_MM
-from jumpcad.electronics.chosen import COMPONENTS
+from jumpcad.electronics.chosen import chosen_of
+from jumpcad.electronics.nets import LOWER_OHM, wiring_of
 from jumpcad.layout.drive_places import arm_line
 from jumpcad.layout.electronics import TAPE_MM
+from jumpcad.layout.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
@@ -18,6 +20,7 @@ from jumpcad.parts import axles, sensor, toes
 from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.leads import metres_by_colour
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
 from jumpcad.parts.train import gear_turns
@@ -34,7 +37,8 @@ SWITCH_EAR_MM = 0.5
 STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm", (10.0, 1.0), 0.8
 TIE, TIE_MM, TIE_G = "cable tie 2.5 x 100 mm, polyamide", (2.5, 1.1), 0.3
 TAPE, TAPE_G_CM3 = "double-sided foam tape 1 mm", 0.5
-"""What holds battery and boards: order text, width and thickness, mass or density; memory: weigh yours."""
+HEAT_SHRINK, HEAT_SHRINK_G, RESISTOR_G, WIRE_LENGTH_MM = "heat-shrink tube 2 mm, 0.3 m", 0.4, 0.2, 500.0
+"""What holds battery and boards: order text, width and thickness, mass or density; what is soldered; from memory."""
 
 
 def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> list[BoughtPart]:
@@ -200,15 +204,41 @@ def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> I
             yield _box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
     yield from _switch(layout, catalogue)
     placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
-    small = [(role, getattr(chosen, role)) for role in COMPONENTS if getattr(chosen, role) and role not in placed]
+    soldered = list(_soldered(layout, catalogue, chosen, placed))
     # Wire, and what is soldered into it, is everywhere: flat in the gap above the battery its mass is about right.
-    size = electronics.battery.length_mm / max(1, len(small))
+    size = electronics.battery.length_mm / max(1, len(soldered))
     above = z + electronics.upper_tray_mm - 0.5
-    for number, (role, name) in enumerate(small):
-        component = catalogue.components[name]
+    for number, (name, article, mass_g) in enumerate(soldered):
         at = x - electronics.battery.length_mm / 2.0 + (number + 0.5) * size
-        yield _box(f"wiring_{role}", component.description, at, sum(inside) / 2.0, above, 0.8 * size,
-                   electronics.battery.width_mm / 2.0, 0.4, component.mass_g)  # fmt: skip
+        yield _box(f"wiring_{name}", article, at, sum(inside) / 2.0, above, 0.8 * size,
+                   electronics.battery.width_mm / 2.0, 0.4, mass_g)  # fmt: skip
+    for role, place, y in (
+        ("sensor", layout.fittings.left_mm, layout.lateral.outside[1]),
+        ("motor", layout.fittings.right_mm, layout.lateral.outside[0] - TIE_MM[1]),
+    ):
+        slabs = [(0.0, TIE_MM[1], _box_of(RELIEF_APART_MM, TIE_MM[0]))]
+        at_mm = (place[0], y, place[1] - HOLE_HALF_MM[1] + HOLE_MM + RELIEF_UP_MM)
+        yield bought(f"tie_{role}_leads", TIE, BODY, TIE_G, slabs, at_mm)
+
+
+def _soldered(
+    layout: Layout, catalogue: Catalogue, chosen: BoughtParts, placed: set[str]
+) -> Iterator[tuple[str, str, float]]:
+    """Yield name, article and mass (g) of what has no seat: wire by its colour, and what is soldered into it."""
+    parts = chosen_of(catalogue, chosen)
+    wiring = wiring_of(parts, chosen.pins)
+    for role, part in parts.components.items():
+        if role == "wire":
+            per_m = 1000.0 * part.mass_g / (part.length_mm or WIRE_LENGTH_MM)
+            for colour, metres in metres_by_colour(layout, wiring).items():
+                article = f"{part.description}, {colour}, {math.ceil(10.0 * metres - 1e-6) / 10.0:g} m"
+                yield f"wire_{colour}", article, per_m * metres
+            yield "heat_shrink", HEAT_SHRINK, HEAT_SHRINK_G
+        elif role not in placed and (role != "diode" or parts.regulator is not None):
+            yield role, part.description, part.mass_g
+    if wiring.upper_ohm is not None:
+        for name, ohm in (("upper", wiring.upper_ohm), ("lower", LOWER_OHM)):
+            yield f"resistor_{name}", f"resistor {ohm // 1000} kOhm 0.25 W, 1 %", RESISTOR_G
 
 
 def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
