@@ -11,6 +11,7 @@ from jumpcad.catalogue.articles import (
     OwnParts,
     Pad,
     StockSpring,
+    Travel,
 )
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.bars import LegBar
@@ -36,6 +37,7 @@ __all__ = [
     "Screw",
     "Standoff",
     "StockSpring",
+    "Travel",
     "Washer",
     "Wire",
     "load_catalogue",

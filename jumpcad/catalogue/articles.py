@@ -189,7 +189,9 @@ class Board(Article):
     `gpio6` with its number, `adc`, `pwm`,
     `strapping` (its level at start chooses how the chip boots), `boot_log` (the chip writes on it at start); of a
     driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs that need a diode before them,
-    `button` the pin of a push button on the board. Currents are those of the board alone (`quiescent_a`, radio off)
+    `button` the pin of a push button on the board. `usb_mm` is the opening (width, height) that the plug of its USB
+    socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its length.
+    Currents are those of the board alone (`quiescent_a`, radio off)
     and what it can give (`output_a`).
     """
 
@@ -202,6 +204,8 @@ class Board(Article):
     pins: dict[Name, Annotated[tuple[Name, ...], Field(strict=False)]] = Field(default_factory=dict)
     diode_at: Annotated[tuple[Name, ...], Field(strict=False)] = ()
     button: OptionalName = ""
+    usb_mm: Annotated[tuple[Side, Side], Field(strict=False)] | None = None
+    usb_height_mm: Positive = 2.8
     logic_v: Positive | None = None
     adc_max_v: Positive | None = None
     output_v: Positive | None = None
@@ -216,15 +220,36 @@ class Board(Article):
         return tuple(name for name, functions in self.pins.items() if function in functions)
 
 
+class Travel(TomlTable):
+    """A switch's plunger: positions of its tip from the base of the case, as data sheets give them (mm, N).
+
+    Free at most, operating with its tolerance, at the end of its travel at most; how far it must go back to open, its
+    diameter, that of the seal around it, and the force that operates it.
+    """
+
+    free_mm: Length
+    operating_mm: Length
+    operating_tolerance_mm: Annotated[float, Field(ge=0, le=5)]
+    total_mm: Length
+    differential_mm: Annotated[float, Field(ge=0, le=5)]
+    pin_mm: Length
+    seal_mm: Length
+    force_n: Positive
+
+
 class Component(Article):
     """A small electrical part: sensor, switch, plug, capacitor, diode or wire; `terminals` as its maker names them.
 
-    `rated_a` and `rated_v` are the most that it bears, `drop_v` is lost in it; a wire's mass is that of `pieces` leads
-    of usual length together.
+    `rated_a` and `rated_v` are the most that it bears, `drop_v` is lost in it. Length, width and height are those of
+    its case without terminals; `travel` is that of a sensor's plunger, in the middle of the case, along its height.
     """
 
     description: Source
     mass_g: Mass
+    length_mm: Side | None = None
+    width_mm: Side | None = None
+    height_mm: Side | None = None
+    travel: Travel | None = None
     terminals: Annotated[tuple[Text, ...], Field(strict=False)] = ()
     rated_a: Positive | None = None
     rated_v: Positive | None = None

@@ -102,7 +102,7 @@ def assembly_ways(robot: Robot) -> list[Way]:
     for step in assembly_steps(robot):
         there = built.setdefault(step.onto, [])
         for placed in step.placed:
-            if placed.move.brings:
+            if placed.move.brings and not placed.move.trial:
                 built.pop(placed.move.brings)
             movers = [pieces[thing.name] for thing in placed.things]
             along = [travel(robot, thing, placed.move, poses[thing.body]) for thing in placed.things]

@@ -32,6 +32,8 @@ TOLERANCE_MM3 = 0.05
 TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
 INTENDED = (
     ("cap_screw", "body_plate_right", "thread"),
+    ("sensor_screw", "body_plate_left", "thread"),
+    ("switch_screw", "switch", "thread"),
     ("standoff", "standoff", "thread"),
     ("toe", "foot", "thread"),
     ("motor_pinion", "motor_shaft", "crush ribs"),

@@ -21,7 +21,7 @@ from jumpcad.version import __version__
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop
 
 MODELS = ("printed", "capsule", "published")
-PRESENTATION = ("bundle", "cli", "coupon")
+PRESENTATION = ("bundle", "calibration", "cli", "coupon")
 """The packages of jumpcad that do not affect the trials of a study."""
 
 

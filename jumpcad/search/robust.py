@@ -232,12 +232,13 @@ def varied_parameters(design: Design, generator: np.random.Generator) -> list[De
 
 def varied_lengths(design: Design, tolerance_mm: float, generator: np.random.Generator) -> list[Design]:
     """Return designs whose links l2…l5 each vary evenly within a tolerance (mm)."""
-    lengths = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm])
-    varied = []
-    for error in tolerance_mm * _even(4, generator):
-        l2, l3, l4, l5 = lengths + error
-        varied.append(_clipped(np.array([l2, l3 / l2, l4 / l2, l5 / l2, *design.to_vector()[4:]])))
-    return varied
+    return [with_length_errors(design, error) for error in tolerance_mm * _even(4, generator)]
+
+
+def with_length_errors(design: Design, error_mm: Array) -> Design:
+    """Return the design whose links l2…l5 are longer by errors (4,) (mm)."""
+    l2, l3, l4, l5 = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm]) + error_mm
+    return _clipped(np.array([l2, l3 / l2, l4 / l2, l5 / l2, *design.to_vector()[4:]]))
 
 
 def active_bounds(

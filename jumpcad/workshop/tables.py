@@ -141,6 +141,23 @@ class BodyPlates(TomlTable):
     toe_half_width_mm: Annotated[float, Field(ge=0, le=200)]
 
 
+class Seats(TomlTable):
+    """How exactly the sensor sits over its track, and what holds the electronics.
+
+    The land's height under the plunger may be off by `sensor_axial_mm`, land and plunger along the track by
+    `sensor_along_mm`. From the sensor's contact the cam stands within `sensor_stop_s`; `sensor_reserve_deg` of cam
+    angle are kept besides, before the drop and after it. `strap_n` and `tie_n` are what the battery's strap and a cable
+    tie hold.
+    """
+
+    sensor_axial_mm: Annotated[float, Field(ge=0, le=2)]
+    sensor_along_mm: Annotated[float, Field(ge=0, le=3)]
+    sensor_stop_s: Annotated[float, Field(ge=0, le=1)]
+    sensor_reserve_deg: Annotated[float, Field(ge=0, le=20)]
+    strap_n: Positive
+    tie_n: Positive
+
+
 class Ground(TomlTable):
     """The floor that the robot jumps on, and the pad under nose and toes; coefficients of dry friction on that floor.
 

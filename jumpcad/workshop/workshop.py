@@ -42,6 +42,7 @@ from jumpcad.workshop.tables import (
     ReleaseTable,
     Roles,
     Safety,
+    Seats,
     SpringTable,
 )
 
@@ -67,6 +68,7 @@ class Workshop(Record):
     fits: Fits
     bought: BoughtParts
     body: BodyPlates
+    seats: Seats
     ground: Ground
     pins: Pins
     spring: SpringTable
