@@ -47,11 +47,16 @@ class SearchOptions:
         Path | None, typer.Option(help="The study file, new or to be continued.", metavar="F.db", dir_okay=False)
     ] = None
     seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0
-    fix: Annotated[list[str] | None, typer.Option(help="Fix a parameter.", metavar="NAME=VALUE")] = None
-    bound: Annotated[
-        list[str] | None, typer.Option(help="Search a parameter in another range.", metavar="NAME=LO:HI")
+    fix: Annotated[
+        list[str] | None, typer.Option(help="Fix a parameter, or a value of the workshop.", metavar="NAME=VALUE")
     ] = None
-    choose: Annotated[list[str] | None, typer.Option(help="Allow some values only.", metavar="NAME=a,b,c")] = None
+    bound: Annotated[
+        list[str] | None,
+        typer.Option(help="Search a parameter, or a value of the workshop, in a range.", metavar="NAME=LO:HI"),
+    ] = None
+    choose: Annotated[
+        list[str] | None, typer.Option(help="Allow some values only: bought.battery=a,b.", metavar="NAME=a,b,c")
+    ] = None
     workshop: Annotated[
         str | None,
         typer.Option(help="Workshop of the printed robot: a template's name or a file.", show_default="default"),

@@ -97,6 +97,10 @@ def _print_one(summary: dict[str, Any]) -> None:
         print(f"  note: {note}")
     for number, trial in enumerate(summary["top"], start=1):
         values = "  ".join(f"{value:.5g}" for value in trial["design"].values())
+        values += "".join(
+            f"  {key}={value if isinstance(value, str) else f'{value:.5g}'}"
+            for key, value in trial.get("workshop", {}).items()
+        )
         print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}")
 
 

@@ -3,7 +3,8 @@
 import hashlib
 import importlib.metadata
 import json
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
@@ -15,10 +16,12 @@ from jumpcad.files import Record, did_you_mean, templates_folder
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.variant import NOTHING
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
 from jumpcad.version import __version__
-from jumpcad.workshop import DEFAULT, Workshop, load_workshop
+from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
+from jumpcad.workshop.varied import Value
 
 MODELS = ("printed", "capsule", "published")
 PRESENTATION = ("bundle", "cli", "coupon")
@@ -55,8 +58,13 @@ class RobotModel:
                 f"{self.name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(self.name, MODELS)}"
             )
 
-    def __call__(self, design: Design) -> Evaluation:
-        """Evaluate a design; one that cannot be built is a verdict, not an error."""
+    def __call__(self, design: Design, workshop: Mapping[str, Value] = NOTHING) -> Evaluation:
+        """Evaluate a design, in the workshop with these values; one that cannot be built is a verdict, not an error."""
+        if workshop:
+            try:
+                return self.varied(workshop)(design)
+            except JumpcadError as error:  # the values do not go together
+                return Evaluation("workshop", detail=str(error))
         findings = tuple(geometry_findings(design))
         rejecting = errors(findings)
         if rejecting:
@@ -65,6 +73,10 @@ class RobotModel:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:
             return Evaluation("cannot_build", detail=str(error))
+
+    def varied(self, values: Mapping[str, Value]) -> "RobotModel":
+        """Return the model of the robot that is built in the workshop with other values."""
+        return replace(self, workshop=varied(self.workshop or load_workshop(), values))
 
     @property
     def tolerance_mm(self) -> float:

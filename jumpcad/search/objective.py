@@ -54,7 +54,10 @@ class Evaluation:
 
 
 class Model(Protocol):
-    """What evaluates designs: a picklable, pure function of the design."""
+    """What evaluates designs: a picklable, pure function of the design.
+
+    One that is built in a workshop takes, as a second argument, values in which this differs; see `Variant`.
+    """
 
     def __call__(self, design: Design, /) -> Evaluation:
         """Evaluate a design. Raises `JumpcadError` only if no design would work."""

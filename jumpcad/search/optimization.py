@@ -11,10 +11,12 @@ from jumpcad.search.models import robot_model
 from jumpcad.search.pool import open_pool
 from jumpcad.search.request import Request
 from jumpcad.search.result import Result
-from jumpcad.search.space import NOTHING, Space
+from jumpcad.search.space import Space
 from jumpcad.search.study import run_study
+from jumpcad.search.variant import NOTHING
 from jumpcad.settings import Settings
 from jumpcad.workshop import Workshop
+from jumpcad.workshop.varied import Value
 
 
 @typed
@@ -25,9 +27,9 @@ def optimize(
     objective: str | Callable[..., Any] | None = None,
     model: str = "printed",
     study: str | Path | None = None,
-    fixed: Mapping[str, float] = NOTHING,
+    fixed: Mapping[str, Value] = NOTHING,
     bounds: Mapping[str, tuple[float, float]] = NOTHING,
-    choices: Mapping[str, Sequence[float]] = NOTHING,
+    choices: Mapping[str, Sequence[Value]] = NOTHING,
     around: Design | str | Path | None = None,
     only: Sequence[str] = (),
     within_percent: float | int | None = None,
@@ -64,7 +66,8 @@ def optimize(
     study
         A file (.db) in which every trial is kept, and from which the same call continues; none if None.
     fixed, bounds, choices
-        By parameter: a value, a pair of limits in place of `SEARCH_BOUNDS`, allowed values.
+        By parameter: a value, a pair of limits in place of `SEARCH_BOUNDS`, allowed values. A key of the workshop is
+        a parameter too: ``bounds={"body.plate_mm": (1.6, 2.4)}``, ``choices={"bought.spring": ["", "9271K619"]}``.
     around, only, within_percent
         Free only some parameters, or search near a design; see `Space.make`.
     workshop, settings, engine
@@ -81,7 +84,7 @@ def optimize(
     Returns
     -------
     Result
-        `design`, `score` and `fitness` of the winner, the ranked `candidates`, all `trials`.
+        `design`, `workshop`, `score` and `fitness` of the winner, the ranked `candidates`, all `trials`.
 
     Raises
     ------
@@ -89,9 +92,10 @@ def optimize(
         If an argument is wrong, or the study file holds another study, is damaged or in use.
     """
     centre = load_design(around) if isinstance(around, str | Path) else around
-    space = Space.make(fixed, bounds, choices, centre, only, within_percent)
+    robot = robot_model(model, workshop, settings, engine)
+    space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop)
     request = Request.make(
-        space, robot_model(model, workshop, settings, engine), method, objective,
+        space, robot, method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
         until_percent=until_percent, hours=hours,
     )  # fmt: skip

@@ -111,6 +111,8 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
+        if self.is_front and any(one.name == "bought.spring" for one in self.space.of_workshop):
+            raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
         if self.batch > 1 and not any(METHODS[name].learns for name in SEQUENCES.get(self.method, (self.method,))):
             learning = ", ".join(name for name, method in METHODS.items() if method.learns)
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")

@@ -6,13 +6,22 @@ from typing import Any
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
+from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_atomically
 from jumpcad.search.fronts import front, hypervolume
+from jumpcad.search.models import RobotModel
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
 from jumpcad.search.trial import Trial, count_rejections
+from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
+WORKSHOP_END = "-workshop.toml"
+
+
+def workshop_file(design_file: Path) -> Path:
+    """Return where the workshop of a design file is written."""
+    return design_file.with_name(f"{design_file.stem}{WORKSHOP_END}")
 
 
 @dataclass(frozen=True, repr=False)
@@ -62,6 +71,12 @@ class Result:
         return self._won().design
 
     @property
+    def workshop(self) -> Workshop | None:
+        """The workshop with the winner's values; None where the search varied none. Raises as `design`."""
+        values, model = self._won().workshop, self.request.model
+        return model.varied(values).workshop if values and isinstance(model, RobotModel) else None
+
+    @property
     def score(self) -> float:
         """The winner's score, by the study's objective. Raises as `design`."""
         return self._won().score or 0.0
@@ -89,10 +104,25 @@ class Result:
     def to_toml(self) -> str:
         """Return the winner's design file. Raises as `design`."""
         heading = f"{HEADING}: {self.request.title} {self.score:.4g}.\n"
+        if self._won().workshop:
+            heading += f"# Its workshop was searched too: it is in the file that ends in {WORKSHOP_END}.\n"
         return sealed(heading + self.design.to_toml())
 
+    def workshop_toml(self) -> str:
+        """Return the winner's workshop file, complete; empty where the search varied none. Raises as `design`."""
+        workshop = self.workshop
+        if workshop is None:
+            return ""
+        changes = "".join(
+            f"#   {key} = {shown(value) if isinstance(value, str) else f'{value:g}'}\n"
+            for key, value in self._won().workshop.items()
+        )
+        return sealed(f"{HEADING}, with\n{changes}{workshop.to_toml()}")
+
     def save(self, path: str | Path, force: bool = False) -> Path:
-        """Write the winner's design file.
+        """Write the winner's design file and, where the search varied the workshop, beside it the workshop's.
+
+        `jumpcad build X.toml --workshop X-workshop.toml` makes the robot.
 
         Raises
         ------
@@ -101,9 +131,12 @@ class Result:
         JumpcadError
             If the file does not end in .toml, cannot be written, or is a user's and `force` is not given.
         """
-        text = self.to_toml()
-        require_target(Path(path), (".toml",), force)
-        write_atomically(Path(path), text)
+        texts = {Path(path): self.to_toml(), workshop_file(Path(path)): self.workshop_toml()}
+        files = {file: text for file, text in texts.items() if text}
+        for file in files:
+            require_target(file, (".toml",), force)
+        for file, text in files.items():
+            write_atomically(file, text)
         return Path(path)
 
     def to_dict(self) -> dict[str, Any]:

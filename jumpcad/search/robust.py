@@ -21,6 +21,7 @@ from jumpcad.search.margin import propose_robust
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, feasible_trials
+from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
 
 MOST_PICK, LEAST_PICK = 200, 6
@@ -70,6 +71,7 @@ class Candidate:
             "refusals": self.rejections,
             "neighbours": self.neighbours,
             "design": self.trial.design.model_dump(),
+            **({"workshop": dict(self.trial.workshop)} if self.trial.workshop else {}),
         }
 
     def __repr__(self) -> str:
@@ -175,7 +177,7 @@ class _Examined:
         """The lower percentile; the own score as long as no neighbour is known."""
         return min(map(self._tenth, self.scores))
 
-    def neighbours(self, new: int, seed: int, tolerance_mm: float) -> list[tuple[str, Design]]:
+    def neighbours(self, new: int, seed: int, tolerance_mm: float) -> list[tuple[str, Variant]]:
         """Return the next neighbours, half of each kind."""
         generator = np.random.default_rng([seed, 4, self.index])
         kinds = {
@@ -183,7 +185,8 @@ class _Examined:
             "print": varied_lengths(self.trial.design, tolerance_mm, generator),
         }
         start, end = self.examined // 2, (self.examined + new) // 2
-        return [(kind, design) for kind, designs in kinds.items() for design in designs[start:end]]
+        chosen = [(kind, design) for kind, designs in kinds.items() for design in designs[start:end]]
+        return [(kind, Variant(design, self.trial.workshop)) for kind, design in chosen]
 
     def candidate(self) -> Candidate:
         """Return the result."""
@@ -203,7 +206,7 @@ def _examine(
     A rejected one scores 0, or where scores are negative as far below the worst as the best is above it.
     """
     asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, tolerance_mm)]
-    found = evaluator.evaluate([design for _, _, design in asked], "robust", step)
+    found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step)
     scores = [trial.score for trial in evaluator.trials if trial.score is not None]
     rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0
     for (one, kind, _), trial in zip(asked, found, strict=True):
@@ -216,8 +219,8 @@ def best_apart(space: Space, trials: Sequence[Trial], count: int) -> list[Trial]
     """Return the best feasible trials that differ by at least a fiftieth of a range in some parameter, best first."""
     chosen: list[Trial] = []
     for trial in feasible_trials(trials):
-        unit = space.to_unit(trial.design)
-        if all(np.abs(unit - space.to_unit(other.design)).max() >= APART for other in chosen):
+        unit = space.to_unit(trial.variant)
+        if all(np.abs(unit - space.to_unit(other.variant)).max() >= APART for other in chosen):
             chosen.append(trial)
         if len(chosen) == count:
             break
@@ -249,7 +252,9 @@ def active_bounds(
     """
     found = []
     for parameter in evaluator.space.free:
-        value = getattr(trial.design, parameter.name)
+        if parameter.names or (parameter.choices and parameter in evaluator.space.of_workshop):
+            continue  # choices of a workshop end where it ends
+        value = parameter.number(trial.variant.value(parameter.name))
         lowest, highest = physical_limits(parameter.name)
         reach = WIDENING * parameter.width
         for side, bound, beyond in (
@@ -258,8 +263,8 @@ def active_bounds(
         ):
             if abs(value - bound) <= 1e-3 * parameter.width and beyond != bound:
                 found.append(ActiveBound(parameter.name, side, bound, beyond, None))
-    designs = [trial.design.model_copy(update={bound.name: bound.beyond}) for bound in found]
-    trials = evaluator.evaluate(designs, "bounds", step, limit=evaluations)
+    variants = [trial.variant.changed({bound.name: bound.beyond}) for bound in found]
+    trials = evaluator.evaluate(variants, "bounds", step, limit=evaluations)
     return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True)]
 
 

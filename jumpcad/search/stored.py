@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
@@ -12,12 +12,14 @@ from jumpcad.design import PARAMETERS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
-from jumpcad.files.names import Name
+from jumpcad.files.names import Name, Text
 from jumpcad.findings import Finding
 from jumpcad.search.methods import METHODS
 from jumpcad.search.objective import Evaluation
 
 STRICT = ConfigDict(strict=True, extra="forbid")
+KEY = re.compile(r"[^.\x00-\x1f\x7f]{1,80}(\.[^.\x00-\x1f\x7f]{1,80}){1,3}")
+"""Dotted keys of a workshop."""
 WORD = re.compile(r"[A-Za-z]\w{0,79}", re.ASCII)
 """Names of verdicts, findings, figures and parameters."""
 LARGEST = 1e12
@@ -37,14 +39,18 @@ class _Named(TomlTable):
 class _Range(TomlTable):
     lower: float | None = None
     upper: float | None = None
-    fixed: float | None = None
-    choices: Annotated[list[float], Field(min_length=1)] | None = None
+    fixed: float | Text | None = None
+    choices: Annotated[list[float] | list[Text], Field(min_length=1)] | None = None
 
 
 def _whole(space: dict[str, _Range]) -> dict[str, _Range]:
-    if tuple(space) != PARAMETERS:
+    if tuple(space)[: len(PARAMETERS)] != PARAMETERS:
         raise PydanticCustomError("value_error", "must have all eight parameters of a design, in their order")
     for name, part in space.items():
+        if name not in PARAMETERS and not KEY.fullmatch(name):
+            raise PydanticCustomError("value_error", "{name} is no key of a workshop", {"name": shown(name)})
+        if name in PARAMETERS and isinstance((part.choices or [part.fixed])[0], str):
+            raise PydanticCustomError("value_error", "{name} must be numbers", {"name": name})
         if list(part.model_fields_set) not in (["fixed"], ["choices"]) and part.model_fields_set != {"lower", "upper"}:
             raise PydanticCustomError("value_error", f"{name} must be fixed, have lower and upper, or choices")
     return space
@@ -87,6 +93,7 @@ _REMEMBERED: dict[str, TypeAdapter[Any]] = {
 }
 _METRICS = TypeAdapter(dict[str, float], config=STRICT)
 _FINDINGS = TypeAdapter(tuple[Annotated[Finding, BeforeValidator(_spread)], ...], config=STRICT)
+_WORKSHOP = TypeAdapter(dict[str, Finite | Text], config=STRICT)
 _PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]]], config=STRICT)
 
 
@@ -150,6 +157,20 @@ def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
     if not isinstance(thetas, dict) or any(len(theta) != free + 2 for theta in thetas.values()):
         raise JumpcadError(f"proposal.theta: must be lists of {free + 2} hyperparameters")
     return proposal
+
+
+def stored_workshop(record: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+    """Return the workshop's values of a row in a search of these keys.
+
+    Raises
+    ------
+    JumpcadError
+        If they are not numbers and names, or belong to other keys.
+    """
+    values: dict[str, Any] = _validated(_WORKSHOP.validate_json, "workshop", record["workshop"])
+    if list(values) != list(keys):
+        raise JumpcadError(f"workshop: has {shown(list(values))}, not the keys of the study's space")
+    return values
 
 
 def stored_text(record: Mapping[str, Any], key: str) -> str:

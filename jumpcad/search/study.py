@@ -96,7 +96,7 @@ def _read_prior(request: Request) -> tuple[list[Trial], str]:
         trials = [
             replace(trial, score=objective.score(trial.evaluation))
             for trial in store.trials()
-            if request.space.contains(trial.design)
+            if request.space.contains(trial.variant)
         ]
         same = all(trial.model == request.model.digest for trial in trials)
         remark = f"{request.prior} was made by another program; the search learns from it nevertheless"

@@ -18,7 +18,8 @@ def _table(trials: Sequence[Trial]) -> list[dict[str, Any]]:
     """Return one flat record per trial, all with the same columns; a figure that a trial does not have is None."""
     metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
     margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
-    return [_record(trial, metrics, margins) for trial in trials]
+    keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
+    return [_record(trial, keys, metrics, margins) for trial in trials]
 
 
 @typed
@@ -51,7 +52,7 @@ def _parquet(records: list[dict[str, Any]]) -> bytes:
     return stream.getvalue()
 
 
-def _record(trial: Trial, metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
+def _record(trial: Trial, keys: Sequence[str], metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
     evaluation = trial.evaluation
     worst: dict[str, float] = {}
     for finding in evaluation.findings:
@@ -61,6 +62,7 @@ def _record(trial: Trial, metrics: Sequence[str], margins: Sequence[str]) -> dic
         "step": trial.step,
         "place": trial.place,
         **trial.design.model_dump(),
+        **{key: trial.workshop.get(key) for key in keys},
         "verdict": evaluation.verdict,
         "feasible": evaluation.feasible,
         "reasons": " ".join(evaluation.reasons),

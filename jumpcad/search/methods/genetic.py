@@ -92,8 +92,8 @@ class Fitness:
         """Return the fitness of each solution (n, genes); designs beyond the budget count as rejected."""
         space = self.evaluator.space
         before = len(self.evaluator.trials)
-        designs = [space.to_design(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
-        trials = self.evaluator.evaluate(designs, self.phase, int(ga.generations_completed), limit=self.left)
+        variants = [space.to_variant(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
+        trials = self.evaluator.evaluate(variants, self.phase, int(ga.generations_completed), limit=self.left)
         new = len(self.evaluator.trials) - before
         self.left -= new
         self._idle = 0 if new else self._idle + 1
@@ -124,6 +124,7 @@ def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], se
         fitness_batch_size=len(population),
         initial_population=population.tolist(),
         gene_space=_gene_space(fitness.evaluator.space),
+        gene_categorical=[names > 0 for names in fitness.evaluator.space.categories],
         on_generation=after_generation,
         random_seed=seed,
         suppress_warnings=True,
@@ -140,5 +141,5 @@ def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
     space = evaluator.space
     spread = space.spread(count, np.random.default_rng([seed, 0]))
     best = feasible_trials(evaluator.prior)
-    known = np.array([space.to_unit(trial.design) for trial in best[: count // 2]]).reshape(-1, space.dimension)
+    known = np.array([space.to_unit(trial.variant) for trial in best[: count // 2]]).reshape(-1, space.dimension)
     return np.vstack([known, spread])[:count]
