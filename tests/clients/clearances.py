@@ -5,7 +5,6 @@ files, shapely for roller and cam, manifold3d for volumes. The leg's angle follo
 down on the cam's outline; the five-bar is closed with circles. `python clearances.py BUNDLE` prints what meets.
 """
 
-import itertools
 import json
 import math
 import sys
@@ -77,10 +76,11 @@ class Bundle:
     def poses(self) -> list[Pose]:
         """Return the positions: the cam's lift, the fall of the roller, and past rest with the cam running on."""
         turns = np.linspace(0.0, 2.0 * math.pi, 721)
-        top = int(np.argmin([self._leg_on_cam(turn) for turn in turns]))
-        lift = [Pose(self._leg_on_cam(turn), turn) for turn in np.linspace(0.0, turns[top], LIFTED)]
+        top = int(np.argmin(self._legs_on_cam(turns)))
+        lifting = np.linspace(0.0, turns[top], LIFTED)
+        lift = [Pose(float(leg), float(turn)) for leg, turn in zip(self._legs_on_cam(lifting), lifting, strict=True)]
         ways = np.linspace(self.wound, self.stop + self.give, 25)
-        free = next(turn for turn in turns[top:] if all(self._roller_gap(leg, turn) > 0.0 for leg in ways))
+        free = next(float(turn) for turn in turns[top:] if (self._roller_gaps(ways, turn) > 0.0).all())
         play = self.manifest.get("drive", {}).get("release", {}).get("free_play_deg", DOG_DEG)
         drop = [Pose(leg, free) for leg in np.linspace(self.wound, 0.0, DROPPED)]
         past = [
@@ -123,10 +123,10 @@ class Bundle:
             links = self.places(pose)
             solids = [self._placed(piece, links, pose) for piece in self.pieces]
             boxes = np.array([solid.bounding_box() for solid in solids])
-            for i, j in itertools.combinations(range(len(solids)), 2):
+            beyond = (boxes[:, None, :3] >= boxes[None, :, 3:]).any(axis=2)
+            for i, j in np.argwhere(np.triu(~(beyond | beyond.T), 1)):
                 a, b = self.pieces[i], self.pieces[j]
-                apart = (boxes[i, :3] >= boxes[j, 3:]).any() or (boxes[j, :3] >= boxes[i, 3:]).any()
-                if apart or not self._moves(a, b, pose):
+                if not self._moves(a, b, pose):
                     continue
                 volume = (solids[i] ^ solids[j]).volume()
                 if volume > TOLERANCE_MM3:
@@ -150,25 +150,28 @@ class Bundle:
             matrix = matrix @ there @ _turn(pose.cam) @ back
         return piece.solid.transform(matrix[:3])
 
-    def _roller_gap(self, leg: float, turn: float) -> float:
-        """Return the gap between roller and cam (mm); negative where they meet."""
-        at = self.joints["leg"] @ _turn(leg) @ np.array([self.roller_at[0] / 1e3, 0.0, self.roller_at[1] / 1e3, 1.0])
-        point, centre = 1000.0 * at[[0, 2]], self.axes["cam_gear"]
-        x, z = point - centre
-        cos, sin = math.cos(turn), math.sin(turn)  # turned back into the cam's frame
-        seen = shapely.Point(centre[0] + cos * x - sin * z, centre[1] + sin * x + cos * z)
-        inside = self.cam.contains(seen)
-        return -self.roller_mm if inside else self.cam.distance(seen) - self.roller_mm
+    def _roller_gaps(self, legs: np.ndarray, turns: np.ndarray | float) -> np.ndarray:
+        """Return the gaps (n,) between roller and cam (mm); negative where they meet."""
+        frame, centre = self.joints["leg"], self.axes["cam_gear"]
+        right, up = self.roller_at / 1e3  # a turn about y brings x towards -z
+        turned = np.stack([np.cos(legs) * right + np.sin(legs) * up, np.cos(legs) * up - np.sin(legs) * right])
+        x, z = 1e3 * (frame[np.ix_([0, 2], [0, 2])] @ turned + frame[[0, 2], 3][:, None]) - centre[:, None]
+        cos, sin = np.cos(turns), np.sin(turns)  # turned back into the cam's frame
+        seen = shapely.points(centre[0] + cos * x - sin * z, centre[1] + sin * x + cos * z)
+        return np.where(self.cam.contains(seen), 0.0, self.cam.distance(seen)) - self.roller_mm
 
-    def _leg_on_cam(self, turn: float) -> float:
-        """Return the leg's angle while its roller lies on the cam: the one nearest to rest without overlap."""
+    def _legs_on_cam(self, turns: np.ndarray) -> np.ndarray:
+        """Return the leg's angles (n,) while its roller lies on the cam: those nearest to rest without overlap."""
         legs = np.linspace(0.0, self.wound, 120)
-        free = next((i for i, leg in enumerate(legs) if self._roller_gap(leg, turn) >= -FACET_MM), len(legs) - 1)
-        low, high = legs[max(free - 1, 0)], legs[free]
+        free = np.full(len(turns), len(legs) - 1)
+        for i in range(len(legs))[::-1]:
+            free[self._roller_gaps(np.full(len(turns), legs[i]), turns) >= -FACET_MM] = i
+        low, high = legs[np.maximum(free - 1, 0)], legs[free]
         for _ in range(30):
             middle = (low + high) / 2.0
-            low, high = (middle, high) if self._roller_gap(middle, turn) < -FACET_MM else (low, middle)
-        return float(high)
+            meet = self._roller_gaps(middle, turns) < -FACET_MM
+            low, high = np.where(meet, middle, low), np.where(meet, high, middle)
+        return high
 
 
 def _section(solid: Manifold, y_mm: float) -> shapely.Geometry:
