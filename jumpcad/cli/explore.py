@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
     require_plots,
     require_study,
-    watching,
     with_search_options,
 )
 from jumpcad.errors import JumpcadError

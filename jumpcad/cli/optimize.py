@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
+from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
     require_plots,
     require_study,
-    watching,
     with_search_options,
 )
 from jumpcad.search.methods import METHODS
@@ -51,6 +51,7 @@ UntilOption = Annotated[
     ),
 ]
 HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
+WidenFlag = Annotated[bool, typer.Option("--widen", help="Move bounds on which the best design lies, and go on.")]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
@@ -75,6 +76,7 @@ def optimize(
     from_study: FromOption = None,
     until: UntilOption = 0.0,
     hours: HoursOption = 0.0,
+    widen: WidenFlag = False,
     output: OutputOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -100,7 +102,7 @@ def optimize(
     request = Request.make(
         space, robot, method, options.objective,
         evaluations=evaluations, seed=options.seed, preset=preset, batch=batch, prior=from_study,
-        until_percent=until, hours=hours,
+        until_percent=until, hours=hours, widen=widen,
     )  # fmt: skip
     path = options.study or Path(request.default_name())
     require_study(path)
@@ -165,6 +167,8 @@ def _print_result(result: "Result", design_file: Path) -> None:
     request = result.request
     more = result.evaluations - len(result.trials)
     around = f", and {more} for the robust pick" if more else ""
+    if request.aim.neighbours_of:
+        around = f", in {result.evaluations} evaluations with their neighbours"
     print(f"{len(result.trials)} designs evaluated{around}; rejected: {_counted(result.rejected)}")
     for note in result.notes:
         print(f"note: {note}")
@@ -187,6 +191,12 @@ def _print_result(result: "Result", design_file: Path) -> None:
         print(f"  {name:24s}{value:12.5g}")
     for key, value in result.winner.workshop.items():
         print(f"  {key:24s}" + (f"{value or repr(value):>12s}" if isinstance(value, str) else f"{value:12.5g}"))
+    for wider in result.widened:
+        change = f"{wider.worth:+.4f}" if wider.worth is not None else f"rejected by {wider.reason}"
+        moved = (
+            f"{wider.name}, {wider.side} bound {wider.value:g} to {wider.beyond:g}" if wider.side else "all together"
+        )
+        print(f"widened: {moved}: {change}")
     for bound in result.bounds:
         change = "is rejected: " + bound.reason if bound.worth is None else f"changes the score by {bound.worth:+.4f}"
         print(f"at its {bound.side} bound: {bound.name} = {bound.value:g}; {bound.beyond:g} {change}")

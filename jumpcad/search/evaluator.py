@@ -74,6 +74,11 @@ class Evaluator:
         """All trials of this search so far, in order."""
         return list(self._seen.values())
 
+    @property
+    def spent(self) -> int:
+        """How many robots the trials took: one each, more where an objective looks at neighbours."""
+        return sum(trial.cost for trial in self._seen.values())
+
     def admits(self, one: Design | Variant) -> bool:
         """Whether a design or variant is new, and the model admits it without an evaluation."""
         variant = Variant.of(one)

@@ -46,7 +46,12 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
         one for one in evaluator.trials if all(fix.number(one.variant.value(fix.name)) == fix.lower for fix in fixed)
     ]
     thetas: dict[str, Any] = next(
-        (trial.proposal["theta"] for trial in reversed(trials) if "theta" in trial.proposal), {}
+        (
+            trial.proposal["theta"]
+            for trial in reversed(trials)
+            if all(len(theta) == space.dimension + 2 for theta in trial.proposal.get("theta", {"": ()}).values())
+        ),
+        {},
     )
     generator = np.random.default_rng([seed, 7, step])
     proposals: list[Proposal] = []

@@ -44,6 +44,7 @@ def optimize(
     prior: str | Path | None = None,
     until_percent: float | int = 0.0,
     hours: float | int = 0.0,
+    widen: bool = False,
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -52,15 +53,18 @@ def optimize(
     Parameters
     ----------
     method
-        `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), or `pareto` and `nsga2` for a front.
+        `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), `paper` (the published study's stages), or
+        `pareto` and `nsga2` for a front.
     evaluations
         How many designs are evaluated, those of the robust pick included: a quarter of them, at most 160.
     seed
         Random seed: the same call gives the same result.
     objective
         One of `jumpcad.search.OBJECTIVES` by name; if None, `range` for a front, `body_lengths` of the printed robot,
-        `fitness` of the others. Or an own one: a function that takes the figures of a jump (a mapping of names to
-        numbers) and returns the score, or `FILE.py:FUNCTION`.
+        `fitness` of the others. `p10`, or as `p10-range`: the score that nine of ten neighbours reach within the
+        tolerances of the robust pick; a design that jumps then counts as up to eleven evaluations. Or an own one: a
+        function that takes the figures of a jump (a mapping of names to numbers) and returns the score, or
+        `FILE.py:FUNCTION`.
     model
         The robot that is evaluated: `printed`, `capsule` or `published`.
     study
@@ -80,6 +84,9 @@ def optimize(
     until_percent, hours
         End earlier: when Bayesian proposals promise to gain less than this share of the best score, or after this time
         (h); see `Request`. 0 for neither.
+    widen
+        Move bounds on which the best design lies, as far as a design or workshop can be, and go on; `Result.widened`
+        has what each bound costs.
 
     Returns
     -------
@@ -97,7 +104,7 @@ def optimize(
     request = Request.make(
         space, robot, method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
-        until_percent=until_percent, hours=hours,
+        until_percent=until_percent, hours=hours, widen=widen,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, None if study is None else Path(study), pool)

@@ -1,5 +1,6 @@
 """`Result`: what a study found, as values, as plain data, and as a design file."""
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from jumpcad.search.models import RobotModel
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
 from jumpcad.search.trial import Trial, count_rejections
+from jumpcad.search.widening import Widened
 from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
@@ -43,7 +45,9 @@ class Result:
     notes
         What happened to the run: lost workers, quarantined designs.
     evaluations
-        How many designs were evaluated in all, those of the robust pick included.
+        How many robots were built and simulated in all, those of the robust pick included.
+    widened
+        Bounds that the search moved, with what they cost.
     """
 
     request: Request
@@ -53,6 +57,7 @@ class Result:
     bounds: list[ActiveBound]
     notes: list[str]
     evaluations: int
+    widened: Sequence[Widened] = ()
 
     @property
     def winner(self) -> Trial | None:
@@ -151,6 +156,7 @@ class Result:
             "winner": None if self.winner is None else self.winner.to_dict(),
             "candidates": [candidate.to_dict() for candidate in self.candidates],
             "active_bounds": [asdict(bound) for bound in self.bounds],
+            **({"widened": [one.to_dict() for one in self.widened]} if self.request.widen else {}),
             "notes": self.notes,
         }
         if self.request.is_front:

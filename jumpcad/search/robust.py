@@ -13,16 +13,15 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
 
-from jumpcad.design import PARAMETERS, Design
+from jumpcad.design import PARAMETERS
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.margin import propose_robust
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.space import Space
+from jumpcad.search.tolerances import PERCENT, SAMPLES, tenth, varied_lengths, varied_parameters
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
-from jumpcad.transforms import Array
 
 MOST_PICK, LEAST_PICK = 200, 6
 """Most evaluations of the robust pick; with fewer than the least it examines nothing."""
@@ -33,9 +32,6 @@ JOINING = 3
 LEAST_TO_JOIN = 16
 ROUNDS = 8
 """Numbers of steps in the study file that one pick takes."""
-SAMPLES = 16
-PERCENT = 1.0
-PERCENTILE = 10
 APART = 0.02
 WIDENING = 0.05
 
@@ -195,7 +191,7 @@ class _Examined:
 
     def _tenth(self, kind: str) -> float:
         scores = self.scores[kind]
-        return float(np.percentile(scores, PERCENTILE, method="lower")) if scores else self.trial.score or 0.0
+        return tenth(scores) if scores else self.trial.score or 0.0
 
 
 def _examine(
@@ -225,22 +221,6 @@ def best_apart(space: Space, trials: Sequence[Trial], count: int) -> list[Trial]
         if len(chosen) == count:
             break
     return chosen
-
-
-def varied_parameters(design: Design, generator: np.random.Generator) -> list[Design]:
-    """Return designs with every parameter varied evenly within ±1 %, and within a design's limits."""
-    factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)
-    return [_clipped(np.array(design.to_vector()) * factor) for factor in factors]
-
-
-def varied_lengths(design: Design, tolerance_mm: float, generator: np.random.Generator) -> list[Design]:
-    """Return designs whose links l2…l5 each vary evenly within a tolerance (mm)."""
-    lengths = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm])
-    varied = []
-    for error in tolerance_mm * _even(4, generator):
-        l2, l3, l4, l5 = lengths + error
-        varied.append(_clipped(np.array([l2, l3 / l2, l4 / l2, l5 / l2, *design.to_vector()[4:]])))
-    return varied
 
 
 def active_bounds(
@@ -274,14 +254,3 @@ def _worth(bound: ActiveBound, trial: Trial, beyond: Trial | None) -> ActiveBoun
     if beyond.score is None:
         return replace(bound, reason=", ".join(beyond.evaluation.reasons))
     return replace(bound, worth=beyond.score - (trial.score or 0.0))
-
-
-def _even(dimension: int, generator: np.random.Generator) -> Array:
-    """Return evenly spread points (SAMPLES, dimension) of the cube from -1 to 1."""
-    points: Array = qmc.Sobol(dimension, seed=generator).random(SAMPLES)
-    return 2.0 * points - 1.0
-
-
-def _clipped(vector: Array) -> Design:
-    limits = np.array([physical_limits(name) for name in PARAMETERS])
-    return Design.from_vector(np.clip(vector, limits[:, 0], limits[:, 1]).tolist())

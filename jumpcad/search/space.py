@@ -7,7 +7,7 @@ names evenly.
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Self
 
@@ -228,6 +228,37 @@ class Space:
         """Return `count` scrambled Sobol points (count, dimension) of the unit cube."""
         power = max(0, math.ceil(math.log2(max(count, 1))))
         return self.snap(qmc.Sobol(self.dimension, seed=generator).random_base2(power)[:count])
+
+    def near(self, centre: Variant, names: Sequence[str] = (), percent: float | None = None) -> "Space | None":
+        """Return the part of the space in which only some parameters vary, the others as they are in its `centre`.
+
+        Parameters
+        ----------
+        centre
+            A variant of the space.
+        names
+            Which of the free parameters stay free; all of them if empty.
+        percent
+            Of a range, to either side of the centre, to which ranges are narrowed; not if None.
+
+        Returns
+        -------
+        Space or None
+            None where nothing stays free.
+        """
+        parts = []
+        for parameter in self.parameters:
+            number = parameter.number(centre.value(parameter.name))
+            if names and parameter.name not in names:
+                held = (parameter.names[round(number)],) if parameter.names else ()
+                at = 0.0 if held else number
+                parameter = Parameter(parameter.name, at, at, names=held)
+            elif percent is not None and parameter.free and not parameter.choices:
+                reach = parameter.width * percent / 100.0
+                lower, upper = max(parameter.lower, number - reach), min(parameter.upper, number + reach)
+                parameter = replace(parameter, lower=lower, upper=upper)
+            parts.append(parameter)
+        return Space(tuple(parts)) if any(part.free for part in parts) else None
 
     @classmethod
     def from_record(cls, record: Mapping[str, Mapping[str, Any]]) -> Self:

@@ -22,6 +22,7 @@ from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
 from jumpcad.findings import Finding
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
+from jumpcad.search.methods import STEPS
 from jumpcad.search.stored import (
     require_remembered,
     stored_count,
@@ -32,7 +33,7 @@ from jumpcad.search.stored import (
     stored_text,
     stored_workshop,
 )
-from jumpcad.search.trial import LEARNING_PHASES, PHASES, Trial
+from jumpcad.search.trial import LEARNING_PHASES, PHASES, SEARCH_PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50
 FORMAT = 3
@@ -193,6 +194,16 @@ class StudyStore:
                 raise JumpcadError(f"{self.path}: is damaged: two rows {one.phase} {one.step} {one.place}")
         return trials
 
+    def progress(self) -> tuple[dict[str, int], float | None]:
+        """Return the number of trials by phase, and the best score; quick, whatever the number of rows."""
+        with plain_errors(self.path):
+            rows = self._connection.execute(
+                "SELECT CAST(phase AS BLOB), count(*), max(score) FROM evaluations GROUP BY phase"
+            ).fetchall()
+        counts = {stored_text({"phase": phase}, "phase"): count for phase, count, _ in rows}
+        scores = [best for phase, _, best in rows if best is not None and phase.decode() in SEARCH_PHASES]
+        return counts, max(scores, default=None)
+
     def append(self, trials: Iterable[Trial]) -> None:
         """Add trials, all or none."""
         marks = ", ".join("?" * len(_COLUMNS))
@@ -276,7 +287,7 @@ class StudyStore:
                 raise JumpcadError(f"phase = {shown(phase)} is none of {', '.join(PHASES)}")
             score = None if record["score"] is None else stored_figure(record, "score")
             step, proposal = stored_count(record, "step"), stored_proposal(record, free)
-            if phase in LEARNING_PHASES and step and "theta" not in proposal:
+            if phase in LEARNING_PHASES and step % STEPS and "theta" not in proposal:
                 raise JumpcadError("proposal.theta: missing")
             return Trial(
                 phase, step, stored_count(record, "place"), stored_design(record),

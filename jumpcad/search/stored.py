@@ -78,6 +78,7 @@ class _Stage(TomlTable):
     method: Annotated[str, AfterValidator(_is_method)]
     evaluations: Count
     initial: Count = 0
+    widen: bool = False
 
 
 def _spread(finding: Any) -> Any:
@@ -154,8 +155,8 @@ def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
     """
     proposal: dict[str, Any] = _validated(_PROPOSAL.validate_json, "proposal", record["proposal"])
     thetas = proposal.get("theta", {})
-    if not isinstance(thetas, dict) or any(len(theta) != free + 2 for theta in thetas.values()):
-        raise JumpcadError(f"proposal.theta: must be lists of {free + 2} hyperparameters")
+    if not isinstance(thetas, dict) or any(not 3 <= len(theta) <= free + 2 for theta in thetas.values()):
+        raise JumpcadError(f"proposal.theta: must be lists of at most {free + 2} hyperparameters")
     return proposal
 
 

@@ -8,11 +8,11 @@ from typing import Any
 
 from jumpcad.design import Design
 from jumpcad.search.methods import METHODS
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.objective import COST, Evaluation
 from jumpcad.search.variant import Key, Variant
 from jumpcad.workshop.varied import Value
 
-PHASES = (*METHODS, "sample", "sweep", "margin", "bounds", "robust")
+PHASES = ("sample", "sweep", *METHODS, "widen", "margin", "bounds", "robust")
 """All phases, in the order in which a study goes through them; the last three examine designs near the best."""
 SEARCH_PHASES = PHASES[:-3]
 LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learns)
@@ -61,6 +61,11 @@ class Trial:
     def variant(self) -> Variant:
         """What was evaluated: the design, in the workshop with its values."""
         return Variant(self.design, self.workshop)
+
+    @property
+    def cost(self) -> int:
+        """How many robots were built and simulated for it."""
+        return int(self.evaluation.metrics.get(COST, 1.0))
 
     @property
     def position(self) -> tuple[int, int, int]:

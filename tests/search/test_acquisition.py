@@ -7,6 +7,8 @@ from jumpcad.search.acquisition import propose
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Posterior, Surrogate
 
+STIFFNESS = "stiffness_nmm_per_deg"
+
 
 def fitted_to(function, count=40):
     """Return the posterior of a function (n, 3) to (n,) of the unit cube."""
@@ -33,7 +35,7 @@ def test_choices_and_refusals_are_respected():
     proposal = propose(space, posterior, 0.0, np.empty((0, 3)), lambda variant: True, np.random.default_rng(1))
     assert proposal.variant.design.stiffness_nmm_per_deg == 19.0
     other = propose(
-        space, posterior, 0.0, np.empty((0, 3)), lambda v: v.design.stiffness_nmm_per_deg != 19.0, np.random.default_rng(1)
+        space, posterior, 0.0, np.empty((0, 3)), lambda v: v.value(STIFFNESS) != 19.0, np.random.default_rng(1)
     )
     assert other.variant.design.stiffness_nmm_per_deg == 8.0
     assert propose(space, posterior, 0.0, np.empty((0, 3)), lambda d: False, np.random.default_rng(1)) is None

@@ -16,6 +16,7 @@ from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
 from jumpcad.search.space import Space
+from jumpcad.search.start import first_points
 from jumpcad.search.surrogate import Posterior
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
@@ -64,9 +65,13 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
                 posterior = posterior.condition_on(proposal.unit)
         return proposals
 
+    start = len(evaluator.trials)
+
     def converged() -> bool:
+        if sum("theta" in trial.proposal for trial in evaluator.trials[start:]) < PATIENCE:
+            return False  # what earlier searches in another space promised says nothing
         gains = promised_gains([*evaluator.prior, *evaluator.trials])[-PATIENCE:]
-        return len(gains) == PATIENCE and max(gains) < task.least_gain
+        return max(gains) < task.least_gain
 
     run_steps(evaluator, "bo", task, proposer, converged)
 
@@ -90,13 +95,15 @@ def run_steps(
     evaluator: Evaluator, phase: str, task: Task, proposer: Proposer, ended: Callable[[], bool] = lambda: False
 ) -> None:
     """Evaluate the initial designs, then what `proposer` proposes, one batch per step, until the search has `ended`."""
-    space = evaluator.space
+    space, start = evaluator.space, len(evaluator.trials)
     if task.initial:
-        points = space.spread(task.initial, np.random.default_rng([task.seed, 1]))
-        evaluator.evaluate([space.to_variant(point) for point in points], phase, 0, limit=task.evaluations)
-    left = task.evaluations - sum(trial.phase == phase for trial in evaluator.trials)
+        points = first_points(evaluator, task.initial, np.random.default_rng([task.seed, 1]))
+        evaluator.evaluate(
+            [space.to_variant(point) for point in points], phase, task.first_step, limit=task.evaluations
+        )
+    left = task.evaluations - (len(evaluator.trials) - start)
     thetas: dict[str, Any] = {}
-    for step in itertools.count(1):
+    for step in itertools.count(task.first_step + 1):
         if left <= 0 or ended() or evaluator.expired():
             return
         count = min(task.batch, left)
@@ -130,8 +137,9 @@ def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[
 
 
 def known_trials(evaluator: Evaluator) -> list[Trial]:
-    """Return the trials to learn from: the prior study's and the evaluator's, each design once."""
-    return list({trial.key: trial for trial in [*evaluator.prior, *evaluator.trials]}.values())
+    """Return the trials to learn from: those of the prior study and of the evaluator in its space, each design once."""
+    trials = {trial.key: trial for trial in [*evaluator.prior, *evaluator.trials]}
+    return [trial for trial in trials.values() if evaluator.space.contains(trial.variant)]
 
 
 def learned_trials(space: Space, trials: Sequence[Trial], best: int = LEARNED_BEST) -> list[Trial]:
