@@ -1,18 +1,68 @@
-"""Fixtures for the tests of several packages, and the options `--all-installed` and `--costs`."""
+"""What several packages share: robots and bundles made once, and the options `--all-installed` and `--costs`."""
 
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from support.built import built
 from support.costs import Costs
 from support.robots import make_small_robot
 
+from jumpcad.bundle.export import export
 from jumpcad.robot import Robot
+from jumpcad.solids.skin import skin
+
+KEPT = 1000
+"""Skins kept, those of 17 robots: 80 MB."""
+
+
+@pytest.fixture(scope="session", autouse=True)
+def skins() -> Iterator[None]:
+    """Keep the skins of solids by their outlines: most solids of a robot are those of the robot before."""
+    known: dict[object, tuple[np.ndarray, np.ndarray]] = {}
+
+    def kept(heights_mm: Sequence[tuple[float, float]], contours_mm: Sequence[Sequence[np.ndarray]]) -> Any:
+        key = (tuple(heights_mm), tuple(tuple(contour.tobytes() for contour in slab) for slab in contours_mm))
+        if key not in known:
+            if len(known) == KEPT:
+                del known[next(iter(known))]  # the oldest
+            known[key] = skin(heights_mm, contours_mm)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("jumpcad.solids.stack.skin", kept)
+        yield
 
 
 @pytest.fixture(scope="session")
 def small_robot() -> Robot:
     """Kenan 2.0 made of a few parts."""
     return make_small_robot()
+
+
+@pytest.fixture(scope="session")
+def bundle_of(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Callable[[str], Path]:
+    """Return a function that gives a template's bundle without pictures, made once for all workers; not to be changed.
+
+    A worker that makes one while another does uses that of the first to finish.
+    """
+    own = tmp_path_factory.mktemp("bundles")
+    shared = (own if worker_id == "master" else own.parent.parent) / "of-templates"
+    shared.mkdir(exist_ok=True)
+
+    @cache
+    def made(name: str) -> Path:
+        if not (shared / name).exists():
+            export(built(name), own / name, pictures=False)
+            with suppress(OSError):
+                (own / name).rename(shared / name)
+        return shared / name
+
+    return made
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

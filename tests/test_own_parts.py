@@ -3,9 +3,8 @@
 import filecmp
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support.commands import exit_code_of
@@ -19,7 +18,6 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
-from jumpcad.solids.skin import skin
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import OWN_PARTS, load_workshop
 
@@ -38,22 +36,6 @@ arm_length_mm = 25.0
 rate_nmm_per_deg = 4.2
 source = "a shop"
 """
-
-
-@pytest.fixture(autouse=True, scope="module")
-def skins() -> Iterator[None]:
-    """Keep the skins of solids by their outlines: most solids of a robot are those of the robot before."""
-    known: dict[Any, Any] = {}
-
-    def kept(heights_mm: Sequence[tuple[float, float]], contours_mm: Sequence[Sequence[Any]]) -> Any:
-        key = (tuple(heights_mm), tuple(tuple(contour.tobytes() for contour in slab) for slab in contours_mm))
-        if key not in known:
-            known[key] = skin(heights_mm, contours_mm)
-        return known[key]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("jumpcad.solids.stack.skin", kept)
-        yield
 
 
 @pytest.fixture
@@ -111,6 +93,12 @@ def bearing(place: str, bore: float, outer: float, width: float, more: str = "")
     return f'[bought]\n{place} = "own"\n{more}[bearings.own]\nlike = "623"\nsource = "test"\n{size}'
 
 
+def both(one: str, other: str) -> str:
+    """Return a workshop with the parts of two: what is bought is one table."""
+    bought, _, parts = other.removeprefix("[bought]\n").partition("[")
+    return one.replace("[bought]\n", f"[bought]\n{bought}") + f"[{parts}"
+
+
 FITS = {
     "gear motor of 25 mm, shaft of 4 mm": large(),
     "square body of 12 mm": motor(width_mm=12.0),
@@ -122,12 +110,13 @@ FITS = {
     "shaft of 40 mm": motor(shaft_length_mm=40.0),
     "boss higher than the cap": motor(boss_length_mm=6.0, shaft_length_mm=14.0),
     "boss as wide as the body": motor(boss_mm=10.0),
-    "battery of 100 mm": battery(100.0, 40.0, 30.0),
-    "battery as wide as the plates are apart": battery(35.0, 37.0, 8.0),
-    "battery of 1 mm": battery(1.0, 1.0, 1.0),
-    "boards of 5 mm": boards(5.0, 4.0),
-    "bearing 693 in the hub": bearing("leg_bearing", 3.0, 8.0, 4.0),
-    "bearing 693 for the roller": bearing("roller", 3.0, 8.0, 4.0),
+    "battery of 100 mm, bearing 693 in the hub": both(
+        battery(100.0, 40.0, 30.0), bearing("leg_bearing", 3.0, 8.0, 4.0)
+    ),
+    "battery as wide as the plates are apart, bearing 693 for the roller": both(
+        battery(35.0, 37.0, 8.0), bearing("roller", 3.0, 8.0, 4.0)
+    ),
+    "battery of 1 mm, boards of 5 mm": both(battery(1.0, 1.0, 1.0), boards(5.0, 4.0)),
     "bearing hardly wider than the axle": bearing("leg_bearing", 3.0, 5.0, 2.0),
 }  # fmt: skip
 REFUSED = {

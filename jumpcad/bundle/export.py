@@ -3,7 +3,7 @@
 The same robot gives the same bytes.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,15 +17,18 @@ from jumpcad.bundle.joints import joint_facts
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
-from jumpcad.bundle.renders import RENDERS, all_pictures
+from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
 from jumpcad.bundle.wiring import wiring_svg
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
+from jumpcad.exporters.glb import write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
 from jumpcad.robot import Robot, require_name
+from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.engines import default_engine
 
 
 def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False) -> Bundle:
@@ -62,18 +65,39 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
 
 def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
     """Yield path and content of every file of a bundle but its manifest."""
+    seen = all_pictures(robot) if pictures else {}
+    paths: list[str] = []
+    glb: bytes | None = None
+    for path, content in _beside_report(robot, exporters, seen):
+        paths.append(path)
+        if pictures and path.endswith(".glb") and isinstance(content, bytes):
+            glb = content
+        yield path, content
+    yield "report.html", _page(robot, seen, glb, paths)
+
+
+def report_page(robot: Robot, files: Iterable[str] = ()) -> str:
+    """Return report.html alone, with links to files that lie beside it."""
+    return _page(robot, renders(robot), write_glb(robot), files)
+
+
+def _page(robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str]) -> str:
+    jump = simulate(robot, Settings(flight="simulated", trajectory=glb is not None), default_engine())
+    return write_report(robot, {name: seen[name] for name in RENDERS if name in seen}, jump, glb, tuple(files))
+
+
+def _beside_report(robot: Robot, exporters: Iterable[Exporter], seen: Mapping[str, bytes]) -> Files:
+    """Yield what the report links to, with the pictures that were seen."""
     yield DESIGN, robot.design.to_toml()
     yield WORKSHOP, robot.workshop.to_toml()
     for exporter in exporters:
         yield from exporter.files(robot)
     yield "bom.csv", write_bom(bill_of_materials(robot))
-    yield "assembly.md", write_guide(robot, pictures)
+    yield "assembly.md", write_guide(robot, bool(seen))
     yield "wiring.svg", wiring_svg(robot)
     yield from firmware_files(robot)
-    seen = all_pictures(robot) if pictures else {}
     for picture, png in seen.items():
         yield f"pictures/{picture}.png", png
-    yield "report.html", write_report(robot, {name: seen[name] for name in RENDERS if name in seen})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

@@ -4,12 +4,14 @@ Times follow from the gear train, the cam and the battery; thresholds from the b
 """
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import gpio, wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.files import templates_folder
+from jumpcad.files.markdown import plain
 from jumpcad.robot import Robot
 
 FOLDER = "firmware"
@@ -108,12 +110,10 @@ def _module(robot: Robot, values: Mapping[str, float | int | None]) -> str:
 def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -> str:
     chosen = chosen_parts(robot.workshop)
     facts = {
-        "CONTROLLER": chosen.controller.description,
+        "CONTROLLER": plain(chosen.controller.description),
         "WIND_S": f"{robot.layout.drive.train.winding_s:.1f}",
         "WIND_MAX_S": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
         "MIN_V": f"{values['BATTERY_MIN_V']:g}",
         "CAP": f"{100.0 * (values['PWM_CAP'] or 0.0):g}",
     }
-    for key, words in facts.items():
-        text = text.replace("{" + key + "}", words)
-    return text
+    return re.sub(r"\{([A-Z_]+)\}", lambda found: facts[found[1]], text)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials, euros
 from jumpcad.bundle.springs import spring_order
 from jumpcad.bundle.wiring import wiring_lines
+from jumpcad.files.markdown import plain
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import assembly_steps
@@ -64,16 +65,16 @@ def _table(head: str, items: Sequence[BillLine], printed: bool) -> Iterator[str]
         row = [item.name, str(item.quantity), *([item.material] * printed), f"{1000.0 * item.mass_kg:.2f}"]
         row += [duration(item.time_s) if item.time_s is not None else ""] * timed
         row += [euros(item.total_eur)] * priced
-        yield f"| {' | '.join(row)} |"
+        yield f"| {' | '.join(map(plain, row))} |"
 
 
 def _steps(robot: Robot, pictures: bool) -> Iterator[str]:
     for number, step in enumerate(assembly_steps(robot), start=1):
-        yield from ("", f"## {number}. {step.title}", "", step.text, "")
+        yield from ("", f"## {number}. {step.title}", "", plain(step.text), "")
         if pictures:
             yield from (f"![{step.title}](pictures/step-{number}.png)", "")
         for label, count in Counter(_label(shape) for shape in step.added if _counts(shape)).items():
-            yield f"- {count} × {label}"
+            yield f"- {count} × {plain(label)}"
 
 
 def _label(shape: Visual) -> str:

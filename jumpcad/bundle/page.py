@@ -1,53 +1,162 @@
-"""report.html: a self-contained page on one robot: pictures, figures, limits, parts.
+"""report.html: one file, without network, on one robot: verdict, motion in 3-D, limits, energy, how to make it.
 
-Plain HTML that is well-formed XML too. The same robot gives the same bytes.
+HTML that is well-formed XML too. The same robot and jump give the same bytes.
 """
 
 import base64
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
+from urllib.parse import quote
 
 from jumpcad.bundle.bom import BillLine, bill_of_materials, euros
+from jumpcad.bundle.limits import limits, tightest
+from jumpcad.bundle.viewer import viewer
 from jumpcad.checks import quick_findings
 from jumpcad.exporters.xml import allowed
-from jumpcad.findings import Finding
+from jumpcad.files.templates import templates_folder
 from jumpcad.robot import Robot
+from jumpcad.simulation.jump import Jump
+from jumpcad.version import __version__
 
-STYLE = """
-body { font: 15px/1.45 sans-serif; color: #222; max-width: 60em; margin: 2em auto; padding: 0 1em; }
-table { border-collapse: collapse; margin: 0.5em 0 1.5em; }
-th, td { text-align: left; padding: 0.15em 1.2em 0.15em 0; border-bottom: 1px solid #ddd; vertical-align: top; }
-td.number, th.number { text-align: right; white-space: nowrap; }
-figure { display: inline-block; width: 31%; margin: 0 1% 1em 0; }
-img { width: 100%; }
-.error { color: #b3322b; font-weight: bold; }
-.warning { color: #a8641b; font-weight: bold; }
-"""
-NUMERIC = ("quantity", "g each", "€", "margin", "value")
+NUMERIC = ("quantity", "g each", "€", "margin", "value", "mJ", "share")
 """Columns that are right-aligned."""
+ACCOUNT = {
+    "useful": "of the centre of mass: the jump",
+    "internal": "turning and swinging about the centre of mass",
+    "springs": "still in the springs",
+    "release": "lost between cam and roller",
+    "pins": "lost in the joints' friction",
+    "slip": "lost by slipping on the ground",
+    "contact": "lost in impacts, and the simulation's rounding",
+}
+"""The energy account of a jump in words."""
 
 
-def write_report(robot: Robot, pictures: Mapping[str, bytes]) -> str:
-    """Return the page; `pictures` are PNG files by what they show, and become part of it."""
+def write_report(
+    robot: Robot,
+    pictures: Mapping[str, bytes],
+    jump: Jump,
+    glb: bytes | None = None,
+    files: Iterable[str] = (),
+) -> str:
+    """Return the page.
+
+    Parameters
+    ----------
+    robot, jump
+        The robot and how it jumps, with its trajectory where the page shows the motion.
+    pictures
+        PNG files by what they show; they become part of the page.
+    glb
+        The robot's GLB file; without it there is no 3-D view.
+    files
+        Paths in the bundle that the page links to.
+    """
     name = escape(allowed(robot.name))
+    style = (templates_folder() / "report" / "style.css").read_text(encoding="ascii")
     return "\n".join(
         [
             "<!DOCTYPE html>",
             '<html lang="en">',
-            f'<head><meta charset="utf-8" /><title>{name}</title><style>{STYLE}</style></head>',
+            '<head><meta charset="utf-8" /><meta name="viewport" content="width=device-width, initial-scale=1" />',
+            f"<title>{name}</title><style>{style}</style></head>",
             "<body>",
             f"<h1>{name}</h1>",
+            *_verdict(robot, jump),
+            *(viewer(robot, jump, glb) if glb is not None else ()),
             *_pictures(pictures),
-            "<h2>Figures</h2>",
-            *_table(("figure", "value", "unit"), _figures(robot)),
-            *_limits(robot),
+            *limits(quick_findings(robot)),
+            *_energy(jump),
+            *_printing(robot, files),
             *_parts(robot),
+            *_downloads(files),
+            "<h2>Design and figures</h2>",
+            *_table(("figure", "value", "unit"), _figures(robot)),
+            f"<p>Made by jumpcad {escape(__version__)} from design.toml and workshop.toml.</p>",
             "</body>",
             "</html>",
             "",
         ]
     )
+
+
+def _verdict(robot: Robot, jump: Jump) -> Iterator[str]:
+    """Yield whether the robot jumps and how far, its mass and price, and the limits that it comes nearest to."""
+    if jump.ballistic_range_m is None or jump.com_rise_m is None:
+        yield f'<p class="error">It does not jump: {escape(jump.verdict)}.</p>'
+        shown = []
+    else:
+        far, high = 1000.0 * jump.ballistic_range_m, 1000.0 * jump.com_rise_m
+        yield f'<p class="verdict">It jumps {far:.0f} mm far; its centre of mass rises {high:.0f} mm.</p>'
+        shown = [("range", f"{far:.0f} mm"), ("rise", f"{high:.0f} mm")]
+    bill, train = bill_of_materials(robot), robot.layout.drive.train
+    shown += [
+        ("mass", f"{1000.0 * robot.mass_kg:.1f} g"),
+        ("energy in the springs", f"{1000.0 * robot.spring.energy_j:.0f} mJ"),
+        ("winding", f"{train.winding_s:.1f} s"),
+        ("electrical energy of a jump", f"{train.electrical_j:.2f} J"),
+    ]
+    if bill.cost_eur is not None:
+        shown.append(("price", f"{euros(bill.cost_eur)} € ({bill.known})"))
+    yield '<dl class="cards">'
+    yield from (f"<div><dt>{escape(term)}</dt><dd>{escape(value)}</dd></div>" for term, value in shown)
+    yield "</dl>"
+    yield from tightest(quick_findings(robot))
+
+
+def _energy(jump: Jump) -> Iterator[str]:
+    """Yield where the springs' energy is at take-off: a bar and a table."""
+    account = jump.energy_account_j
+    if account is None:
+        return
+    whole = sum(account.values())
+    yield "<h2>Where the energy goes</h2>"
+    yield f"<p>Of {1000.0 * whole:.1f} mJ in the springs, at take-off:</p>"
+    yield '<div class="stack">'
+    for number, (kind, energy) in enumerate(account.items()):
+        share = 100.0 * max(energy, 0.0) / whole
+        yield f'<span class="share share{number}" style="width: {share:.2f}%" title="{escape(kind)}"></span>'
+    yield "</div>"
+    rows = (
+        (kind, f"{1000.0 * energy:.1f}", f"{100.0 * energy / whole:.1f} %", ACCOUNT[kind])
+        for kind, energy in account.items()
+    )
+    yield from _table(("energy", "mJ", "share", "what it is"), rows)
+
+
+def _printing(robot: Robot, files: Iterable[str]) -> Iterator[str]:
+    """Yield the print settings in words, and the plates."""
+    process, workshop = robot.workshop.process, robot.workshop
+    walls = f"{process.perimeters} perimeters of {process.line_width_mm:g} mm"
+    infill = "solid" if process.infill == 1.0 else f"{100.0 * process.infill:g} % {process.infill_pattern} infill"
+    yield "<h2>Printing</h2>"
+    yield (
+        f"<p>Layers of {process.layer_height_mm:g} mm, the first {process.first_layer_mm:g} mm; {walls}; "
+        f"{process.top_layers} solid layers above and {process.bottom_layers} below; {infill}; nozzle of "
+        f"{workshop.printer.nozzle_mm:g} mm; no supports. Print every part as it lies in its file.</p>"
+    )
+    plates = [file for file in files if file.startswith("print/")]
+    if plates:
+        yield f"<p>Plates: {', '.join(_link(file) for file in plates)}.</p>"
+
+
+def _downloads(files: Iterable[str]) -> Iterator[str]:
+    """Yield links to the files of the bundle, by folder."""
+    folders: dict[str, list[str]] = {}
+    for file in files:
+        folders.setdefault(file.rpartition("/")[0], []).append(file)
+    if not folders:
+        return
+    yield "<h2>Files</h2>"
+    yield "<p>Links work where this page lies in its folder.</p>"
+    for folder, paths in folders.items():
+        yield f"<details><summary>{escape(allowed(folder or 'here'))} ({len(paths)})</summary>"
+        yield f"<p>{', '.join(_link(path) for path in paths)}</p></details>"
+
+
+def _link(path: str) -> str:
+    return f'<a href="{escape(quote(path))}">{escape(allowed(path.rpartition("/")[2]))}</a>'
 
 
 def _pictures(pictures: Mapping[str, bytes]) -> Iterator[str]:
@@ -75,24 +184,6 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
     yield "… of it, the boards' while winding", f"{train.boards_j:.2f}", "J"
     yield "motor current, mean", f"{1000.0 * train.mean_current_a:.0f}", "mA"
     yield "motor current, peak", f"{1000.0 * train.peak_current_a:.0f}", "mA"
-
-
-def _limits(robot: Robot) -> Iterator[str]:
-    """Yield the quick checks, the violated ones first."""
-    order = ("error", "warning", "info")
-    found = sorted(quick_findings(robot), key=lambda finding: order.index(finding.severity))
-    violated = sum(finding.severity != "info" for finding in found)
-    yield "<h2>Limits</h2>"
-    yield f"<p>{violated} of {len(found)} are violated. <code>jumpcad check</code> also checks"
-    yield "printability, and interference over the whole motion, which takes longer.</p>"
-    yield from _table(("limit", "margin", "unit", "found"), (_limit(finding) for finding in found))
-
-
-def _limit(finding: Finding) -> Sequence[str]:
-    words = (
-        finding.message if finding.severity == "info" else f"{finding.severity}: {finding.message}: {finding.remedy}"
-    )
-    return finding.name, f"{finding.margin:.3g}", finding.unit, words
 
 
 def _parts(robot: Robot) -> Iterator[str]:

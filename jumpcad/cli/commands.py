@@ -10,7 +10,20 @@ import typer
 from pydantic import ValidationError
 from typer.exceptions import TyperException
 
-from jumpcad.cli import bundle, check, coupon, designs, explore, optimize, reproduce, simulate, slicing, study
+from jumpcad.cli import (
+    bundle,
+    check,
+    coupon,
+    designs,
+    explore,
+    optimize,
+    report,
+    reproduce,
+    simulate,
+    slicing,
+    studio,
+    study,
+)
 from jumpcad.cli.output import OutputClosed, complain, standard_output
 from jumpcad.errors import JumpcadError
 
@@ -21,7 +34,7 @@ OUTPUT_CLOSED = 141
 _parser = cache(typer.main.get_command)
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
-for module in (designs, bundle, check, slicing, coupon, simulate, reproduce, explore, optimize, study):
+for module in (designs, bundle, report, check, slicing, coupon, simulate, reproduce, explore, optimize, study, studio):
     module.register(app)
 
 
@@ -46,7 +59,9 @@ def run(arguments: Sequence[str]) -> int:
         return complain(f"{usage} (see jumpcad --help)", WRONG_REQUEST) if usage else 0
     except JumpcadError as error:
         return complain(str(error), error.exit_code)
-    except Exception:
+    except KeyboardInterrupt:
+        raise
+    except BaseException:  # those of compiled libraries too, which are no Exception
         print(traceback.format_exc(), end="", file=sys.stderr)
         return BUG
 

@@ -50,7 +50,7 @@ def complain(message: str, exit_code: int) -> int:
     if sys.stderr is not None:
         try:
             print(f"jumpcad: {shortened(escaped(message))}", file=sys.stderr, flush=True)
-        except OSError:  # standard error is closed too
+        except (OSError, ValueError):  # standard error is closed too
             _discard(sys.stderr)
     return exit_code
 

@@ -4,6 +4,7 @@ Terminals have the names printed on the boards. Pins of the controller are chose
 workshop (`[bought.pins]`).
 """
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -22,6 +23,7 @@ SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": ""}
 """Signals of the controller in the order in which they get their pins, and what a pin must be able to do."""
 AVOIDED = ("strapping", "boot_log")
 """What makes a pin unfit: its level at start chooses how the chip boots, or the chip writes on it."""
+GPIO = re.compile("gpio([0-9]{1,3})")
 COLOURS = {"supply": "red", "logic": "orange", "ground": "black", "motor": "blue", "signal": "yellow"}
 
 
@@ -92,8 +94,8 @@ def gpio(board: Board, pin: str) -> int:
         If it has none.
     """
     for function in board.pins.get(pin, ()):
-        if function.startswith("gpio") and function[4:].isdigit():
-            return int(function[4:])
+        if found := GPIO.fullmatch(function):
+            return int(found[1])
     raise CannotBuildError(f"{board.name} has no GPIO at {pin}: name another pin in [bought.pins]")
 
 
@@ -175,7 +177,7 @@ def _pins(controller: Board, wanted: list[str], named: Mapping[Any, str]) -> dic
         free = [
             name
             for name, functions in controller.pins.items()
-            if any(f.startswith("gpio") for f in functions)
+            if any(map(GPIO.fullmatch, functions))
             and not set(AVOIDED) & set(functions)
             and name not in pins.values()
             and (not SIGNALS[signal] or SIGNALS[signal] in functions)

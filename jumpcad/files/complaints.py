@@ -66,12 +66,14 @@ def shown(value: Any) -> str:
         text = " ".join(repr(value).split()) if not isinstance(value, str) else repr(value)
     except (ValueError, RecursionError):  # more than 4300 digits, or a value within itself
         return "a value too long to show"
+    except Exception:  # of a class of the user's
+        return "a value that cannot be shown"
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
 
 
 def described(value: Any) -> str:
     """Return a value and its type, short enough for one line."""
-    return f"{shown(value)} ({type(value).__name__})" if value is not None else "None"
+    return f"{shown(value)} ({type(value).__name__[:LONGEST]})" if value is not None else "None"
 
 
 def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:

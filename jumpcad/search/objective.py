@@ -9,7 +9,8 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.findings import Finding, errors
-from jumpcad.search.own_objective import SUFFIX, checked, code_hash, load_function, name_of, require_function
+from jumpcad.search.code_hash import code_hash
+from jumpcad.search.own_objective import SUFFIX, checked, load_function, name_of, require_function
 
 COST = "evaluations"
 """Figure of an evaluation that took several robots: how many."""

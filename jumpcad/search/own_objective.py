@@ -4,11 +4,16 @@ Scores are computed by the process that runs the search, so the function needs n
 hash of the function's code and of the values that it uses; another function is another study.
 """
 
-import hashlib
+import inspect
+import math
+import os
+import random
 import runpy
+import sys
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, redirect_stdout, suppress
 from pathlib import Path
-from types import CodeType, FunctionType, ModuleType
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -17,6 +22,7 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
 from jumpcad.files.names import NAME
+from jumpcad.files.outputs import require_path
 
 SUFFIX = ".py"
 LARGEST = 1e12
@@ -35,11 +41,15 @@ def load_function(place: str) -> Callable[..., Any]:
     file, _, name = place.rpartition(":")
     if Path(file).suffix != SUFFIX or not name.isidentifier():
         raise JumpcadError(f"{shown(place)}: give an own objective as FILE{SUFFIX}:FUNCTION")
-    if not Path(file).is_file():
+    require_path(Path(file))
+    if not os.path.isfile(file):
         raise JumpcadError(f"{shown(file)}: no such file, so there is no objective {name}")
     try:
-        defined = runpy.run_path(file, run_name="objective")
-    except (Exception, SystemExit) as error:
+        with _undisturbed():
+            defined = runpy.run_path(file, run_name="objective")
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
         raise JumpcadError(f"{shown(file)}: does not run: {_told(error)}") from None
     if name not in defined:
         raise JumpcadError(f"{shown(file)}: defines no {name}{did_you_mean(name, defined)}")
@@ -57,6 +67,8 @@ def require_function(function: Any) -> FunctionType:
     """
     if not isinstance(function, FunctionType):
         raise JumpcadError(f"an own objective takes a function made by `def` or `lambda`, not {described(function)}")
+    if inspect.isgeneratorfunction(function) or inspect.iscoroutinefunction(function):
+        raise JumpcadError(f"the objective {name_of(function)} returns no number: leave out `async` and `yield`")
     return function
 
 
@@ -79,60 +91,56 @@ def checked(function: FunctionType) -> Callable[[Mapping[str, float]], float]:
 
     def figure(metrics: Mapping[str, float]) -> float:
         try:
-            value: Any = function(dict(metrics))
+            with _undisturbed():
+                value: Any = function(dict(metrics))
+                number = _number(value)
+        except KeyboardInterrupt:
+            raise
         except KeyError as error:
-            key = shown(str(error.args[0] if error.args else error))
+            key = shown(error.args[0] if error.args else "")
             raise refused(f"asks for {key}; a jump of this model has {', '.join(metrics)}") from None
-        except (Exception, SystemExit) as error:
+        except BaseException as error:
             raise refused(f"fails for a design that jumps: {_told(error)}") from None
-        if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
+        if number is None:
             raise refused(f"returns {described(value)}, not a number")
-        if not -LARGEST <= value <= LARGEST:  # nor is NaN
+        if not -LARGEST <= number <= LARGEST:  # nor is NaN
             raise refused(f"returns {shown(value)}, not a number within ±{LARGEST:g}")
-        return float(value)
+        return number
 
     return figure
 
 
-def code_hash(function: FunctionType) -> str:
-    """Return a SHA-256 (hexadecimal) of a function's code, and of the values and functions that it uses.
+def _number(value: Any) -> float | None:
+    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
+        return None
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
-    Comments, names of files and line numbers do not count; modules count by name, other objects as `repr` shows them.
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Run own code so that neither output nor search depend on what it does besides.
+
+    What it prints goes to standard error; the current folder and the state of random numbers, which the genetic
+    algorithm uses, are as they were.
     """
-    found = hashlib.sha256()
-    for part in _parts(function, set()):
-        found.update(f"{len(part)} {part}".encode("utf-8", "backslashreplace"))
-    return found.hexdigest()
-
-
-def _parts(value: Any, seen: set[int]) -> Iterator[str]:
-    if isinstance(value, FunctionType):
-        if id(value) in seen:
-            return
-        seen.add(id(value))
-        yield from _parts(value.__code__, seen)
-        used = [value.__globals__[name] for name in sorted(_names(value.__code__)) if name in value.__globals__]
-        cells = [cell.cell_contents for cell in value.__closure__ or ()]
-        for one in (*used, *cells, value.__defaults__, value.__kwdefaults__):
-            yield from _parts(one, seen)
-    elif isinstance(value, CodeType):
-        yield from (value.co_code.hex(), repr(value.co_names), repr(value.co_freevars), repr(value.co_varnames))
-        for constant in value.co_consts:
-            yield from _parts(constant, seen)
-    elif isinstance(value, ModuleType):
-        yield value.__name__
-    elif isinstance(value, set | frozenset):
-        yield repr(sorted(map(repr, value)))
-    else:
-        yield repr(value)
-
-
-def _names(code: CodeType) -> set[str]:
-    """Return the names that a piece of code, and those within it, look up."""
-    inner = (_names(constant) for constant in code.co_consts if isinstance(constant, CodeType))
-    return set(code.co_names).union(*inner)
+    here, drawn, drawn_by_numpy = os.getcwd(), random.getstate(), np.random.get_state()  # noqa: NPY002
+    try:
+        with redirect_stdout(sys.stderr):
+            yield
+    finally:
+        random.setstate(drawn)
+        np.random.set_state(drawn_by_numpy)  # noqa: NPY002
+        with suppress(OSError):
+            os.chdir(here)
 
 
 def _told(error: BaseException) -> str:
     """Return an error in one line."""
-    return without_controls(f"{type(error).__name__}: {error}".removesuffix(": "))[:120]
+    try:
+        text = f"{type(error).__name__}: {error}".removesuffix(": ")
+    except Exception:  # of a class whose text fails too
+        text = type(error).__name__
+    return without_controls(text)[:120]

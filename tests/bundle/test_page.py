@@ -1,18 +1,24 @@
 """report.html: valid, self-contained, and correct for the robot."""
 
 import base64
+import json
 import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from html.parser import HTMLParser
+from typing import Any
 
+import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from jumpcad.building import build
 from jumpcad.bundle.page import write_report
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.simulation import Jump, Settings, simulate
 
 PNG = b"\x89PNG\r\n\x1a\n and so on"
 
@@ -20,6 +26,11 @@ PNG = b"\x89PNG\r\n\x1a\n and so on"
 @pytest.fixture(scope="module")
 def robot() -> Robot:
     return build(load_design("kenan-2.0"), name="kenan-2.0")
+
+
+@pytest.fixture(scope="module")
+def jump(robot: Robot) -> Jump:
+    return simulate(robot, Settings(flight="simulated", trajectory=True))
 
 
 def parsed(page: str) -> ElementTree.Element:
@@ -32,8 +43,8 @@ def cells(page: str) -> dict[str, list[str]]:
     return {row[0]: row for row in rows if row}
 
 
-def test_is_closed_html_that_asks_for_nothing_else(robot: Robot) -> None:
-    page = write_report(robot, {"rest": PNG})
+def test_is_closed_html_that_asks_for_nothing_else(robot: Robot, jump: Jump) -> None:
+    page = write_report(robot, {"rest": PNG}, jump)
     opened: list[str] = []
 
     class Reader(HTMLParser):
@@ -46,13 +57,13 @@ def test_is_closed_html_that_asks_for_nothing_else(robot: Robot) -> None:
     Reader(convert_charrefs=True).feed(page)
     assert opened == []
     assert re.findall(r"https?:|src=\"(?!data:)|href=|<script", page) == []
-    assert len(page) < 30_000
+    assert len(page) < 40_000
     (image,) = parsed(page).iter("img")
     assert base64.b64decode(image.attrib["src"].removeprefix("data:image/png;base64,")) == PNG
 
 
-def test_says_what_the_robot_is(robot: Robot) -> None:
-    found = cells(write_report(robot, {}))
+def test_says_what_the_robot_is(robot: Robot, jump: Jump) -> None:
+    found = cells(write_report(robot, {}, jump))
     assert float(found["mass"][1]) == pytest.approx(1000.0 * robot.mass_kg, abs=0.05)
     assert float(found["spring energy"][1]) == pytest.approx(0.133, abs=0.001)  # the study's figure for Kenan 2.0
     assert {finding.name for finding in constraint_findings(robot)} <= set(found)
@@ -61,17 +72,51 @@ def test_says_what_the_robot_is(robot: Robot) -> None:
     assert found["electronics_tray"][2] == "2"
 
 
-def test_what_is_violated_stands_out_and_names_are_escaped(robot: Robot) -> None:
+def test_what_is_violated_stands_out_and_names_are_escaped(robot: Robot, jump: Jump) -> None:
     workshop = robot.workshop
     assert workshop is not None
     soft = workshop.model_copy(update={"safety": workshop.safety.model_copy(update={"steel_yield_mpa": 20.0})})
-    page = write_report(replace(robot, name="a <b> & c", workshop=soft), {})
+    page = write_report(replace(robot, name="a <b> & c", workshop=soft), {}, jump)
     assert parsed(page).findtext("body/h1") == "a <b> & c"
     broken = [row for row in parsed(page).iter("tr") if row.get("class") == "error"]
     assert "leg_axle_strength" in {row[0].text for row in broken}
-    assert "error: the leg's axle, springs loaded" in (broken[0][3].text or "")
+    assert "error: the leg's axle, springs loaded" in (broken[0][2].text or "")
 
 
-def test_same_bytes_for_the_same_robot(robot: Robot) -> None:
+def test_same_bytes_for_the_same_robot(robot: Robot, jump: Jump) -> None:
     again = build(load_design("kenan-2.0"), name="kenan-2.0")
-    assert write_report(robot, {"rest": PNG}) == write_report(again, {"rest": PNG})
+    assert write_report(robot, {"rest": PNG}, jump, b"glb") == write_report(again, {"rest": PNG}, jump, b"glb")
+
+
+def test_the_energy_account_of_the_jump_is_told_and_adds_up(robot: Robot, jump: Jump) -> None:
+    found = cells(write_report(robot, {}, jump))
+    account = jump.energy_account_j
+    assert account is not None
+    told = sum(float(found[kind][1]) for kind in account)
+    assert told == pytest.approx(1000.0 * robot.spring.energy_j, abs=0.5)
+
+
+def viewer_data(page: str) -> dict[str, Any]:
+    (data,) = (script for script in parsed(page).iter("script") if script.get("id") == "viewer-data")
+    found: dict[str, Any] = json.loads(data.text or "")
+    return found
+
+
+def test_the_motion_begins_at_rest_winds_the_springs_and_ends_in_flight(robot: Robot, jump: Jump) -> None:
+    data = viewer_data(write_report(robot, {}, jump, b"glb"))
+    assert data["phase"] == sorted(data["phase"], key=["winding", "drop", "push-off", "flight"].index)
+    assert np.all(np.diff(data["show_s"]) >= 0.0)
+    for moment, loaded in ((0, 0.0), (data["phase"].index("drop"), 1.0)):
+        for body, pose in body_poses(robot, loaded).items():
+            seven = data["frames"][body][moment]
+            np.testing.assert_allclose(seven[:3], pose[:3, 3], atol=2e-5)
+            np.testing.assert_allclose(Rotation.from_quat(seven[3:]).as_matrix(), pose[:3, :3], atol=5e-5)
+    path = np.array(data["com_m"])[np.array(data["phase"]) == "flight"]
+    times = np.array(data["time_s"])[np.array(data["phase"]) == "flight"]
+    assert np.polyfit(times, path[:, 1], 2)[0] == pytest.approx(-9.81 / 2.0, rel=0.02)
+
+
+def test_the_page_links_to_the_files_beside_it(robot: Robot, jump: Jump) -> None:
+    page = write_report(robot, {}, jump, None, ["bom.csv", "print/plate 1.3mf"])
+    links = [link.get("href") for link in parsed(page).iter("a")]
+    assert {"bom.csv", "print/plate%201.3mf"} == set(links)

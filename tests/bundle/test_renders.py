@@ -27,8 +27,8 @@ def test_exploding_keeps_the_order_across_the_robot(small_robot: Robot) -> None:
     moved = dict(zip((thing.name for thing in things), exploded(things, poses), strict=True))
     offset = {name: moved[name][1, 3] - pose[1, 3] for name, pose in zip(moved, poses, strict=True)}
     assert offset["leg_axle"] == offset["main_leg"] == 0.0
-    assert 0.0 < offset["roller"] < offset["body_plate_left"] < offset["collar_1"]
-    assert offset["collar_2"] < offset["body_plate_right"] < 0.0
+    assert 0.0 < offset["roller"] < offset["body_plate_left"] < offset["ring_1"]
+    assert offset["ring_2"] < offset["body_plate_right"] < 0.0
 
 
 def test_the_jump_is_an_endless_gif_of_few_colours(small_robot: Robot) -> None:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import pytest
@@ -12,7 +13,7 @@ from jumpcad.checks import check
 from jumpcad.checks.stop import stop_findings
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, errors
 from jumpcad.layout.stop import stop_angle_rad
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import Robot
@@ -26,6 +27,13 @@ def workshop(**body: Any) -> Workshop:
 
 def found(robot: Robot) -> dict[str, Finding]:
     return {finding.name: finding for finding in stop_findings(robot)}
+
+
+@cache
+def solid_kenan() -> Robot:
+    """Return Kenan 2.0 of solid plastic, whose sections are those of a handbook."""
+    solid = load_workshop().process.model_copy(update={"infill": 1.0})
+    return build(load_design("kenan-2.0"), load_workshop().model_copy(update={"process": solid}))
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -52,8 +60,7 @@ def test_ears_are_bent_like_a_cantilever() -> None:
 
 def test_the_leg_is_a_beam_on_hub_and_pad() -> None:
     """A load F at the pad, held at the hub and, by inertia, at the ankle: M = F·r·(1 - r/l) (any handbook)."""
-    solid = load_workshop().process.model_copy(update={"infill": 1.0})
-    robot = build(load_design("kenan-2.0"), load_workshop().model_copy(update={"process": solid}))
+    robot = solid_kenan()
     radius, length, sections = robot.layout.stop.radius_mm, robot.design.l2_mm, robot.layout.sections
     moment = 2.0 * robot.stop_blow.force_n * radius * (1.0 - radius / length)
     height = sections.leg_root_mm + radius / length * (sections.leg_tip_mm - sections.leg_root_mm)
@@ -61,8 +68,7 @@ def test_the_leg_is_a_beam_on_hub_and_pad() -> None:
 
 
 def test_the_bar_of_solid_plastic_is_a_beam_on_two_supports() -> None:
-    solid = load_workshop().process.model_copy(update={"infill": 1.0})
-    robot = build(load_design("kenan-2.0"), load_workshop().model_copy(update={"process": solid}))
+    robot = solid_kenan()
     low, high = robot.layout.lateral.inside
     moment = 2.0 * robot.stop_blow.force_n * (high - low - 6.0 / 2.0) / 4.0
     assert found(robot)["stop_strength"].value == pytest.approx(6.0 * moment / (8.0 * (6.0 - 0.6) ** 2))
@@ -107,7 +113,7 @@ def test_a_pad_that_gives_too_much_is_an_error() -> None:
     shop = load_workshop()
     jelly = shop.catalogue.pads["rubber-2"].model_copy(update={"modulus_mpa": 0.5, "name": "jelly"})
     shop = workshop(stop_pad="jelly").model_copy(update={"pads": {"jelly": jelly}})
-    failed = {finding.name for finding in check(build(load_design("best-bo"), shop)) if finding.severity == "error"}
+    failed = {finding.name for finding in errors(stop_findings(build(load_design("best-bo"), shop)))}
     assert {"stop_pad", "stop_clearance"} <= failed
 
 
@@ -125,7 +131,7 @@ def test_the_stop_is_where_the_workshop_wants_it(angle: float) -> None:
     robot = build(load_design("kenan-2.0"), workshop(stop_deg=angle))
     assert robot.stop is not None
     assert math.degrees(robot.stop.angle_rad) == pytest.approx(angle)
-    assert [finding for finding in check(robot) if finding.severity == "error"] == []
+    assert errors(check(robot)) == []
 
 
 def test_bare_feet_are_allowed_and_stand_on_plastic() -> None:

@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 
+from support.commands import interruptible
 from support.searches import QUICK, data, run
 from typer.testing import CliRunner
 
@@ -64,7 +65,12 @@ def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):
     command = [*JUMPCAD, "optimize", "ga", "--model", "capsule", "--evaluations", "400", "--study", "s.db", "--json",
                "--settings", "fine"]  # fmt: skip
     process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=interruptible,
     )
     deadline = time.monotonic() + 60.0
     while time.monotonic() < deadline:

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from support.commands import Run
+from support.commands import Run, interruptible
 
 from jumpcad.cli.output import escaped
 from jumpcad.design import load_design
@@ -97,7 +97,7 @@ main()
 def test_an_interrupt_while_modules_load_is_exit_code_130(tmp_path: Path, module: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", PRESSED.format(module=module)], capture_output=True, text=True, cwd=tmp_path,
-        env=SURROUNDINGS,
+        env=SURROUNDINGS, preexec_fn=interruptible,
     )  # fmt: skip
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "jumpcad: interrupted\n")
 

@@ -45,7 +45,7 @@ def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(run: Run, bu
     found = json.loads(out)
     assert found["ignored"] == {}
     parts = {part["name"]: part for part in found["parts"]}
-    assert set(parts) == {"body_plate_left", "front_link", "collar"}
+    assert set(parts) == {"body_plate_left", "front_link", "ring"}
     assert all(abs(part["difference"]) < 0.06 for part in parts.values())
     for plate in found["plates"]:  # sliced as a whole: the same plastic; small parts need not cool while others print
         on_it = [part for part in parts.values() if part["material"] == plate["material"]]
@@ -66,8 +66,8 @@ def test_grams_and_times_are_told_in_tables(run: Run, bundle: Path, pretend: Cal
     # 100 mm of filament of 1.75 mm are 0.24053 cm³
     petg, pla = (f"{0.24053 * density:.2f}" for density in (1.27, 1.24))
     rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line}
-    assert rows["collar"][:3] == ["4", "PETG", petg]
-    assert rows["collar"][-2:] == ["1:02", "h"]
+    assert rows["ring"][:3] == ["4", "PETG", petg]
+    assert rows["ring"][-2:] == ["1:02", "h"]
     assert rows["plate-1-PLA"] == ["PLA", pla, "1:02", "h"]
     assert rows["all"] == ["0.60", "2:05", "h"]
     assert rows["slicer"] == ["PrusaSlicer", "2.9.1"]
@@ -80,10 +80,10 @@ def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, prete
     assert (code, err) == (0, "")
     assert "written   the times, into bom.csv and assembly.md of frog" in out
     lines = {line["item"]: line for line in csv.DictReader((bundle / "bom.csv").open())}
-    assert lines["collar"]["print_time_s"] == lines["plate-1-PLA"]["print_time_s"] == "3750"
+    assert lines["ring"]["print_time_s"] == lines["plate-1-PLA"]["print_time_s"] == "3750"
     assert {line["print_time_s"] for line in lines.values() if line["kind"] == "bought"} == {""}
     assert [line["print_time_s"] for line in lines.values() if line["kind"] == "total"] == ["7500"]
-    assert "| collar | 4 | PETG | 0.12 | 1:02 h |" in (bundle / "assembly.md").read_text()
+    assert "| ring | 4 | PETG | 0.12 | 1:02 h |" in (bundle / "assembly.md").read_text()
     assert verify(bundle) == []
     before, after = (open_bundle(folder).manifest for folder in (built, bundle))
     changed = {path for path in after["files"] if after["files"][path] != before["files"][path]}
@@ -181,11 +181,11 @@ def test_a_program_that_cannot_be_run_is_one_line(run: Run, bundle: Path, preten
 def test_changed_and_missing_files_are_named(run: Run, bundle: Path, tmp_path: Path) -> None:
     broken = tmp_path / "broken"
     shutil.copytree(bundle, broken)
-    (broken / "stl" / "collar.stl").unlink()
+    (broken / "stl" / "ring.stl").unlink()
     (broken / "workshop.toml").write_text("")
     code, out, err = run("slice", "broken")
     assert (code, out) == (2, "")
-    assert "stl/collar.stl: missing" in err
+    assert "stl/ring.stl: missing" in err
     assert "workshop.toml: changed" in err
     assert err.count("\n") == 1
 

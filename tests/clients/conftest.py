@@ -1,19 +1,28 @@
 """Bundles for independent programs: those of all templates, and one made of a few parts, asymmetric on purpose."""
 
-import pytest
-from support.clients import Case
-from support.robots import make_small_robot
+from collections.abc import Callable
+from pathlib import Path
 
-from jumpcad.building import build
+import pytest
+from support.built import built
+from support.clients import Case
+
 from jumpcad.bundle.export import export
-from jumpcad.design import load_design
+from jumpcad.bundle.manifest import open_bundle
+from jumpcad.robot import Robot
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
 
 
 @pytest.fixture(scope="session", params=["lopsided", *TEMPLATES])
-def case(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Case:
+def case(
+    request: pytest.FixtureRequest,
+    small_robot: Robot,
+    bundle_of: Callable[[str], Path],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Case:
     """A robot with its bundle."""
     name = request.param
-    robot = build(load_design(name), name=name) if name in TEMPLATES else make_small_robot("kenan-2.0")
-    return Case(robot, export(robot, tmp_path_factory.mktemp("bundles") / robot.name, pictures=False))
+    if name in TEMPLATES:
+        return Case(built(name), open_bundle(bundle_of(name)))
+    return Case(small_robot, export(small_robot, tmp_path_factory.mktemp("bundles") / small_robot.name, pictures=False))

@@ -1,24 +1,18 @@
 """From the exported files alone: nothing meets anything, from loaded springs to the stop and its pad's give."""
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from clients.clearances import Bundle
 
-from jumpcad.building import build
-from jumpcad.bundle.export import export
-from jumpcad.design import load_design
-
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
 
 
 @pytest.fixture(scope="module", params=TEMPLATES)
-def bundle(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Bundle:
-    name = request.param
-    folder = tmp_path_factory.mktemp("clearances") / name
-    export(build(load_design(name), name=name), folder, pictures=False)
-    return Bundle(Path(folder))
+def bundle(request: pytest.FixtureRequest, bundle_of: Callable[[str], Path]) -> Bundle:
+    return Bundle(bundle_of(request.param))
 
 
 def test_nothing_meets_anything_in_sixty_positions(bundle: Bundle) -> None:

@@ -8,9 +8,8 @@ import math
 
 import numpy as np
 import pytest
+from support.built import built
 
-from jumpcad.building import build
-from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import slice_part, slicer_program, slicer_settings
@@ -88,7 +87,7 @@ def test_mass_within_six_and_inertia_within_five_percent(name, infill, tmp_path)
 
 @needs_slicer
 def test_every_part_of_a_robot_agrees(tmp_path):
-    robot = build(load_design("kenan-2.0"), WORKSHOP)
+    robot = built("kenan-2.0")
     assert len(robot.parts) > 8
     assert 0.15 < WORKSHOP.process.infill < 1.0
     for part in robot.parts:
@@ -106,7 +105,7 @@ def test_small_parts_agree_in_other_workshops(name, tmp_path):
     their ends along the perimeters, which the model takes at a share of the border.
     """
     workshop = load_workshop(name)
-    robot = build(load_design("kenan-2.0"), workshop)
+    robot = built("kenan-2.0", name)
     within = {"front_spacer_left": 0.03, "motor_pinion": 0.03, "motor_cap": 0.03, "cam": 0.06}
     for part in (part for part in robot.parts if part.name in within):
         stl = tmp_path / f"{part.name}.stl"

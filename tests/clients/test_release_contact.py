@@ -6,25 +6,18 @@ energy is 0.2 % higher for kenan-2.0 and the same for best-ga, its kick 12 % low
 """
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from clients.release_contact import Contact
 
-from jumpcad.building import build
-from jumpcad.bundle.export import export
-from jumpcad.design import load_design
-
-
-def exported(name: str, folder: Path) -> Contact:
-    """Return the contact simulation of a template's bundle."""
-    export(build(load_design(name), name=name), folder, pictures=False)
-    return Contact(folder)
-
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
-def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(name: str, tmp_path: Path) -> None:
-    contact = exported(name, tmp_path / name)
+def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(
+    name: str, bundle_of: Callable[[str], Path]
+) -> None:
+    contact = Contact(bundle_of(name))
     said = contact.files.manifest["drive"]["release"]
     assert math.degrees(contact.play) == pytest.approx(said["free_play_deg"], abs=0.1)
     outcomes = [contact.run(motor) for motor in said["assumed"]]
@@ -37,9 +30,9 @@ def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(name: str, 
     assert kick < said["kick_limit_nm"]
 
 
-def test_too_little_play_loses_more_and_kicks_harder(tmp_path: Path) -> None:
+def test_too_little_play_loses_more_and_kicks_harder(bundle_of: Callable[[str], Path]) -> None:
     """With 5° the cam meets the end of its play while the roller is on its corner."""
-    contact = exported("best-ga", tmp_path / "robot")
+    contact = Contact(bundle_of("best-ga"))
     said = contact.files.manifest["drive"]["release"]
     short = contact.run(said["assumed"][1], math.radians(5.0), seconds=0.06)
     assert short.energy_ratio < said["energy_ratio_with_bending"] - 0.05

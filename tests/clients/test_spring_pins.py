@@ -1,6 +1,8 @@
 """A program that knows only the bundle rebuilds the springs: their arms meet their pins, their hands close."""
 
 import json
+import shutil
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +23,13 @@ VARIANTS: dict[str, dict[str, dict[str, Any]]] = {
 
 
 @pytest.fixture(scope="module", params=VARIANTS)
-def bundle(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def bundle(
+    request: pytest.FixtureRequest, bundle_of: Callable[[str], Path], tmp_path_factory: pytest.TempPathFactory
+) -> Path:
     """A bundle of a template, in the default workshop with other springs."""
     workshop, name = load_workshop(), request.param.split()[0]
+    if not VARIANTS[request.param]:
+        return Path(shutil.copytree(bundle_of(name), tmp_path_factory.mktemp("bundle") / "it"))
     for table, values in VARIANTS[request.param].items():
         workshop = workshop.model_copy(update={table: getattr(workshop, table).model_copy(update=values)})
     robot = build(load_design(name), workshop, name)

@@ -8,7 +8,7 @@ from support.limits import default_limits
 
 from jumpcad.building import build
 from jumpcad.catalogue import StockSpring, load_catalogue
-from jumpcad.checks import check
+from jumpcad.checks import check, constraint_findings
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import TorsionSpring
 from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
@@ -42,12 +42,12 @@ def test_two_of_them_are_the_robots_stiffness_and_a_finding_says_both(robot: Rob
     assert robot.spring.stiffness_nm_per_rad == pytest.approx(2.0 * 26.36e-3 * 180.0 / math.pi)
     assert robot.spring.energy_j == pytest.approx(0.5 * robot.spring.stiffness_nm_per_rad * KENAN.compression_rad**2)
     assert robot.spring.one_sided
-    (finding,) = (found for found in check(robot) if found.name == "spring_rate")
+    (finding,) = (found for found in constraint_findings(robot) if found.name == "spring_rate")
     assert finding.severity == "info"
     assert "52.72 N·mm/°" in finding.message
     assert "asks for 9.20" in finding.message
     assert robot.design == KENAN
-    assert "spring_rate" not in {found.name for found in check(build(KENAN))}
+    assert "spring_rate" not in {found.name for found in constraint_findings(build(KENAN))}
 
 
 def test_a_stock_spring_can_be_built_in(robot: Robot) -> None:

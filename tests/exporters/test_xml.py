@@ -14,6 +14,7 @@ from jumpcad.exporters.xml import add, allowed, document
 from jumpcad.files.names import NAME
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
+from jumpcad.simulation import simulate
 
 
 @pytest.mark.parametrize("letter", ["\x7f", "\x9b", "é", "机", "😀", "\t"])
@@ -41,7 +42,8 @@ def test_surrogates_are_refused() -> None:
 
 def test_no_format_writes_a_robot_whose_name_has_a_control_character(small_robot: Robot) -> None:
     robot = replace(small_robot, name="a\x01")
-    for write in (write_urdf, lambda robot: write_report(robot, {})):
+    jump = simulate(small_robot)
+    for write in (write_urdf, lambda robot: write_report(robot, {}, jump)):
         with pytest.raises(JumpcadError, match=r"U\+0001"):
             write(robot)
     plate = packed(small_robot.parts[:1], (250.0, 210.0, 220.0), 5.0)[0]

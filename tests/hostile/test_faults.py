@@ -219,7 +219,7 @@ def test_a_lost_worker_is_no_lost_search(sandbox: Sandbox, way: str) -> None:
     )  # fmt: skip
 
 
-INTERRUPTED_AT = ["typer", "pydantic", "numpy", "jumpcad.design"]
+INTERRUPTED_AT = ["typer", "pydantic", "numpy", "jumpcad.design", "pybullet"]
 
 
 @pytest.mark.parametrize("module", INTERRUPTED_AT)
@@ -236,6 +236,34 @@ def test_ctrl_c_in_the_first_moments_is_one_line(sandbox: Sandbox, module: str) 
     )
     exits = (0, 130) if module == "typer" else (130,)  # on some versions it is there by then
     sandbox.process("simulate", "kenan-2.0", "--capsule", exits=exits, program=program)
+
+
+LAST = {
+    "in a module": "import pressed",
+    "in a module that takes it": "try: import pressed\n    except ImportError: pass",
+    "taken for nothing": "try: os.kill(os.getpid(), signal.SIGINT)\n    except: pass",
+}
+
+
+@pytest.mark.parametrize("case", LAST)
+def test_ctrl_c_just_before_the_end_is_not_lost(sandbox: Sandbox, case: str) -> None:
+    """Bare `except` clauses, and compiled modules while they load, take an interrupt for an error of their own."""
+    press = "os.kill(os.getpid(), signal.SIGINT)"
+    takes = "try:\n    {}\nexcept BaseException:\n    raise ImportError from None\n"
+    pressed = takes.format(press) if "takes" in case else f"{press}\n"
+    sandbox.write("pressed.py", f"import os, signal\n{pressed}")
+    program = (
+        "import os, signal, sys\n"
+        "sys.path.insert(0, '.')\n"
+        "sys.dont_write_bytecode = True\n"
+        "import jumpcad.cli.commands\n"
+        "def run(arguments):\n"
+        f"    {LAST[case]}\n"
+        "    return 0\n"
+        "jumpcad.cli.commands.run = run\n"
+        "jumpcad.cli.main()\n"
+    )
+    assert sandbox.process("simulate", exits=(130,), program=program).err == "jumpcad: interrupted\n"
 
 
 @pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("study", "study.db"), ("--help",)])

@@ -19,7 +19,7 @@ def test_each_copy_is_seen_once_under_a_name_of_its_own(small_robot: Robot) -> N
         **{part.name: part.quantity for part in small_robot.parts},
         **{item.name: 1 for item in small_robot.hardware},
     }
-    assert {thing.name for thing in seen if thing.mesh_name == "collar"} == {f"collar_{n}" for n in range(1, 5)}
+    assert {thing.name for thing in seen if thing.mesh_name == "ring"} == {f"ring_{n}" for n in range(1, 5)}
 
 
 @pytest.mark.parametrize("body", ["body", "main_leg", "foot", "front_link"])

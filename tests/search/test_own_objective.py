@@ -11,8 +11,8 @@ from support.hills import SMALL, Hill
 from support.searches import QUICK, data, refusal
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search.code_hash import code_hash
 from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.own_objective import code_hash
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.store import StudyStore

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.commands import exit_code_of
 from support.flights import Flight
 from support.machines import one_sided
 
-from jumpcad import cli
 from jumpcad.building import build
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
@@ -177,10 +177,8 @@ def test_a_dead_point_in_flight_is_said(jumping: list[Flight]) -> None:
     assert "\n" not in str(caught.value)
 
 
-def test_the_command_line_knows_it(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sys.argv", ["jumpcad", "simulate", "kenan-2.0", "--capsule", "--engine", "planar", "--json"])
-    with pytest.raises(SystemExit) as end:
-        cli.main()
+def test_the_command_line_knows_it(capsys: pytest.CaptureFixture[str]) -> None:
+    code = exit_code_of("simulate", "kenan-2.0", "--capsule", "--engine", "planar", "--json")
     document = json.loads(capsys.readouterr().out)
-    assert not end.value.code
+    assert code == 0
     assert (document["engine"], document["verdict"]) == ("planar", "jump")

@@ -19,7 +19,7 @@ LONG_TOES = "long toes"
 """A 183 mm robot whose foot is larger than any common bed."""
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)
 def built(name: str, workshop: str = "default", mass_model: str = "printed", motor: str = "") -> Robot:
     """Return the robot of a template or of `LONG_TOES`, built once; a quick `motor` needs two pairs of gears."""
     shop = load_workshop(workshop)

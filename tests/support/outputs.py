@@ -1,5 +1,6 @@
 """What a tree of files holds, what changed in it, and whether what was written can be read by others."""
 
+import ast
 import csv
 import io
 import json
@@ -18,8 +19,8 @@ CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
 """Characters that no text may hold: all control characters but tab and line feed, line separators, surrogates."""
 FORMULA = re.compile(r"\s*[=+\-@]")
 """Beginning of a cell that a spreadsheet computes."""
-TEXTS = (".csv", ".html", ".json", ".md", ".sdf", ".toml", ".urdf", ".xml")
-XMLS = (".sdf", ".urdf", ".xml")
+TEXTS = (".csv", ".html", ".json", ".md", ".py", ".sdf", ".svg", ".toml", ".urdf", ".xml")
+XMLS = (".html", ".sdf", ".svg", ".urdf", ".xml")
 
 
 @dataclass(frozen=True)
@@ -96,6 +97,8 @@ def _file_faults(suffix: str, content: bytes) -> Iterator[str]:
             strict_json(text)
         elif suffix == ".csv":
             yield from formulas(text)
+        elif suffix == ".py":
+            ast.parse(text)
         elif suffix in XMLS:
             ElementTree.fromstring(text)
     except (ValueError, SyntaxError, zipfile.BadZipFile, csv.Error) as error:

@@ -50,11 +50,11 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
     ):
         stack, pose = laid(slabs, face)
         drawings.append(Drawing(title, role, stack, (Placement(body, pose),)))
-    collar = Stack.of([(0.0, 3.0, disc(7.2) - hole(3.1))])
+    ring = Stack.of([(0.0, 3.0, disc(7.2) - hole(3.1))])
     places = tuple(
         Placement(BODY, pose) for x in (-l1 / 2, l1 / 2) for pose in (lying_on_right(21.5, x), lying_on_left(-21.5, x))
     )
-    drawings.append(Drawing("collar", "gears", collar, places))
+    drawings.append(Drawing("ring", "gears", ring, places))
     parts = tuple(
         Part(drawing, {"links": "PETG", "body": "PLA", "gears": "PETG"}[drawing.role],
              drawing.shape.mass_properties(DENSITY_G_CM3), "solid")

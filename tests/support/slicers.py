@@ -35,6 +35,6 @@ def pretend_slicer(program: str, folder: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def three_parts(robot: Robot) -> Robot:
-    """Return a robot of a link of PETG, four collars of PETG and a plate of PLA."""
-    parts = tuple(part for part in robot.parts if part.name in ("body_plate_left", "front_link", "collar"))
+    """Return a robot of a link of PETG, four rings of PETG and a plate of PLA."""
+    parts = tuple(part for part in robot.parts if part.name in ("body_plate_left", "front_link", "ring"))
     return replace(robot, parts=parts, workshop=load_workshop("default"))

@@ -1,0 +1,127 @@
+"""What a robot does from rest to landing, as poses over a shown time that makes fast things slow (SI).
+
+The cam winds the springs, the roller drops, the legs extend, the robot flies. Up to the release the robot stands with
+its foot flat; from then on its poses are those of a simulated jump.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from jumpcad.mechanism.model import BODY_NAMES
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot import Robot
+from jumpcad.simulation.jump import Trajectory
+from jumpcad.transforms import Array
+
+WINDING_MOMENTS, DROP_MOMENTS = 49, 7
+SHOWN_S = {"winding": 3.0, "drop": 0.6, "push-off": 1.6, "flight": 2.4}
+"""How long each phase is shown; judgement: long enough for the eye."""
+FLIGHT_EVERY = 4
+"""Of the recorded moments of the flight every so many are kept: it is smooth."""
+POSITION_DIGITS, TURN_DIGITS = 5, 5
+"""0.01 mm, and as fine a turn: what is drawn does not depend on the processor."""
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A pose of the robot: poses of the bodies' frames (4, 4), angles of cam and cam gear from rest, real time."""
+
+    phase: str
+    time_s: float
+    poses: dict[str, Array]
+    cam_rad: float
+    gear_rad: float
+
+
+def motion(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> dict[str, Any]:
+    """Return the motion as columns for the viewer; without a trajectory it ends with loaded springs.
+
+    Returns
+    -------
+    dict
+        `show_s` (n,) is the time at which each moment is shown, `time_s` (n,) that since its phase began, `phase`
+        (n,) its name, `phases` says of each how much slower or faster it is shown, `cam_rad` and `gear_rad` (n,),
+        `com_m` (n, 2) is the centre of mass in x and z, `frames` has (n, 7) position and quaternion xyzw by body.
+    """
+    moments = list(_moments(robot, trajectory, takeoff_s))
+    real, shown, shift = _times(moments)
+    return {
+        "show_s": shown,
+        "time_s": real,
+        "phase": [moment.phase for moment in moments],
+        "phases": shift,
+        "cam_rad": [round(moment.cam_rad, TURN_DIGITS) for moment in moments],
+        "gear_rad": [round(moment.gear_rad, TURN_DIGITS) for moment in moments],
+        "com_m": [_com_m(robot, moment) for moment in moments],
+        "frames": {name: [_seven(moment.poses[name]) for moment in moments] for name in BODY_NAMES},
+    }
+
+
+def _moments(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> Iterator[Moment]:
+    """Yield the moments of all phases; where two meet, the last of one is the first of the next."""
+    drive = robot.layout.drive
+    law, speed = drive.cam.law, drive.train.cam_speed_rad_s
+    lift, whole = law.lift_rad, robot.spring.wind_rad
+    for angle in np.linspace(0.0, lift, WINDING_MOMENTS).tolist():
+        loaded = float(law.wind_rad(angle)) / law.compression_rad
+        yield Moment("winding", angle / speed, body_poses(robot, loaded), angle, angle)
+    if trajectory is None or robot.roller_off is None:
+        return
+    ahead = drive.cam.geometry.free_rad
+    for share in np.linspace(0.0, 1.0, DROP_MOMENTS).tolist():
+        leg = -whole + share * (robot.roller_off.leg_rad + whole)
+        time_s = share * robot.release.roll_over_rad / speed
+        yield Moment("drop", time_s, body_poses(robot, -leg / whole), lift + share * (ahead - lift), lift)
+    for moment, time_s in enumerate(trajectory.time_s.tolist()):
+        flies = takeoff_s is not None and time_s > takeoff_s
+        if not flies or moment % FLIGHT_EVERY == 0 or moment == len(trajectory.time_s) - 1:
+            yield Moment("flight" if flies else "push-off", time_s, _recorded(trajectory, moment), ahead, lift)
+
+
+def _times(moments: list[Moment]) -> tuple[list[float], list[float], dict[str, str]]:
+    """Return real and shown times of the moments, and for each phase in words how its time is stretched."""
+    real: list[float] = []
+    shown: list[float] = []
+    words: dict[str, str] = {}
+    start = 0.0
+    for phase, length in SHOWN_S.items():
+        times = np.array([moment.time_s for moment in moments if moment.phase == phase])
+        if not len(times):
+            continue
+        span = max(float(times[-1] - times[0]), 1e-9)
+        real += np.round(times, 4).tolist()
+        shown += np.round(start + length * (times - times[0]) / span, 4).tolist()
+        factor = length / span
+        words[phase] = f" ({factor:.1f} times slower)" if factor > 1.0 else f" ({1.0 / factor:.1f} times faster)"
+        start += length
+    return real, shown, words
+
+
+def _recorded(trajectory: Trajectory, moment: int) -> dict[str, Array]:
+    poses = {}
+    turns = Rotation.from_quat(trajectory.quaternion_xyzw[moment]).as_matrix()
+    for index, name in enumerate(trajectory.body_names):
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = turns[index], trajectory.position_m[moment, index]
+        poses[name] = pose
+    return poses
+
+
+def _com_m(robot: Robot, moment: Moment) -> list[float]:
+    """Return x and z of the robot's centre of mass."""
+    com = np.zeros(3)
+    for name, body in robot.bodies.items():
+        pose = moment.poses[name]
+        com += body.mass_kg * ((pose[:3, :3] * body.com_m).sum(axis=1) + pose[:3, 3])
+    return [float(value) for value in np.round(com[[0, 2]] / robot.mass_kg, POSITION_DIGITS) + 0.0]
+
+
+def _seven(pose: Array) -> list[float]:
+    """Return position and quaternion (x, y, z, w), w not negative, of a pose."""
+    turn = Rotation.from_matrix(pose[:3, :3]).as_quat(canonical=True)
+    seven = [*np.round(pose[:3, 3], POSITION_DIGITS), *np.round(turn, TURN_DIGITS)]
+    return [float(value) + 0.0 for value in seven]

@@ -1,0 +1,95 @@
+"""The 3-D viewer of report.html: its data, the robot's GLB and the bundled program, as elements of the page."""
+
+import base64
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from jumpcad.bundle.motion import motion
+from jumpcad.bundle.renders import exploded
+from jumpcad.exporters.xml import allowed
+from jumpcad.files.templates import templates_folder
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.parts.part import Part
+from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import assembly_steps
+from jumpcad.scene.extent import extent_m
+from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.simulation.jump import Jump
+
+MICRONS = 6
+CONTROLS = """<div id="viewer-controls" hidden="hidden">
+<p><button type="button" id="play">Play</button>
+<label>motion <input type="range" id="scrub" min="0" max="1" step="0.001" value="0" /></label>
+<output id="moment"></output></p>
+<p><label>apart <input type="range" id="explode" min="0" max="1" step="0.01" value="0" /></label>
+<label>assembly <input type="range" id="step" min="1" max="1" step="1" value="1" /></label>
+<output id="step-title"></output>
+<button type="button" id="home">View</button></p>
+<p id="part">Click on a part for its mass, material and file.</p>
+</div>"""
+
+
+def viewer(robot: Robot, jump: Jump, glb: bytes) -> Iterator[str]:
+    """Yield the viewer's elements: a box, its controls, and as scripts its data, its model and its program."""
+    yield '<div id="viewer" aria-label="the robot in 3-D" role="img"></div>'
+    yield '<p id="viewer-message">The robot is shown here in 3-D where the browser runs scripts and WebGL.</p>'
+    yield CONTROLS
+    yield f'<script type="application/json" id="viewer-data">{_embedded(viewer_data(robot, jump))}</script>'
+    yield f'<script type="text/plain" id="viewer-glb">{base64.b64encode(glb).decode()}</script>'
+    program = (templates_folder() / "report" / "viewer.min.js").read_text(encoding="ascii")
+    yield f"<script>//<![CDATA[\n{program}\n//]]></script>"
+
+
+def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
+    """Return what the viewer needs beside the model: motion, what turns, parts, steps, distances when apart (SI)."""
+    things = visuals(robot)
+    bodies = body_poses(robot)
+    poses = [bodies[thing.body] @ thing.T_body_mesh for thing in things]
+    apart = [after[:3, 3] - before[:3, 3] for before, after in zip(poses, exploded(things, poses), strict=True)]
+    return motion(robot, jump.trajectory, jump.takeoff_time_s) | {
+        "size_m": round(float(extent_m(robot).max()), MICRONS),
+        "turning": _turning(robot),
+        "explode_m": {
+            thing.name: round(float(offset[1]), MICRONS) for thing, offset in zip(things, apart, strict=True)
+        },
+        "steps": [
+            {"title": step.title, "parts": [shape.name for shape in step.added]} for step in assembly_steps(robot)
+        ],
+        "parts": {thing.name: _part(thing) for thing in things},
+    }
+
+
+def _turning(robot: Robot) -> list[dict[str, Any]]:
+    """Return what turns in the body: node, axis (x, z; m) and its turns per turn of the cam."""
+    layout = robot.layout
+    stages = layout.drive.train.stages
+    turns = {"cam": (layout.cam_axis_mm, 1.0), "cam_gear": (layout.cam_axis_mm, 1.0)}
+    rate = 1.0
+    if layout.idler_mm is not None:
+        rate *= -stages[-1].wheel.teeth / stages[-1].pinion.teeth
+        turns["idler"] = (layout.idler_mm, rate)
+    rate *= -stages[0].wheel.teeth / stages[0].pinion.teeth
+    turns["motor_pinion"] = turns["motor_shaft"] = (layout.motor_mm, rate)
+    return [
+        {"node": node, "axis_m": np.round(axis / 1000.0, MICRONS).tolist(), "per_cam": round(rate, MICRONS)}
+        for node, (axis, rate) in turns.items()
+    ]
+
+
+def _part(thing: Visual) -> dict[str, Any]:
+    """Return what a click on a part shows."""
+    source = thing.source
+    if isinstance(source, Part):
+        words = {"label": source.name.replace("_", " "), "material": source.material, "file": f"stl/{source.name}.stl"}
+    else:
+        words = {"label": thing.name.replace("_", " "), "material": source.article, "file": ""}
+    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * source.mass.mass_kg, 3)}
+
+
+def _embedded(data: dict[str, Any]) -> str:
+    """Return JSON that can stand in HTML and in XML: no `<`, `>` or `&`."""
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
+    return text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e")

@@ -1,0 +1,90 @@
+"""What the studio says of a design: at once by the capsule robot, then by the printed one."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from jumpcad.building import build
+from jumpcad.bundle.limits import ordered
+from jumpcad.bundle.motion import motion
+from jumpcad.checks import quick_findings
+from jumpcad.design import Design
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.robot import Robot
+from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.workshop import Workshop
+
+SHOWN = 5
+"""Limits that are shown: violated ones, then the tightest."""
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A printed robot with its jump and limits, or the reason why there is none."""
+
+    design: Design
+    robot: Robot | None = None
+    jump: Jump | None = None
+    refused: str = ""
+
+    @property
+    def findings(self) -> list[Finding]:
+        """The violated limits, then the tightest ones."""
+        if self.robot is None:
+            return []
+        found = [one for one in ordered(quick_findings(self.robot)) if one.severity != "info" or one.use is not None]
+        return found[:SHOWN]
+
+    def words(self, before: "Printed | None" = None) -> str:
+        """Return the figures as Markdown, with their differences to another robot's."""
+        if self.robot is None or self.jump is None:
+            return f"**cannot be built**: {self.refused}"
+        lines = [f"**{self.jump.verdict}**", "", "| printed robot | |", "|---|--:|"]
+        old = before.figures() if before else {}
+        for name, (value, unit) in self.figures().items():
+            change = f" ({value - old[name][0]:+.1f})" if name in old and abs(value - old[name][0]) >= 0.05 else ""
+            lines.append(f"| {name} | {value:.1f} {unit}{change} |")
+        lines += ["", "| limit | used |", "|---|--:|"]
+        for finding in self.findings:
+            used = f"{100.0 * finding.use:.0f} %" if finding.use is not None else f"{finding.margin:.3g} {finding.unit}"
+            lines.append(f"| {'**' + finding.name + '**' if finding.severity != 'info' else finding.name} | {used} |")
+        return "\n".join(lines)
+
+    def figures(self) -> dict[str, tuple[float, str]]:
+        """Return value and unit by figure."""
+        if self.robot is None or self.jump is None:
+            return {}
+        return {
+            "range": (1000.0 * (self.jump.ballistic_range_m or 0.0), "mm"),
+            "rise": (1000.0 * (self.jump.com_rise_m or 0.0), "mm"),
+            "mass": (1000.0 * self.robot.mass_kg, "g"),
+            "spring energy": (1000.0 * self.robot.spring.energy_j, "mJ"),
+            "winding": (self.robot.layout.drive.train.winding_s, "s"),
+        }
+
+
+@lru_cache(maxsize=64)
+def quick_words(design: Design) -> str:
+    """Return the answer of the robot with the study's masses in the plane, as Markdown."""
+    jump = simulate(capsule_robot(design), engine="planar")
+    if jump.ballistic_range_m is None:
+        return f"study's masses: **{jump.verdict}**"
+    return (
+        f"study's masses: **{1000.0 * jump.ballistic_range_m:.0f} mm**, rise {1000.0 * (jump.com_rise_m or 0):.0f} mm"
+    )
+
+
+def printed_answer(design: Design, workshop: Workshop, name: str = "robot") -> Printed:
+    """Return the printed robot and its jump, in the plane."""
+    try:
+        robot = build(design, workshop, name)
+    except CannotBuildError as refusal:
+        return Printed(design, refused=str(refusal))
+    return Printed(design, robot, simulate(robot, engine="planar"))
+
+
+def played(robot: Robot, engine: str) -> dict[str, object]:
+    """Return the motion of a robot from rest to landing, see `jumpcad.bundle.motion`."""
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True), engine)
+    return motion(robot, jump.trajectory, jump.takeoff_time_s)

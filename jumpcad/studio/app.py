@@ -1,0 +1,190 @@
+"""The studio's window: sliders, answers and playback, on a viser server."""
+
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+from jumpcad.bundle.export import export
+from jumpcad.design import SEARCH_BOUNDS, Design
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files.outputs import require_free, sealed, write_atomically
+from jumpcad.findings import errors
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.simulation.engines import default_engine
+from jumpcad.studio.answers import Printed, played, printed_answer, quick_words
+from jumpcad.studio.stage import Stage
+from jumpcad.workshop import Workshop, load_workshop
+
+FRAME_S = 1.0 / 30.0
+WIDER = 0.5
+"""By how much of the search's range the sliders reach beyond it, within what a design may be; both prototypes do."""
+RED_PARTS = {
+    "leg_strength": "main_leg", "lever_strength": "main_leg", "leg_flex": "main_leg", "stop_leg": "main_leg",
+    "toe_strength": "foot", "rail_strength": "foot", "stop_strength": "stop_bar", "cam_dog_strength": "cam",
+    "front_strength": "front_link",
+}  # fmt: skip
+"""Parts that are shown in red while a limit of theirs is violated."""
+
+
+class Studio:
+    """A studio that serves one design until it is stopped.
+
+    Parameters
+    ----------
+    design, name
+        What it opens with; `name` is that of saved files and built bundles.
+    workshops
+        Names or files of workshops to choose from, the first at the start.
+    server
+        A viser server.
+    folder
+        Where designs are saved and bundles built.
+    """
+
+    def __init__(self, design: Design, name: str, workshops: list[str], server: Any, folder: Path) -> None:
+        self.first, self.name, self.folder = design, name, folder
+        self.server, self.stage = server, Stage(server)
+        self.shown: Printed | None = None
+        self.kept: Printed | None = None
+        self._newest = threading.Condition()
+        self._wanted: Design | None = design
+        self._playing = threading.Event()
+        self.workshop: Workshop = load_workshop(workshops[0])
+        self._make_panel(workshops)
+
+    def start(self) -> None:
+        """Make the first robot, and one for every change of a slider, while the program runs."""
+        threading.Thread(target=self._work, daemon=True).start()
+
+    @property
+    def design(self) -> Design:
+        """The design that the sliders say."""
+        return Design(**{key: slider.value for key, slider in self.sliders.items()})
+
+    def _make_panel(self, workshops: list[str]) -> None:
+        gui = self.server.gui
+        self.quick, self.figures = gui.add_markdown(""), gui.add_markdown("building …")
+        self.sliders = {}
+        for key, value in self.first.model_dump().items():
+            low, high = _range(key, value)
+            slider = gui.add_slider(key, low, high, _step(high - low), value)
+            slider.on_update(lambda _: self._ask())
+            self.sliders[key] = slider
+        choice = gui.add_dropdown("workshop", tuple(workshops), initial_value=workshops[0])
+        choice.on_update(lambda _: self._change_workshop(choice.value))
+        for label, action in (
+            ("Reset", self._reset), ("Keep as ghost", self._keep), ("Play winding and jump", self._play),
+            ("Save design", self._save), ("Build bundle", self._build),
+        ):  # fmt: skip
+            gui.add_button(label).on_click(lambda _, action=action: self._tell(action))
+        self.told = gui.add_markdown("")
+
+    def _ask(self) -> None:
+        """Answer at once with the study's masses; have the printed robot made, newest design first."""
+        self._playing.clear()
+        design = self.design
+        self.quick.content = quick_words(design)
+        with self._newest:
+            self._wanted = design
+            self._newest.notify()
+
+    def _work(self) -> None:
+        """Make printed robots, one at a time, until the program ends."""
+        while True:
+            with self._newest:
+                while self._wanted is None:
+                    self._newest.wait()
+                design, self._wanted = self._wanted, None
+            self.answer(design)
+
+    def answer(self, design: Design) -> Printed:
+        """Build, simulate and show a design; return what was found."""
+        found = printed_answer(design, self.workshop, self.name)
+        self.quick.content = quick_words(design)
+        self.figures.content = found.words(self.kept)
+        if found.robot is not None:
+            wrong = frozenset(RED_PARTS[one.name] for one in errors(found.findings) if one.name in RED_PARTS)
+            with self.server.atomic():
+                self.stage.show(found.robot, wrong)
+        self.shown = found
+        return found
+
+    def _change_workshop(self, name: str) -> None:
+        self.workshop = load_workshop(name)
+        self._ask()
+
+    def _tell(self, action: Any) -> None:
+        """Carry out an action and say what came of it."""
+        try:
+            self.told.content = action()
+        except (JumpcadError, CannotBuildError) as refusal:
+            self.told.content = f"**refused**: {refusal}"
+
+    def _reset(self) -> str:
+        for key, value in self.first.model_dump().items():
+            self.sliders[key].value = value
+        self._ask()
+        return "as at the start"
+
+    def _keep(self) -> str:
+        self.kept = self.shown
+        if self.kept is None or self.kept.robot is None:
+            self.kept = None
+            self.stage.show_ghost(None)
+            return "no ghost"
+        self.stage.show_ghost(self.kept.robot)
+        return "kept: figures show the difference to it"
+
+    def _play(self) -> str:
+        robot = self.shown.robot if self.shown else None
+        if robot is None:
+            raise JumpcadError("there is no robot to play: it cannot be built")
+        motion = played(robot, default_engine())
+        self._playing.set()
+        threading.Thread(target=self._run, args=(motion, body_poses(robot)), daemon=True).start()
+        return "winding, drop, push-off and flight, slowed"
+
+    def _run(self, motion: Any, rest: Any) -> None:
+        """Show the moments of a motion in their time, then the robot at rest."""
+        start, number = time.monotonic(), 0
+        shown = motion["show_s"]
+        while number < len(shown) and self._playing.is_set():
+            with self.server.atomic():
+                for body, poses in motion["frames"].items():
+                    self.stage.place(f"/robot/{body}", poses[number])
+            time.sleep(FRAME_S)
+            while number < len(shown) and shown[number] <= time.monotonic() - start:
+                number += 1
+        self.stage.pose(rest)
+
+    def _save(self) -> str:
+        path = self.folder / f"{self.name}-studio.toml"
+        require_free(path)
+        write_atomically(path, sealed(self.design.to_toml()))
+        return f"saved {path}"
+
+    def _build(self) -> str:
+        found = printed_answer(self.design, self.workshop, self.name)
+        if found.robot is None:
+            raise JumpcadError(found.refused)
+        bundle = export(found.robot, self.folder / f"{self.name}-studio", pictures=True)
+        return f"built {bundle.folder}"
+
+
+def _range(key: str, value: float) -> tuple[float, float]:
+    """Return the ends of a parameter's slider: the search's, widened, within what a design may be."""
+    bounds = SEARCH_BOUNDS[key]
+    more = WIDER * (bounds.upper - bounds.lower)
+    limits = {type(one).__name__: one for one in Design.model_fields[key].metadata}
+    low = max(limits["Ge"].ge, min(bounds.lower - more, value))
+    high = min(limits["Le"].le, max(bounds.upper + more, value))
+    return round(low, 4), round(high, 4)
+
+
+def _step(span: float) -> float:
+    """Return a slider's step: a thousandth of its range, rounded down to a power of ten."""
+    step = 1.0
+    while step > span / 500.0:
+        step /= 10.0
+    return step

@@ -1,0 +1,89 @@
+"""The robot on the studio's stage: frames of its bodies, meshes that change only where their parts do, its ghost."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.parts.part import Part
+from jumpcad.robot import Robot
+from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.transforms import Array
+
+WRONG = (0.80, 0.16, 0.14)
+"""Colour of a part that fails a limit."""
+EYE_M, MIDDLE_M = (0.25, -0.4, 0.2), (0.0, 0.0, 0.08)
+"""Where the view begins, and what it looks at; a robot is 0.1 to 0.3 m large."""
+GHOST_COLOUR, GHOST_OPACITY = (0.5, 0.55, 0.6), 0.25
+
+
+class Stage:
+    """What a viser server shows; names of nodes are `/robot/BODY/PART` and `/ghost/BODY/PART`."""
+
+    def __init__(self, server: Any) -> None:
+        self.server = server
+        self.meshes: dict[str, tuple[object, Any]] = {}
+        self.frames: dict[str, Any] = {}
+        server.scene.set_up_direction("+z")
+        server.initial_camera.position, server.initial_camera.look_at = EYE_M, MIDDLE_M
+        server.scene.add_grid("/ground", 4.0, 4.0, cell_size=0.05, section_size=0.5, cell_thickness=0.5)
+
+    def show(self, robot: Robot, wrong: frozenset[str] = frozenset()) -> int:
+        """Show a robot at rest, parts of `wrong` names in red; return how many meshes were sent."""
+        self.pose(body_poses(robot), "robot")
+        return self._put("robot", visuals(robot), None, wrong)
+
+    def show_ghost(self, robot: Robot | None) -> None:
+        """Show another robot's printed parts pale beside the first, or none."""
+        if robot is None:
+            self._put("ghost", (), GHOST_OPACITY)
+            return
+        self.pose(body_poses(robot), "ghost")
+        printed = {part.name for part in robot.parts}
+        self._put("ghost", tuple(one for one in visuals(robot) if one.mesh_name in printed), GHOST_OPACITY)
+
+    def pose(self, poses: Mapping[str, Array], tree: str = "robot") -> None:
+        """Put the bodies' frames at poses (4, 4)."""
+        for body, pose in poses.items():
+            turn = Rotation.from_matrix(pose[:3, :3]).as_quat()
+            self.place(f"/{tree}/{body}", (*pose[:3, 3], *turn))
+
+    def place(self, frame: str, seven: Any) -> None:
+        """Put a frame at a position and quaternion (x, y, z, w)."""
+        x, y, z, qx, qy, qz, qw = (float(value) for value in seven)
+        if frame not in self.frames:
+            self.frames[frame] = self.server.scene.add_frame(frame, show_axes=False)
+        self.frames[frame].position, self.frames[frame].wxyz = (x, y, z), (qw, qx, qy, qz)
+
+    def _put(
+        self, tree: str, things: tuple[Visual, ...], opacity: float | None, wrong: frozenset[str] = frozenset()
+    ) -> int:
+        """Show things below a tree; remove those that are no longer there."""
+        names = {f"/{tree}/{one.body}/{one.name}": one for one in things}
+        for name in [name for name in self.meshes if name.startswith(f"/{tree}/") and name not in names]:
+            self.meshes.pop(name)[1].remove()
+        sent = 0
+        for name, one in names.items():
+            colour = WRONG if one.mesh_name in wrong else one.colour if opacity is None else GHOST_COLOUR
+            key = (_shape(one), colour, one.T_body_mesh.tobytes())
+            if name in self.meshes and self.meshes[name][0] == key:
+                continue
+            mesh = one.mesh
+            turn = Rotation.from_matrix(one.T_body_mesh[:3, :3]).as_quat()
+            self.meshes[name] = key, self.server.scene.add_mesh_simple(
+                name, np.asarray(mesh.vertices) * 0.001, np.asarray(mesh.faces),
+                color=colour, opacity=opacity, flat_shading=True,
+                wxyz=(turn[3], turn[0], turn[1], turn[2]), position=tuple(one.T_body_mesh[:3, 3]),
+            )  # fmt: skip
+            sent += 1
+        return sent
+
+
+def _shape(one: Visual) -> object:
+    """Return what is equal where the meshes are equal."""
+    source = one.source
+    if isinstance(source, Part):
+        return source.drawing.shape
+    return source.shape if source.wire is None else (source.wire.points_mm.tobytes(), source.wire.diameter_mm)

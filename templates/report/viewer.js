@@ -1,0 +1,312 @@
+// The robot of report.html in 3-D: its motion, its parts moved apart, the steps of its assembly.
+// Lengths are metres, z is up. What is shown comes from the page: a GLB file in base64, and data in JSON.
+
+import {
+  AmbientLight, BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, Line, LineBasicMaterial,
+  LineSegments, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene, SphereGeometry,
+  Vector2, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+
+const page = (id) => document.getElementById(id);
+const text = (id) => page(id).textContent.trim();
+
+function bytes(base64) {
+  const raw = atob(base64);
+  const out = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; i++) out[i] = raw.charCodeAt(i);
+  return out.buffer;
+}
+
+function seeable() {
+  const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
+  return { background: new Color(dark ? 0x1c1f24 : 0xf4f6f8), grid: dark ? 0x3a4048 : 0xc4ccd4 };
+}
+
+class Viewer {
+  constructor(box, data, robot) {
+    this.box = box;
+    this.data = data;
+    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    box.appendChild(this.renderer.domElement);
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(35, 1, 0.01, 20);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.addEventListener("change", () => this.draw());
+    this.dress();
+    this.take(robot);
+    this.trace();
+    this.at = 0;
+    this.playing = false;
+    this.home();
+    this.connect();
+    this.resize();
+  }
+
+  // Ground and light.
+  dress() {
+    const seen = seeable();
+    this.scene.background = seen.background;
+    this.scene.add(this.ground(seen.grid), new AmbientLight(0xffffff, 1.4));
+    for (const [x, y, z, strength] of [[1, -2, 3, 2.0], [-2, 1.5, 1, 0.8]]) {
+      const light = new DirectionalLight(0xffffff, strength);
+      light.position.set(x, y, z);
+      this.scene.add(light);
+    }
+  }
+
+  // Squares of 50 mm under the whole jump; short lines, since some renderers drop those that pass behind the eye.
+  ground(color) {
+    const cell = 0.05;
+    const xs = this.data.com_m.map(([x]) => x);
+    const across = 10;
+    const first = Math.floor(Math.min(...xs) / cell) - across;
+    const last = Math.ceil(Math.max(...xs) / cell) + across;
+    const points = [];
+    for (let i = first; i <= last; i++) {
+      for (let j = -across; j <= across; j++) {
+        if (i < last) points.push(i * cell, j * cell, 0, (i + 1) * cell, j * cell, 0);
+        if (j < across) points.push(i * cell, j * cell, 0, i * cell, (j + 1) * cell, 0);
+      }
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
+    return new LineSegments(geometry, new LineBasicMaterial({ color }));
+  }
+
+  // The nodes of the GLB file: frames of the bodies, with their parts below.
+  take(robot) {
+    this.scene.add(robot);
+    robot.position.set(0, 0, 0);
+    robot.quaternion.identity(); // the file has y up
+    this.nodes = {};
+    robot.traverse((node) => {
+      const name = node.userData.name || node.name;
+      if (name && !(name in this.nodes)) this.nodes[name] = node;
+    });
+    this.frames = Object.keys(this.data.frames).map((name) => [this.nodes[`${name}_frame`], this.data.frames[name]]);
+    this.parts = Object.keys(this.data.parts).filter((name) => name in this.nodes);
+    this.rest = {};
+    for (const name of this.parts) this.rest[name] = this.nodes[name].position.clone();
+    this.turning = this.data.turning
+      .filter(({ node }) => node in this.nodes)
+      .map(({ node, axis_m, per_cam }) => {
+        const pivot = new Group();
+        pivot.position.set(axis_m[0], 0, axis_m[1]);
+        this.nodes[node].parent.add(pivot);
+        pivot.add(this.nodes[node]);
+        this.rest[node].sub(pivot.position);
+        this.nodes[node].position.copy(this.rest[node]);
+        return [pivot, per_cam];
+      });
+  }
+
+  // The path of the centre of mass, and a ball that runs along it.
+  trace() {
+    const points = this.data.com_m.flatMap(([x, z]) => [x, 0, z]);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
+    this.path = new Line(geometry, new LineBasicMaterial({ color: 0xd1495b }));
+    this.ball = new Mesh(new SphereGeometry(0.003, 16, 12), new MeshBasicMaterial({ color: 0xd1495b }));
+    this.path.renderOrder = this.ball.renderOrder = 1;
+    this.path.material.depthTest = this.ball.material.depthTest = false;
+    this.scene.add(this.path, this.ball);
+  }
+
+  home() {
+    const [x, z] = this.data.com_m[0];
+    const far = 2.1 * this.data.size_m;
+    this.followed = x;
+    this.controls.target.set(x, 0, 0.8 * z);
+    this.camera.position.set(x + 0.75 * far, -far, z + 0.5 * far);
+    this.controls.update();
+  }
+
+  // Pose everything as at a moment of the shown time (s).
+  pose(at) {
+    const { show_s, cam_rad, com_m, time_s, phase } = this.data;
+    this.at = Math.min(Math.max(at, 0), show_s[show_s.length - 1]);
+    let low = 0;
+    while (low < show_s.length - 2 && show_s[low + 1] <= this.at) low++;
+    const share = (this.at - show_s[low]) / (show_s[low + 1] - show_s[low]);
+    const mix = (a, b) => a + share * (b - a);
+    for (const [node, poses] of this.frames) {
+      const [a, b] = [poses[low], poses[low + 1]];
+      node.position.set(mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2]));
+      node.quaternion.set(a[3], a[4], a[5], a[6]).slerp(new Quaternion(b[3], b[4], b[5], b[6]), share);
+    }
+    const cam = mix(cam_rad[low], cam_rad[low + 1]);
+    const gear = mix(this.data.gear_rad[low], this.data.gear_rad[low + 1]);
+    this.turning.forEach(([pivot, per_cam], index) => {
+      pivot.rotation.y = per_cam * (this.data.turning[index].node === "cam" ? cam : gear);
+    });
+    const x = mix(com_m[low][0], com_m[low + 1][0]);
+    this.ball.position.set(x, 0, mix(com_m[low][1], com_m[low + 1][1]));
+    this.controls.target.x += x - this.followed;
+    this.camera.position.x += x - this.followed;
+    this.followed = x;
+    page("scrub").value = this.at;
+    const now = phase[share < 1 ? low : low + 1];
+    const slow = this.data.phases[now];
+    const moment = mix(time_s[low], time_s[low + 1]);
+    page("moment").textContent = `${now}, ${moment.toFixed(moment < 1 ? 3 : 1)} s${slow}`;
+    this.box.dataset.phase = now;
+    this.box.dataset.shown = this.at.toFixed(3);
+    this.draw();
+  }
+
+  // Move the parts apart across the robot, by a share of the full way.
+  explode(share) {
+    for (const name of this.parts) {
+      this.nodes[name].position.copy(this.rest[name]);
+      this.nodes[name].position.y += share * (this.data.explode_m[name] || 0);
+    }
+    this.box.dataset.exploded = share;
+    this.draw();
+  }
+
+  // Show what is there after a number of steps of assembly.
+  step(count) {
+    const there = new Set(this.data.steps.slice(0, count).flatMap((step) => step.parts));
+    const all = count >= this.data.steps.length;
+    let shown = 0;
+    for (const name of this.parts) {
+      this.nodes[name].visible = all || there.has(name);
+      shown += this.nodes[name].visible ? 1 : 0;
+    }
+    this.path.visible = this.ball.visible = all;
+    page("step-title").textContent = all ? "all parts" : `${count}. ${this.data.steps[count - 1].title}`;
+    this.box.dataset.parts = shown;
+    this.draw();
+  }
+
+  pick(event) {
+    const area = this.renderer.domElement.getBoundingClientRect();
+    const at = new Vector2(
+      (2 * (event.clientX - area.left)) / area.width - 1,
+      1 - (2 * (event.clientY - area.top)) / area.height,
+    );
+    const ray = new Raycaster();
+    ray.setFromCamera(at, this.camera);
+    const shown = this.parts.map((name) => this.nodes[name]).filter((node) => node.visible);
+    const hit = ray.intersectObjects(shown, true)[0];
+    let node = hit && hit.object;
+    while (node && !(this.data.parts[node.userData.name || node.name])) node = node.parent;
+    this.select(node ? node.userData.name || node.name : "");
+  }
+
+  select(name) {
+    for (const [node, material] of this.lit || []) node.material = material;
+    this.lit = [];
+    const part = this.data.parts[name];
+    if (part) {
+      this.nodes[name].traverse((node) => {
+        if (!node.isMesh) return;
+        this.lit.push([node, node.material]);
+        node.material = node.material.clone();
+        node.material.emissive = new Color(0x884400);
+      });
+    }
+    const file = part && part.file ? `, ${part.file}` : "";
+    page("part").textContent = part
+      ? `${part.label}: ${part.mass_g.toFixed(2)} g, ${part.material}${file}`
+      : "Click on a part for its mass, material and file.";
+    this.box.dataset.part = name;
+    this.draw();
+  }
+
+  play(on) {
+    const end = this.data.show_s[this.data.show_s.length - 1];
+    if (on && this.at >= end) this.pose(0);
+    this.playing = on;
+    page("play").textContent = on ? "Pause" : "Play";
+    this.box.dataset.playing = on;
+    let last = null;
+    const next = (now) => {
+      if (!this.playing) return;
+      this.pose(this.at + (last === null ? 0 : (now - last) / 1000));
+      last = now;
+      if (this.at >= end) this.play(false);
+      else requestAnimationFrame(next);
+    };
+    if (on) requestAnimationFrame(next);
+  }
+
+  connect() {
+    const scrub = page("scrub");
+    scrub.max = this.data.show_s[this.data.show_s.length - 1];
+    scrub.addEventListener("input", () => {
+      this.play(false);
+      this.pose(Number(scrub.value));
+    });
+    page("play").addEventListener("click", () => this.play(!this.playing));
+    page("home").addEventListener("click", () => {
+      this.home();
+      this.draw();
+    });
+    page("explode").addEventListener("input", (event) => this.explode(Number(event.target.value)));
+    const steps = page("step");
+    steps.max = this.data.steps.length;
+    steps.value = this.data.steps.length;
+    steps.addEventListener("input", () => this.step(Number(steps.value)));
+    let pressed = null;
+    const canvas = this.renderer.domElement;
+    canvas.addEventListener("pointerdown", (event) => (pressed = [event.clientX, event.clientY]));
+    canvas.addEventListener("pointerup", (event) => {
+      if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 4) this.pick(event);
+    });
+    window.addEventListener("resize", () => this.resize());
+  }
+
+  resize() {
+    const width = this.box.clientWidth;
+    const height = Math.max(260, Math.min(Math.round(0.62 * width), 560));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  draw() {
+    this.renderer.render(this.scene, this.camera);
+  }
+}
+
+function start() {
+  const box = page("viewer");
+  const failed = (reason) => {
+    page("viewer-message").textContent =
+      `The robot cannot be shown in 3-D here (${reason}). All figures below and the pictures are complete without it.`;
+    page("viewer-controls").hidden = true;
+    box.dataset.state = "failed";
+  };
+  if (!window.WebGLRenderingContext) {
+    failed("this browser has no WebGL");
+    return;
+  }
+  const data = JSON.parse(text("viewer-data"));
+  new GLTFLoader().parse(
+    bytes(text("viewer-glb")),
+    "",
+    (gltf) => {
+      try {
+        const robot = gltf.scene.getObjectByName("robot") || gltf.scene;
+        const viewer = new Viewer(box, data, robot);
+        viewer.step(data.steps.length);
+        viewer.select("");
+        viewer.pose(0);
+        page("viewer-message").textContent = "";
+        page("viewer-controls").hidden = false;
+        box.dataset.state = "ready";
+      } catch (error) {
+        failed("WebGL did not start");
+      }
+    },
+    () => failed("its file could not be read"),
+  );
+}
+
+start();

@@ -1,0 +1,140 @@
+"""report.html in Debian's Chromium without a screen: it shows, plays and answers, and asks the network for nothing."""
+
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from jumpcad.building import build
+from jumpcad.bundle.export import export
+from jumpcad.design import load_design
+
+webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
+from selenium.webdriver.support.ui import WebDriverWait  # noqa: E402
+
+CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+pytestmark = pytest.mark.skipif(not (CHROMIUM and DRIVER), reason="chromium or chromedriver is not installed")
+WAIT_S = 60.0
+"""A browser that does not answer within this time has failed."""
+THREE_D = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1400,1200")
+
+
+def browser(*arguments: str) -> Any:
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    for argument in (
+        "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
+        "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", *arguments,
+    ):  # fmt: skip
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return webdriver.Chrome(options=options, service=webdriver.ChromeService(DRIVER))
+
+
+def wait(driver: Any, condition: Callable[[Any], object]) -> None:
+    WebDriverWait(driver, WAIT_S).until(condition)
+
+
+def opened(driver: Any, page: Path) -> Any:
+    """Open a page and return the viewer's box, once it is ready or has failed."""
+    driver.get(page.as_uri())
+    box = driver.find_element("id", "viewer")
+    wait(driver, lambda _: box.get_attribute("data-state"))
+    return box
+
+
+def put(driver: Any, slider: str, value: float) -> None:
+    driver.execute_script(
+        "const e = document.getElementById(arguments[0]); e.value = arguments[1]; e.dispatchEvent(new Event('input'))",
+        slider,
+        value,
+    )
+
+
+def seen(box: Any, path: Path) -> np.ndarray:
+    path.write_bytes(box.screenshot_as_png)
+    return np.asarray(Image.open(path).convert("RGB"), dtype=int)
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("report") / "robot"
+    return export(build(load_design("kenan-2.0"), name="kenan-2.0"), folder).folder / "report.html"
+
+
+@pytest.fixture(scope="module")
+def driver() -> Iterator[Any]:
+    made = browser(
+        "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1400,1200"
+    )
+    yield made
+    made.quit()
+
+
+def test_play_scrub_apart_and_assembly_change_what_is_seen(driver: Any, page: Path, tmp_path: Path) -> None:
+    box = opened(driver, page)
+    assert box.get_attribute("data-state") == "ready"
+    shot = tmp_path / "shot.png"
+    rest = seen(box, shot)
+    assert len(np.unique(rest.reshape(-1, 3), axis=0)) > 500  # not blank
+    parts = int(box.get_attribute("data-parts"))
+    changes = {"scrub": 6.5, "explode": 1.0, "step": 2}
+    for slider, value in changes.items():
+        put(driver, slider, value)
+        assert np.abs(seen(box, shot) - rest).mean() > 0.2, slider
+        put(driver, slider, {"scrub": 0.0, "explode": 0.0, "step": 99}[slider])
+    assert np.abs(seen(box, shot) - rest).mean() < 0.05
+    put(driver, "step", 1)
+    assert 0 < int(box.get_attribute("data-parts")) < parts
+    put(driver, "step", 99)
+    before = float(box.get_attribute("data-shown"))
+    driver.find_element("id", "play").click()
+    wait(driver, lambda _: float(box.get_attribute("data-shown")) > before)
+
+
+def test_a_click_on_a_part_tells_what_it_is(driver: Any, page: Path) -> None:
+    box = opened(driver, page)
+    canvas = driver.find_element("css selector", "#viewer canvas")
+    height = canvas.size["height"]
+    for up in range(-height // 4, height // 4, 12):  # somewhere on the middle line stands the robot
+        webdriver.ActionChains(driver).move_to_element_with_offset(canvas, 0, up).click().perform()
+        if box.get_attribute("data-part"):
+            break
+    assert box.get_attribute("data-part")
+    assert " g, " in driver.find_element("id", "part").text
+
+
+def test_nothing_is_asked_of_the_network_and_no_error_is_logged(driver: Any, page: Path) -> None:
+    opened(driver, page)
+    asked = [
+        entry["message"] for entry in driver.get_log("performance") if "Network.requestWillBeSent" in entry["message"]
+    ]
+    assert [message for message in asked if '"url":"http' in message] == []
+    assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"] == []
+
+
+def test_it_fits_a_phone(page: Path) -> None:
+    made = browser(*THREE_D)
+    try:
+        made.execute_cdp_cmd(
+            "Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
+        )
+        opened(made, page)
+        assert made.execute_script("return document.documentElement.scrollWidth") <= 390
+    finally:
+        made.quit()
+
+
+def test_without_webgl_a_sentence_stands_in_its_place(page: Path) -> None:
+    made = browser("--disable-3d-apis", "--window-size=1400,1200")
+    try:
+        box = opened(made, page)
+        assert box.get_attribute("data-state") == "failed"
+        assert "cannot be shown in 3-D" in made.find_element("id", "viewer-message").text
+        assert not made.find_element("id", "viewer-controls").is_displayed()
+    finally:
+        made.quit()

@@ -1,0 +1,215 @@
+"""Own objectives: files that do not run, functions that fail or do something besides, values of every kind."""
+
+import json
+import os
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.sandbox import Sandbox
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search.objective import Evaluation, find_objective
+
+JUMP = Evaluation("jump", {"fitness": 4.0})
+SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0", "--study", "s.db")
+FAILING = {
+    "error": "raise ValueError('a\\nb\\x1b[31m')",
+    "no Exception": "raise BaseException('x')",
+    "generator's end": "raise GeneratorExit",
+    "exit": "raise SystemExit(0)",
+    "no text": "\n class E(Exception):\n  def __str__(self): raise RuntimeError\n raise E",
+    "no text of no Exception": "\n class E(BaseException):\n  def __str__(self): raise RuntimeError\n raise E",
+    "key": "return m['no\\n\\x1b']",
+    "key without text": "\n class K:\n  def __repr__(self): raise RuntimeError\n raise KeyError(K())",
+    "none": "return None",
+    "nan": "return float('nan')",
+    "infinity": "return float('inf')",
+    "huge": "return 10**400",
+    "digits": "return 10**6000",
+    "text": "return 'x'",
+    "complex": "return 1j",
+    "true": "return True",
+    "list": "return [1.0]",
+    "array": "import numpy; return numpy.ones(1)",
+    "no repr": "\n class C:\n  def __repr__(self): raise RuntimeError\n return C()",
+    "repr of no text": "\n class C:\n  def __repr__(self): return 5\n return C()",
+    "long repr": "\n class C:\n  def __repr__(self): return 'x\\n' * 10**6\n return C()",
+    "long type": "return type('a\\x1b' * 2000, (), {})()",
+    "strange number": "\n class F(float):\n  def __float__(self): raise RuntimeError\n return F(1)",
+    "endless": "return f(m)",
+    "generator": "yield 1",
+    "two arguments": "return f(m, m)",
+}
+REFUSED = {
+    "syntax": "def f(m:\n",
+    "nul": "x = 1\0",
+    "not utf-8": "c = 'caf\udce9'\ndef f(m): return 1.0\n",
+    "error": "raise ValueError('a\\nb')",
+    "no Exception": "raise BaseException('a')",
+    "exit": "import sys\nsys.exit('a\\nb')",
+    "no text": "class E(Exception):\n def __str__(self): raise RuntimeError\nraise E",
+    "missing import": "import nonexistent_module",
+    "nothing": "",
+    "builtin": "f = len",
+    "class": "class f:\n def __init__(self, m): pass",
+    "bound": "class F:\n def f(self, m): return 1.0\nf = F().f",
+    "async": "async def f(m): return 1.0",
+    "a million values": "c = list(map(float, range(300_000)))\ndef f(m): return c[0]",
+}
+BORNE = {
+    "name of a path": "def f(m): return 1.0\nf.__name__ = 'a\\n/../x'",
+    "name of a formula": "def f(m): return 1.0\nf.__name__ = '=1+1'",
+    "no repr": "class C:\n def __repr__(s): raise RuntimeError\nc = C()\ndef f(m): c; return 1.0",
+    "no copy": "class C:\n def __reduce_ex__(s, n): raise RuntimeError\nc = C()\ndef f(m): c; return 1.0",
+    "within itself": "c = []\nc.append(c)\ndef f(m): c; return 1.0",
+    "deep list": "c = []\nfor i in range(50_000): c = [c]\ndef f(m): c; return 1.0",
+    "chain": "def f0(m): return 1.0\n"
+    + "".join(f"def f{i}(m): return f{i - 1}(m)\n" for i in range(1, 3000))
+    + "def f(m): return f2999 and 1.0",
+    "digits": "c = 10**6000\ndef f(m): c; return 1.0",
+    "half a character": "c = '\\ud800'\ndef f(m): c; return 1.0",
+    "name without value": "def make():\n def f(m): return x if 0 else 1.0\n if 0: x = 1\n return f\nf = make()",
+    "lock": "import threading\nc = threading.Lock()\ndef f(m): c; return 1.0",
+    "open file": "import os\nc = open(os.devnull)\ndef f(m): c; return 1.0",
+    "no builtins": "del __builtins__\ndef f(m): return 1.0",
+    "dataclass": "from dataclasses import dataclass\n@dataclass\nclass W:\n a: int = 1\nc = W()\ndef f(m): return c.a",
+    "enumeration": "import enum\nclass E(enum.Enum):\n A = 1\ndef f(m): return E.A.value",
+    "empties what it gets": "def f(m): m.clear(); return 1.0",
+}
+
+
+def aim(sandbox: Sandbox, text: str) -> object:
+    sandbox.write("o.py", text)
+    return find_objective("o.py:f")
+
+
+def refusal(call: object) -> str:
+    with pytest.raises(JumpcadError) as caught:
+        call()  # type: ignore[operator]
+    said = str(caught.value)
+    assert 0 < len(said) < 500
+    assert said.isprintable()
+    return said
+
+
+@pytest.mark.parametrize("case", FAILING)
+def test_a_function_that_fails_is_a_line(sandbox: Sandbox, case: str) -> None:
+    sandbox.write("o.py", f"def f(m):\n {FAILING[case]}\n")
+    with sandbox.untouched():
+        refusal(lambda: find_objective("o.py:f").score(JUMP))
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_a_file_without_a_usable_function_is_a_line(sandbox: Sandbox, case: str) -> None:
+    sandbox.write("o.py", REFUSED[case])
+    with sandbox.untouched():
+        refusal(lambda: find_objective("o.py:f"))
+
+
+@pytest.mark.parametrize("case", BORNE)
+def test_a_function_may_use_anything(sandbox: Sandbox, case: str) -> None:
+    sandbox.write("o.py", BORNE[case])
+    with sandbox.untouched():
+        assert find_objective("o.py:f").score(JUMP) == 1.0
+
+
+def test_an_interrupt_in_an_objective_is_one(sandbox: Sandbox) -> None:
+    sandbox.write("o.py", "def f(m):\n raise KeyboardInterrupt\n")
+    sandbox.run(*SEARCH, "--objective", "o.py:f", "--json", exits=(130,), writes=["s.db"])
+
+
+BESIDES = """
+import os, random, sys
+import numpy as np
+print("loaded")
+os.chdir("/")
+def f(m):
+    print("scored")
+    random.seed(1)
+    np.random.seed(1)
+    os.chdir("/")
+    return 1.0
+"""
+
+
+def test_what_an_objective_does_besides_disturbs_nothing(sandbox: Sandbox, capfd: pytest.CaptureFixture[str]) -> None:
+    """Nor the document on standard output, nor where files go, nor the search's own random numbers."""
+    sandbox.write("o.py", BESIDES)
+    state, by_numpy = random.getstate(), np.random.get_state()[1].tolist()  # noqa: NPY002
+    with sandbox.untouched():
+        assert find_objective("o.py:f").score(JUMP) == 1.0
+    printed = capfd.readouterr()
+    assert printed.out == ""
+    assert printed.err.split() == ["loaded", "scored"]
+    assert Path.cwd() == sandbox.work
+    assert random.getstate() == state
+    assert np.random.get_state()[1].tolist() == by_numpy  # noqa: NPY002
+
+
+USED = {
+    "a number": ("w = {}\ndef f(m): return w", "1.0", "2.0"),
+    "a default": ("def f(m, *, w={}): return w", "1.0", "2.0"),
+    "an array's middle": ("import numpy as np\nw = np.zeros(5000)\nw[2500] = {}\ndef f(m): return w[2500]", "1", "2"),
+    "an object": ("class W:\n def __init__(s): s.a = {}\nw = W()\ndef f(m): return w.a", "1.0", "2.0"),
+    "a class": ("class W: a = {}\ndef f(m): return W.a", "1.0", "2.0"),
+    "a method": ("class W:\n def g(s): return {}\nw = W()\ndef f(m): return w.g()", "1.0", "2.0"),
+    "a static method": ("class W:\n @staticmethod\n def g(): return {}\ndef f(m): return W.g()", "1.0", "2.0"),
+    "a property": ("class W:\n @property\n def g(s): return {}\nw = W()\ndef f(m): return w.g", "1.0", "2.0"),
+    "a base class": ("class V: a = {}\nclass W(V): pass\ndef f(m): return W.a", "1.0", "2.0"),
+    "a partial": ("import functools\ndef h(x): return {}\ng = functools.partial(h, 0)\ndef f(m): return g()", "1", "2"),
+    "a cached function": ("import functools\n@functools.cache\ndef g(): return {}\ndef f(m): return g()", "1.0", "2.0"),
+    "a bound method": ("class W:\n def g(s): return {}\ng = W().g\ndef f(m): return g()", "1.0", "2.0"),
+    "a function in a list": ("g = [lambda: {}]\ndef f(m): return g[0]()", "1.0", "2.0"),
+    "a function in a table": ("g = dict(a=lambda: {})\ndef f(m): return g['a']()", "1.0", "2.0"),
+    "a set": ("g = set(['a', 'b', {}])\ndef f(m): return len(g)", "'c'", "'d'"),
+    "a pattern": ("import re\ng = re.compile({})\ndef f(m): return bool(g) + 0.0", "'a'", "'b'"),
+    "a wrapped function": ("import functools\ndef d(g):\n @functools.wraps(g)\n def w(m): return g(m)\n return w\n"
+                           "@d\ndef f(m): return {}", "1.0", "2.0"),
+    "a module beside it": ("import sys\nsys.path.insert(0, '.')\nimport h{0} as h\ndef f(m): return h.g(m)", "1", "2"),
+    "a library's function": ("from statistics import {} as g\ndef f(m): return g([1.0])", "mean", "median"),
+}  # fmt: skip
+HASHES = """
+import json, sys
+from jumpcad.search.objective import find_objective
+print(json.dumps({name: find_objective(name + ".py:f").code for name in json.load(sys.stdin)}))
+"""
+
+
+def test_a_function_is_the_same_until_something_that_it_uses_changes(sandbox: Sandbox) -> None:
+    """In every process, whatever the addresses of objects and the order of sets."""
+    for number, (text, one, other) in enumerate(USED.values()):
+        for value, name in ((one, "one"), (other, "other")):
+            sandbox.write(f"{name}{number}.py", text.replace("{0}", value).replace("{}", value))
+    sandbox.write("h1.py", "def g(m): return 1.0\n")
+    sandbox.write("h2.py", "def g(m): return 2.0\n")
+    names = [f"{name}{number}" for number in range(len(USED)) for name in ("one", "other")]
+    found = []
+    for seed in ("1", "2"):
+        environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONHASHSEED": seed}
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", HASHES], input=json.dumps(names), capture_output=True, text=True,
+            env=environment, check=True,
+        )  # fmt: skip
+        found.append(json.loads(done.stdout))
+    sandbox.tries += 2 * len(names)
+    assert found[0] == found[1]
+    alike = [case for number, case in enumerate(USED) if found[0][f"one{number}"] == found[0][f"other{number}"]]
+    assert not alike
+
+
+PLACES = ["o.py:", ":f", "o.py:f:g", "o.txt:f", "o.py:1", "folder.py:f", "pipe.py:f", "zero.py:f", "loop.py:f",
+          "no.py:f", "\0.py:f", f"{'x' * 5000}.py:f", "a\n\x1b.py:f", "\ud800.py:f", "o.py:__name__"]  # fmt: skip
+
+
+@pytest.mark.parametrize("place", PLACES, ids=ascii)
+def test_a_place_without_a_function_is_a_line(sandbox: Sandbox, place: str) -> None:
+    sandbox.write("o.py", "def f(m): return 1.0\n")
+    (sandbox.work / "folder.py").mkdir()
+    os.mkfifo(sandbox.work / "pipe.py")
+    (sandbox.work / "zero.py").symlink_to("/dev/zero")
+    (sandbox.work / "loop.py").symlink_to("loop.py")
+    sandbox.run(*SEARCH, "--objective", place, "--json", exits=(2,))

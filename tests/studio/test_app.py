@@ -1,0 +1,95 @@
+"""The studio without a browser: a real viser server, its sliders, what it shows and says."""
+
+import socket
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from jumpcad.design import load_design
+from jumpcad.evaluation import evaluate
+from jumpcad.scene.visuals import visuals
+from jumpcad.workshop import load_workshop
+
+viser = pytest.importorskip("viser", reason="the extra studio is not installed")
+
+from jumpcad.studio import Studio  # noqa: E402
+from jumpcad.studio.answers import printed_answer, quick_words  # noqa: E402
+
+
+@pytest.fixture
+def studio(tmp_path: Path, free_port: int) -> Iterator[Studio]:
+    server = viser.ViserServer(host="127.0.0.1", port=free_port, verbose=False)
+    made = Studio(load_design("kenan-2.0"), "kenan-2.0", ["default", "fine"], server, tmp_path)
+    yield made
+    server.stop()
+
+
+@pytest.fixture
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def test_it_shows_every_part_and_says_what_evaluate_says(studio: Studio) -> None:
+    found = studio.answer(studio.design)
+    assert found.robot is not None
+    assert {name.rpartition("/")[2] for name in studio.stage.meshes} == {one.name for one in visuals(found.robot)}
+    jump = evaluate(studio.design).jump
+    assert jump.ballistic_range_m is not None
+    told = found.figures()["range"][0]
+    assert told == pytest.approx(1000.0 * jump.ballistic_range_m, rel=0.005)  # planar against PyBullet
+    assert f"{told:.1f} mm" in studio.figures.content
+
+
+def test_only_what_changes_is_sent_again(studio: Studio) -> None:
+    robot = studio.answer(studio.design).robot
+    assert robot is not None
+    assert studio.stage.show(robot) == 0
+    other = printed_answer(studio.design.model_copy(update={"ground_link_angle_deg": 45.0}), studio.workshop).robot
+    assert other is not None
+    assert 0 < studio.stage.show(other) < len(studio.stage.meshes) / 2
+
+
+def test_a_design_that_cannot_be_built_is_told_with_its_reason(studio: Studio) -> None:
+    found = studio.answer(studio.design.model_copy(update={"stiffness_nmm_per_deg": 200.0}))
+    assert found.robot is None
+    assert found.refused
+    assert found.refused in studio.figures.content
+
+
+def test_the_ghost_is_what_was_kept_and_figures_show_the_difference(studio: Studio) -> None:
+    studio.answer(studio.design)
+    studio._tell(studio._keep)
+    assert any(name.startswith("/ghost/") for name in studio.stage.meshes)
+    found = studio.answer(studio.design.model_copy(update={"stiffness_nmm_per_deg": 8.0}))
+    assert found.robot is not None
+    assert "(-" in studio.figures.content
+
+
+def test_sliders_hold_the_design_and_reset(studio: Studio) -> None:
+    assert studio.design == load_design("kenan-2.0")
+    studio.sliders["e_coef"].value = 1.0
+    assert studio.design.e_coef == 1.0
+    studio._reset()
+    assert studio.design == load_design("kenan-2.0")
+
+
+def test_a_saved_design_is_read_again_and_a_users_file_is_kept(studio: Studio, tmp_path: Path) -> None:
+    studio._tell(studio._save)
+    assert load_design(tmp_path / "kenan-2.0-studio.toml") == studio.design
+    (tmp_path / "kenan-2.0-studio.toml").write_text("mine")
+    studio._tell(studio._save)
+    assert "refused" in studio.told.content
+    assert (tmp_path / "kenan-2.0-studio.toml").read_text() == "mine"
+
+
+def test_the_answer_at_once_is_the_capsule_robots() -> None:
+    words = quick_words(load_design("kenan-2.0"))
+    assert "190 mm" in words  # the README's range with the study's masses
+
+
+def test_the_workshop_can_be_changed(studio: Studio) -> None:
+    studio._change_workshop("fine")
+    assert studio.workshop == load_workshop("fine")
