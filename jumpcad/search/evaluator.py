@@ -66,6 +66,7 @@ class Evaluator:
         self._finished = {trial.key: trial for trial in held}
         self._taken = {(trial.phase, trial.step, trial.place): trial.key for trial in held}
         self._seen: dict[Key, Trial] = {}
+        self._spent = 0
         self.prior = list(prior)
         pool.notice = store.note
 
@@ -77,7 +78,7 @@ class Evaluator:
     @property
     def spent(self) -> int:
         """How many robots the trials took: one each, more where an objective looks at neighbours."""
-        return sum(trial.cost for trial in self._seen.values())
+        return self._spent
 
     def admits(self, one: Design | Variant) -> bool:
         """Whether a design or variant is new, and the model admits it without an evaluation."""
@@ -152,6 +153,7 @@ class Evaluator:
             self._taken[trial.phase, trial.step, trial.place] = trial.key
 
     def _add(self, trial: Trial, computed: bool) -> None:
+        self._spent += 0 if trial.key in self._seen else trial.cost
         self._seen[trial.key] = trial
         self._watch(trial, computed)
 

@@ -45,6 +45,11 @@ class Evaluation:
         return names or (() if self.feasible else (self.verdict,))
 
     @property
+    def cost(self) -> int:
+        """How many robots were built and simulated for it."""
+        return int(self.metrics.get(COST, 1.0))
+
+    @property
     def bare(self) -> "Evaluation":
         """The same with findings of name, severity, margin and unit only: what studies keep.
 

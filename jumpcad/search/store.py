@@ -9,6 +9,7 @@ import itertools
 import json
 import os
 import sqlite3
+import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
@@ -184,10 +185,11 @@ class StudyStore:
         with plain_errors(self.path):
             if self._format() < FORMAT:
                 columns[_COLUMNS.index("workshop")] = "CAST('{}' AS BLOB)"
-            records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations").fetchall()
-        space = self.identity.get("space", {})
-        free, keys = sum("fixed" not in part for part in space.values()), [name for name in space if "." in name]
-        trials = [self._trial(dict(zip(_COLUMNS, record, strict=True)), free, keys) for record in records]
+            space = self.identity.get("space", {})
+            free, keys = sum("fixed" not in part for part in space.values()), [name for name in space if "." in name]
+            # Row by row: all of them as text would take more memory than the trials.
+            records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations")
+            trials = [self._trial(dict(zip(_COLUMNS, record, strict=True)), free, keys) for record in records]
         trials.sort(key=lambda trial: trial.position)
         for one, other in itertools.pairwise(trials):
             if one.position == other.position:
@@ -291,8 +293,8 @@ class StudyStore:
                 raise JumpcadError("proposal.theta: missing")
             return Trial(
                 phase, step, stored_count(record, "place"), stored_design(record),
-                stored_evaluation(record), score, stored_text(record, "model"), stored_figure(record, "duration_s"),
-                proposal, stored_workshop(record, keys),
+                stored_evaluation(record), score, sys.intern(stored_text(record, "model")),
+                stored_figure(record, "duration_s"), proposal, stored_workshop(record, keys),
             )  # fmt: skip
         except JumpcadError as error:
             name = " ".join(shown(record[key]).removeprefix("b") for key in ("phase", "step", "place"))

@@ -2,7 +2,10 @@
 
 import math
 import re
+import sys
+import zlib
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
@@ -142,7 +145,81 @@ def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
             number = getattr(finding, figure)
             if number is not None and math.isnan(number):  # infinite is allowed: the audit of a run that diverged
                 raise JumpcadError(f"the {figure} of {finding.name} is not a number")
-    return Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
+    whole = Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
+    return StoredEvaluation(whole, record["metrics"], record["findings"])
+
+
+class StoredEvaluation(Evaluation):
+    """An evaluation read from a study, equal to the one that was written.
+
+    Figures and findings stay packed until someone asks for them: 50,000 rows would take 2 GB otherwise.
+    """
+
+    def __init__(self, whole: Evaluation, metrics: bytes, findings: bytes) -> None:
+        held = {
+            "verdict": sys.intern(whole.verdict), "detail": whole.detail, "_reasons": _shared(whole.reasons),
+            "_feasible": whole.feasible, "_cost": whole.cost, "_packed": zlib.compress(metrics, 1),
+            "_packed_findings": zlib.compress(findings, 1),
+        }  # fmt: skip
+        self.__dict__.update(held)
+
+    @property
+    def metrics(self) -> Mapping[str, float]:
+        """Named figures."""
+        return dict(_metrics_of(self.__dict__["_packed"]))
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Findings, bare ones."""
+        return _findings_of(self.__dict__["_packed_findings"])
+
+    @property
+    def feasible(self) -> bool:
+        """As of what was written."""
+        return bool(self.__dict__["_feasible"])
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """As of what was written."""
+        reasons: tuple[str, ...] = self.__dict__["_reasons"]
+        return reasons
+
+    @property
+    def cost(self) -> int:
+        """As of what was written."""
+        return int(self.__dict__["_cost"])
+
+    @property
+    def bare(self) -> Evaluation:
+        """A plain evaluation with bare findings."""
+        return Evaluation(self.verdict, self.metrics, self.findings, self.detail).bare
+
+    def __eq__(self, other: object) -> bool:
+        """Whether another evaluation, stored or not, is the same."""
+        if not isinstance(other, Evaluation):
+            return NotImplemented
+        return (self.verdict, self.detail, self.metrics, self.findings) == (
+            other.verdict, other.detail, dict(other.metrics), other.findings,
+        )  # fmt: skip
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+@lru_cache(maxsize=4096)
+def _shared(reasons: tuple[str, ...]) -> tuple[str, ...]:
+    return reasons
+
+
+@lru_cache(maxsize=64)
+def _metrics_of(packed: bytes) -> dict[str, float]:
+    found: dict[str, float] = _METRICS.validate_json(zlib.decompress(packed))
+    return found
+
+
+@lru_cache(maxsize=1000)
+def _findings_of(packed: bytes) -> tuple[Finding, ...]:
+    found: tuple[Finding, ...] = _FINDINGS.validate_json(zlib.decompress(packed))
+    return found
 
 
 def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from jumpcad.design import Design
 from jumpcad.search.methods import METHODS
-from jumpcad.search.objective import COST, Evaluation
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.variant import Key, Variant
 from jumpcad.workshop.varied import Value
 
@@ -65,7 +65,7 @@ class Trial:
     @property
     def cost(self) -> int:
         """How many robots were built and simulated for it."""
-        return int(self.evaluation.metrics.get(COST, 1.0))
+        return self.evaluation.cost
 
     @property
     def position(self) -> tuple[int, int, int]:
