@@ -33,7 +33,7 @@ SPACE = Space.default()
 
 
 def request_of(rows: int) -> Request:
-    """Return the request that the study answers: random designs, so that it needs no history of a method."""
+    """Return the request that the study answers."""
     return Request(SPACE, RobotModel("capsule"), method="bo", evaluations=rows, batch=1)
 
 

@@ -60,7 +60,12 @@ def check(robot: Mechanism | Design) -> list[Finding]:
 
 @typed
 def export(
-    robot: Robot | Design, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False
+    robot: Robot | Design,
+    folder: str | Path,
+    pictures: bool = True,
+    step: bool = False,
+    force: bool = False,
+    ros2: bool = False,
 ) -> Bundle:
     """Write a robot's bundle; see `jumpcad.bundle.export.export`.
 
@@ -71,7 +76,7 @@ def export(
     CannotBuildError
         If a design cannot be built.
     """
-    return export_robot(build(robot) if isinstance(robot, Design) else robot, folder, pictures, step, force)
+    return export_robot(build(robot) if isinstance(robot, Design) else robot, folder, pictures, step, force, ros2)
 
 
 def _built(subject: Mechanism | Design) -> Mechanism:

@@ -33,7 +33,7 @@ from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
-NOT_IN_EVERY_ROBOT = ("idler", "cam_spacer_left", "idler_spacer_right", "toe_left", "toe_right")
+NOT_IN_EVERY_ROBOT = ("idler", "cam_spacer_left", "idler_spacer_right", "toe_left", "toe_right", "main_leg_end")
 """Parts that only some designs have: a workshop with their weights serves the other designs too."""
 PIN_ROUNDS = 5
 """In which springs for another direction of their pin are tried."""
@@ -50,6 +50,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
     hardware = (
         *shopping.bought_parts(layout, holes, workshop.catalogue, workshop.bought),
         *pads(layout, workshop.foot_pad),
+        *links.bars(layout, holes),
     )
     bodies = _bodies(layout, parts, hardware)
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
@@ -128,6 +129,7 @@ def _laid_out(
         stop_pad=workshop.stop_pad,
         retention=chosen.retention,
         toe_half_width_mm=workshop.body.toe_half_width_mm,
+        leg_bar=workshop.leg_bar,
     )
     return layout, settled.holes
 
@@ -154,7 +156,7 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     front_right = (layout.front_mm, low + GAP_MM / 2.0, -half - GAP_MM / 2.0)
     cam_right = (layout.cam_axis_mm, low + GAP_MM / 2.0, lateral.cam[0] - GAP_MM / 2.0)
     made = [
-        links.main_leg(layout, holes),
+        *links.main_leg(layout, holes),
         links.front_link(layout, holes),
         foot.foot(layout, holes),
         *toes.toes_apart(layout, holes),

@@ -104,4 +104,6 @@ def release_limits(workshop: Workshop) -> ReleaseLimits:
         backlash_rad=(math.radians(low), math.radians(high)),
         rebound=table.rebound,
         train_nm_per_rad=table.train_nm_per_rad,
+        contact_n_per_m=1000.0 * table.contact_n_per_mm,
+        kick_reserve=safety.kick_reserve,
     )

@@ -12,17 +12,21 @@ from jumpcad.bundle.electronics import electronics_facts
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.folder import write_folder
 from jumpcad.bundle.guide import write_guide
+from jumpcad.bundle.guide_page import write_page
 from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.joints import joint_facts
+from jumpcad.bundle.jump_motion import jump_motion
 from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
+from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
 from jumpcad.bundle.wiring import wiring_svg
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
+from jumpcad.exporters.animation import animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
@@ -31,7 +35,14 @@ from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import default_engine
 
 
-def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False) -> Bundle:
+def export(
+    robot: Robot,
+    folder: str | Path,
+    pictures: bool = True,
+    step: bool = False,
+    force: bool = False,
+    ros2: bool = False,
+) -> Bundle:
     """Write a robot's bundle.
 
     Parameters
@@ -42,11 +53,13 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
         Is made, with its parents; may be empty or hold an older bundle of the robot. The files that it lists are
         replaced; what a user added stays.
     pictures
-        Whether to draw the robot, which takes a quarter of the time.
+        Whether to draw the robot and to animate its jump in the GLB file, which takes a quarter of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
     force
         Whether to replace another bundle too, and files that a user edited or added under a name of ours.
+    ros2
+        Whether to write a ROS 2 description package too.
 
     Raises
     ------
@@ -59,7 +72,7 @@ def export(robot: Robot, folder: str | Path, pictures: bool = True, step: bool =
     require_name(robot.name)
     if wrong := errors(electronics_findings(robot)):
         raise CannotBuildError(f"{wrong[0].message}: {wrong[0].remedy}")
-    exporters = chosen(["step"] if step else [])
+    exporters = chosen([name for name, wanted in (("step", step), ("ros2", ros2)) if wanted])
     return write_folder(folder, robot.name, _facts(robot), contents(robot, exporters, pictures), force)
 
 
@@ -90,14 +103,22 @@ def _beside_report(robot: Robot, exporters: Iterable[Exporter], seen: Mapping[st
     """Yield what the report links to, with the pictures that were seen."""
     yield DESIGN, robot.design.to_toml()
     yield WORKSHOP, robot.workshop.to_toml()
+    motion = jump_motion(robot) if seen else None
     for exporter in exporters:
-        yield from exporter.files(robot)
+        for path, content in exporter.files(robot):
+            if motion is not None and isinstance(content, bytes) and path.endswith(".glb"):
+                yield path, animated(content, motion)
+            else:
+                yield path, content
     yield "bom.csv", write_bom(bill_of_materials(robot))
-    yield "assembly.md", write_guide(robot, bool(seen))
-    yield "wiring.svg", wiring_svg(robot)
     yield from firmware_files(robot)
-    for picture, png in seen.items():
-        yield f"pictures/{picture}.png", png
+    yield from spring_sheets(robot)
+    files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
+    yield from files.items()
+    wiring, guide = wiring_svg(robot), write_guide(robot, list(seen))
+    yield "wiring.svg", wiring
+    yield "assembly.md", guide
+    yield "assembly.html", write_page(guide, robot.name, files | {"wiring.svg": wiring.encode()})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

@@ -1,31 +1,44 @@
-"""assembly.md: what to print, what to buy, which springs to order, and how to assemble it."""
+"""assembly.md: what to print and how, what to buy and check, how to assemble, wire, start and weigh the robot."""
 
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from jumpcad.bundle.arrival import arrival_lines
 from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials, euros
+from jumpcad.bundle.expected import expected, filled
+from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_lines
 from jumpcad.bundle.springs import spring_order
 from jumpcad.bundle.wiring import wiring_lines
 from jumpcad.files.markdown import plain
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_steps import assembly_steps
+from jumpcad.scene.assembly_order import ROBOT
+from jumpcad.scene.assembly_steps import Step, assembly_steps
+from jumpcad.scene.step_views import label_of
 from jumpcad.scene.visuals import Visual
 
 PRINT, BUY = "## Print", "## Buy"
 
 
-def write_guide(robot: Robot, pictures: bool = True) -> str:
-    """Return the guide in Markdown; `pictures` says whether `pictures/step-N.png` are beside it."""
+def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
+    """Return the guide in Markdown; `pictures` are the names of those in `pictures/`."""
+    steps = assembly_steps(robot)
     lines = [
         f"# {robot.name}",
         "",
-        f"{1000.0 * robot.mass_kg:.1f} g. Left and right are as seen from behind the robot.",
+        f"{1000.0 * robot.mass_kg:.1f} g. Left and right are as seen from behind the robot. Read all of it before you "
+        "start: plan an evening for printing and ordering, and an afternoon for assembly. Torques and forces of hands "
+        "are judgements.",
         *_tables(bill_of_materials(robot)),
+        *print_lines(robot),
+        *order_lines(robot),
         *spring_order(robot),
-        *_steps(robot, pictures),
+        *tool_lines(steps),
+        *arrival_lines(robot),
         *wiring_lines(robot),
+        *_steps(robot, steps, pictures),
+        *weigh_lines(robot),
     ]
     return "\n".join(lines) + "\n"
 
@@ -68,13 +81,41 @@ def _table(head: str, items: Sequence[BillLine], printed: bool) -> Iterator[str]
         yield f"| {' | '.join(map(plain, row))} |"
 
 
-def _steps(robot: Robot, pictures: bool) -> Iterator[str]:
-    for number, step in enumerate(assembly_steps(robot), start=1):
-        yield from ("", f"## {number}. {step.title}", "", plain(step.text), "")
-        if pictures:
-            yield from (f"![{step.title}](pictures/step-{number}.png)", "")
-        for label, count in Counter(_label(shape) for shape in step.added if _counts(shape)).items():
-            yield f"- {count} × {plain(label)}"
+def _steps(robot: Robot, steps: Sequence[Step], pictures: Sequence[str]) -> Iterator[str]:
+    words = expected(robot, steps)
+    for number, step in enumerate(steps, start=1):
+        yield from ("", f"## {number}. {step.title}", "")
+        for warning in step.warnings:
+            yield from (f"> **Warning.** {filled(warning, words)}", "")
+        for name in pictures:
+            if re.fullmatch(rf"step-{number}(-.*)?", name):
+                yield from (f"![{step.title}](pictures/{name}.png)", "")
+        yield from _put_on(step)
+        for text in step.text:
+            yield from (filled(text, words), "")
+        for check in step.checks:
+            yield from (f"**Check.** {filled(check, words)}", "")
+
+
+def _put_on(step: Step) -> Iterator[str]:
+    """Yield a line for every kind of thing that a step puts on: how many, what it is called, from where, which tool."""
+    lines: Counter[str] = Counter()
+    for index, placed in enumerate(step.placed):
+        move = placed.move
+        if move.trial:
+            continue
+        base = index == 0 and step.onto not in (ROBOT,)
+        way = "" if move.way == "laid" or base or "body_plate_right" in move.parts else f", {move.along}"
+        tool = f"; {move.tool.name}" if move.tool else ""
+        if move.brings:
+            lines[f"the {move.brings}{way}"] = 0
+            continue
+        for thing in placed.things:
+            if _counts(thing):
+                lines[f"{plain(_label(thing))} ({label_of(thing)}{way}{tool})"] += 1
+    yield from (f"- {count} × {words}" if count else f"- {words}" for words, count in lines.items())
+    if lines:
+        yield ""
 
 
 def _label(shape: Visual) -> str:

@@ -4,6 +4,7 @@ import hashlib
 import json
 import math
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,10 +23,13 @@ LARGEST_BYTES = 16_000_000
 
 
 SUFFIXES = (
-    ".3mf", ".csv", ".dxf", ".gif", ".glb", ".html", ".json", ".md", ".obj", ".png", ".sdf", ".step", ".stl", ".svg",
-    ".toml", ".urdf", ".xml",
+    ".3mf", ".config", ".csv", ".dxf", ".gif", ".glb", ".html", ".json", ".md", ".obj", ".png", ".rviz", ".sdf",
+    ".step", ".stl", ".svg", ".toml", ".urdf", ".xacro", ".xml",
 )  # fmt: skip
 PROGRAMS = ("firmware/main.py", "firmware/robot.py", "firmware/winder.py")
+IN_ROS2 = re.compile(
+    r"ros2/[a-z0-9_]+_description/(CMakeLists\.txt|launch/(view_robot|gazebo)\.launch\.py|config/controllers\.yaml)"
+)
 """Of the files that a bundle may have. A stranger's manifest that lists others, such as .git/HEAD or a module of
 Python, would have them removed when the bundle is built again."""
 
@@ -40,7 +44,7 @@ def _safe(path: str) -> str:
 def _ours(path: str) -> str:
     """Return the path of a file that jumpcad can have written; reject others."""
     hidden = any(name.startswith(".") for name in path.split("/"))
-    if hidden or not (path.endswith(SUFFIXES) or path in PROGRAMS):
+    if hidden or not (path.endswith(SUFFIXES) or path in PROGRAMS or IN_ROS2.fullmatch(path)):
         raise ValueError("is no file of a bundle")
     return _safe(path)
 

@@ -45,6 +45,7 @@ def _assumed(parts: ReleaseParts) -> dict[str, float]:
         "friction_mm": parts.friction_mm,
         "train_nm_per_rad": parts.train_nm_per_rad,
         "lever_nm_per_rad": parts.lever_nm_per_rad,
+        "contact_nm_per_rad": parts.contact_nm_per_rad,
         "roller_kg_m2": parts.roller_kg_m2,
     }
     return {name: float(f"{value:.9g}") for name, value in values.items()}

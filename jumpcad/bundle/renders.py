@@ -7,11 +7,12 @@ import numpy as np
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
+from jumpcad.bundle.step_pictures import step_pictures
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_steps import assembly_steps
-from jumpcad.scene.camera import View
+from jumpcad.scene.camera import View, aimed
+from jumpcad.scene.floor import STRIPE_M, with_floor
 from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
@@ -28,10 +29,6 @@ EXPLOSION = 2.4
 CENTRED_M = 0.004
 """A thing whose middle is within this of the middle plane is in the middle."""
 EXPLODED_VIEW = View(yaw_deg=-34.0, pitch_deg=24.0)
-STEP_SIZE = (320, 240)
-STEP_VIEW = View(yaw_deg=62.0, pitch_deg=24.0)
-"""From the left, from where things are put on the axles."""
-STEP_ROOM = 1.3
 JUMP_VIEW = View(yaw_deg=-80.0, pitch_deg=6.0)
 
 
@@ -64,18 +61,22 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
     """
     things = visuals(robot)
     scene = _renderer(things)
-    return _renders(scene, robot, things, RENDER_SIZE) | _step_pictures(scene, robot, things, STEP_SIZE)
+    return _renders(scene, robot, things, RENDER_SIZE) | step_pictures(robot, things, scene)
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
-    """Return an animated GIF of a recorded jump, at equal time steps from release on."""
+    """Return an animated GIF of a recorded jump above a striped floor, at equal time steps from release on."""
     things = visuals(robot)
     times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
     frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
     corners = np.concatenate([_corners(things, poses) for poses in frames])
     scene = _renderer(things)
-    return _gif([scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames])
+    camera = aimed(corners, JUMP_VIEW, size[0] / size[1])
+    slower = 0.001 * FRAME_MS * (JUMP_FRAMES - 1) / (times[-1] - times[0])
+    caption = f"slow motion, {slower:.0f} times; stripes of {1000.0 * STRIPE_M:.0f} mm"
+    pictures = [scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames]
+    return _gif([with_floor(picture, camera, corners, caption) for picture in pictures])
 
 
 def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
@@ -106,21 +107,6 @@ def _renders(scene: Renderer, robot: Robot, things: Sequence[Visual], size: tupl
     }
 
 
-def _step_pictures(scene: Renderer, robot: Robot, things: Sequence[Visual], size: tuple[int, int]) -> dict[str, bytes]:
-    """Return a picture of every step of assembly: what is added in colour, what is already there pale."""
-    steps = assembly_steps(robot)
-    number = {shape.name: index for index, step in enumerate(steps) for shape in step.added}
-    poses = _poses(things, body_poses(robot))
-    pictures = {}
-    for index in range(len(steps)):
-        there = [pose if number[thing.name] <= index else None for thing, pose in zip(things, poses, strict=True)]
-        pale = [number[thing.name] < index for thing in things]
-        added = [thing for thing in things if number[thing.name] == index]
-        corners = _corners(added, _poses(added, body_poses(robot)))
-        pictures[f"step-{index + 1}"] = _png(scene.picture(there, size, STEP_VIEW, _widened(corners), pale))
-    return pictures
-
-
 def _renderer(things: Sequence[Visual]) -> Renderer:
     return Renderer([(thing.mesh, thing.colour) for thing in things])
 
@@ -143,13 +129,6 @@ def _corners(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
         box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
         corners.append(box @ pose[:3, :3].T + pose[:3, 3])
     return np.concatenate(corners)
-
-
-def _widened(corners: Array) -> Array:
-    """Return a frame with room around what is added, so that it is seen where it belongs."""
-    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-    widened: Array = middle + STEP_ROOM * (corners - middle)
-    return widened
 
 
 def _png(picture: Image.Image) -> bytes:

@@ -55,6 +55,7 @@ def spring_order(robot: Robot) -> Iterator[str]:
         "- the right-hand one goes on the robot's left, the left-hand one on its right: wound the other way, a spring "
         "would be bent open"
     )
+    yield f"- a drawing of each for its maker: {' and '.join(f'order/spring-{hand}-hand.svg' for hand in spring.hands)}"
 
 
 def _made_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:

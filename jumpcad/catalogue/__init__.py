@@ -13,6 +13,7 @@ from jumpcad.catalogue.articles import (
     StockSpring,
 )
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
+from jumpcad.catalogue.bars import LegBar
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "Clip",
     "Component",
     "Kit",
+    "LegBar",
     "Motor",
     "Nut",
     "OwnParts",

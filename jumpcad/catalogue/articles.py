@@ -286,10 +286,12 @@ class Pad(Article):
     """A soft strip, glued under nose and toes or on the rest stop: `description` is what to order.
 
     `modulus_mpa` is Young's modulus for small strains, as hardness gives it; `friction_min` and `friction_max` are
-    coefficients of dry friction that are found on a clean floor.
+    coefficients of dry friction that are found on a clean floor. One that is `printed` has STL files instead of a size
+    to cut.
     """
 
     description: Source
+    printed: bool = False
     thickness_mm: Annotated[Length, Field(ge=0.3, le=6)]
     density_g_cm3: Annotated[float, Field(ge=0.1, le=3)]
     modulus_mpa: Annotated[float, Field(ge=0.2, le=200)]

@@ -10,6 +10,7 @@ from pydantic import PositiveFloat
 
 from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Component, Kit, Motor, Pad, StockSpring
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
+from jumpcad.catalogue.bars import LegBar
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 
@@ -128,6 +129,7 @@ class Catalogue:
     rods: PartsByName[Rod]
     clips: PartsByName[Clip]
     clevis_pins: PartsByName[ClevisPin]
+    bars: PartsByName[LegBar]
     wire: Wire
     rod_density_g_cm3: float
 
@@ -180,8 +182,8 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs", "pads", "axles")
-    motors, bearings, electronics, kits, fasteners, springs, pads, axles = (
+    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs", "pads", "axles", "bars")
+    motors, bearings, electronics, kits, fasteners, springs, pads, axles, bars = (
         read_toml(folder / f"{name}.toml")[0] for name in files
     )
     defaults = motors.pop("defaults")
@@ -201,6 +203,7 @@ def load_catalogue() -> Catalogue:
         rods=_by_name("rod", Rod, axles["rods"]),
         clips=_by_name("clip", Clip, axles["clips"]),
         clevis_pins=_by_name("clevis pin", ClevisPin, axles["clevis_pins"]),
+        bars=_articles("leg bar", LegBar, bars, bars.pop("defaults")),
         wire=Wire.from_toml(folder / "wire.toml"),
         rod_density_g_cm3=fasteners["rods"]["density_g_cm3"],
     )

@@ -11,13 +11,15 @@ leg_pin_strength, foot_pin_strength, roller_screw_strength, axle_retention, pin_
 axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque, release_*; `electronics`
 supply_voltage_*, motor_current_*, gearbox_torque, wiring_*; `ground` ground_clearance, foot_clearance; `sideways`
 sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs, bridges, solid; `interference` interference;
-`stop` stop_strength, stop_plates, stop_leg, stop_pad, stop_clearance; `engraving` engraving.
+`stop` stop_strength, stop_plates, stop_leg, stop_pad, stop_clearance; `engraving` engraving; `assembly`
+assembly_paths, tool_access.
 """
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from jumpcad.checks.assembly import assembly_findings
 from jumpcad.checks.drive import drive_findings
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.checks.engraving import engraving_findings
@@ -61,6 +63,7 @@ CHECKS = (
     Check(printability_findings),
     Check(interference_findings),
     Check(engraving_findings),
+    Check(assembly_findings),
 )
 """Every check, in the order of its findings."""
 

@@ -17,7 +17,7 @@ from jumpcad.findings import Finding, at_least, at_most, limit
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import faults
-from jumpcad.solids.outline import Region, grown, union
+from jumpcad.solids.outline import Region, grown, hull, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Fits, Process
@@ -165,7 +165,10 @@ def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tupl
             held = (grown(ledge, TOUCH_MM) ^ below.region).decompose()
             ring = any(True for piece in held for _ in _contours(piece, -1.0))
             inside = (ledge - union(_contours(below.region, 1.0))).is_empty()
-            if len(held) > 1 or (ring and inside):
+            between = (
+                ledge - grown(hull(held), TOUCH_MM)
+            ).is_empty()  # as the roof of a socket that is open at one end
+            if len(held) > 1 or (ring and inside) or between:
                 yield True, _least(partial(_vanishes, ledge), _longest_mm(ledge))
             else:
                 yield False, _least(partial(_covered, ledge, below.region), _longest_mm(ledge))

@@ -5,7 +5,7 @@ eye of length l whose bore is c wider than its pin tilts by c/l to either side.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +18,10 @@ from jumpcad.robot import Robot
 from jumpcad.transforms import Array
 
 POSITIONS = 9
+WIDEST_MM, HALVINGS = 200, 12
+"""Up to which half width of the toes one that holds is looked for, as wide as a workshop may say."""
+WIDER_MM = 1.0
+"""By how much more than that is advised; judgement: wider bars are heavier."""
 LANDING_PLAYS = 2.0
 """How often the play counts at landing: the body comes down tilted to one side of it and swings to the other one."""
 
@@ -40,24 +44,47 @@ def sideways_findings(robot: Robot) -> list[Finding]:
     """Return `sideways_tipping`: the least roll that is left of standing at rest, wound, and at landing."""
     worst = min(rolls(robot), key=lambda roll: roll.margin_deg)
     reserve = robot.workshop.safety.roll_reserve_deg
+    wider = "raise body.toe_half_width_mm"
+    if worst.margin_deg < reserve:
+        width = _width_mm(robot, reserve)
+        wider = f"body.toe_half_width_mm = {width:.0f}" if width else "no body.toe_half_width_mm holds it: less play"
     return [
         at_least(
             "sideways_tipping", worst.margin_deg, reserve, "°",
             f"{worst.state}, the robot stands {worst.stance_deg:.1f}° from tipping sideways, of which its joints' play "
             f"takes {worst.play_deg:.1f}°; {reserve:g}° must be left",
-            "raise body.toe_half_width_mm, or e_coef or ground_link_angle_deg (wider toes), or lower fits.eye_mm",
+            f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm",
         )
     ]  # fmt: skip
 
 
-def rolls(robot: Robot) -> tuple[Roll, ...]:
-    """Return how far the robot may roll standing at rest, standing wound, and in any pose between them at landing."""
-    linkage = robot.linkage
+def _width_mm(robot: Robot, reserve_deg: float) -> float | None:
+    """Return a half width of the toes with which the reserve is left, in whole millimetres; None if there is none."""
+
+    def holds(half_width_mm: float) -> bool:
+        layout = replace(robot.layout, toe_half_width_mm=half_width_mm)
+        return min(roll.margin_deg for roll in rolls(robot, layout)) >= reserve_deg
+
+    low, high = robot.layout.toe_half_width_mm, float(WIDEST_MM)
+    if not holds(high):
+        return None
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2.0
+        low, high = (low, middle) if holds(middle) else (middle, high)
+    return min(math.ceil(high + WIDER_MM), WIDEST_MM)
+
+
+def rolls(robot: Robot, layout: Layout | None = None) -> tuple[Roll, ...]:
+    """Return how far the robot may roll standing at rest, standing wound, and in any pose between them at landing.
+
+    Another `layout` takes the place of the robot's, with its masses.
+    """
+    linkage, layout = robot.linkage, layout or robot.layout
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
     com = centre_of_mass_on_foot_mm(robot, linkage, linkage.pose(leg))
     aside = 1000.0 * sum(body.mass_kg * float(body.com_m[1]) for body in robot.bodies.values()) / robot.mass_kg
-    stance = stance_deg(robot.layout, com, aside)
-    play = math.degrees(play_rad(robot.layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)))
+    stance = stance_deg(layout, com, aside)
+    play = math.degrees(play_rad(layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)))
     return (
         Roll("at rest", float(stance[-1]), play),
         Roll("wound", float(stance[0]), play),

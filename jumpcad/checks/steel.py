@@ -11,6 +11,8 @@ from jumpcad.strength.bearings import allowed_n, bearing_load_n
 from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
 from jumpcad.strength.stress import pin_stress_mpa
 
+PINS = ("foot_pin", "leg_pin")
+"""Clevis pins, or rods of their own: another bought.axle changes them with clips alone."""
 ROLLER_SCREW_CORE_MM = 2.39
 """M3, ISO 724."""
 ROLLER_SCREW_YIELD_MPA = 640.0
@@ -25,10 +27,6 @@ def steel_findings(case: LoadCase) -> Iterator[Finding]:
 def _pins(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of axles, pins and the roller's screw."""
     layout, lateral = case.layout, case.layout.lateral
-    remedy = (
-        "a stronger bought.axle, raise bought.axle_mm with its bearings, bring the plates closer (a shorter motor, a "
-        "narrower battery or board), or lower stiffness_nmm_per_deg or compression_ratio"
-    )
     names = {
         "leg_axle": "the leg's axle, springs loaded",
         "cam_axle": "the cam's axle, springs loaded",
@@ -38,12 +36,43 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     }
     for name, stress in case.steel_stresses_mpa.items():
         allowed = case.bars[name].yield_mpa / case.workshop.safety.metal_factor
-        yield stress_finding(f"{name}_strength", names[name], stress, allowed, remedy)
+        yield stress_finding(f"{name}_strength", names[name], stress, allowed, _stronger(case, name, stress, allowed))
     lever = ROLLER_WASHER_MM + (lateral.cam[1] - lateral.cam[0]) / 2.0
     stress = pin_stress_mpa(layout.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
     allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
     yield stress_finding(
         "roller_screw_strength", "the roller's screw, springs loaded", stress, allowed, "a narrower bought.roller"
+    )
+
+
+def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) -> str:
+    """Return what to change for an axle or pin; where it is too weak, with the figures that would hold.
+
+    The stress falls with the cube of the diameter; the spring's rate that is named is on the safe side.
+    """
+    bar, spring = case.bars[name], case.workshop.stock_spring
+    share = max(stress_mpa / allowed_mpa, 1.0)
+    needed = bar.yield_mpa * share
+    softer = "lower stiffness_nmm_per_deg or compression_ratio"
+    if spring is not None:  # the design's stiffness counts for springs made to order alone
+        rate = spring.rate_nmm_per_deg / share**2  # cam and gears follow a softer spring, so that less is gained
+        softer = f'a bought.spring of {rate:.1f} N·mm/° at most, or "", which has softer ones made to order'
+    if share == 1.0:
+        return f"a stronger bought.axle or larger bought.axle_mm, or {softer}"
+    thick = math.ceil(10.0 * bar.diameter_mm * share ** (1.0 / 3.0)) / 10.0
+    rods = case.workshop.catalogue.rods.values()
+    strong = [rod.name for rod in rods if rod.yield_mpa >= needed and not rod.bore_share]
+    kind = (
+        "no stronger pins"
+        if name in PINS
+        else f'bought.axle of {" or ".join(strong)} with retention = "plates"'
+        if strong
+        else "no shipped rod"
+    )
+    return (
+        f"{needed:.0f} MPa of yield stress ({kind}), bought.axle_mm of {thick:.1f} or "
+        f"more with its bearings, plates closer by {100.0 * (1.0 - 1.0 / share):.0f} % (a shorter motor, a narrower "
+        f"battery or board), or {softer}"
     )
 
 

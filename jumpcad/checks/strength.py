@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from jumpcad.checks.leg_bar import leg_bar_findings
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.checks.steel import steel_findings
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, TOE_TIP_WIDTH_MM
@@ -42,6 +43,7 @@ def strength_findings(robot: Robot) -> list[Finding]:
     case = LoadCase(robot)
     return [
         *_leg(case),
+        *leg_bar_findings(case),
         *_front_link(case),
         *_eyes(case),
         *_foot(case),
@@ -73,6 +75,8 @@ def _leg(case: LoadCase) -> Iterator[Finding]:
     yield stress_finding(
         "lever_strength", "lever in bending, springs loaded", stress, case.allowable_mpa, WEAKER, "lever"
     )
+    if layout.leg_bar is not None:
+        return  # what bends is the bar: `leg_bar_flex`
     share = leg_flex_share(layout.design, leg, case.workshop.material("links").modulus_mpa, case.robot.spring)
     allowed = case.workshop.safety.leg_flex_share
     yield limit(
@@ -91,6 +95,8 @@ def _front_link(case: LoadCase) -> Iterator[Finding]:
     )
     load = buckling_load_n(bar, case.layout.design.l3_mm, case.workshop.material("links").modulus_mpa)
     allowed = load / case.workshop.safety.printed_factor
+    if case.layout.leg_bar is not None:
+        return  # `front_bar_buckling`
     yield at_most(
         "front_link_buckling", case.landing_n, allowed, "N",
         f"front link under the whole landing force: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",

@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, escaped, print_json, status
-from jumpcad.cli.subjects import WorkshopOption, bundle_of, design_file, designed, tell_template
+from jumpcad.cli.subjects import (
+    MaterialOption,
+    PrinterOption,
+    WorkshopOption,
+    bundle_of,
+    completed,
+    design_file,
+    designed,
+    tell_template,
+)
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -31,11 +40,23 @@ def register(app: typer.Typer) -> None:
 
 
 def build(
-    design: Annotated[str, typer.Argument(help="A template's name, a design file, a bundle.", metavar="DESIGN|BUNDLE")],
+    design: Annotated[
+        str,
+        typer.Argument(
+            help="A template's name, a design file, a bundle.",
+            metavar="DESIGN|BUNDLE",
+            autocompletion=completed("robots"),
+        ),
+    ],
     workshop: WorkshopOption = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Folder of the bundle [exports/NAME].")] = None,
+    printer: PrinterOption = None,
+    material: MaterialOption = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Folder of the bundle.", show_default="exports/NAME")
+    ] = None,
     pictures: Annotated[bool, typer.Option(help="Draw the robot.")] = True,
     step: Annotated[bool, typer.Option("--step", help="Write STEP files of the parts too.")] = False,
+    ros2: Annotated[bool, typer.Option("--ros2", help="Write a ROS 2 description package too.")] = False,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -52,12 +73,12 @@ def build(
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
     tell_template(design)
     with progress(f"building {design}"):
-        robot = designed(design, workshop)
+        robot = designed(design, workshop, printer, material)
     folder = output or EXPORTS / robot.name
     if not force:
         _require_same_design_file(robot, design_file(design), folder)
     with progress(f"writing {robot.name}"):
-        bundle = export(robot, folder, pictures, step, force)
+        bundle = export(robot, folder, pictures, step, force, ros2)
     with progress(f"simulating {robot.name}"):
         engine = default_engine()
         printed, capsule = (simulate(one, engine=engine) for one in (robot, capsule_robot(robot.design)))
@@ -71,7 +92,8 @@ def build(
 def render(
     subject: Annotated[str, typer.Argument(help="A bundle, a template or a design file.", metavar="BUNDLE|DESIGN")],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Folder [BUNDLE/pictures, or NAME-pictures].")
+        Path | None,
+        typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures"),
     ] = None,
     workshop: WorkshopOption = None,
     force: ForceFlag = False,

@@ -1,11 +1,12 @@
-"""`jumpcad check`: limits of printing, strength, drive and clearance."""
+"""`jumpcad check`: limits of printing, strength, drive and clearance; what fails first, then what is tight."""
 
+import math
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from jumpcad.cli.output import JsonFlag, console, print_json
-from jumpcad.cli.subjects import tell_template
+from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completed, tell_template
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
@@ -13,6 +14,14 @@ if TYPE_CHECKING:
 SEVERITIES = ("error", "warning", "info")
 STYLES = {"error": "bold red", "warning": "yellow", "info": "green"}
 WORDS = {"error": "error", "warning": "warning", "info": "holds"}
+TIGHT = 0.8
+"""Share of a limit from which a limit that holds is shown unasked."""
+SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), "J": ("mJ", 1000.0)}
+"""Units that people read instead of others, and their factors."""
+COUNTED = "", "faults", "mm³"
+"""Units of what is counted or shall be nothing: a margin of 0 is no near miss."""
+SMALL = 0.005
+"""A smaller margin, in the unit that is shown, is none."""
 
 
 def register(app: typer.Typer) -> None:
@@ -21,11 +30,21 @@ def register(app: typer.Typer) -> None:
 
 
 def check(
-    design: Annotated[str, typer.Argument(help="A template's name or a design file.", metavar="DESIGN")],
-    workshop: Annotated[str, typer.Option(help="Workshop: a template's name or a TOML file.")] = "default",
+    design: Annotated[
+        str,
+        typer.Argument(
+            help="A template's name or a design file.", metavar="DESIGN", autocompletion=completed("robots")
+        ),
+    ],
+    workshop: WorkshopOption = None,
+    printer: PrinterOption = None,
+    material: MaterialOption = None,
+    every: Annotated[bool, typer.Option("--all", help="Show every limit, also those that hold with room.")] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Check the robot of a design: printing, strength, drive, clearances.
+
+    Shows what fails, and what is used by 80 % or more.
 
     The exit code is 1 if a limit is violated that forbids the robot.
     """
@@ -33,33 +52,63 @@ def check(
     from jumpcad.checks import check as check_robot
     from jumpcad.design import load_design
     from jumpcad.findings import errors
-    from jumpcad.workshop import load_workshop
+    from jumpcad.workshop import DEFAULT, load_workshop
 
     tell_template(design)
-    robot = build(load_design(design), load_workshop(workshop))
-    findings = sorted(check_robot(robot), key=lambda finding: SEVERITIES.index(finding.severity))
+    robot = build(load_design(design), load_workshop(workshop or DEFAULT, printer, material))
+    findings = sorted(check_robot(robot), key=_order)
     if as_json:
         data = [finding.to_dict() | {"use": finding.use} for finding in findings]
-        print_json({"design": design, "workshop": workshop, "findings": data})
+        print_json({"design": design, "workshop": workshop or DEFAULT, "findings": data})
     else:
-        _print_table(findings)
+        _print_table(findings, every)
     if errors(findings):
         raise typer.Exit(1)
 
 
-def _print_table(findings: "list[Finding]") -> None:
+def is_tight(finding: "Finding") -> bool:
+    """Tell whether a limit that holds is used so much that a user should know."""
+    if finding.use is not None:
+        return finding.use >= TIGHT
+    return margin_in_words(finding) == "at the limit"
+
+
+def margin_in_words(finding: "Finding") -> str:
+    """Return a margin in a unit that people read; next to nothing is "at the limit", or "just beyond" it."""
+    unit, factor = SHOWN_AS.get(finding.unit, (finding.unit, 1.0))
+    margin = factor * finding.margin
+    if unit in COUNTED and margin == 0.0:
+        return ""
+    if unit not in COUNTED and abs(margin) < SMALL:
+        return "at the limit" if margin >= 0.0 else "just beyond"
+    return f"{margin:+.3g} {unit}".rstrip()
+
+
+def _order(finding: "Finding") -> tuple[int, float]:
+    """Sort by severity, and within it by use, the most first."""
+    use = finding.use
+    return SEVERITIES.index(finding.severity), -(float(is_tight(finding)) if use is None else use)
+
+
+def _print_table(findings: "list[Finding]", every: bool) -> None:
     from rich.table import Table
     from rich.text import Text
 
     table = Table(box=None, pad_edge=False)
-    for title in ("", "check", "margin", "found"):
-        table.add_column(title, justify="right" if title == "margin" else "left", no_wrap=title in ("check", "margin"))
-    for finding in findings:
+    for title in ("", "check", "used", "margin", "found"):
+        to_right = title in ("used", "margin")
+        table.add_column(title, justify="right" if to_right else "left", no_wrap=title != "found")
+    shown = [finding for finding in findings if every or finding.severity != "info" or is_tight(finding)]
+    for finding in shown:
         remedy = "" if finding.severity == "info" else f" → {finding.remedy}"
-        style = STYLES[finding.severity]
-        margin = f"{finding.margin:+.3g} {finding.unit}"
-        table.add_row(Text(WORDS[finding.severity], style), finding.name, margin, finding.message + remedy)
+        tight = finding.severity == "info" and is_tight(finding)
+        word = Text("tight", STYLES["warning"]) if tight else Text(WORDS[finding.severity], STYLES[finding.severity])
+        use = "" if finding.use is None else f"{100.0 * finding.use:.0f} %"
+        table.add_row(word, finding.name, use, margin_in_words(finding), finding.message + remedy)
     screen = console()
-    screen.print(table)
+    if shown:
+        screen.print(table)
     counts = {severity: sum(finding.severity == severity for finding in findings) for severity in SEVERITIES}
     screen.print(f"{counts['error']} errors, {counts['warning']} warnings, {counts['info']} limits hold")
+    if left := len(findings) - len(shown):
+        screen.print(f"{left} of them hold with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")

@@ -5,6 +5,7 @@ import sys
 import traceback
 from collections.abc import Sequence
 from functools import cache
+from typing import Annotated
 
 import typer
 from pydantic import ValidationError
@@ -16,6 +17,7 @@ from jumpcad.cli import (
     coupon,
     designs,
     explore,
+    listing,
     optimize,
     report,
     reproduce,
@@ -33,13 +35,32 @@ OUTPUT_CLOSED = 141
 
 _parser = cache(typer.main.get_command)
 
-app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
-for module in (designs, bundle, report, check, slicing, coupon, simulate, reproduce, explore, optimize, study, studio):
+COMPLETE = "_JUMPCAD_COMPLETE"
+"""Variable by which a shell asks for completions."""
+HELP = ["--help", "-h"]
+
+app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, context_settings={"help_option_names": HELP})
+COMMANDS = (
+    listing, designs, bundle, report, check, slicing, coupon, simulate, reproduce, explore, optimize, study, studio
+)  # fmt: skip
+for module in COMMANDS:
     module.register(app)
 
 
+def _tell_version(wanted: bool) -> None:
+    if wanted:
+        from jumpcad.version import __version__
+
+        print(f"jumpcad {__version__}")
+        raise typer.Exit
+
+
 @app.callback()
-def jumpcad() -> None:
+def jumpcad(
+    version: Annotated[
+        bool, typer.Option("--version", help="Show the version and exit.", callback=_tell_version, is_eager=True)
+    ] = False,
+) -> None:
     """From eight numbers to a jumping robot that can be printed, simulated and trusted."""
 
 
@@ -50,7 +71,7 @@ def run(arguments: Sequence[str]) -> int:
     exception is a bug: 3, with its traceback. If the reader of the output has closed it (`| head`): 141.
     """
     try:
-        with standard_output(coloured="--help" in arguments):
+        with standard_output(coloured=any(word in arguments for word in HELP)):
             return _carry_out(list(arguments))
     except OutputClosed:
         return OUTPUT_CLOSED
@@ -81,6 +102,10 @@ def _carry_out(arguments: list[str]) -> int:
     except FileNotFoundError:
         raise JumpcadError("the current folder was deleted: change into another one") from None
     command = _parser(app)
+    if asked := os.environ.get(COMPLETE):
+        from typer.completion import shell_complete
+
+        return shell_complete(command, {}, "jumpcad", COMPLETE, asked)
     try:
         with command.make_context("jumpcad", arguments) as context:
             command.invoke(context)

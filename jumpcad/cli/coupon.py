@@ -23,7 +23,12 @@ def coupon(
     workshop: Annotated[str, typer.Option(help="Workshop: a template's name or a file.")] = "default",
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", help=f"Folder [{FOLDER}], or with --measured the workshop file [{WORKSHOP}]."),
+        typer.Option(
+            "-o",
+            "--output",
+            help="Folder, or with --measured the workshop file.",
+            show_default=f"{FOLDER}, or {WORKSHOP}",
+        ),
     ] = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,

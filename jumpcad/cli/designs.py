@@ -1,4 +1,4 @@
-"""`jumpcad new`: a design file to edit."""
+"""`jumpcad new`: a design file or a workshop file to edit, every value with a comment."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,6 +6,25 @@ from typing import Annotated
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
+from jumpcad.cli.subjects import MaterialOption, PrinterOption, completed
+from jumpcad.errors import JumpcadError
+
+TEMPLATE = "kenan-2.0"
+
+FromOption = Annotated[
+    str | None,
+    typer.Option(
+        "--from", help="Design to copy: a template's name or a file.", show_default=TEMPLATE,
+        autocompletion=completed("robots"),
+    ),
+]  # fmt: skip
+NewWorkshopOption = Annotated[
+    str | None,
+    typer.Option(
+        help="Write a workshop file instead, copied from this one: a template's name or a file.",
+        autocompletion=completed("workshops"),
+    ),
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -14,21 +33,50 @@ def register(app: typer.Typer) -> None:
 
 
 def new(
-    file: Annotated[Path, typer.Argument(help="The design file to write.", metavar="FILE.toml")],
-    template: Annotated[str, typer.Option("--from", help="A template's name or another design file.")] = "kenan-2.0",
+    file: Annotated[Path, typer.Argument(help="The file to write.", metavar="FILE.toml")],
+    template: FromOption = None,
+    workshop: NewWorkshopOption = None,
+    printer: PrinterOption = None,
+    material: MaterialOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Write a new design file, copied from a template."""
-    from jumpcad.design import load_design
-    from jumpcad.files.outputs import require_apart, require_target, write_atomically
+    """Write a new design file, copied from a template; with --workshop, --printer or --material a workshop file."""
+    from jumpcad.files.outputs import require_apart, require_target
 
-    require_apart({"the design file": file}, {"--from": template})
+    for_workshop = any(value is not None for value in (workshop, printer, material))
+    if for_workshop and template is not None:
+        raise JumpcadError(f"--from {template}: a workshop file has no design; leave --from out, or write two files")
+    require_apart({"the new file": file}, {"--from": template, "--workshop": workshop})
     require_target(file, (".toml",), force)
-    design = load_design(template)
-    write_atomically(file, design.to_toml())
+    if for_workshop:
+        _new_workshop(file, workshop, printer, material, as_json)
+    else:
+        _new_design(file, TEMPLATE if template is None else template, as_json)
+
+
+def _new_design(file: Path, template: str, as_json: bool) -> None:
+    from jumpcad.cli.commented import commented_design
+    from jumpcad.design import load_design
+    from jumpcad.files.outputs import write_atomically
+
+    design, name = load_design(template), escaped(str(file))
+    write_atomically(file, commented_design(design, escaped(template), name))
     if as_json:
         print_json({"file": str(file), "design": design.model_dump()})
     else:
-        name = escaped(str(file))
         print(f"{name}: a copy of {escaped(template)}; try: jumpcad simulate {name}")
+
+
+def _new_workshop(file: Path, base: str | None, printer: str | None, material: str | None, as_json: bool) -> None:
+    from jumpcad.cli.commented import commented_workshop
+    from jumpcad.files.outputs import write_atomically
+    from jumpcad.workshop import DEFAULT, load_workshop
+
+    base = DEFAULT if base is None else base
+    workshop, name = load_workshop(base, printer, material), escaped(str(file))
+    write_atomically(file, commented_workshop(workshop, escaped(base)))
+    if as_json:
+        print_json({"file": str(file), "workshop": workshop.model_dump(exclude_none=True)})
+    else:
+        print(f"{name}: a copy of {escaped(base)}; try: jumpcad check {TEMPLATE} --workshop {name}")

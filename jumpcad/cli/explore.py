@@ -55,7 +55,9 @@ AroundOption = Annotated[
 ]
 OverOption = Annotated[
     str | None,
-    typer.Option(help="The two parameters of the feasibility map.", metavar="NAME,NAME", show_default=OVER),
+    typer.Option(
+        help="The two parameters of the feasibility map.", metavar="NAME,NAME", show_default=OVER.replace(",", ", ")
+    ),
 ]
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from jumpcad.search.pool import Pool
 
 PlotsOption = Annotated[
-    Path | None, typer.Option(help="Write pictures into this folder.", metavar="FOLDER", file_okay=False)
+    Path | None, typer.Option(help="Write pictures (SVG and PNG) into this folder.", metavar="FOLDER", file_okay=False)
 ]
 
 KEYWORD = inspect.Parameter.KEYWORD_ONLY
@@ -144,4 +144,5 @@ def require_plots(folder: Path | None, force: bool) -> None:
     if os.path.lexists(folder) and not os.path.isdir(folder):
         raise JumpcadError(f"{folder}: is there already and is no folder; choose another name")
     for name in PICTURES:
-        require_free(folder / f"{name}.svg", force)
+        for suffix in (".svg", ".png"):
+            require_free(folder / f"{name}{suffix}", force)

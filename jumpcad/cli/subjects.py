@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,8 +15,37 @@ if TYPE_CHECKING:
     from jumpcad.mechanism.model import Mechanism
     from jumpcad.robot import Robot
 
+
+def completed(kind: str) -> Callable[[str], list[str]]:
+    """Return a function that completes the names of a kind of templates."""
+
+    def names(incomplete: str) -> list[str]:
+        from jumpcad.files import template_names
+
+        return [name for name in template_names(kind) if name.startswith(incomplete.lower())]
+
+    return names
+
+
 WorkshopOption = Annotated[
-    str | None, typer.Option(help="Workshop of the printed robot: a template's name or a file.", show_default="default")
+    str | None,
+    typer.Option(
+        help="Workshop of the printed robot: a template's name or a file.",
+        show_default="default",
+        autocompletion=completed("workshops"),
+    ),
+]
+PrinterOption = Annotated[
+    str | None,
+    typer.Option(
+        help="Printer instead of the workshop's: see jumpcad list printers.", autocompletion=completed("printers")
+    ),
+]
+MaterialOption = Annotated[
+    str | None,
+    typer.Option(
+        help="One material for all printed parts: see jumpcad list materials.", autocompletion=completed("materials")
+    ),
 ]
 
 
@@ -49,7 +79,7 @@ def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
     return bundle
 
 
-def designed(subject: str, workshop: str | None) -> "Robot":
+def designed(subject: str, workshop: str | None, printer: str | None = None, material: str | None = None) -> "Robot":
     """Return the printed robot of a bundle (from the inputs in it), of a template, or of a design file."""
     from jumpcad.building import build as build_robot
     from jumpcad.bundle.inputs import kept_design, kept_workshop
@@ -57,9 +87,14 @@ def designed(subject: str, workshop: str | None) -> "Robot":
     from jumpcad.workshop import DEFAULT, load_workshop
 
     if bundle := bundle_of(subject, workshop):
+        for option, value in (("--printer", printer), ("--material", material)):
+            if value is not None:
+                raise JumpcadError(
+                    f"{option} {value}: {subject} is a bundle, built in a workshop of its own; give a design"
+                )
         return build_robot(kept_design(bundle), kept_workshop(bundle), bundle.name)
     name = Path(subject).name.removesuffix(".toml")
-    return build_robot(load_design(subject), load_workshop(workshop or DEFAULT), name)
+    return build_robot(load_design(subject), load_workshop(workshop or DEFAULT, printer, material), name)
 
 
 def design_file(subject: str) -> Path:

@@ -11,11 +11,10 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import PEGS_MM, Piece, coupon_holes, engraved, pieces
 from jumpcad.coupon.readings import JOINT_KEYS
-from jumpcad.exporters.threemf import write_threemf
+from jumpcad.exporters.threemf import plate_files
 from jumpcad.files import templates_folder
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import require_part
 from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Workshop
@@ -60,8 +59,7 @@ def _contents(workshop: Workshop, holes: HoleSizes, made: Sequence[Piece]) -> It
         stl = write_stl(piece.mesh)
         require_part(piece.name, stl)
         yield f"stl/{piece.name}.stl", stl
-    for plate in packed(made, workshop.printer.bed_mm, workshop.process.part_spacing_mm):
-        yield f"print/{plate.name}.3mf", write_threemf(plate)
+    yield from plate_files(made, workshop)
     yield "coupon.md", _guide(workshop, holes)
     yield READINGS, _template(workshop, holes)
 

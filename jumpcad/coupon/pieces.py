@@ -59,6 +59,11 @@ class Piece:
         """Mesh (mm)."""
         return to_trimesh(self.shape.solid())
 
+    @property
+    def look(self) -> "trimesh.Trimesh":
+        """The mesh for pictures: its engraved figures are seen."""
+        return self.mesh
+
 
 @dataclass(frozen=True)
 class Ladders:

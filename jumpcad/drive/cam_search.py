@@ -81,7 +81,7 @@ def _refusal(law: CamLaw, margin: Array) -> str:
     return (
         f"no cam winds the leg by {math.degrees(law.compression_rad):.1f}° against "
         f"{law.spring_torque_nm:.2f} N·m; the nearest one misses: {missed}: "
-        f"{LIMITS[binding[0]].remedy}"
+        f"{'; '.join(dict.fromkeys(LIMITS[i].remedy for i in binding))}"
     )
 
 
@@ -100,10 +100,12 @@ class _Shapes:
         self.lower = np.log([lever_min, max(limits.gap_min_mm, limits.core_radius_mm), limits.overshoot_rad])
         self.upper = np.log([limits.lever_max_mm, limits.gap_max_mm, limits.lead_max_rad])
         if (self.lower >= self.upper).any():
+            fits = 2.0 * (limits.lever_max_mm - lever_min + limits.roller_radius_mm)
             raise CannotBuildError(
                 f"no lever from {lever_min:.1f} mm (hub, roller and clearance) to {limits.lever_max_mm:g} mm with the "
                 f"cam's axis {limits.gap_min_mm:.1f} to {limits.gap_max_mm:g} mm beyond it and at least "
-                f"{math.degrees(limits.overshoot_rad):.1f}° of overshoot: make hub, roller or core smaller"
+                f"{math.degrees(limits.overshoot_rad):.1f}° of overshoot: a bought.roller of less than {fits:.1f} mm "
+                "diameter, a smaller bought.leg_bearing, or a lower stiffness_nmm_per_deg, whose dog is smaller"
             )
         self.known: dict[bytes, tuple[float, Array, Array, Array]] = {}
 

@@ -7,8 +7,8 @@ against springs and weight. The roller leaves where the corner would have to pul
 cam, the lightest of the three.
 
 The gear joins the cam at the end of the dog's play, the motor's rotor at that of the gearhead's backlash. If the corner
-then still stands below the falling roller, it catches it. The gear's rebound counts in the kick alone; friction in
-gears and gearhead is left out.
+then still stands below the falling roller, it catches it. How hard they hit each other, with rebounds, is in `blows`;
+friction in gears and gearhead is left out. Where roller and cam touch both give way, in series with the lever.
 """
 
 import math
@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from jumpcad.drive.blows import largest_torques_nm
 from jumpcad.drive.corner import Corner
 from jumpcad.mechanism.model import Spring
 from jumpcad.mechanism.reflected import ReflectedMass
@@ -44,8 +45,9 @@ class ReleaseParts:
         Coefficient of friction times the radius of the cam's bore.
     train_nm_per_rad
         Stiffness of dog, teeth and gearhead, which stops the cam.
-    lever_nm_per_rad, roller_kg_m2
-        Stiffness of the lever in bending, and moment of inertia of roller and lever's end, at the leg's joint.
+    lever_nm_per_rad, contact_nm_per_rad, roller_kg_m2
+        Stiffness of the lever in bending and of roller on cam, and moment of inertia of roller and lever's end, at the
+        leg's joint.
     """
 
     spring: Spring
@@ -60,12 +62,18 @@ class ReleaseParts:
     friction_mm: float
     train_nm_per_rad: float
     lever_nm_per_rad: float
+    contact_nm_per_rad: float
     roller_kg_m2: float
+
+    @property
+    def held_nm_per_rad(self) -> float:
+        """Stiffness between leg and cam: lever and contact in series."""
+        return 1.0 / (1.0 / self.lever_nm_per_rad + 1.0 / self.contact_nm_per_rad)
 
     def held_rad(self, roller_rad: float) -> float:
         """Return the leg's wind angle that the bent lever holds with the roller wound to an angle."""
         weight = float(self.leg.at(np.array(roller_rad))[2])
-        spring, lever = self.spring, self.lever_nm_per_rad
+        spring, lever = self.spring, self.held_nm_per_rad
         wind = lever * roller_rad - spring.stiffness_nm_per_rad * spring.preload_rad - weight
         return wind / (lever + spring.stiffness_nm_per_rad)
 
@@ -129,13 +137,18 @@ class _Release:
         parts = self.parts
         if parts.play_rad > 0.0:
             self._push_to(self._index(parts.play_rad))
-            self.blow_nm = self._join(parts.gear_kg_m2)
+            masses = (parts.cam_kg_m2, parts.gear_kg_m2, parts.rotor_kg_m2)
+            self.blow_nm, self.kick_nm = largest_torques_nm(
+                masses, self.speed, parts.cam_rad_s, parts.backlash_rad, parts.train_nm_per_rad, parts.rebound
+            )
+            self._join(parts.gear_kg_m2)
         else:
             self.inertia += parts.gear_kg_m2
         end = self._index(parts.play_rad + parts.backlash_rad)
         self._push_to(end)
-        self.kick_nm = max(self._rebound_nm(), self._join(parts.rotor_kg_m2))
-        if end < self.last:  # the corner still stands below the roller
+        met_nm = self._join(parts.rotor_kg_m2)
+        if parts.play_rad == 0.0 or end < self.last:  # the corner still stands below the roller
+            self.kick_nm = max(self.kick_nm, met_nm)
             self._push_off(end)
 
     def _push_off(self, end: int) -> None:
@@ -162,14 +175,6 @@ class _Release:
         self.inertia = together
         return blow
 
-    def _rebound_nm(self) -> float:
-        """Return the torque with which a gear that the cam has thrown ahead meets the motor alone."""
-        parts = self.parts
-        if parts.play_rad == 0.0:
-            return 0.0
-        alone = parts.gear_kg_m2 * parts.rotor_kg_m2 / (parts.gear_kg_m2 + parts.rotor_kg_m2)
-        return (1.0 + parts.rebound) * self.speed * math.sqrt(parts.train_nm_per_rad * alone)
-
     def _fall_to(self, at: int) -> None:
         """Let the leg fall until the roller meets the corner where the cam stands."""
         here, spring = float(self.corner.wind_rad[at]), self.parts.spring
@@ -182,7 +187,7 @@ class _Release:
         if not self.touches or stop <= self.at:
             return
         parts, part, step = self.parts, slice(self.at, stop + 1), self.step
-        spring, lever = parts.spring, parts.lever_nm_per_rad
+        spring, lever = parts.spring, parts.held_nm_per_rad
         with_motor = self.inertia > parts.cam_kg_m2 + parts.gear_kg_m2
         tip = 0.0 if with_motor else parts.roller_kg_m2
         roller, slope = self.corner.wind_rad[part].tolist(), self.corner.slope[part].tolist()

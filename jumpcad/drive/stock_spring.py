@@ -85,8 +85,12 @@ def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: Spr
         math.degrees(leg_pin_rad - on_leg.preload_rad - FULL_TURN_RAD * stock.wound_turns - 2.0 * turn) % 360.0
         for turn in (longest, shortest)
     ]
+    # a larger angle of the arms moves the plate's pin on by as much
+    less, more = (ends[0] - math.degrees(last)) % 360.0, (math.degrees(first) - ends[1]) % 360.0
+    fits = (stock.arm_angle_deg + (more + 1.0 if more < less else -less - 1.0)) % 360.0
     return (
         f"bought.spring = {stock.name!r}: arms {stock.arm_angle_deg:g}° apart want the plate's pin between "
         f"{ends[0]:.0f}° and {ends[1]:.0f}° from forward; there is room from {math.degrees(first):.0f}° to "
-        f"{math.degrees(last):.0f}°: choose a spring with another arm angle, or change rest_angle_deg"
+        f"{math.degrees(last):.0f}°, {min(less, more):.0f}° away: choose a spring with arms about {fits:.0f}° "
+        "apart, or change rest_angle_deg"
     )

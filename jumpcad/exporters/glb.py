@@ -1,10 +1,12 @@
 """GLB: the assembled robot as a scene of named, coloured parts, standing with springs at rest.
 
-Every body's frame is a node (`foot_frame`) with its parts below it, so that a viewer can pose the robot. glTF uses
-metres and y up.
+Every body's frame is a node (`foot_frame`) with its parts below it, so that a viewer can pose the robot; `animation`
+moves them. glTF uses metres, y up, and linear colours.
 """
 
+import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import trimesh
@@ -19,6 +21,8 @@ Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 """From the robot's z up to y up."""
 FRAME = "robot"
 ROUGHNESS = 0.6
+VERTICES, INDICES = 34962, 34963
+"""What a buffer view holds (glTF 2.0, 5.11.5)."""
 
 
 def glb_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
@@ -36,7 +40,29 @@ def write_glb(robot: Robot) -> bytes:
         if shape.mesh_name not in scene.geometry:
             scene.geometry[shape.mesh_name] = _in_metres(shape)
         scene.graph.update(shape.name, frame_name(shape.body), matrix=shape.T_body_mesh, geometry=shape.mesh_name)
-    return bytes(scene.export(file_type="glb"))
+    colours = {shape.mesh_name: shape.colour for shape in visuals(robot)}
+    return bytes(scene.export(file_type="glb", tree_postprocessor=lambda tree: _finish(tree, colours)))
+
+
+def _finish(tree: dict[str, Any], colours: dict[str, Colour]) -> None:
+    """Write colours as they are, where trimesh has 256 steps, and say which data are vertices and which are indices."""
+    for material in tree["materials"]:
+        linear = [round(linear_light(part), 6) for part in colours[material["name"]]]
+        material["pbrMetallicRoughness"]["baseColorFactor"] = [*linear, 1.0]
+    for mesh in tree["meshes"]:
+        for primitive in mesh["primitives"]:
+            _target(tree, primitive["indices"], INDICES)
+            for accessor in primitive["attributes"].values():
+                _target(tree, accessor, VERTICES)
+
+
+def _target(tree: dict[str, Any], accessor: int, target: int) -> None:
+    tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]["target"] = target
+
+
+def linear_light(part: float) -> float:
+    """Return a part of an sRGB colour, 0 to 1, as linear light (IEC 61966-2-1)."""
+    return part / 12.92 if part <= 0.04045 else math.pow((part + 0.055) / 1.055, 2.4)
 
 
 def frame_name(body: str) -> str:
@@ -47,10 +73,6 @@ def frame_name(body: str) -> str:
 def _in_metres(shape: Visual) -> trimesh.Trimesh:
     """Return a mesh (m) with a vertex per face and corner where the surface is creased."""
     vertices, normals, faces = creased(shape.mesh)
-    material = _material(shape.mesh_name, shape.colour)
+    material = PBRMaterial(name=shape.mesh_name, metallicFactor=0.0, roughnessFactor=ROUGHNESS)
     visual = trimesh.visual.TextureVisuals(material=material)
     return trimesh.Trimesh(vertices * 0.001, faces, vertex_normals=normals, visual=visual, process=False)
-
-
-def _material(name: str, colour: Colour) -> PBRMaterial:
-    return PBRMaterial(name=name, baseColorFactor=(*colour, 1.0), metallicFactor=0.0, roughnessFactor=ROUGHNESS)

@@ -1,9 +1,11 @@
-"""MJCF: the robot above a floor for MuJoCo, loop and spring included, ready to be released.
+"""MJCF: bodies, joints, loop and springs for MuJoCo, and the model above a floor that the project's own engine runs.
+
+The files of a bundle are made of the same elements, see `mjcf_robot`; here five spheres touch one ground, and nothing
+else touches anything.
 
 Loading a key frame and stepping is the whole jump: from `wound` the cam lets go at once; `released`, which only robots
 with a cam have, is the moment when the roller has left it, with all velocities. MuJoCo's constraints are springs; here
-contacts and the loop are as stiff as the time step allows, and the time step is a fraction of that in the settings. The
-project's own MuJoCo engine runs this very model.
+contacts and the loop are as stiff as the time step allows, and the time step is a fraction of that in the settings.
 
 Springs that only push are a tendon along the leg joint whose length may be anything beyond the angle where they are
 free. The stop is the leg joint's limit, with the stiffness of its pad and critical damping for the inertia that the leg
@@ -12,10 +14,8 @@ has in flight. Pin friction is one dry torque at the leg joint.
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
 
-from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.limits import limits_rad
 from jumpcad.exporters.xml import Value, add, document, written, wxyz
 from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
@@ -25,9 +25,8 @@ from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import rotation_about_y
 
-if TYPE_CHECKING:
-    from jumpcad.robot import Robot
-    from jumpcad.scene.visuals import Visual
+Dress = Callable[[ET.Element, Body], None]
+"""Gives a body's element what is seen of it and what touches."""
 
 SUBSTEPS = 4
 """MuJoCo's own steps per step of the settings; its stiffest constraints are then as exact as Bullet's rigid ones."""
@@ -46,19 +45,28 @@ LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100
 """Solver iterations: fewer do not reach the tolerance; and MuJoCo's default."""
 
 
-def mjcf_files(robot: "Robot") -> Iterator[tuple[str, str]]:
-    """Yield path and content of the model; its meshes are those beside the URDF."""
-    from jumpcad.scene.visuals import visuals
-
-    yield f"mjcf/{robot.name}.xml", write_mjcf(robot, visuals(robot))
-
-
-def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:
-    """Return the MJCF document of a robot, with the settings' time step, friction and damping."""
+def write_mjcf(mechanism: Mechanism, settings: Settings | None = None) -> str:
+    """Return the document that the engine runs, with the settings' time step, friction and damping."""
     settings = settings or Settings()
     rubs = coefficients(mechanism, settings)
     root = ET.Element("mujoco", model=mechanism.name)
-    add(root, "compiler", angle="radian", meshdir=MESHES_FROM_BESIDE, inertiafromgeom="false")
+    add(root, "compiler", angle="radian", inertiafromgeom="false")
+    add_options(root, settings)
+    world = add(root, "worldbody")
+    add(world, "geom", name="ground", type="plane", size="2 2 0.1", contype="0", conaffinity="0")
+    _, order = add_bodies(world, mechanism, settings, _spheres)
+    _contacts(root, mechanism, settings, rubs)
+    add_springs(add(root, "tendon"), mechanism.spring)
+    add_loop(root, add(root, "equality"), mechanism, settings)
+    keys = add(root, "keyframe")
+    add_key(keys, "wound", standing(mechanism, 1.0), order)
+    if mechanism.roller_off:
+        add_key(keys, "released", release_pose(mechanism), order)
+    return document(root)
+
+
+def add_options(root: ET.Element, settings: Settings) -> None:
+    """Append the options that the model's contacts and loop need."""
     iterations = max(settings.solver_iterations, LEAST_ITERATIONS)
     add(
         root,
@@ -71,31 +79,20 @@ def write_mjcf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
         tolerance=1e-12,
         **({} if iterations == MUJOCO_ITERATIONS else {"iterations": str(iterations)}),
     )
-    asset = add(root, "asset")
-    for name in dict.fromkeys(shape.mesh_name for shape in visible):
-        add(asset, "mesh", name=name, file=f"{name}.stl", scale="0.001 0.001 0.001")
-    world = add(root, "worldbody")
-    add(world, "light", pos="0.2 -0.5 1", dir="-0.2 0.5 -1", directional="true")
-    add(world, "geom", name="ground", type="plane", size="2 2 0.1", rgba="0.9 0.9 0.9 1", contype="0", conaffinity="0")
+
+
+def add_bodies(
+    world: ET.Element, mechanism: Mechanism, settings: Settings, dress: Dress
+) -> tuple[ET.Element, list[str]]:
+    """Append the tree of bodies, standing at rest; return its root, and its joints as MuJoCo numbers them."""
     rest = body_poses(mechanism)[BODY]
     base = add(world, "body", name=BODY, pos=rest[:3, 3], quat=wxyz(rest[:3, :3]))
     add(base, "freejoint", name="free")
-    _fill(base, mechanism.bodies[BODY], visible)
-    order = _children(base, mechanism, BODY, settings, visible)
-    _contacts(root, mechanism, settings, rubs)
-    if mechanism.spring.one_sided:
-        _pushing_spring(root, mechanism.spring)
-    _loop(root, mechanism, settings)
-    keys = add(root, "keyframe")
-    _key(keys, "wound", standing(mechanism, 1.0), order)
-    if mechanism.roller_off:
-        _key(keys, "released", release_pose(mechanism), order)
-    return document(root)
+    _fill(base, mechanism.bodies[BODY], dress)
+    return base, _children(base, mechanism, BODY, settings, dress)
 
 
-def _children(
-    parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, visible: "Sequence[Visual]"
-) -> list[str]:
+def _children(parent: ET.Element, mechanism: Mechanism, name: str, settings: Settings, dress: Dress) -> list[str]:
     """Append the child bodies of a body; return their joints in the order in which MuJoCo numbers them."""
     order: list[str] = []
     for joint in (joint for joint in mechanism.joints if joint.parent == name):
@@ -103,8 +100,8 @@ def _children(
             parent, "body", name=joint.child, pos=joint.origin_m, quat=wxyz(rotation_about_y(joint.rest_angle_rad))
         )
         _hinge(node, joint, mechanism, settings)
-        _fill(node, mechanism.bodies[joint.child], visible)
-        order += [joint.name, *_children(node, mechanism, joint.child, settings, visible)]
+        _fill(node, mechanism.bodies[joint.child], dress)
+        order += [joint.name, *_children(node, mechanism, joint.child, settings, dress)]
     return order
 
 
@@ -120,7 +117,7 @@ def _hinge(node: ET.Element, joint: Joint, mechanism: Mechanism, settings: Setti
                 more["springref"] = spring.preload_rad
         more |= _limit(joint, mechanism)
     if friction:
-        more |= {"solreffriction": _stiff(settings)["solref"], "solimpfriction": IMPEDANCE}
+        more |= {"solreffriction": stiff(settings)["solref"], "solimpfriction": IMPEDANCE}
     add(
         node,
         "joint",
@@ -150,33 +147,28 @@ def _limit(joint: Joint, mechanism: Mechanism) -> dict[str, Value]:
     }
 
 
-def _pushing_spring(root: ET.Element, spring: Spring) -> None:
-    """Tie a tendon along the leg joint that pushes below the angle where the springs are free, and rests beyond."""
-    tendon = add(add(root, "tendon"), "fixed", name="springs", stiffness=spring.stiffness_nm_per_rad,
+def add_springs(tendons: ET.Element, spring: Spring) -> None:
+    """Append springs that only push; those that also pull are the leg joint's own.
+
+    A tendon along the leg joint pushes below the angle where the springs are free, and rests beyond.
+    """
+    if not spring.one_sided:
+        return
+    tendon = add(tendons, "fixed", name="springs", stiffness=spring.stiffness_nm_per_rad,
                  springlength=(spring.preload_rad, spring.preload_rad + FREE_RAD))  # fmt: skip
     add(tendon, "joint", joint=spring.joint, coef=1.0)
 
 
-def _fill(node: ET.Element, body: Body, visible: "Sequence[Visual]") -> None:
-    """Give a body its mass properties, visible meshes and contact spheres."""
+def _fill(node: ET.Element, body: Body, dress: Dress) -> None:
+    """Give a body its mass properties and its geometry."""
     tensor = body.inertia_kg_m2
     six = (*tensor.diagonal(), tensor[0, 1], tensor[0, 2], tensor[1, 2])
     add(node, "inertial", pos=body.com_m, mass=body.mass_kg, fullinertia=six)
-    for shape in (shape for shape in visible if shape.body == body.name):
-        pose = shape.T_body_mesh
-        add(
-            node,
-            "geom",
-            name=shape.name,
-            type="mesh",
-            mesh=shape.mesh_name,
-            pos=pose[:3, 3],
-            quat=wxyz(pose[:3, :3]),
-            rgba=(*shape.colour, 1.0),
-            contype="0",
-            conaffinity="0",
-            group="2",
-        )
+    dress(node, body)
+
+
+def _spheres(node: ET.Element, body: Body) -> None:
+    """Give a body the spheres that are paired with the ground."""
     for contact in body.contacts:
         add(
             node,
@@ -206,29 +198,30 @@ def _contacts(root: ET.Element, mechanism: Mechanism, settings: Settings, rubs: 
                 geom2=f"{body.name}_{contact.name}_contact",
                 condim="6" if spin or roll else "3",
                 friction=(slide, slide, spin, roll, roll),
-                **_stiff(settings) | {"solimp": CONTACT_IMPEDANCE},
+                **stiff(settings) | {"solimp": CONTACT_IMPEDANCE},
             )
 
 
-def _loop(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
+def add_loop(root: ET.Element, equality: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
     """Connect the loop's two points, a site on each body."""
     loop = mechanism.loop
     for name, point in ((loop.body_a, loop.point_a_m), (loop.body_b, loop.point_b_m)):
         body = next(node for node in root.iter("body") if node.get("name") == name)
         add(body, "site", name=f"{name}_loop", pos=point)
     sites = {"site1": f"{loop.body_a}_loop", "site2": f"{loop.body_b}_loop"}
-    add(add(root, "equality"), "connect", name="loop", **sites, **_stiff(settings))
+    add(equality, "connect", name="loop", **sites, **stiff(settings))
 
 
-def _key(keys: ET.Element, name: str, release: Release, order: list[str]) -> None:
+def add_key(keys: ET.Element, name: str, release: Release, order: list[str], **more: Value) -> None:
+    """Append a key frame with the pose and the rates of a release."""
     attitude = wxyz(rotation_about_y(release.body_pitch_rad))
     angles = [release.joint_rad[name] for name in order]
-    key = add(keys, "key", name=name, qpos=(*release.body_position_m, *attitude, *angles))
+    key = add(keys, "key", name=name, qpos=(*release.body_position_m, *attitude, *angles), **more)
     if release.joint_rad_s[order[0]]:
         rates = [release.joint_rad_s[joint] for joint in order]
         key.set("qvel", written((*release.body_m_s, 0.0, release.body_rad_s, 0.0, *rates)))
 
 
-def _stiff(settings: Settings) -> dict[str, Sequence[float]]:
+def stiff(settings: Settings) -> dict[str, Sequence[float]]:
     """Return the stiffness of contacts and loop, the same as in the project's own MuJoCo runs."""
     return {"solref": (SOFTNESS_STEPS * settings.dt_s / SUBSTEPS, 1.0), "solimp": IMPEDANCE}

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from jumpcad.exporters.dxf import dxf_files
 from jumpcad.exporters.glb import glb_files
-from jumpcad.exporters.mjcf import mjcf_files
+from jumpcad.exporters.mjcf_robot import mjcf_files
+from jumpcad.exporters.ros2 import ros2_files
 from jumpcad.exporters.sdf import sdf_files
 from jumpcad.exporters.step import require_step, step_files
 from jumpcad.exporters.stl import stl_files
@@ -39,6 +40,7 @@ EXPORTERS = (
     Exporter("sdf", sdf_files),
     Exporter("glb", glb_files),
     Exporter("dxf", dxf_files),
+    Exporter("ros2", ros2_files, optional=True),
 )
 """Every file format, in the order in which a bundle's files are written."""
 

@@ -21,22 +21,44 @@ from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import Array
 
+SDF = "1.9"
+
 
 def sdf_files(robot: Robot) -> Iterator[tuple[str, str]]:
-    """Yield path and content of the model; its meshes are those beside the URDF."""
+    """Yield path and content of the model and of the file by which Gazebo finds it; meshes are those of the URDF."""
     yield f"sdf/{robot.name}.sdf", write_sdf(robot, visuals(robot))
+    yield "sdf/model.config", write_config(robot.name, f"{robot.name}.sdf")
 
 
-def write_sdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
-    """Return the SDF document of a robot, with the settings' friction and damping."""
+def write_config(name: str, file: str) -> str:
+    """Return the `model.config` of a folder that has the SDF document of a robot in a file."""
+    root = ET.Element("model")
+    add(root, "name", name)
+    add(root, "version", "1.0")
+    add(root, "sdf", file, version=SDF)
+    add(add(root, "author"), "name", "jumpcad")
+    add(root, "description", f"Jumping robot {name}. Gazebo leaves the joint `loop` open: its link has two parents.")
+    return document(root)
+
+
+def write_sdf(
+    mechanism: Mechanism,
+    visible: Sequence[Visual] = (),
+    settings: Settings | None = None,
+    meshes: str = MESHES_FROM_BESIDE,
+) -> str:
+    """Return the SDF document of a robot, with the settings' friction and damping.
+
+    `meshes` is the folder of the visible meshes, seen from the document's.
+    """
     settings = settings or Settings()
     rubs = coefficients(mechanism, settings)
-    root = ET.Element("sdf", version="1.9")
+    root = ET.Element("sdf", version=SDF)
     model = add(root, "model", name=mechanism.name)
     for name, pose in body_poses(mechanism).items():
         link = add(model, "link", name=name)
         add(link, "pose", _six(pose))
-        _fill(link, mechanism.bodies[name], [shape for shape in visible if shape.body == name], rubs)
+        _fill(link, mechanism.bodies[name], [shape for shape in visible if shape.body == name], rubs, meshes)
     for joint in mechanism.joints:
         _hinge(model, joint, mechanism, settings)
     loop = mechanism.loop
@@ -47,7 +69,7 @@ def write_sdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Se
     return document(root)
 
 
-def _fill(link: ET.Element, body: Body, visible: list[Visual], rubs: Coefficients) -> None:
+def _fill(link: ET.Element, body: Body, visible: list[Visual], rubs: Coefficients, meshes: str) -> None:
     inertial = add(link, "inertial")
     add(inertial, "pose", (*body.com_m, 0.0, 0.0, 0.0))
     add(inertial, "mass", body.mass_kg)
@@ -58,7 +80,7 @@ def _fill(link: ET.Element, body: Body, visible: list[Visual], rubs: Coefficient
         visual = add(link, "visual", name=shape.name)
         add(visual, "pose", _six(shape.T_body_mesh))
         mesh = add(add(visual, "geometry"), "mesh")
-        add(mesh, "uri", f"{MESHES_FROM_BESIDE}/{shape.mesh_name}.stl")
+        add(mesh, "uri", f"{meshes}/{shape.mesh_name}.stl")
         add(mesh, "scale", "0.001 0.001 0.001")
         material = add(visual, "material")
         for light in ("ambient", "diffuse"):

@@ -1,9 +1,10 @@
-"""STL: one file per printed part, in printing orientation, mm."""
+"""STL: one file per printed part, in printing orientation, mm; also of pads that are printed of a soft material."""
 
 from collections.abc import Iterator
 
+from jumpcad.parts.pads import is_printed
 from jumpcad.robot import Robot
-from jumpcad.solids.finish import require_part
+from jumpcad.solids.finish import require_part, to_trimesh
 from jumpcad.solids.stl import write_stl
 
 
@@ -19,3 +20,9 @@ def stl_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
         stl = write_stl(part.mesh)
         require_part(part.name, stl)
         yield f"stl/{part.name}.stl", stl
+    workshop = robot.workshop
+    for item in robot.hardware:
+        if is_printed(item, workshop.foot_pad, workshop.stop_pad):
+            stl = write_stl(to_trimesh(item.solid))
+            require_part(item.name, stl)
+            yield f"stl/{item.name}.stl", stl

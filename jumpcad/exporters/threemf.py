@@ -1,19 +1,26 @@
-"""3MF: one plate per file, every part a named object (3MF Core Specification 1.3).
+"""3MF: one plate per file, every part a named object (3MF Core Specification 1.3), with a picture and print settings.
 
 Written here and not by a library: fixed dates and a fixed order give the same bytes, and strict readers report nothing.
+The settings lie in the two files in which PrusaSlicer keeps a project's. Other slicers read the geometry alone, so
+`print/README.md` says the settings in words.
 """
 
 import io
 import zipfile
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 import numpy.typing as npt
 
+from jumpcad.exporters.thumbnail import thumbnail
 from jumpcad.exporters.xml import allowed
+from jumpcad.files.markdown import plain
 from jumpcad.printing.plates import Placed, Printable, PrintPlate, packed
+from jumpcad.printing.project import project_settings, settings_in_words, temperatures_in_words
 from jumpcad.robot import Robot
+from jumpcad.workshop import Workshop
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"
@@ -24,36 +31,51 @@ CONTENT_TYPES = (
     f'{XML}<Types xmlns="{PACKAGE}/content-types">'
     '<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
     '<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>'
+    '<Default Extension="png" ContentType="image/png"/>'
+    '<Default Extension="config" ContentType="text/xml"/>'
     "</Types>\n"
 )
 RELATIONSHIPS = (
     f'{XML}<Relationships xmlns="{PACKAGE}/relationships">'
     '<Relationship Target="/3D/3dmodel.model" Id="rel0" '
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
+    '<Relationship Target="/Metadata/thumbnail.png" Id="rel1" '
+    f'Type="{PACKAGE}/relationships/metadata/thumbnail"/>'
     "</Relationships>\n"
 )
 
 
-def threemf_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
-    """Yield path and content of every print plate, the parts packed on the workshop's bed."""
-    bed, spacing = robot.workshop.printer.bed_mm, robot.workshop.process.part_spacing_mm
-    for plate in packed(robot.parts, bed, spacing):
-        yield f"print/{plate.name}.3mf", write_threemf(plate)
+def threemf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of every print plate, the parts packed on the workshop's bed, and of their settings."""
+    yield from plate_files(robot.parts, robot.workshop)
 
 
-def write_threemf(plate: PrintPlate) -> bytes:
-    """Return the 3MF file of a plate; the same plate gives the same bytes."""
+def plate_files(parts: Iterable[Printable], workshop: Workshop) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of the print plates of parts, and of the settings in words."""
+    printer, process = workshop.printer, workshop.process
+    plates = packed(parts, printer.bed_mm, process.part_spacing_mm)
+    for plate in plates:
+        settings = project_settings(printer, process, workshop.materials[plate.material], plate.material)
+        yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
+    yield "print/README.md", _in_words(plates, workshop)
+
+
+def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes) -> bytes:
+    """Return the 3MF file of a plate with PrusaSlicer's settings and a PNG picture; equal inputs give equal bytes."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as package:
-        for name, text in (
+        for name, content in (
             ("[Content_Types].xml", CONTENT_TYPES),
             ("_rels/.rels", RELATIONSHIPS),
             ("3D/3dmodel.model", _model(plate)),
+            ("Metadata/thumbnail.png", picture),
+            ("Metadata/Slic3r_PE.config", "".join(f"; {key} = {value}\n" for key, value in settings.items())),
+            ("Metadata/Slic3r_PE_model.config", _objects(plate)),
         ):
             entry = zipfile.ZipInfo(name, FIXED_DATE)
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = 0o644 << 16
-            package.writestr(entry, text)
+            package.writestr(entry, content)
     return buffer.getvalue()
 
 
@@ -83,6 +105,43 @@ def _object(number: int, part: Printable) -> str:
         f'<object id="{number}" type="model" name={quoteattr(allowed(part.name))}>\n<mesh>\n'
         f"<vertices>\n{vertices}</vertices>\n<triangles>\n{triangles}</triangles>\n</mesh>\n</object>\n"
     )
+
+
+def _objects(plate: PrintPlate) -> str:
+    """Return PrusaSlicer's list of objects: each is one volume, of all its triangles."""
+    copies = Counter(placed.part.name for placed in plate.items)
+    parts = {placed.part.name: placed.part for placed in plate.items}
+    rows = []
+    for number, (name, part) in enumerate(parts.items(), start=1):
+        named = f'key="name" value={quoteattr(allowed(name))}/>'
+        rows.append(
+            f'<object id="{number}" instances_count="{copies[name]}">\n<metadata type="object" {named}\n'
+            f'<volume firstid="0" lastid="{len(part.mesh.faces) - 1}">\n<metadata type="volume" {named}\n'
+            "</volume>\n</object>\n"
+        )
+    return f"{XML}<config>\n{''.join(rows)}</config>\n"
+
+
+def _in_words(plates: Sequence[PrintPlate], workshop: Workshop) -> str:
+    """Return how the plates are printed, for every slicer."""
+    lines = [
+        "# How to print the plates",
+        "",
+        "PrusaSlicer reads these settings from the 3MF files (File > Open Project); then choose your own printer, for",
+        "its speeds and its G-code at start and end, and keep the print settings. Other slicers, such as Bambu Studio,",
+        "OrcaSlicer and Cura, read the parts and their places alone: enter the settings there.",
+        "",
+        *(f"- {plain(line)}" for line in settings_in_words(workshop.printer, workshop.process)),
+        "",
+        "The masses of the robot hold for these settings; with others it is heavier or lighter, and its springs no",
+        "longer suit it as well.",
+    ]
+    for plate in plates:
+        heat = temperatures_in_words(workshop.materials[plate.material])
+        lines += ["", f"## {plain(plate.name)}.3mf", "", f"{plain(plate.material)}: {plain(heat)}", ""]
+        copies = Counter(placed.part.name for placed in plate.items)
+        lines += [f"- {count} × {name}" for name, count in copies.items()]
+    return "\n".join(lines) + "\n"
 
 
 def _lines(line: str, rows: npt.NDArray[np.generic]) -> str:

@@ -54,9 +54,9 @@ def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
     root = ET.Element("robot", name=mechanism.name)
     add(add(root, "mujoco"), "compiler", fusestatic="false", strippath="false", discardvisual="false")
     for body in mechanism.bodies.values():
-        _link(root, body, [shape for shape in visible if shape.body == body.name])
+        add_link(root, body, [shape for shape in visible if shape.body == body.name], MESH_FOLDER)
     for joint in mechanism.joints:
-        _joint(root, joint, mechanism, settings)
+        add_joint(root, joint, mechanism, settings)
     return document(root)
 
 
@@ -93,7 +93,8 @@ def write_loop(mechanism: Mechanism) -> str:
     return json.dumps(data, indent=2, allow_nan=False) + "\n"
 
 
-def _link(root: ET.Element, body: Body, visible: "list[Visual]") -> None:
+def add_link(root: ET.Element, body: Body, visible: "list[Visual]", meshes: str) -> ET.Element:
+    """Append a body with its visible meshes, which lie at the path or URI `meshes`, and its contact spheres."""
     link = add(root, "link", name=body.name)
     moments, axes = principal_axes(body.inertia_kg_m2)
     inertial = add(link, "inertial")
@@ -104,16 +105,18 @@ def _link(root: ET.Element, body: Body, visible: "list[Visual]") -> None:
         visual = add(link, "visual", name=shape.name)
         add(visual, "origin", xyz=shape.T_body_mesh[:3, 3], rpy=rpy(shape.T_body_mesh[:3, :3]))
         geometry = add(visual, "geometry")
-        add(geometry, "mesh", filename=f"{MESH_FOLDER}/{shape.mesh_name}.stl", scale="0.001 0.001 0.001")
+        add(geometry, "mesh", filename=f"{meshes}/{shape.mesh_name}.stl", scale="0.001 0.001 0.001")
         material = add(visual, "material", name=f"{shape.name}_colour")
         add(material, "color", rgba=(*shape.colour, 1.0))
     for contact in body.contacts:
         collision = add(link, "collision", name=contact.name)
         add(collision, "origin", xyz=contact.centre_m, rpy="0 0 0")
         add(add(collision, "geometry"), "sphere", radius=contact.radius_m)
+    return link
 
 
-def _joint(root: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> None:
+def add_joint(root: ET.Element, joint: Joint, mechanism: Mechanism, settings: Settings) -> ET.Element:
+    """Append a hinge with its limits, damping and dry friction."""
     node = add(root, "joint", name=joint.name, type="revolute")
     add(node, "origin", xyz=joint.origin_m, rpy=(0.0, joint.rest_angle_rad, 0.0))
     add(node, "parent", link=joint.parent)
@@ -130,3 +133,4 @@ def _joint(root: ET.Element, joint: Joint, mechanism: Mechanism, settings: Setti
         velocity=joint.velocity_rad_s,
     )
     add(node, "dynamics", damping=rubs.joint_damping_nms_per_rad, friction=settings.joint_friction_nm + pins)
+    return node

@@ -15,6 +15,13 @@ Value: TypeAlias = str | float | npt.ArrayLike
 
 FORBIDDEN = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML does not allow (XML 1.0, production 2)."""
+DIGITS = 12
+"""Significant digits of shortened numbers: fewer than those in which processors differ."""
+NUMBERS = re.compile(r"[-+.e\d ]*\d[-+.e\d ]*")
+NAMES = {"actuator", "body", "body1", "body2", "childclass", "class", "file", "filename", "joint", "joint1", "link",
+         "material", "mesh", "meshdir", "model", "name", "objname", "reference", "site", "site1", "site2",
+         "type", "version"}  # fmt: skip
+"""Attributes that are names, also where they look like numbers."""
 
 
 def add(parent: ET.Element, tag: str, text: Value | None = None, **attributes: Value) -> ET.Element:
@@ -30,6 +37,16 @@ def written(value: Value) -> str:
     if isinstance(value, str):
         return value
     return " ".join(repr(float(number) + 0.0) for number in np.ravel(value))
+
+
+def shorten(root: ET.Element) -> None:
+    """Write the numbers of attributes with `DIGITS` digits, and those that are nothing beside their neighbours as 0."""
+    for node in root.iter():
+        for key, text in node.attrib.items():
+            if key not in NAMES and NUMBERS.fullmatch(text):
+                values = [float(word) for word in text.split()]
+                least = 10.0**-DIGITS * max(map(abs, values))
+                node.set(key, " ".join(f"{value if abs(value) > least else 0.0:.{DIGITS}g}" for value in values))
 
 
 def document(root: ET.Element) -> str:

@@ -10,6 +10,8 @@ import os
 import secrets
 import shutil
 import stat
+import struct
+import zlib
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -17,6 +19,8 @@ from pathlib import Path
 from jumpcad.errors import JumpcadError
 
 SEAL = "Written by jumpcad; SHA-256 of the lines above: "
+PNG_END = 12
+"""Bytes of the chunk that ends a PNG file."""
 
 
 def write_atomically(path: Path, data: str | bytes) -> None:
@@ -158,6 +162,13 @@ def sealed(text: str, comment: str = "# {}") -> str:
     return f"{text}{comment.format(SEAL + _sha256(text.encode()))}\n"
 
 
+def sealed_png(png: bytes) -> bytes:
+    """Return a PNG file with a seal in a comment before its end (PNG 11.3.4.3), for the same purpose as `sealed`."""
+    words = b"tEXtComment\0" + (SEAL + _sha256(png[:-PNG_END])).encode()
+    chunk = struct.pack(">I", len(words) - 4) + words + struct.pack(">I", zlib.crc32(words))
+    return png[:-PNG_END] + chunk + png[-PNG_END:]
+
+
 def same_file(one: Path, other: Path) -> bool:
     """Tell whether two paths lead to one file, also by links, and also if it is not there yet."""
     if os.path.realpath(one) == os.path.realpath(other):
@@ -179,9 +190,13 @@ def _lies_below(path: Path, file: Path) -> bool:
 
 def _is_sealed(path: Path) -> bool:
     try:
-        lines = path.read_bytes().splitlines(keepends=True)
+        data = path.read_bytes()
     except OSError:
         return False
+    if path.suffix == ".png":
+        without = data[: data.rfind(b"tEXtComment\0" + SEAL.encode()) - 4] + data[-PNG_END:]
+        return sealed_png(without) == data
+    lines = data.splitlines(keepends=True)
     return bool(lines) and (SEAL + _sha256(b"".join(lines[:-1]))).encode() in lines[-1]
 
 

@@ -6,7 +6,7 @@ In-plane places are in the body frame's x-z plane; intervals of y come from the 
 from dataclasses import dataclass
 from typing import Literal
 
-from jumpcad.catalogue import Bearing, Pad
+from jumpcad.catalogue import Bearing, LegBar, Pad
 from jumpcad.design import Design
 from jumpcad.dimensions import AXLE_BOSS_MM, AXLE_FLOOR_MM, CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive
@@ -45,7 +45,7 @@ class Layout:
     The places come with their inputs: linkage, sections, hub bearing (None where the hub runs on its axle)
     and drive. `toes_apart` says whether the foot is too large for the bed with its toes, so that they are
     separate parts. `toe_half_width_mm` is how far from the middle the toes touch the ground: at their tips, or at the
-    ends of bars across them.
+    ends of bars across them. `leg_bar` is what main leg and front link are made of between printed ends, if anything.
     """
 
     linkage: Linkage
@@ -69,6 +69,7 @@ class Layout:
     tray_mm: Array
     standoffs_mm: tuple[Array, ...]
     stop: StopPlace
+    leg_bar: LegBar | None = None
 
     @property
     def design(self) -> Design:
@@ -123,6 +124,7 @@ def make_layout(
     stop_pad: Pad,
     retention: Retention = "plates",
     toe_half_width_mm: float = 0.0,
+    leg_bar: LegBar | None = None,
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
@@ -189,6 +191,7 @@ def make_layout(
         tray_mm=tray,
         standoffs_mm=standoffs,
         stop=stop,
+        leg_bar=leg_bar,
     )
 
 

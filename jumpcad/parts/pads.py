@@ -1,4 +1,4 @@
-"""Pads that are cut from strip and glued on: under nose and toes, and on the rest stop (mm)."""
+"""Pads that are cut from strip, or printed, and glued on: under nose and toes, and on the rest stop (mm)."""
 
 from collections.abc import Iterator
 
@@ -27,6 +27,13 @@ def pads(layout: Layout, foot_pad: Pad | None) -> Iterator[BoughtPart]:
     if foot_pad is not None:
         yield from _nose_pads(layout, foot_pad)
         yield from _toe_pads(layout, foot_pad)
+
+
+def is_printed(item: BoughtPart, foot_pad: Pad | None, stop_pad: Pad) -> bool:
+    """Tell whether a part is a pad that is printed, of the kinds under the feet and on the rest stop."""
+    if "_pad" not in item.name:
+        return False
+    return stop_pad.printed if item.name == "stop_pad" else foot_pad is not None and foot_pad.printed
 
 
 def _stop_pad(layout: Layout) -> BoughtPart:
@@ -81,5 +88,6 @@ def _pad(
 ) -> BoughtPart:
     """Return a pad with the size to cut, its mass from its volume."""
     volume = sum((y1 - y0) * region.area() for y0, y1, region in slabs)
-    article = f"{pad.description}, cut {size_mm[0]:.1f} x {size_mm[1]:.1f} mm"
+    size = f"{size_mm[0]:.1f} x {size_mm[1]:.1f}"
+    article = f"{pad.description}: {name}.stl" if pad.printed else f"{pad.description}, cut {size} mm"
     return bought(name, article, body, pad.density_g_cm3 * volume / 1000.0, slabs, at_mm)

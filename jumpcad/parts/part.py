@@ -141,6 +141,11 @@ class Part:
         return self.drawing.mesh
 
     @property
+    def look(self) -> "trimesh.Trimesh":
+        """The mesh without fine detail, for pictures (mm)."""
+        return self.drawing.look
+
+    @property
     def mass_kg(self) -> float:
         """Mass of one copy (kg)."""
         return self.mass.mass_kg

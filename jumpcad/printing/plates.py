@@ -34,6 +34,10 @@ class Printable(Protocol):
     def mesh(self) -> trimesh.Trimesh:
         """The mesh."""
 
+    @property
+    def look(self) -> trimesh.Trimesh:
+        """The mesh as detailed as a picture needs."""
+
 
 @dataclass(frozen=True)
 class Placed:

@@ -1,96 +1,129 @@
-"""The order in which a robot is assembled: each step with the parts that it adds."""
+"""The steps of assembly of one robot: which things are put on, from where, with which tool, and what to heed.
+
+The order is data (`assembly_order`). Here it meets a robot: its things are found by their names, and words about things
+that it does not have are left out.
+"""
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order import ORDER, ROBOT, Move, Plan, Words
 from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.transforms import Array, chained
+
+SIDES = {
+    "from the left": np.array([0.0, -1.0, 0.0]),
+    "from the right": np.array([0.0, 1.0, 0.0]),
+    "from below": np.array([0.0, 0.0, 1.0]),
+    "from above": np.array([0.0, 0.0, -1.0]),
+    "from the front": np.array([-1.0, 0.0, 0.0]),
+    "from behind": np.array([1.0, 0.0, 0.0]),
+}
+"""Directions of travel."""
+REST = "Everything else"
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Things that take their place together, each with its pose, by one move."""
+
+    move: Move
+    things: tuple[Visual, ...]
 
 
 @dataclass(frozen=True)
 class Step:
-    """One step: what to do, and the parts that are added."""
+    """One step: what is put on, onto which assembly, and the words about it.
 
+    `text`, `warnings` and `checks` may hold names in braces, which a guide replaces by this robot's numbers.
+    """
+
+    key: str
     title: str
-    text: str
-    added: tuple[Visual, ...]
+    onto: str
+    placed: tuple[Placed, ...]
+    text: tuple[str, ...]
+    warnings: tuple[str, ...]
+    checks: tuple[str, ...]
 
-
-ORDER: tuple[tuple[str, str, str], ...] = (
-    (
-        "Main leg",
-        r"main_leg|hub_bearing_\d+|leg_spring_pin.*|roller.*",
-        "Press the bearings into the hub. Open the eye at the ankle with a drill or reamer 0.1 mm wider than its pin, "
-        "until that turns in it without rocking. Push the springs' pin through the beam and keep it as the list says: "
-        "bend the split pin's ends, or press the clips into their grooves. Screw the roller to the lever's left side "
-        "with the washer between them and the lock nut on the right; the roller must spin freely.",
-    ),
-    (
-        "Foot",
-        r"foot|toe_.*|nose_pad_.*|front_link|ankle_pin.*|front_eye_pin.*",
-        "Toes that are parts of their own are screwed to the foot from outside first. Set the main leg between the "
-        "lugs where the toes meet and push the ankle pin through. Do the same with the front link at the nose, whose "
-        "eyes are opened like the leg's. Both must swing freely. Bend the split pins' ends around the pins, or press "
-        "the clips into their grooves. Degrease the soles and glue the pads under the toes' tips and around the nose, "
-        "from the sole up its round front.",
-    ),
-    (
-        "Right plate",
-        r"body_plate_right|motor|motor_shaft|motor_cap|cap_screw_\d+|stop_bar|stop_pad",
-        "Push the motor into the plate's socket, its shaft away from the plate, and close the socket with the cap and "
-        "its screws. Solder the motor's wires now. Glue the rest stop's pad into its seat in the bar, and push one of "
-        "the bar's tabs into the right plate, the pad towards the leg.",
-    ),
-    (
-        "Axles",
-        r"(leg|front|cam|idler)_axle|spring_pin",
-        "Put the axles and the pin of the springs' body arms into the right plate's bores from inside. Where these are "
-        "closed outside, axles go in to the end. Screws that are axles come from the left plate at the end; until then "
-        "rods of their diameter hold the parts.",
-    ),
-    (
-        "Springs and legs",
-        r"spring_(left|right)|spring_(left|right)_leg_arm|spring_bushing_.*|front_spacer_.*",
-        "On the leg axle go, from the plate on: the right spring, which is the left-hand one, on its bushing with its "
-        "outer arm below the plate's pin, the main leg with its pin below the spring's other arm, the left spring, the "
-        "right-hand one, on its bushing with its inner arm above the leg's pin. On the front axle go spacer, front "
-        "link, spacer. Winding turns the leg's pin towards the plate's pin and closes the coils.",
-    ),
-    (
-        "Cam and gears",
-        r"cam|cam_gear|motor_pinion|idler|cam_spacer_.*|idler_spacer_.*",
-        "On the cam axle go spacer, cam and, over the cam's jaws, the cam gear; the roller lies at the foot of the "
-        "cam's drop. The cam must turn freely in the gear from jaw to jaw. Press the pinion onto the motor's shaft, "
-        "flat to flat: its ribs are cut. From here on do not turn the cam by hand: it would drive the gear motor "
-        "backwards, and the axles stand in one plate only.",
-    ),
-    (
-        "Electronics",
-        r"electronics_tray.*|battery|controller|driver|regulator|wiring_.*",
-        "Put the trays' tabs into the slots of the right plate. The battery is strapped to the lower tray, the boards "
-        "lie on the upper one.",
-    ),
-    (
-        "Left plate",
-        r"body_plate_left|standoff_.*|(leg|front|cam|idler)_axle_.*|spring_pin_.*",
-        "Screw the standoffs to the right plate. Lower the left plate over axles, spring pin, stop bar and tabs, with "
-        "the left spring's body arm below the pin, and screw it to the standoffs: the plates' closed bores then hold "
-        "the axles. Otherwise press a clip into the groove at either end of every axle, or put in the screws from the "
-        "left and turn their lock nuts until the plates just bear no load. The motor winds the springs for the first "
-        "time now: keep fingers and eyes away from leg, foot and cam while they are loaded.",
-    ),
-)
-"""Title, names of the parts that are added, text."""
-REST = ("Everything else", "Fasten what remains where the picture shows it.")
+    @property
+    def added(self) -> tuple[Visual, ...]:
+        """What is put on for the first time, without assemblies that come from earlier steps."""
+        return tuple(
+            thing for placed in self.placed if not (placed.move.brings or placed.move.trial) for thing in placed.things
+        )
 
 
 def assembly_steps(robot: Robot) -> list[Step]:
-    """Return the steps that a robot needs; everything on it is added in exactly one of them."""
+    """Return the steps that a robot needs; everything on it is put on in exactly one of them."""
     left = list(visuals(robot))
+    names = [thing.name for thing in left] + ["preload"] * (robot.layout.drive.spring.preload_rad > 0.0)
+    built: dict[str, list[Visual]] = {}
     steps = []
-    for title, names, text in ORDER:
-        added = tuple(shape for shape in left if re.fullmatch(names, shape.name))
-        left = [shape for shape in left if shape not in added]
-        if added:
-            steps.append(Step(title, text, added))
-    return [*steps, Step(*REST, tuple(left))] if left else steps
+    for plan in ORDER:
+        placed = tuple(_placed(plan, robot, left, built))
+        if not placed and plan.moves:
+            continue
+        texts = (_said(words, names) for words in (plan.text, plan.warnings, plan.checks))
+        steps.append(Step(plan.key, plan.title, plan.onto, placed, *texts))
+    if left:
+        rest = Placed(Move(".*", way="laid"), tuple(left))
+        steps.append(Step("rest", REST, ROBOT, (rest,), ("Fasten what remains where the picture shows it.",), (), ()))
+    return steps
+
+
+def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Array:
+    """Return the direction (3,) in the world in which a thing moves to its place on the standing robot.
+
+    Toes come from outside onto the foot's stubs, their screws with their heads last.
+    """
+    if move.along in SIDES:
+        return SIDES[move.along]
+    own = chained(T_world_body, thing.T_body_mesh)[:3, :3]
+    if move.along == "head last":
+        return np.asarray(own[:, 2] * (-1.0 if _head_up(thing) else 1.0))
+    if move.along == "from outside":
+        return np.asarray(own[:, 1] * (1.0 if thing.name == "toe_left" else -1.0))
+    if move.along == "from the leg":
+        x, z = robot.layout.stop.behind
+        return np.asarray(np.einsum("ij,j->i", T_world_body[:3, :3], np.array([x, 0.0, z])))
+    raise ValueError(f"no direction {move.along}")
+
+
+def _head_up(thing: Visual) -> bool:
+    """Tell whether the head of a screw or pin is at the upper end in its own frame."""
+    low, high = thing.mesh.bounds[:, 2]
+    ends = thing.mesh.vertices
+    width = [np.ptp(ends[np.abs(ends[:, 2] - z) < 1e-3][:, 0]) for z in (low, high)]
+    return bool(width[1] > width[0])
+
+
+def _placed(plan: Plan, robot: Robot, left: list[Visual], built: dict[str, list[Visual]]) -> Iterator[Placed]:
+    """Yield a plan's moves with the robot's things, which go from those that are left to what is built."""
+    there = built.setdefault(plan.onto, [])
+    for move in plan.moves:
+        if move.retention and robot.layout.retention not in move.retention:
+            continue
+        if move.brings:
+            things = built.pop(move.brings, [])
+        else:
+            things = [thing for thing in left if re.fullmatch(move.parts, thing.name)]
+            left[:] = [thing for thing in left if thing not in things or move.trial]
+        if things:
+            there += [] if move.trial else things
+            yield Placed(move, tuple(things))
+
+
+def _said(words: Iterable[Words], names: list[str]) -> tuple[str, ...]:
+    """Return what is said of a robot with things of some names."""
+
+    def has(pattern: str) -> bool:
+        return any(re.fullmatch(pattern, name) for name in names)
+
+    return tuple(
+        said.text for said in words if (not said.needs or has(said.needs)) and not (said.lacks and has(said.lacks))
+    )

@@ -1,4 +1,4 @@
-"""Figures as SVG files: one style, and the same bytes for the same data."""
+"""Figures as SVG and PNG files: one style, and the same bytes for the same data."""
 
 import io
 from pathlib import Path
@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from jumpcad.arguments import typed
-from jumpcad.files.outputs import sealed, write_files
+from jumpcad.files.outputs import sealed, sealed_png, write_files
 
 PICTURES = (
     "history", "slices", "parallel", "pareto", "acquisition-first", "acquisition",
@@ -18,6 +18,7 @@ PICTURES = (
 """Names of the pictures of a study, then of those of the design space."""
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#d9822b", "#8a8f98", "#b3322b"
+PNG_DPI = 150
 STYLE: dict[Any, Any] = {
     "svg.hashsalt": "jumpcad",
     "svg.fonttype": "path",
@@ -42,11 +43,16 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
 
 @typed
 def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
-    """Write a figure as `folder/name.svg`, marked as jumpcad's, and return the path."""
-    stream = io.StringIO()
+    """Write a figure as `folder/name.svg` and `folder/name.png`, marked as jumpcad's; return the first path."""
+    drawn, pixels = io.StringIO(), io.BytesIO()
     with matplotlib.rc_context(STYLE):
-        figure.savefig(stream, format="svg", metadata={"Date": None})
-    (path,) = write_files(Path(folder), {f"{name}.svg": sealed(stream.getvalue(), "<!-- {} -->")})
+        figure.savefig(drawn, format="svg", metadata={"Date": None})
+        figure.savefig(pixels, format="png", dpi=PNG_DPI, metadata={"Software": None})
+    files: dict[str, str | bytes] = {
+        f"{name}.svg": sealed(drawn.getvalue(), "<!-- {} -->"),
+        f"{name}.png": sealed_png(pixels.getvalue()),
+    }
+    path, _ = write_files(Path(folder), files)
     return path
 
 

@@ -63,7 +63,7 @@ class MujocoWorld:
         self._dry_nm[LEG] += pin_torque_nm(mechanism, rubs.pin)
         self.joint_damping_j = self.slip_j = 0.0
         self._loaded = True
-        self.model = mujoco.MjModel.from_xml_string(write_mjcf(mechanism, settings=settings))
+        self.model = mujoco.MjModel.from_xml_string(write_mjcf(mechanism, settings))
         self.data = mujoco.MjData(self.model)
         self._carried_n = CARRIED_SHARE * mechanism.mass_kg * settings.gravity_m_s2
         self._rows = int(self.model.pair_dim[0])

@@ -142,12 +142,17 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     lug = growth.lug * LUG_MM
     springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
     torque = RESERVE * 1000.0 * springs.peak_torque_nm
-    thickness = growth.thickness * max(THICKNESS_MM if torque < THICK_FROM_NMM else THICK_MM, hub_width_mm)
+    around, across = _socket_mm(workshop)
+    least = THICKNESS_MM if torque < THICK_FROM_NMM else THICK_MM
+    thickness = growth.thickness * max(least, hub_width_mm, across)
     bending = height_for_mm(torque, thickness, allowable, shell)
     root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, bending)
-    stiff = _stiff_mm(design, springs, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
-    leg_root = _in_hundredths(growth.leg * stiff)
-    leg_tip = _leg_tip_mm(leg_root)
+    stiff = root
+    if workshop.leg_bar is None:
+        stiff = _stiff_mm(design, springs, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
+    leg_root = max(_in_hundredths(growth.leg * stiff), around)
+    leg_tip = max(_leg_tip_mm(leg_root), around)
+    eye = max(eye, around / 2.0)
     depth = max(eye, leg_tip / 2.0) + ABOVE_GROUND_MM
     pad = workshop.foot_pad.thickness_mm if workshop.foot_pad else 0.0
     toes = RESERVE * float(push_off(linkage, TYPICAL_BODY, depth + pad, springs).toes_n.max())
@@ -159,7 +164,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         thickness_mm=thickness,
         leg_root_mm=leg_root,
         leg_tip_mm=leg_tip,
-        front_mm=growth.front * HEIGHT_MIN_MM,
+        front_mm=max(growth.front * HEIGHT_MIN_MM, around),
         lever_root_mm=_in_hundredths(growth.lever * max(root, LEVER_MORE * bending)),
         eye_radius_mm=eye,
         lug_thickness_mm=lug,
@@ -173,6 +178,15 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         stop_mm=_in_hundredths(growth.stop * _stop_mm(workshop, springs.energy_j, thickness, shell)),
         pad_mm=pad,
     )
+
+
+def _socket_mm(workshop: Workshop) -> tuple[float, float]:
+    """Return height and thickness that a leg needs around its bar's socket; zeros for legs that are printed whole."""
+    bar, fits = workshop.leg_bar, workshop.fits
+    if bar is None:
+        return 0.0, 0.0
+    gap = 2.0 * fits.lying_mm
+    return _in_hundredths(bar.height_mm + gap + 2.0 * fits.wall_mm), bar.width_mm + gap + 2.0 * fits.wall_min_mm
 
 
 def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float, springs: Spring | None = None) -> float:
@@ -209,7 +223,7 @@ def _stop_mm(workshop: Workshop, energy_j: float, width_mm: float, shell: Shell)
     """Return the depth of the rest stop's bar, a beam on both plates with its pad's force on the leg's width."""
     pad_n_per_mm = workshop.stop_pad.rate_n_per_mm(width_mm, STOP_PAD_MM)
     force = PEAK_SHARE * math.sqrt(2.0 * STOP_SHARE * 1000.0 * energy_j * pad_n_per_mm)
-    moment = BLOW_FACTOR * force * (STOP_SPAN_MM - width_mm / 2.0) / 4.0
+    moment = BLOW_FACTOR * force * max(STOP_SPAN_MM - width_mm / 2.0, 0.0) / 4.0
     strength = workshop.material("links").strength_in_plane_mpa
     return max(STOP_MIN_MM, STOP_SEAT_MM + height_for_mm(moment, STOP_PAD_MM, strength, shell))
 

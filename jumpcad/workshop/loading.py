@@ -11,6 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean, find_template, read_toml, template_names
 from jumpcad.files.complaints import place, shown
 from jumpcad.files.names import NAME, NAME_RULE, composed
+from jumpcad.workshop.tables import Roles
 from jumpcad.workshop.workshop import OWN_PARTS, Workshop
 
 DEFAULT = "default"
@@ -19,8 +20,19 @@ MOST_BASES = 20
 
 
 @typed
-def load_workshop(name_or_path: str | Path = DEFAULT) -> Workshop:
+def load_workshop(
+    name_or_path: str | Path = DEFAULT, printer: str | None = None, material: str | None = None
+) -> Workshop:
     """Return the workshop of a template (`default`) or of a TOML file, with everything that it builds on.
+
+    Parameters
+    ----------
+    name_or_path
+        The workshop.
+    printer
+        Another printer: a shipped one's name or a TOML file.
+    material
+        One material for every role: a shipped one's name, or one of the workshop's.
 
     Raises
     ------
@@ -29,6 +41,14 @@ def load_workshop(name_or_path: str | Path = DEFAULT) -> Workshop:
     """
     path = find_template("workshops", name_or_path)
     data, text = _assembled(path, ())
+    if printer is not None:
+        data["printer"] = read_toml(find_template("printers", printer))[0]
+    if material is not None:
+        known = data.get("materials")
+        name = material.upper() if material.lower() in template_names("materials") else material
+        own = known.get(name) if isinstance(known, dict) else None
+        data["roles"] = dict.fromkeys(Roles.model_fields, name)
+        data["materials"] = {name: _material(path, name, own)}
     return Workshop.from_data(data, source=str(path), text=text)
 
 

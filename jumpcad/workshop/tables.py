@@ -43,13 +43,15 @@ class Process(TomlTable):
 
 
 class Material(TomlTable):
-    """A material: strengths along the layers and between them, and its price where one is entered."""
+    """A material: strengths along the layers and between them, and what is known of its temperatures and price."""
 
     density_g_cm3: Annotated[float, Field(ge=0.3, le=10)]
     strength_in_plane_mpa: Stress
     strength_interlayer_mpa: Stress
     modulus_mpa: Annotated[float, Field(ge=1, le=1e6)]
     price_eur_per_kg: Positive | None = None
+    nozzle_c: Annotated[float, Field(ge=100, le=500)] | None = None
+    bed_c: Annotated[float, Field(ge=0, le=200)] | None = None
     source: Text = ""
 
 
@@ -99,6 +101,7 @@ class BoughtParts(TomlTable):
     `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
     `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
+    `leg` is the bar that main leg and front link are made of between printed ends, empty where they are printed whole.
     `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
     in grooves, or screws as axles with lock nuts; pins of foot and leg have clips too, or are clevis pins.
     """
@@ -119,6 +122,7 @@ class BoughtParts(TomlTable):
     wire: OptionalName
     pins: dict[Literal["motor", "sleep", "ready", "battery"], Name] = Field(default_factory=dict)
     spring: OptionalName
+    leg: OptionalName
     axle_mm: Length
     axle: Name
     retention: Literal["plates", "clips", "nuts"]
@@ -171,7 +175,8 @@ class Safety(TomlTable):
     """Safety factors, what springs, motor and legs may be loaded with, and reserves for what differs from a drawing.
 
     Loads are taken as those of the stiffest springs within `spring_rate_scatter`, and more by `stress_reserve`. Other
-    reserves are kept below the motor's torque and the cam's pressure angle, and above gaps.
+    reserves are kept below the motor's torque and the cam's pressure angle, and above gaps; `kick_reserve` is added to
+    the blow that the released cam gives the gear motor.
     """
 
     strength_factor: Annotated[float, Field(ge=1, le=20)]
@@ -181,6 +186,7 @@ class Safety(TomlTable):
     spring_stress_share: Share
     spring_rate_scatter: Annotated[float, Field(ge=0, le=0.5)]
     stress_reserve: Annotated[float, Field(ge=0, le=1)]
+    kick_reserve: Annotated[float, Field(ge=0, le=1)]
     motor_torque_reserve: Annotated[float, Field(ge=0, le=0.9)]
     pressure_angle_reserve_deg: Annotated[float, Field(ge=0, le=20)]
     gap_reserve_mm: Annotated[float, Field(ge=0, le=1)]
@@ -226,6 +232,7 @@ class ReleaseTable(TomlTable):
     backlash_deg: Annotated[tuple[Backlash, Backlash], Field(strict=False)]
     rebound: Annotated[float, Field(ge=0, le=1)]
     train_nm_per_rad: Positive
+    contact_n_per_mm: Annotated[float, Field(ge=100, le=1e6)]
     energy_ratio_min: Share
 
     @property

@@ -18,6 +18,7 @@ from jumpcad.catalogue import (
     Bearing,
     Board,
     Catalogue,
+    LegBar,
     Motor,
     OwnParts,
     Pad,
@@ -93,6 +94,11 @@ class Workshop(Record):
         return self.catalogue.springs[self.bought.spring] if self.bought.spring else None
 
     @property
+    def leg_bar(self) -> LegBar | None:
+        """The bar of main leg and front link, or None where they are printed whole."""
+        return self.catalogue.bars[self.bought.leg] if self.bought.leg else None
+
+    @property
     def foot_pad(self) -> Pad | None:
         """The pad under nose and toes, or None where the feet are bare."""
         return self.catalogue.pads[self.ground.pad] if self.ground.pad else None
@@ -147,7 +153,7 @@ class Workshop(Record):
         yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
         yield from _release_contradictions(self.release)
         if not self.body.stop_pad:
-            known = ", ".join(self.catalogue.pads)
+            known = ", ".join(name for name, pad in self.catalogue.pads.items() if pad.thickness_mm >= STOP_PAD_MIN_MM)
             reason = f"the rest stop needs a pad of at least {STOP_PAD_MIN_MM:g} mm: name one of {known}"
             yield ("body", "stop_pad"), self.body.stop_pad, reason
         for role, name in self.roles.model_dump().items():

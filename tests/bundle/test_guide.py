@@ -23,9 +23,10 @@ def test_the_guide_names_all_that_the_bill_names(robot: Robot) -> None:
     tables, steps = guide.split("## 1. ")
     for item in bill_of_materials(robot).items:
         assert item.name in tables
-        counted = sum(int(n) for n in re.findall(rf"^- (\d+) × {re.escape(item.name)}$", steps, re.MULTILINE))
+        counted = sum(int(n) for n in re.findall(rf"^- (\d+) × {re.escape(item.name)} \(.*\)$", steps, re.MULTILINE))
         assert counted == item.quantity, item.name
-    assert "pictures/" not in write_guide(robot, pictures=False)
+    assert "pictures/" not in guide
+    assert "![Foot and front link](pictures/step-2-pads.png)" in write_guide(robot, ["step-2-pads", "step-12"])
 
 
 def test_a_guide_takes_times_in_and_changes_nothing_else(robot: Robot) -> None:

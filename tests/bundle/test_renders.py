@@ -3,11 +3,14 @@
 import io
 
 import numpy as np
+import pytest
 from PIL import Image
 
 from jumpcad.bundle.renders import exploded, jump_gif, renders
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.camera import View, aimed
+from jumpcad.scene.floor import STRIPES, with_floor
 from jumpcad.scene.visuals import visuals
 from jumpcad.simulation import Settings, simulate
 
@@ -40,6 +43,35 @@ def test_the_jump_is_an_endless_gif_of_few_colours(small_robot: Robot) -> None:
     centres = []
     for number in (0, gif.n_frames - 1):
         gif.seek(number)
-        dark = np.asarray(gif.convert("L")) < 200
+        dark = np.asarray(gif.convert("L"))[20:] < 200  # below the caption
         centres.append(np.nonzero(dark.any(axis=0))[0].mean())
     assert centres[1] > centres[0] + 20, "x points to the right, and the robot jumps along x"
+
+
+def test_the_floors_stripes_are_a_scale_for_the_jump(small_robot: Robot) -> None:
+    """Measured in stripes of 100 mm, the blue body goes as far across the picture as it was simulated to."""
+    jump = simulate(small_robot, Settings(flight="simulated", trajectory=True))
+    assert jump.trajectory is not None
+    gif = Image.open(io.BytesIO(jump_gif(small_robot, jump.trajectory, (560, 350))))
+    middles = []
+    for number in (0, gif.n_frames - 1):
+        gif.seek(number)
+        frame = np.asarray(gif.convert("RGB")).astype(int)
+        blue = frame[40:, :, 2] - frame[40:, :, 0] > 30
+        middles.append(np.nonzero(blue)[1].mean())
+    dark = np.abs(frame.mean(axis=2) - np.mean(STRIPES[1])) < 3.0
+    widths = np.concatenate([np.diff(np.nonzero(np.diff(row.astype(int)))[0]) for row in dark[-60:]])
+    stripe = np.median(widths[widths > 50])  # others are cut by feet
+    moved_m = float(jump.trajectory.position_m[-1, 0, 0] - jump.trajectory.position_m[0, 0, 0])
+    assert 0.1 * (middles[1] - middles[0]) / stripe == pytest.approx(moved_m, rel=0.1)
+
+
+def test_what_is_drawn_stays_before_the_floor() -> None:
+    frame = np.array([[x, y, z] for x in (0.0, 0.3) for y in (-0.05, 0.05) for z in (0.0, 0.2)])
+    picture = Image.new("RGB", (300, 200), "white")
+    picture.paste((200, 100, 30), (100, 40, 200, 190))
+    floored = np.asarray(with_floor(picture, aimed(frame, View(-80.0, 6.0), 1.5), frame, "caption"))
+    assert (floored[40:190, 100:200] == (200, 100, 30)).all()
+    below = floored[120:, :100].reshape(-1, 3)
+    assert {tuple(colour) for colour in below.tolist()} >= set(STRIPES)
+    assert (floored[:30, :100].min(axis=2) < 150).any()

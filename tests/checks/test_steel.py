@@ -63,3 +63,25 @@ def test_what_an_axle_is_made_of_counts(kenan: Robot) -> None:
     tube = {f.name: f for f in strength_findings(changed(kenan, "bought", axle="steel-tube"))}["leg_axle_strength"]
     assert tube.value == pytest.approx(solid.value / (1.0 - 0.6667**4))
     assert tube.limit == pytest.approx(solid.limit * 210.0 / 1370.0)
+
+
+def test_what_is_advised_for_a_weak_axle_holds(kenan: Robot) -> None:
+    """The yield stress that is named is enough, and so is the diameter: the stress falls with its cube."""
+    weak = changed(kenan, "bought", axle="steel-tube")
+    found = {one.name: one for one in strength_findings(weak)}["leg_axle_strength"]
+    assert found.severity == "error"
+    needed = float(found.remedy.partition(" MPa")[0])
+    assert needed / 1.5 / LOADS == pytest.approx(found.value, rel=0.01)
+    assert "silver-steel" not in found.remedy.partition("bought.axle_mm")[0] or needed <= 400.0
+    diameter = float(found.remedy.partition("bought.axle_mm of ")[2].partition(" ")[0])
+    assert found.value * (3.0 / diameter) ** 3 <= 1.02 * found.limit
+
+
+def test_a_stock_springs_axle_is_not_helped_by_the_designs_stiffness(kenan: Robot) -> None:
+    stiff = build(kenan.design, changed(kenan, "bought", spring="9271K589").workshop)
+    found = {one.name: one for one in strength_findings(stiff)}["leg_axle_strength"]
+    assert found.severity == "error"
+    assert "stiffness_nmm_per_deg" not in found.remedy
+    rate = float(found.remedy.partition("bought.spring of ")[2].partition(" ")[0])
+    assert rate < 26.4
+    assert found.value * rate / 26.36 <= 1.02 * found.limit

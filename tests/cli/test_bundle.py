@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 from pathlib import Path
+from unittest.mock import ANY
 
 import pytest
 from support.commands import Run
@@ -167,3 +168,25 @@ def test_the_bodies_of_the_manifest_are_the_robots(bundle: Path) -> None:
         tensor = body["inertia_kg_m2"]
         moments = sorted(tensor[i][i] for i in range(3))
         assert moments[2] <= moments[0] + moments[1], "no rigid body breaks the triangle rule"
+
+
+def test_a_ros2_package_is_part_of_the_bundle_where_it_is_asked_for(run: Run, bundle: Path, tmp_path: Path) -> None:
+    assert not (bundle / "ros2").exists()
+    assert run("build", bundle, "-o", tmp_path / "b", "--no-pictures", "--ros2")[0] == 0
+    package = tmp_path / "b" / "ros2" / "kenan_2_0_description"
+    assert {"package.xml", "CMakeLists.txt", "urdf", "launch", "meshes"} <= {path.name for path in package.iterdir()}
+    assert run("verify", tmp_path / "b")[:2] == (0, ANY)
+    assert run("build", bundle, "-o", tmp_path / "b", "--no-pictures")[0] == 0
+    assert not package.exists()
+
+
+def test_a_bundle_is_not_printed_elsewhere(run: Run, bundle: Path, tmp_path: Path) -> None:
+    for option in (("--printer", "mk4"), ("--material", "PLA")):
+        code, _, err = run("build", bundle, *option, "-o", tmp_path / "b")
+        assert code == 2
+        assert f"{' '.join(option)}: " in err
+    assert run("build", "kenan-2.0", "--material", "PLA", "-o", tmp_path / "pla", "--no-pictures")[0] == 0
+    assert {path.name for path in (tmp_path / "pla" / "print").glob("*.3mf")} == {
+        "plate-1-PLA.3mf",
+        "plate-2-PLA.3mf",
+    }

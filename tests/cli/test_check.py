@@ -1,14 +1,18 @@
 """`jumpcad check`."""
 
 import json
+import math
+import re
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 from jumpcad import checks
+from jumpcad.cli.check import TIGHT, margin_in_words
 from jumpcad.cli.commands import app
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import limit
 
 
 def test_command_finds_nothing_wrong_with_kenan() -> None:
@@ -31,8 +35,47 @@ def test_command_fails_where_an_axle_is_too_weak(
         first = json.loads(result.output)["findings"][0]
         assert (first["name"], first["severity"], first["unit"]) == ("leg_axle_strength", "error", "MPa")
     else:
-        assert result.output.index("leg_axle_strength") < result.output.index("bed_fit")
+        assert re.search(r"error +leg_axle_strength.*tight ", result.output, re.DOTALL)
         assert "0 errors" not in result.output
+
+
+def test_it_shows_what_is_tight_and_with_all_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
+    short, long = (CliRunner().invoke(app, ["check", "kenan-2.0", *more]).output for more in ([], ["--all"]))
+    findings = json.loads(CliRunner().invoke(app, ["check", "kenan-2.0", "--json"]).output)["findings"]
+    tight = {one["name"] for one in findings if one["use"] is not None and one["use"] >= TIGHT}
+    slack = {one["name"] for one in findings if one["use"] is not None and one["use"] < TIGHT}
+    assert tight
+    assert slack
+    for name in tight | slack:
+        assert f" {name} " in long
+        assert (f" {name} " in short) == (name in tight)
+    assert f"{len(findings)} limits hold" in short
+    assert "--all" in short
+    assert "--all" not in long
+
+
+@pytest.mark.parametrize(
+    ("margin", "unit", "words"),
+    [
+        (1.3e-05, "rad", "at the limit"),
+        (-1.3e-05, "rad", "just beyond"),
+        (math.pi / 18.0, "rad", "+10 °"),
+        (0.0123, "J", "+12.3 mJ"),
+        (-62.14, "MPa", "-62.1 MPa"),
+        (0.0, "faults", ""),
+        (0.05, "mm³", "+0.05 mm³"),
+    ],
+)
+def test_margins_are_in_units_that_people_read(margin: float, unit: str, words: str) -> None:
+    assert margin_in_words(limit("name", margin, unit, "found", "remedy")) == words
+
+
+def test_a_printer_is_named_on_the_command_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
+    arguments = ["check", "kenan-2.0", "--printer", "a1-mini", "--material", "PLA", "--all"]
+    output = CliRunner().invoke(app, arguments, env={"COLUMNS": "200"}).output
+    assert "180 x 180 x 180 mm" in output
 
 
 def test_command_says_which_part_does_not_fit_the_bed(tmp_path: Path) -> None:

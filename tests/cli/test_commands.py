@@ -1,6 +1,7 @@
 """The commands together: exit codes, one line of error, one JSON document, help without delay."""
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -9,9 +10,11 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 from support.places import ROOT
+from typer.main import get_command
 
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
+from jumpcad.version import __version__
 
 HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklearn", "matplotlib", "pygad")
 
@@ -101,3 +104,56 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert "Usage: jumpcad" in done.stdout
     assert done.stderr == "[]\n"
+
+
+def test_version_and_short_help(run: Run) -> None:
+    assert run("--version") == (0, f"jumpcad {__version__}\n", "")
+    assert run("-h") == run("--help")
+    assert run("check", "-h")[1] == run("check", "--help")[1]
+
+
+def words_of(text: str) -> str:
+    return " ".join(re.sub(r"[│╭╮╰╯─]", " ", text).split())
+
+
+def test_help_texts_are_whole_at_80_columns(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every word of every option's help and default is there; rich takes [x] for markup, and cuts long words."""
+    monkeypatch.setenv("COLUMNS", "80")
+    for name, command in get_command(app).commands.items():
+        text = run(name, "--help")[1]
+        assert max(map(len, text.splitlines())) <= 80
+        for parameter in command.params:
+            for words in (parameter.help or "", str(parameter.show_default) if parameter.show_default else ""):
+                words = "" if words == "True" else " ".join(words.split())
+                missing = [word for word in words.split() if word not in words_of(text)]
+                assert not missing, (name, parameter.name, missing)
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("jumpcad ver", {"verify"}),
+        ("jumpcad check kenan", {"kenan-1.0", "kenan-2.0"}),
+        ("jumpcad build x --printer a1", {"a1", "a1-mini"}),
+        ("jumpcad new x.toml --workshop f", {"fine"}),
+        ("jumpcad list mot", {"motors"}),
+    ],
+)
+def test_the_shell_completes_commands_and_names(
+    run: Run, monkeypatch: pytest.MonkeyPatch, line: str, expected: set[str]
+) -> None:
+    monkeypatch.setenv("_JUMPCAD_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", line)
+    monkeypatch.setenv("COMP_CWORD", str(len(line.split()) - 1))
+    code, out, err = run()
+    assert (code, err) == (0, "")
+    assert set(out.split()) == expected
+
+
+def test_pipes_and_no_color_get_plain_text(folder: Path) -> None:
+    """Without a terminal no colour; NO_COLOR (no-color.org) even where one is forced."""
+    command = [sys.executable, "-m", "jumpcad", "list", "printers"]
+    for more in ({}, {"NO_COLOR": "1"}, {"TERM": "dumb"}):
+        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **more}, check=True)
+        assert "\x1b" not in done.stdout
+        assert "ender-3" in done.stdout

@@ -9,6 +9,7 @@ rotor and roller, friction, stiffnesses.
 Unlike the model in jumpcad/drive it steps in time, with rebound and hops in every contact.
 """
 
+import itertools
 import json
 import math
 import xml.etree.ElementTree as ET
@@ -23,9 +24,7 @@ from shapely import affinity
 
 STEP_S = 2e-6
 DAMPING = 0.2
-"""Of every contact, as a share of the critical one: a rebound with about half of the speed."""
-CONTACT_N_PER_M = 5e6
-"""Of the roller on the cam; a hundredth of a millimetre at 50 N."""
+"""Of the roller on the cam, as a share of the critical one: a rebound with about half of the speed."""
 G = 9.81
 
 
@@ -238,17 +237,19 @@ class Contact:
         arm_m, lift = self.lever_mm / 1000.0, self._end_of_lift(wound)
         tip_inertia = motor["roller_kg_m2"]
         masses = np.array([self.cam_kg_m2, motor["gear_kg_m2"], motor["rotor_kg_m2"]])
-        roller = self.wind_at(lift)
-        weight = self.leg.at(roller)[2]
-        wind = (lever * roller - weight) / (lever + rate)
+        above = self.wind_at(lift)
+        contact = motor["contact_nm_per_rad"] / self._arm_m(above, lift) ** 2
+        weight = self.leg.at(above)[2]
+        both = 1.0 / (1.0 / lever + 1.0 / motor["contact_nm_per_rad"])
+        wind = (both * above - weight) / (both + rate)
+        roller = wind + both * (above - wind) / lever
         turn, speed = np.array([lift, lift, lift]), np.full(3, motor["cam_rad_s"])
         wind_rate = roller_rate = 0.0
         kick = blow = 0.0
         left = kept = raised = 0.0
-        damp = [
-            2.0 * DAMPING * math.sqrt(train * m) for m in (masses[0] * masses[1] / (masses[0] + masses[1]), masses[1])
-        ]
-        damp_roller = 2.0 * DAMPING * math.sqrt(CONTACT_N_PER_M * tip_inertia) / arm_m
+        share = damping(motor["rebound"])
+        damp = [2.0 * share * math.sqrt(train * a * b / (a + b)) for a, b in itertools.pairwise(masses)]
+        damp_roller = 2.0 * DAMPING * math.sqrt(contact * tip_inertia) / arm_m
         damp_lever = 0.04 * math.sqrt(lever * tip_inertia)
         for step in range(int(seconds / STEP_S)):
             gap, normal, point = self.gap_mm(roller, float(turn[0]))
@@ -259,7 +260,7 @@ class Contact:
             cam_arm = off[0] * normal[1] - off[1] * normal[0]
             if gap < 0.0:
                 closing = -(arm * roller_rate + cam_arm * speed[0])
-                force = max(-CONTACT_N_PER_M * gap / 1000.0 + damp_roller * closing, 0.0)
+                force = max(-contact * gap / 1000.0 + damp_roller * closing, 0.0)
             inertia, bend, weight = self.leg.at(wind)
             if force > 0.0:
                 left = step * STEP_S
@@ -279,12 +280,34 @@ class Contact:
         ratio = self.files.manifest["drive"]["release"]["gear_ratio"]
         return Outcome(kept / (0.5 * rate * wound**2), kick / ratio, blow, math.degrees(play), left)
 
+    def _arm_m(self, roller: float, cam: float) -> float:
+        """Return the arm of the contact's force about the leg's joint."""
+        _, normal, _ = self.gap_mm(roller, cam)
+        centre = self.lever_mm * np.array([math.cos(self.lever_rad + roller), math.sin(self.lever_rad + roller)])
+        return float(normal[1] * centre[0] - normal[0] * centre[1]) / 1000.0
+
     def _end_of_lift(self, wound: float) -> float:
         """Return the cam's turn at which the roller stands highest, less a degree."""
         turns = np.radians(np.arange(300.0, 316.0, 0.25))
         winds = [self.wind_at(turn) for turn in turns]
         assert abs(max(winds) - wound) < 0.01
         return float(turns[int(np.argmax(winds))]) - math.radians(0.5)
+
+
+def damping(rebound: float) -> float:
+    """Return the damping, as a share of the critical one, with which a spring that only pushes throws a mass back."""
+    shares = np.linspace(0.0, 0.5, 501)
+    step, thrown = 0.01, []
+    for share in shares[::10]:  # a mass of 1 on a spring of 1
+        place, speed = 0.0, 1.0
+        while True:
+            push = place + 2.0 * share * speed
+            if push < 0.0:
+                break
+            speed -= step * push
+            place += step * speed
+        thrown.append(-speed)
+    return float(np.interp(-rebound, -np.array(thrown), shares[::10]))
 
 
 def _flanks(ahead: float, faster: float, free: float, stiffness: float, damping: float) -> float:

@@ -13,6 +13,8 @@ from jumpcad.solids.stack import Stack
 
 lib3mf = pytest.importorskip("lib3mf", reason="lib3mf is not installed (pip install lib3mf)")
 
+SETTINGS, PICTURE = {"perimeters": "3"}, b"\x89PNG\r\n\x1a\n"
+
 
 @dataclass(frozen=True)
 class Part:
@@ -32,7 +34,7 @@ def test_the_strict_reader_accepts_a_plate_without_a_warning():
     model = lib3mf.get_wrapper().CreateModel()
     reader = model.QueryReader("3mf")
     reader.SetStrictModeActive(True)
-    reader.ReadFromBuffer(write_threemf(plate))
+    reader.ReadFromBuffer(write_threemf(plate, SETTINGS, PICTURE))
     assert reader.GetWarningCount() == 0
     assert model.GetUnit() == lib3mf.ModelUnit.MilliMeter
     assert model.GetBuildItems().Count() == 4

@@ -1,8 +1,8 @@
 """The release in a contact simulation of the exported files keeps the energy, and kicks as hard, as the manifest says.
 
 `release_contact` reads the bundle alone. Both take stiffnesses, friction and motors from the same assumptions, so this
-confirms mechanics and shapes, not those figures. In the simulation the roller hops and parts rebound: the manifest's
-energy is 0.2 % higher for kenan-2.0 and the same for best-ga, its kick 12 % lower and 35 % higher.
+confirms mechanics and shapes, not those figures. The simulation also has losses where roller and cam touch: the
+manifest's kick is 2 % lower for best-printable and 18 % higher for kenan-2.0, whose cam is light beside its roller.
 """
 
 import math
@@ -13,7 +13,7 @@ import pytest
 from clients.release_contact import Contact
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-printable"])
 def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(
     name: str, bundle_of: Callable[[str], Path]
 ) -> None:
@@ -26,7 +26,8 @@ def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(
         assert outcome.energy_ratio == pytest.approx(said["energy_ratio_with_bending"], abs=0.005)
         assert outcome.energy_ratio > 0.97 * said["bending_ratio"]
     kick = max(outcome.kick_nm for outcome in outcomes)
-    assert kick == pytest.approx(said["kick_nm"], rel=0.3)
+    assert kick < 1.1 * said["kick_nm"]  # the reserve that the checks keep
+    assert kick > 0.75 * said["kick_nm"]
     assert kick < said["kick_limit_nm"]
 
 

@@ -30,6 +30,17 @@ def test_what_no_cam_can_do_is_refused_with_what_to_change():
         synthesised(75, 1.7)
 
 
+def test_a_roller_that_is_too_large_is_refused_with_what_misses():
+    """One of 60 mm leaves no room for the fall, one of 100 mm none for a lever; the diameter that is named fits one."""
+    with pytest.raises(CannotBuildError, match=r"misses: .* mm short.*a smaller bought\.roller"):
+        synthesised(40, 0.6, replace(LIMITS, roller_radius_mm=30.0))
+    with pytest.raises(CannotBuildError, match=r"no lever from .* to 45 mm") as refused:
+        synthesised(40, 0.6, replace(LIMITS, roller_radius_mm=50.0))
+    named = float(str(refused.value).partition("less than ")[2].partition(" mm")[0])
+    with pytest.raises(CannotBuildError, match="no cam winds"):
+        synthesised(40, 0.6, replace(LIMITS, roller_radius_mm=named / 2.0 - 0.1))
+
+
 def test_the_same_inputs_give_the_same_cam():
     first, second = synthesised(45, 1.0), synthesised(45, 1.0)
     assert first.profile_mm.tobytes() == second.profile_mm.tobytes()

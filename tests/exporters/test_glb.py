@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from support.built import built
 
-from jumpcad.exporters.glb import write_glb
+from jumpcad.exporters.glb import linear_light, write_glb
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -33,7 +33,14 @@ def test_glb_holds_named_coloured_parts_on_posable_bodies_in_metres_y_up(robot: 
         x, y, z = pose[:3, 3]
         assert np.allclose(scene.graph.get(thing.name)[0][:3, 3], [x, z, -y], atol=1e-6)
         colour = scene.geometry[thing.mesh_name].visual.material.baseColorFactor[:3] / 255.0
-        assert np.allclose(colour, thing.colour, atol=0.5 / 255)
+        assert np.allclose(colour, [linear_light(part) for part in thing.colour], atol=0.5 / 255)
     low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
     assert np.allclose(scene.bounds, [[low[0], low[2], -high[1]], [high[0], high[2], -low[1]]], atol=1e-6)
     assert glb == write_glb(robot)
+
+
+def test_colours_are_linear_light() -> None:
+    """IEC 61966-2-1: half of the code value is 21.4 % of the light, and the ends stay."""
+    assert linear_light(0.5) == pytest.approx(0.214041, abs=1e-6)
+    assert [linear_light(part) for part in (0.0, 1.0)] == [0.0, 1.0]
+    assert linear_light(0.04045) == pytest.approx(0.0031308, rel=1e-4)

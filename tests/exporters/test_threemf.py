@@ -9,10 +9,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
 
-from jumpcad.exporters.threemf import write_threemf
+from jumpcad.exporters.threemf import threemf_files, write_threemf
+from jumpcad.exporters.thumbnail import thumbnail
 from jumpcad.printing.plates import packed
 
+SETTINGS, PICTURE = {"perimeters": "3", "fill_density": "40%"}, b"\x89PNG"
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
 
@@ -22,6 +25,10 @@ class Part:
     mesh: trimesh.Trimesh
     material: str = "PETG"
     quantity: int = 1
+
+    @property
+    def look(self):
+        return self.mesh
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +43,7 @@ def plate():
 
 @pytest.fixture(scope="module")
 def model(plate):
-    with zipfile.ZipFile(io.BytesIO(write_threemf(plate))) as package:
+    with zipfile.ZipFile(io.BytesIO(write_threemf(plate, SETTINGS, PICTURE))) as package:
         assert package.testzip() is None
         return ElementTree.fromstring(package.read("3D/3dmodel.model"))
 
@@ -60,9 +67,41 @@ def test_items_lie_where_they_were_packed(model, plate):
         np.testing.assert_allclose(found, expected, atol=1e-5)
 
 
+def test_the_picture_and_the_settings_are_where_slicers_look_for_them(plate):
+    """Open Packaging Conventions: a relationship names the thumbnail, and every suffix has a content type."""
+    with zipfile.ZipFile(io.BytesIO(write_threemf(plate, SETTINGS, PICTURE))) as package:
+        related = ElementTree.fromstring(package.read("_rels/.rels"))
+        (target,) = [one.get("Target") for one in related if one.get("Type").endswith("/metadata/thumbnail")]
+        assert package.read(target.lstrip("/")) == PICTURE
+        assert package.read("Metadata/Slic3r_PE.config") == b"; perimeters = 3\n; fill_density = 40%\n"
+        types = ElementTree.fromstring(package.read("[Content_Types].xml"))
+        suffixes = {name.rsplit(".", 1)[1] for name in package.namelist() if not name.startswith("[")}
+        assert suffixes <= {one.get("Extension") for one in types}
+
+
+def test_a_thumbnail_shows_the_parts_on_the_bed():
+    """Flat things that lie in one plane are seen under one slope, so the shares of their areas stay."""
+    bed = (180.0, 180.0, 180.0)
+    (plate,) = packed([Part("sheet", trimesh.creation.box((90, 60, 0.2)), quantity=2)], bed, 5.0)
+    picture = np.asarray(Image.open(io.BytesIO(thumbnail(plate, bed))).convert("RGB"), dtype=int)
+    orange = (picture[..., 0] - picture[..., 2] > 60).sum()
+    grey = (abs(picture[..., 0] - picture[..., 2]) < 20) & (picture[..., 0] < 250)
+    assert orange / (orange + grey.sum()) == pytest.approx(2 * 90 * 60 / 180**2, rel=0.07)
+
+
+def test_the_settings_stand_in_words_beside_the_plates(small_robot):
+    process = small_robot.workshop.process
+    said = dict(threemf_files(small_robot))["print/README.md"]
+    assert f"perimeters (walls): {process.perimeters}\n" in said
+    assert f"infill: {100 * process.infill:g} %, {process.infill_pattern}\n" in said
+    assert re.search(r"## plate-1-PETG\.3mf\n\nPETG: nozzle \d+ °C, bed \d+ °C\n", said)
+    for part in small_robot.parts:
+        assert f"- {part.quantity} × {part.name}\n" in said
+
+
 def test_the_same_plate_gives_the_same_bytes_without_a_date(plate):
-    data = write_threemf(plate)
-    assert data == write_threemf(plate)
+    data = write_threemf(plate, SETTINGS, PICTURE)
+    assert data == write_threemf(plate, SETTINGS, PICTURE)
     with zipfile.ZipFile(io.BytesIO(data)) as package:
         assert {entry.date_time for entry in package.infolist()} == {(1980, 1, 1, 0, 0, 0)}
         assert not re.search(rb"20\d\d-\d\d-\d\d", package.read("3D/3dmodel.model"))

@@ -48,7 +48,7 @@ def test_no_format_writes_a_robot_whose_name_has_a_control_character(small_robot
             write(robot)
     plate = packed(small_robot.parts[:1], (250.0, 210.0, 220.0), 5.0)[0]
     with pytest.raises(JumpcadError, match=r"U\+0001"):
-        write_threemf(replace(plate, material="\x01"))
+        write_threemf(replace(plate, material="\x01"), {}, b"")
 
 
 def test_every_article_of_a_bill_can_be_given_a_price(small_robot: Robot) -> None:

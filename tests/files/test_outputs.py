@@ -1,15 +1,25 @@
 """What is written is whole or not there, and nothing of a user's is replaced unasked."""
 
+import io
 import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from PIL import Image
 from support.elsewhere import environment
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files.outputs import require_free, require_target, same_file, sealed, write_atomically, write_files
+from jumpcad.files.outputs import (
+    require_free,
+    require_target,
+    same_file,
+    sealed,
+    sealed_png,
+    write_atomically,
+    write_files,
+)
 
 
 def test_text_and_bytes_are_written_as_they_are(tmp_path: Path) -> None:
@@ -133,3 +143,18 @@ def test_a_folder_that_cannot_be_made_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine")
     with pytest.raises(JumpcadError, match="file: cannot be written"):
         write_files(tmp_path / "file", {"a": b""})
+
+
+def test_a_sealed_png_is_a_png_and_is_replaced_until_somebody_edits_it(tmp_path: Path) -> None:
+    stream = io.BytesIO()
+    Image.new("RGB", (8, 8), "red").save(stream, "PNG")
+    path = tmp_path / "a.png"
+    path.write_bytes(sealed_png(stream.getvalue()))
+    read = Image.open(path)
+    read.load()
+    assert read.getpixel((0, 0)) == (255, 0, 0)
+    require_free(path)
+    for mine in (stream.getvalue(), path.read_bytes().replace(b"IDAT", b"IDAt", 1), b"", b"mine"):
+        path.write_bytes(mine)
+        with pytest.raises(JumpcadError, match="exists already"):
+            require_free(path)

@@ -44,6 +44,10 @@ class Case:
     def mjcf(self) -> Path:
         return self.bundle.folder / "mjcf" / f"{self.robot.name}.xml"
 
+    @property
+    def scene(self) -> Path:
+        return self.bundle.folder / "mjcf" / "scene.xml"
+
 
 def run(*command: str | Path) -> str:
     """Return what a program prints; skip if it is not installed, fail if it fails."""

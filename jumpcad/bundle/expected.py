@@ -1,0 +1,138 @@
+"""What to expect of one robot on the bench, in words with its own numbers: they fill the texts of the steps."""
+
+import math
+import re
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from jumpcad.bundle.firmware import AFTER_RELEASE_MS, BUTTON_DELAY_MS, LANDING_MS, numbers
+from jumpcad.bundle.wiring import wires
+from jumpcad.dimensions import AXLE_END_PLAY_MM
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
+from jumpcad.errors import JumpcadError
+from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import Step
+from jumpcad.scene.step_views import motor_sense
+from jumpcad.simulation import default_engine, simulate
+
+TORQUE_M3_NM, TORQUE_M2_NM, TORQUE_PLASTIC_NM = 0.5, 0.1, 0.3
+"""Judgement: a third of what M3 and M2 of strength 8.8 bear in steel, and hand-tight in plastic."""
+PRESS_N = 50.0
+"""Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
+REAMED_MM = 0.1
+SCATTER_DEG = 10.0
+"""Of a stock spring's free angle: Lee Spring, Vanel, 10 to 15 degrees."""
+ROOM_AHEAD = 2.0
+"""Free floor over the computed range, and height over the rise; judgement."""
+
+
+def expected(robot: Robot, steps: Sequence[Step]) -> dict[str, str]:
+    """Return words by the names that the steps' texts use."""
+    return _drive(robot) | _springs(robot) | _sizes(robot) | _jump(robot) | _order(steps)
+
+
+def filled(text: str, words: Mapping[str, str]) -> str:
+    """Return a text with its names in braces replaced."""
+    return re.sub(r"\{(\w+)\}", lambda found: words[found[1]], text)
+
+
+def _drive(robot: Robot) -> dict[str, str]:
+    """Return what motor, battery and firmware do."""
+    workshop, train, cam = robot.workshop, robot.layout.drive.train, robot.layout.drive.cam
+    chosen, values = chosen_parts(workshop), numbers(robot)
+    supply = supply_of(chosen)
+    free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
+    boards_a = supply.boards_w / supply.nominal_v
+    battery = chosen.battery
+    charge_how = "through the controller's USB socket, with the switch on; its charger must not give more."
+    if chosen.regulator is not None:
+        charge_how = f"by a charger with a balance lead, set to LiPo {battery.cells}S, outside the robot."
+    both = {1: "counter-clockwise", -1: "clockwise"}
+    return {
+        "free_rpm": f"{free.no_load_rpm:.0f}",
+        "free_ma": f"{1000.0 * train.motor.no_load_current_a:.0f}",
+        "dry_s": f"{2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0):.1f}",
+        "dry_ma": f"{1000.0 * (train.motor.no_load_current_a + boards_a):.0f}",
+        "wind_s": f"{train.winding_s:.1f}",
+        "wind_ma": f"{1000.0 * (train.mean_current_a + boards_a):.0f}",
+        "peak_ma": f"{1000.0 * (train.peak_current_a + boards_a):.0f}",
+        "wind_max": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
+        "release_ms": f"{values['RELEASE_MAX_MS']}",
+        "after_ms": f"{AFTER_RELEASE_MS}",
+        "delay_s": f"{BUTTON_DELAY_MS / 1000.0:g}",
+        "landing_s": f"{LANDING_MS / 1000.0:g}",
+        "battery_v": f"{supply.nominal_v:g} to {supply.full_v:g}",
+        "min_v": f"{supply.empty_v:g}",
+        "charge_ma": f"{battery.capacity_mah:.0f}",
+        "charge_how": charge_how,
+        "cam_turn": both[1],
+        "motor_turn": both[motor_sense(robot)],
+        "stroke": f"{math.degrees(cam.law.compression_rad):.0f}",
+        "lift": f"{math.degrees(cam.law.lift_rad):.0f}",
+        "dog_play": f"{math.degrees(robot.layout.drive.dog.play_rad):.0f}",
+        "motor_wire": f"{max((mm for *_, end, _, mm in wires(robot) if end.part == 'motor'), default=0.0):.0f}",
+    }
+
+
+def _springs(robot: Robot) -> dict[str, str]:
+    """Return what hands feel of the springs."""
+    spring = robot.layout.drive.spring
+    preload = math.degrees(spring.preload_rad)
+    per_deg_n = spring.rate_nmm_per_deg / spring.arms.lever_mm
+    return {
+        "arm_n": f"{SCATTER_DEG * per_deg_n:.1f}",
+        "preload": f"{preload:.1f}",
+        "preload_n": f"{preload * per_deg_n:.1f}",
+        "energy": f"{robot.spring.energy_j:.2f}",
+        "push_ms": f"{1000.0 * robot.release.push_off_s:.0f}",
+        "foot_n": f"{2.0 * spring.torque_nmm / robot.design.carrying_link_mm:.1f}",
+    }
+
+
+def _sizes(robot: Robot) -> dict[str, str]:
+    """Return lengths and articles that tell one thing from another; nothing of what a robot lacks."""
+    articles = defaultdict(str, {item.name: item.article for item in robot.hardware})
+    heights = defaultdict(float, {part.name: float(np.ptp(part.drawing.shape.bounds_mm[:, 2])) for part in robot.parts})
+    outside = robot.layout.lateral.outside
+    right, left = heights["front_spacer_right"], heights["front_spacer_left"]
+    return {
+        "eye_drill": f"{robot.layout.axle_mm + REAMED_MM:g}",
+        "end_play": f"{2.0 * AXLE_END_PLAY_MM:g}",
+        "axle_length": f"{outside[1] - outside[0]:.0f}",
+        "front_tubes": f"{right:.1f} mm on the right, {left:.1f} mm on the left",
+        "bushing_left": f"{heights['spring_bushing_left']:.1f}",
+        "bushing_right": f"{heights['spring_bushing_right']:.1f}",
+        "cam_tube": f"{heights['cam_spacer_right']:.1f}",
+        "ankle_pin": articles["ankle_pin"],
+        "front_pin": articles["front_eye_pin"],
+        "leg_pin": articles["leg_spring_pin"],
+        "torque_m3": f"{TORQUE_M3_NM:g}",
+        "torque_m2": f"{TORQUE_M2_NM:g}",
+        "torque_plastic": f"{TORQUE_PLASTIC_NM:g}",
+        "press_n": f"{PRESS_N:.0f}",
+    }
+
+
+def _jump(robot: Robot) -> dict[str, str]:
+    """Return range and rise as computed, to 10 mm: no engine's last digits reach the guide."""
+    try:
+        jump = simulate(robot, engine=default_engine())
+    except JumpcadError:
+        return {"range": "?", "rise": "?", "far": "3", "high": "2"}
+    reach, rise = jump.ballistic_range_m, jump.com_rise_m
+    if jump.verdict != "jump" or reach is None or rise is None:
+        return {"range": "0", "rise": "0", "far": "3", "high": "2"}
+    return {
+        "range": f"{10.0 * round(100.0 * reach):.0f}",
+        "rise": f"{10.0 * round(100.0 * rise):.0f}",
+        "far": f"{max(1.0, math.ceil(2.0 * ROOM_AHEAD * reach) / 2.0):g}",
+        "high": f"{max(1.0, math.ceil(2.0 * ROOM_AHEAD * rise) / 2.0):g}",
+    }
+
+
+def _order(steps: Sequence[Step]) -> dict[str, str]:
+    """Return the numbers of steps that others refer to."""
+    return {"step_arm": str(next((n for n, step in enumerate(steps, start=1) if step.key == "arm"), "")) or "?"}

@@ -1,0 +1,22 @@
+"""The jump of a robot as a motion to be animated."""
+
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters.animation import Motion
+from jumpcad.robot import Robot
+from jumpcad.simulation import Settings, simulate
+
+ENGINE = "planar"
+"""It is there on every platform, so that a bundle has the same bytes on each."""
+
+
+def jump_motion(robot: Robot) -> Motion | None:
+    """Return the motion from release to touchdown; None for a robot that does not jump, or not in this engine."""
+    try:
+        path = simulate(robot, Settings(flight="simulated", trajectory=True), ENGINE).trajectory
+    except JumpcadError:
+        return None
+    if path is None:
+        return None
+    places = {name: path.position_m[:, index] for index, name in enumerate(path.body_names)}
+    turns = {name: path.quaternion_xyzw[:, index] for index, name in enumerate(path.body_names)}
+    return Motion(path.time_s, places, turns)

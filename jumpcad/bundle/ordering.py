@@ -1,0 +1,138 @@
+"""What to order and cut where a bill's line is no article of a shop: rods, standoffs, strips, wire; tools; printing."""
+
+import math
+import re
+from collections import Counter, defaultdict
+from collections.abc import Iterator
+
+from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.wiring import wires
+from jumpcad.files.markdown import plain
+from jumpcad.printing.plates import packed
+from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import Step
+
+ROD_M = (0.33, 0.5, 1.0)
+"""Lengths in which shops sell rods of 2 to 4 mm."""
+SAW_MM = 2.0
+"""Lost at every cut; judgement."""
+STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
+"""Lengths of M3 standoffs, female to female, polyamide, that shops have."""
+THREAD_MM = 6.0
+"""Of a screw inside its standoff."""
+OTHER = (
+    "solder, heat-shrink tube of 1.5 and 3 mm, foam tape 1 mm thick, silicone or lithium grease, "
+    "alcohol, cable ties up to 2.5 mm wide"
+)
+
+
+def order_lines(robot: Robot) -> Iterator[str]:
+    """Yield the guide's section on what has to be cut, and how much of it to order."""
+    yield from ("", "## Order and cut", "")
+    yield from _rods(robot)
+    yield from _standoffs(robot)
+    yield from _strips(robot)
+    yield from _motor(robot)
+    total: defaultdict[str, float] = defaultdict(float)
+    for *_, colour, length in wires(robot):
+        total[colour] += length
+    lengths = ", ".join(f"{colour} {length / 1000.0:.2f} m" for colour, length in sorted(total.items()))
+    yield f"- wire AWG 28, silicone: {lengths}, and a fifth more"
+    yield f"- besides: {OTHER}"
+
+
+def tool_lines(steps: list[Step]) -> Iterator[str]:
+    """Yield the guide's section on tools."""
+    names = sorted({placed.move.tool.name for step in steps for placed in step.placed if placed.move.tool})
+    yield from ("", "## Tools", "")
+    yield f"- {', '.join(names)}"
+    yield "- soldering iron, multimeter, kitchen scale to 1 g or better, caliper, fine saw, file, knife"
+
+
+def print_lines(robot: Robot) -> Iterator[str]:
+    """Yield the guide's section on print settings: one row a plate."""
+    process, workshop = robot.workshop.process, robot.workshop
+    yield from ("", "## Print settings", "")
+    yield (
+        f"For every plate: nozzle {workshop.printer.nozzle_mm:g} mm, layers {process.layer_height_mm:g} mm (first "
+        f"{process.first_layer_mm:g} mm), lines {process.line_width_mm:g} mm wide, {process.perimeters} perimeters, "
+        f"{process.top_layers} top and {process.bottom_layers} bottom layers, {100.0 * process.infill:.0f} % infill "
+        f"({process.infill_pattern}), no supports, no brim. Parts lie as they are to be printed: do not turn them. "
+        "Mass and strength are computed for these settings."
+    )
+    yield from ("", "| file | material | parts |", "|---|---|---|")
+    for plate in packed(robot.parts, workshop.printer.bed_mm, process.part_spacing_mm):
+        parts = Counter(item.part.name for item in plate.items)
+        named = ", ".join(f"{count} × {name}" if count > 1 else name for name, count in parts.items())
+        yield f"| print/{plate.name}.3mf | {plate.material} | {named} |"
+    yield from (
+        "",
+        "Print `jumpcad coupon` first: it shows which diameters and clearances your printer makes. Put the seam of the "
+        "cam where its drop is, not on the lift. Break the first layer's edge in bores.",
+    )
+
+
+def weigh_lines(robot: Robot) -> Iterator[str]:
+    """Yield the guide's section on what to weigh, with the table of a workshop to write it into."""
+    yield from ("", "## Weigh and write back", "")
+    yield (
+        "Weigh every printed part to 0.1 g, and write the grams of one piece into your workshop file (`jumpcad new "
+        "my-workshop.toml --workshop default` makes one). `jumpcad build DESIGN --workshop my-workshop.toml` then "
+        f"computes the jump with them. Computed here: {1000.0 * robot.mass_kg:.1f} g for the whole robot."
+    )
+    yield from ("", "```toml", "[mass.weighed_g]")
+    yield from (f"{part.name} = {1000.0 * part.mass_kg:.2f}" for part in robot.parts)
+    yield "```"
+
+
+def _rods(robot: Robot) -> Iterator[str]:
+    kinds = {rod.description for rod in robot.workshop.catalogue.rods.values()}
+    for item in bill_of_materials(robot).items:
+        found = re.fullmatch(r"(.*) ([\d.]+) x ([\d.]+) mm(, grooves.*)?", item.name)
+        if found is None or found[1] not in kinds:
+            continue
+        length = float(found[3])
+        needed = item.quantity * (length + SAW_MM)
+        stock = next((f"{m:g}" for m in ROD_M if 1000.0 * m >= needed), f"{math.ceil(needed / 1000.0):g}")
+        yield (
+            f"- {plain(found[1])} {found[2]} mm: {item.quantity} pieces of {length:.1f} mm, +0 / -0.3 mm, ends square "
+            f"and deburred{found[4] or ''}; cut from a rod of {stock} m"
+        )
+
+
+def _standoffs(robot: Robot) -> Iterator[str]:
+    for item in bill_of_materials(robot).items:
+        if found := re.match(r"standoff (\S+) x ([\d.]+) mm", item.name):
+            length = float(found[2])
+            stock = next((one for one in STANDOFFS_MM if one >= length), math.ceil(length))
+            yield (
+                f"- standoffs {found[1]}, female to female, polyamide: {item.quantity} of {stock:g} mm, cut to "
+                f"{length:.1f} mm, +0 / -0.1 mm and all equal; tap them again where less than {THREAD_MM:g} mm of "
+                "thread is left"
+            )
+
+
+def _strips(robot: Robot) -> Iterator[str]:
+    """Yield each kind of strip with the pieces that are cut from it."""
+    pieces: defaultdict[str, list[tuple[int, float, float]]] = defaultdict(list)
+    for item in bill_of_materials(robot).items:
+        if found := re.fullmatch(r"(.*), cut ([\d.]+) x ([\d.]+) mm", item.name):
+            pieces[found[1]].append((item.quantity, float(found[2]), float(found[3])))
+    for name, cut in pieces.items():
+        listed = ", ".join(f"{count} of {one:.1f} x {other:.1f} mm" for count, one, other in cut)
+        length = sum(count * (max(one, other) + SAW_MM) for count, one, other in cut)
+        wide = max(min(one, other) for _, one, other in cut)
+        enough = f"{10.0 * math.ceil(length / 10.0):.0f} mm, {wide:.1f} mm wide"
+        yield f"- {plain(name)}: {listed}; a strip of {enough}, is enough"
+
+
+def _motor(robot: Robot) -> Iterator[str]:
+    """Yield what to compare before the motor is ordered: shops' names for these motors are no articles."""
+    motor = robot.layout.drive.train.motor
+    sure = {"stated": "as its source states", "derived": "derived", "memory": "from memory"}[motor.confidence]
+    yield (
+        f"- gear motor: {plain(motor.article or motor.name)}. Compare before you order: {motor.ratio:.0f}:1, "
+        f"{motor.voltage_v:g} V, {motor.no_load_rpm:.0f} rpm, {1000.0 * motor.no_load_current_a:.0f} mA without load, "
+        f"{motor.stall_torque_nm:.3f} N·m and {motor.stall_current_a:g} A stalled, shaft {motor.shaft_mm:g} mm with a "
+        f"flat, {motor.shaft_length_mm:g} mm long ({sure}: {plain(motor.source)})"
+    )

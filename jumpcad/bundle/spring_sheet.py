@@ -1,0 +1,137 @@
+"""order/spring-*-hand.svg: one drawing for each hand of spring, for who winds it or finds it in a catalogue (mm).
+
+The relaxed spring seen along its axis and from the side, 3:1, with what counts: the rate.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from html import escape
+
+import numpy as np
+
+from jumpcad.drive import TorsionSpring
+from jumpcad.exporters.xml import allowed
+from jumpcad.robot import Robot
+from jumpcad.transforms import Array
+
+FOLDER = "order"
+SCALE = 3.0
+PAGE_MM = (297.0, 210.0)
+END_VIEW_MM, SIDE_VIEW_MM = (75.0, 70.0), (200.0, 70.0)
+LENGTH_TOLERANCE_MM, ANGLE_TOLERANCE_DEG = 0.5, 10.0
+"""Judgement, and what makers of stock springs give for free angles (10 to 15 degrees)."""
+
+
+def spring_sheets(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield path and drawing of both springs."""
+    spring = robot.layout.drive.spring
+    for side, hand in zip(("left", "right"), spring.hands, strict=True):
+        yield f"{FOLDER}/spring-{hand}-hand.svg", _sheet(robot, spring, side, hand)
+
+
+def _sheet(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> str:
+    width, height = PAGE_MM
+    rows = _requirements(robot, spring, side, hand)
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}mm" '
+            f'height="{height:g}mm" font-family="sans-serif" font-size="4">',
+            f'<rect width="{width:g}" height="{height:g}" fill="#ffffff"/>',
+            *_end_view(spring, hand),
+            *_side_view(spring, hand),
+            *_table(rows),
+            "</svg>",
+            "",
+        ]
+    )
+
+
+def _requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> list[tuple[str, str]]:
+    scatter = 100.0 * robot.workshop.safety.spring_rate_scatter
+    free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
+    return [
+        ("robot", f"{robot.name}, spring on its {side} side, 1 piece"),
+        ("article", spring.stock or "torsion spring, close-coiled, made to order"),
+        ("hand", f"{hand}-hand wound"),
+        ("RATE (requirement)", f"{spring.rate_nmm_per_deg:.2f} N·mm/° ±{scatter:.0f} %"),
+        ("wire", f"{spring.wire_mm:g} mm, EN 10270-1 SM" if not spring.stock else f"{spring.wire_mm:g} mm"),
+        ("inside diameter", f"{spring.inside_diameter_mm:.2f} mm; may change to meet the rate"),
+        ("turns of the body, relaxed", f"{spring.turns:.2f}"),
+        ("arms, straight, tangent", f"{spring.arm_length_mm:.1f} ±{LENGTH_TOLERANCE_MM:g} mm from the coil"),
+        ("angle between arms, relaxed", f"{free:.0f}° ±{ANGLE_TOLERANCE_DEG:.0f}°; 180° is opposite directions"),
+        ("loaded, closing", f"by {wound:.1f}° to {spring.torque_nmm:.0f} N·mm"),
+        ("body length, loaded", f"{spring.body_length_mm:.1f} mm at most"),
+        ("inside, loaded", f"runs on a mandrel of {spring.mandrel_mm:.2f} mm"),
+    ]
+
+
+def _end_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
+    """Yield the spring along its axis: from the nearer end a right-hand coil recedes clockwise."""
+    x, y = END_VIEW_MM
+    mean, wire = SCALE * spring.arms.mean_mm, SCALE * spring.wire_mm
+    yield f'<circle cx="{x:g}" cy="{y:g}" r="{mean / 2:.2f}" fill="none" stroke="#9aa0a8" stroke-width="{wire:.2f}"/>'
+    far, near = _arms(spring, hand)
+    for line, colour in ((far, "#c3c7cc"), (near, "#4d535c")):
+        yield _line(SCALE * line + END_VIEW_MM, colour, wire)
+    yield from _cross(x, y, mean / 2.0 + 6.0)
+    (ax, ay), (bx, by) = (SCALE * arm[1] + END_VIEW_MM for arm in (near, far))
+    yield _text(ax + 2.0, ay - 3.0, "nearer arm")
+    yield _text(bx + 2.0, by + 6.0, f"farther arm, {math.degrees(spring.free_arm_angle_rad):.0f}° from the nearer")
+    yield _text(x - 30.0, 16.0, f"along the axis, 3:1; d = {spring.wire_mm:g}, Di = {spring.inside_diameter_mm:.2f}")
+
+
+def _arms(spring: TorsionSpring, hand: str) -> tuple[Array, Array]:
+    """Return farther and nearer arm, each from its tangent point to its end (2, 2), y down."""
+    sense = -1.0 if hand == "right" else 1.0
+    turn = 2.0 * math.pi * spring.turns
+    radius, length = spring.arms.mean_mm / 2.0, spring.arm_length_mm
+    made = []
+    for angle, outwards in ((math.pi / 2.0 + sense * turn, 1.0), (math.pi / 2.0, -1.0)):
+        point = radius * np.array([math.cos(angle), math.sin(angle)])
+        along = sense * np.array([-math.sin(angle), math.cos(angle)])
+        line = np.stack([point, point + outwards * length * along])
+        made.append(line * (1.0, -1.0))
+    return made[0], made[1]
+
+
+def _side_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
+    """Yield the body from the side: the wire in front, sloping as its hand says on an upright axis."""
+    x, y = SIDE_VIEW_MM
+    wire, outer = SCALE * spring.wire_mm, SCALE * spring.outer_diameter_mm
+    count = math.ceil(spring.turns)
+    rise = wire / 2.0 * (1.0 if hand == "right" else -1.0)
+    for number in range(count):
+        middle = y + (number - (count - 1) / 2.0) * wire
+        line = np.array([[x - outer / 2.0, middle + rise], [x + outer / 2.0, middle - rise]])
+        yield _line(line, "#4d535c", 0.85 * wire)
+    yield from _cross(x, y, 30.0)
+    side = "right" if hand == "right" else "left"
+    yield _text(x - 40.0, 16.0, f"from the side, axis upright: in front the wire rises to the {side}")
+
+
+def _table(rows: Sequence[tuple[str, str]]) -> Iterator[str]:
+    for number, (name, value) in enumerate(rows):
+        y = 128.0 + 6.4 * number
+        weight = ' font-weight="bold"' if "RATE" in name else ""
+        yield f'<line x1="15" y1="{y + 1.8:.1f}" x2="282" y2="{y + 1.8:.1f}" stroke="#cccccc" stroke-width="0.2"/>'
+        yield f'<text x="16" y="{y:.1f}"{weight}>{escape(name)}</text>'
+        yield f'<text x="90" y="{y:.1f}"{weight}>{escape(allowed(value))}</text>'
+
+
+def _cross(x: float, y: float, reach: float) -> Iterator[str]:
+    for dx, dy in ((reach, 0.0), (0.0, reach)):
+        yield (
+            f'<line x1="{x - dx:.2f}" y1="{y - dy:.2f}" x2="{x + dx:.2f}" y2="{y + dy:.2f}" stroke="#222" '
+            'stroke-width="0.2" stroke-dasharray="4 1 1 1"/>'
+        )
+
+
+def _line(points: Array, colour: str, width: float) -> str:
+    (x0, y0), (x1, y1) = points
+    return (
+        f'<line x1="{x0:.2f}" y1="{y0:.2f}" x2="{x1:.2f}" y2="{y1:.2f}" stroke="{colour}" stroke-width="{width:.2f}"/>'
+    )
+
+
+def _text(x: float, y: float, words: str) -> str:
+    return f'<text x="{x:.2f}" y="{y:.2f}">{escape(words)}</text>'

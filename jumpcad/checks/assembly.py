@@ -1,0 +1,256 @@
+"""Assembly: every part reaches its place on a free path, and every fastener's tool reaches it (mm).
+
+A path is straight. What a stack covers on its way along its axis, or square to it, is again a stack, so that nothing
+between two positions is missed; for other shapes the thing in the way is moved instead, the other way round.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from manifold3d import Manifold
+
+from jumpcad.checks.interference import INTENDED, Component, shared_volume_mm3
+from jumpcad.findings import Finding
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.parts.part import Drawing, Part
+from jumpcad.parts.purchased import BoughtPart
+from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order import Tool
+from jumpcad.scene.assembly_steps import SIDES, Placed, Step, assembly_steps, travel
+from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.solids.outline import disc
+from jumpcad.solids.stack import Stack
+from jumpcad.solids.swept import swept
+from jumpcad.transforms import Array, chained
+
+TOLERANCE_MM2 = 0.05
+"""Section that may be shared along a path: facets of circles that touch, as of an axle in its bore."""
+BEYOND_MM = 5.0
+"""Paths begin this far away from everything that is there."""
+SAMPLES_MM = 0.5
+"""Between positions where no shape can be swept."""
+
+
+@dataclass(frozen=True)
+class Blocked:
+    """A path or a tool that something is in the way of, and how much of its section that covers (mm²)."""
+
+    step: Step
+    name: str
+    by: str
+    share_mm2: float
+
+
+def paths(ways: Iterable["Way"]) -> Iterator[tuple["Way", Blocked | None]]:
+    """Yield every move that has a path, with what is most in its way, if anything is."""
+    for way in ways:
+        if way.placed.move.way != "laid":
+            found = [_in_the_way(way, mover, path) for mover, path in zip(way.movers, way.paths_mm, strict=True)]
+            yield way, max((one for one in found if one), key=_share, default=None)
+
+
+def tools(ways: Iterable["Way"]) -> Iterator[tuple[Tool, str, Blocked | None]]:
+    """Yield every fastener's tool, its name, and what is most in the tool's way, if anything is."""
+    for way in ways:
+        if (tool := way.placed.move.tool) is not None:
+            for mover, path in zip(way.movers, way.paths_mm, strict=True):
+                yield tool, mover.name, _tool_blocked(way, tool, mover, path)
+
+
+def assembly_findings(robot: Robot) -> list[Finding]:
+    """Return `assembly_paths` and `tool_access`, one for each that is blocked, or one that says that none is."""
+    ways = assembly_ways(robot)
+    moves, fasteners = list(paths(ways)), list(tools(ways))
+    blocked_paths = [blocked for *_, blocked in moves if blocked]
+    blocked_tools = [blocked for *_, blocked in fasteners if blocked]
+    return [
+        *_findings("assembly_paths", blocked_paths, f"all {len(moves)} moves of the assembly have a free path"),
+        *_findings("tool_access", blocked_tools, f"the tool reaches all {len(fasteners)} fasteners"),
+    ]
+
+
+def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]:
+    for one in blocked:
+        what = "path" if name == "assembly_paths" else "tool"
+        message = f"{one.by} is in the way of the {what} of {one.name} in step {one.step.title}"
+        remedy = "raise carrying_link_mm or d_coef (a longer body), or choose another bought.retention"
+        yield Finding(name, "error", -one.share_mm2, "mm²", message, remedy, value=one.share_mm2, limit=0.0)
+    if not blocked:
+        yield Finding(name, "info", TOLERANCE_MM2, "mm²", none, "nothing to do", limit=TOLERANCE_MM2)
+
+
+@dataclass(frozen=True)
+class Way:
+    """One move: what moves, each with its path (3,), and what is there already, in the world (mm)."""
+
+    step: Step
+    placed: Placed
+    movers: list[Component]
+    paths_mm: list[Array]
+    there: list[Component]
+
+
+def assembly_ways(robot: Robot) -> list[Way]:
+    """Return every move of every step."""
+    poses = body_poses(robot)
+    pieces = {thing.name: _piece(thing, poses[thing.body]) for thing in visuals(robot)}
+    built: dict[str, list[Component]] = {}
+    ways = []
+    for step in assembly_steps(robot):
+        there = built.setdefault(step.onto, [])
+        for placed in step.placed:
+            if placed.move.brings:
+                built.pop(placed.move.brings)
+            movers = [pieces[thing.name] for thing in placed.things]
+            along = [travel(robot, thing, placed.move, poses[thing.body]) for thing in placed.things]
+            if placed.move.brings:  # one piece: all of it moves as its first thing does
+                along = [along[0]] * len(along)
+            snapped = placed.move.way == "snapped"
+            reach = [
+                _depth(mover, way) if snapped else _reach(mover, there, way)
+                for mover, way in zip(movers, along, strict=True)
+            ]
+            ways.append(Way(step, placed, movers, [r * a for r, a in zip(reach, along, strict=True)], [*there]))
+            there += movers
+        tried = {thing.name for placed in step.placed if placed.move.trial for thing in placed.things}
+        there[:] = [piece for piece in there if piece.name not in tried]
+    return ways
+
+
+@dataclass(frozen=True)
+class _Piece(Component):
+    """A thing on the robot, whose solid others may have made already."""
+
+    source: Drawing | BoughtPart
+
+    @cached_property
+    def solid(self) -> Manifold:
+        """The piece in its own frame (mm)."""
+        return self.source.solid
+
+
+def _piece(thing: Visual, T_world_body: Array) -> Component:
+    """Return a thing at its place in the world (mm)."""
+    source = thing.source.drawing if isinstance(thing.source, Part) else thing.source
+    pose = chained(T_world_body, thing.T_body_mesh)
+    pose[:3, 3] *= 1000.0
+    return _Piece(thing.name, thing.body, source.shape, pose, source)
+
+
+def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
+    """Return what is most in the way of a thing on its path."""
+    length = float(np.linalg.norm(path_mm))
+    if length == 0.0:
+        return None
+    low, high = _extent(mover)
+    low, high = np.minimum(low, low - path_mm), np.maximum(high, high - path_mm)
+    blocked = []
+    for other in way.there:
+        other_low, other_high = _extent(other)
+        apart = bool((low >= other_high).any() or (other_low >= high).any())
+        if apart or _passes(way.placed, other.name) or _intended(mover.name, other.name):
+            continue
+        share = _covered(mover, other, path_mm) / min(length, _depth(other, path_mm / length))
+        if share > TOLERANCE_MM2:
+            blocked.append(Blocked(way.step, mover.name, other.name, share))
+    return max(blocked, key=_share, default=None)
+
+
+def _tool_blocked(way: Way, tool: Tool, fastener: Component, path_mm: Array) -> Blocked | None:
+    """Return what is most in the way of a fastener's tool."""
+    shaft = _tool(tool, fastener, _side(way.placed, path_mm))
+    blocked = []
+    for other in (*way.there, *way.movers):
+        if other is fastener or _passes(way.placed, other.name):
+            continue
+        share = _shared(shaft, other) / min(tool.length_mm, _depth(other, shaft.T_body_part[:3, 2]))
+        if share > TOLERANCE_MM2:
+            blocked.append(Blocked(way.step, fastener.name, other.name, share))
+    return max(blocked, key=_share, default=None)
+
+
+def _share(blocked: Blocked) -> float:
+    return blocked.share_mm2
+
+
+def _covered(mover: Component, other: Component, path_mm: Array) -> float:
+    """Return the volume of a thing that another one covers on its way, a little more where it can only be sampled."""
+    if (room := _swept(mover, path_mm)) is not None:
+        return _shared(room, other)
+    if (room := _swept(other, -path_mm)) is not None:
+        return _shared(mover, room)
+    length = float(np.linalg.norm(path_mm))
+    worst = 0.0
+    for share in np.linspace(0.0, 1.0, int(length / SAMPLES_MM) + 2):
+        pose = mover.T_body_part.copy()
+        pose[:3, 3] -= share * path_mm
+        worst = max(worst, _shared(Component(mover.name, mover.body, mover.shape, pose), other))
+    return worst * length
+
+
+def _swept(thing: Component, path_mm: Array) -> Component | None:
+    if not isinstance(thing.shape, Stack):
+        return None
+    own = np.einsum("ji,j->i", thing.T_body_part[:3, :3], path_mm)
+    shape = swept(thing.shape, own)
+    return None if shape is None else Component(thing.name, thing.body, shape, thing.T_body_part)
+
+
+def _shared(a: Component, b: Component) -> float:
+    return shared_volume_mm3(a, a.T_body_part, b, b.T_body_part)
+
+
+def _extent(thing: Component) -> tuple[Array, Array]:
+    """Return lower and upper corner (3,) of a thing's box in the world."""
+    corners = np.einsum("ij,nj->ni", thing.T_body_part, thing.corners)[:, :3]
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def _depth(thing: Component, along: Array) -> float:
+    """Return how far a thing's box reaches in a direction (3,)."""
+    return float(
+        (np.stack(_extent(thing)) * along).max(axis=0).sum() - (np.stack(_extent(thing)) * along).min(axis=0).sum()
+    )
+
+
+def _reach(mover: Component, there: list[Component], along: Array) -> float:
+    """Return how far back a thing must be to be clear of everything that is there."""
+    if not there:
+        return 0.0
+    front = float((np.stack(_extent(mover)) * along).max(axis=0).sum())
+    rear = min(float((np.stack(_extent(other)) * along).min(axis=0).sum()) for other in there)
+    return max(front - rear, 0.0) + BEYOND_MM
+
+
+def _side(placed: Placed, path_mm: Array) -> Array:
+    """Return the direction (3,) from a fastener to its tool."""
+    if placed.move.reach in SIDES:
+        return -SIDES[placed.move.reach]
+    return -path_mm / np.linalg.norm(path_mm)
+
+
+def _tool(tool: Tool, fastener: Component, side: Array) -> Component:
+    """Return the room of a tool that stands on a fastener, from its face towards a side."""
+    low, high = fastener.shape.bounds_mm
+    middle = fastener.T_body_part @ np.array([*(low + high) / 2.0, 1.0])
+    corners = np.einsum("ij,nj->ni", fastener.T_body_part, fastener.corners)[:, :3]
+    start = middle[:3] + side * (np.einsum("ni,i->n", corners, side).max() - middle[:3] @ side)
+    pose = np.eye(4)
+    across = np.array([0.0, 1.0, 0.0]) if abs(side[1]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    x = np.cross(across, side)
+    x /= np.linalg.norm(x)
+    pose[:3, :3] = np.column_stack([x, np.cross(side, x), side])
+    pose[:3, 3] = start
+    return Component(tool.name, fastener.body, Stack.of([(0.0, tool.length_mm, disc(tool.diameter_mm))]), pose)
+
+
+def _passes(placed: Placed, name: str) -> bool:
+    return bool(placed.move.past) and re.fullmatch(placed.move.past, name) is not None
+
+
+def _intended(a: str, b: str) -> bool:
+    pairs = ((a, b), (b, a))
+    return any(x.startswith(first) and y.startswith(second) for x, y in pairs for first, second, _ in INTENDED)

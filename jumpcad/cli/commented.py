@@ -1,0 +1,165 @@
+"""Design and workshop files that say in comments what their values mean."""
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from jumpcad.design import Design
+    from jumpcad.workshop import Workshop
+
+MEANINGS = {
+    "carrying_link_mm": "main leg (l2), mm; longer: a longer push, a larger and heavier robot",
+    "c_coef": "front link over main leg (l3/l2); 1: the body keeps its tilt while it rises",
+    "d_coef": "foot link over main leg (l4/l2); also sets the distance of the legs on the body",
+    "e_coef": "toes over main leg (l5/l2); longer: stands firmer, weighs more",
+    "compression_ratio": "loaded part of the angle to a flat leg; the energy grows with its square",
+    "rest_angle_deg": "between body and legs with springs at rest, degrees; where the push ends",
+    "stiffness_nmm_per_deg": "both springs together, N·mm per degree; energy and all loads grow with it",
+    "ground_link_angle_deg": "each toe from the foot's centre line, degrees; larger: wider and shorter stance",
+}
+"""What each number of a design is, and what changing it does."""
+VALUE_WIDTH = 36
+LINE = re.compile(r"(?P<key>\w+)(?P<equals> = )(?P<value>.*?)(?P<comment>\s+#.*)?")
+
+
+def commented_design(design: "Design", origin: str, file: str) -> str:
+    """Return the TOML document of a design with unit, searched range and effect of every number."""
+    from jumpcad.design import SEARCH_BOUNDS
+
+    lines = [
+        f"# A jumping robot in eight numbers, copied from {origin}.",
+        f"# How far it jumps: jumpcad simulate {file}; everything to print and buy: jumpcad build {file}",
+        "# A range is the one that a search goes through; numbers outside of it are allowed.",
+        "",
+    ]
+    for key, value in zip(MEANINGS, design.to_vector(), strict=True):
+        bounds = SEARCH_BOUNDS[key]
+        lines += [f"# {MEANINGS[key]}", f"{f'{key} = {value!r}':{VALUE_WIDTH}}# {bounds.lower:g} to {bounds.upper:g}"]
+    return "\n".join(lines) + "\n"
+
+
+def commented_workshop(workshop: "Workshop", origin: str) -> str:
+    """Return the TOML document of a workshop: that of the default one with its comments, and this one's values."""
+    from jumpcad.files import find_template
+
+    text = find_template("workshops", "default").read_text(encoding="utf-8")
+    head, *sections = re.split(r"^(?=\[)", text.split('printer = "mk4"\n', 1)[1], flags=re.MULTILINE)
+    data, printer = workshop.model_dump(exclude_none=True), printer_name(workshop)
+    lines = [
+        f"# A workshop, copied from {origin}: printer, fits, bought parts, limits. Use it with --workshop FILE.toml.",
+        '# Figures marked "practice" or "judgement" are to be replaced by what you measure (jumpcad coupon).',
+        *([f'printer = "{printer}"'] if printer else []),
+        head.rstrip("\n"),
+    ]
+    for section in sections:
+        lines += _section(section, data)
+    lines += [] if printer else ["", *_table("printer", data["printer"])]
+    for key, table in _others(workshop, data):
+        lines += ["", *_table(key, table)]
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def printer_name(workshop: "Workshop") -> str:
+    """Return the name of the shipped printer that a workshop has; empty for another one."""
+    from jumpcad.files import find_template, read_toml, template_names
+    from jumpcad.workshop import Printer
+
+    for name in template_names("printers"):
+        if Printer(**read_toml(find_template("printers", name))[0]) == workshop.printer:
+            return name
+    return ""
+
+
+def _section(text: str, data: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the lines of a section of the default workshop with the values of another one."""
+    first, *lines = text.rstrip("\n").split("\n")
+    named = re.match(r"\[([\w.]+)\]", first)
+    path = named[1] if named else ""
+    values = dict(_at(data, path))
+    if path == "bought":
+        values = _beyond_kit(values)
+    yield first
+    for line in lines:
+        found = LINE.fullmatch(line)
+        if found is None:
+            yield line
+        elif found["key"] in values:
+            value = values.pop(found["key"])
+            same = _read(found["value"]) == _plain(value)
+            yield line if same else f"{found['key']} = {_written(value)}{found['comment'] or ''}"
+    rest = {key: value for key, value in values.items() if not isinstance(value, dict)}
+    yield from (f"{_written_key(key)} = {_written(value)}" for key, value in rest.items())
+    yield ""
+
+
+def _beyond_kit(bought: dict[str, Any]) -> dict[str, Any]:
+    """Return what a workshop says of bought parts besides the names that its kit gives."""
+    from jumpcad.catalogue import load_catalogue
+
+    kit = load_catalogue().kits[bought["kit"]].model_dump() if bought["kit"] else {}
+    return {key: value for key, value in bought.items() if key not in kit or _plain(value) != _plain(kit[key])}
+
+
+def _others(workshop: "Workshop", data: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield the tables that the default workshop does not have: pins, materials of one's own, own parts."""
+    from jumpcad.files import find_template, read_toml, template_names
+    from jumpcad.workshop import OWN_PARTS
+
+    if data["bought"]["pins"]:
+        yield "bought.pins", data["bought"]["pins"]
+    for name, material in data["materials"].items():
+        shipped = {}
+        if name.lower() in template_names("materials"):
+            shipped = read_toml(find_template("materials", name.lower()))[0]
+        if own := {key: value for key, value in material.items() if shipped.get(key) != value}:
+            yield f"materials.{_written_key(name)}", own
+    for kind in OWN_PARTS:
+        for name, part in data[kind].items():
+            yield f"{kind}.{_written_key(name)}", part
+
+
+def _table(name: str, values: Mapping[str, Any]) -> list[str]:
+    """Return a table; tables in it follow under their own names."""
+    plain = {key: value for key, value in values.items() if not isinstance(value, dict)}
+    lines = [f"[{name}]", *(f"{_written_key(key)} = {_written(value)}" for key, value in plain.items())]
+    for key, value in values.items():
+        if isinstance(value, dict) and value:
+            lines += _table(f"{name}.{_written_key(key)}", value)
+    return lines
+
+
+def _at(data: Mapping[str, Any], path: str) -> Mapping[str, Any]:
+    for key in path.split("."):
+        data = data[key]
+    return data
+
+
+def _read(text: str) -> Any:
+    import tomllib
+
+    return tomllib.loads(f"x = {text}")["x"]
+
+
+def _written(value: Any) -> str:
+    """Return a value as TOML, on one line."""
+    import tomli_w
+
+    return (
+        tomli_w.dumps({"x": _plain(value)})
+        .removeprefix("x = ")
+        .strip()
+        .replace("[\n    ", "[")
+        .replace(",\n]", "]")
+        .replace(",\n    ", ", ")
+    )
+
+
+def _written_key(key: str) -> str:
+    import tomli_w
+
+    return tomli_w.dumps({key: 0}).split(" = ")[0]
+
+
+def _plain(value: Any) -> Any:
+    return list(value) if isinstance(value, tuple) else value

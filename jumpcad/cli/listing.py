@@ -1,0 +1,142 @@
+"""`jumpcad list`: what ships with jumpcad and can be named on the command line or in a workshop."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+import typer
+
+from jumpcad.cli.output import JsonFlag, console, print_json
+from jumpcad.errors import JumpcadError
+
+USED_AS = {
+    "templates": "a DESIGN of every command; jumpcad new FILE.toml --from NAME",
+    "workshops": "--workshop NAME",
+    "printers": "--printer NAME",
+    "materials": "--material NAME; [roles] in a workshop",
+    "settings": "jumpcad simulate DESIGN --settings NAME",
+    "engines": "jumpcad simulate DESIGN --engine NAME",
+    "objectives": "jumpcad optimize --objective NAME",
+    "kits": "[bought] kit in a workshop",
+    "motors": "[bought] motors",
+    "batteries": "[bought] battery",
+    "boards": "[bought] controller, driver, regulator",
+    "components": "[bought] sensor, switch, plug, capacitor, diode, wire",
+    "bearings": "[bought] leg_bearing, roller",
+    "springs": "[bought] spring",
+    "rods": "[bought] axle",
+    "pads": "[ground] pad, [body] stop_pad",
+}
+"""Every kind that is listed, and where its names are used."""
+FOLDERS = {"templates": "robots", "workshops": "workshops", "settings": "settings"}
+"""Kinds whose files begin with a comment that says what they are."""
+
+KindArgument = Annotated[
+    str | None,
+    typer.Argument(help=f"{', '.join(USED_AS)}; all unless given.", metavar="KIND", autocompletion=lambda: [*USED_AS]),
+]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module."""
+    app.command("list")(list_names)
+
+
+def list_names(kind: KindArgument = None, as_json: JsonFlag = False) -> None:
+    """List what ships: templates, workshops, printers, materials, kits, motors and more."""
+    from jumpcad.files import did_you_mean
+
+    if kind is not None and kind not in USED_AS:
+        raise JumpcadError(f"{kind!r} is none of the kinds {', '.join(USED_AS)}{did_you_mean(kind, USED_AS)}")
+    found = {name: described(name) for name in ([kind] if kind else USED_AS)}
+    if as_json:
+        print_json(
+            {
+                name: [{"name": key, "description": words} for key, words in entries.items()]
+                for name, entries in found.items()
+            }
+        )
+        return
+    for number, (name, entries) in enumerate(found.items()):
+        if number:
+            print()
+        print(f"{name} ({USED_AS[name]})")
+        _print(entries)
+
+
+def described(kind: str) -> dict[str, str]:
+    """Return the names of a kind, each with what it is."""
+    from jumpcad.files import find_template, read_toml, template_names
+
+    if kind in FOLDERS:
+        files = {name: find_template(FOLDERS[kind], name) for name in template_names(FOLDERS[kind])}
+        return {name: _first_sentence(file.read_text(encoding="utf-8")) for name, file in files.items()}
+    if kind == "printers":
+        return {name: _printer(read_toml(find_template(kind, name))[0]) for name in template_names(kind)}
+    if kind == "materials":
+        return {name.upper(): _material(read_toml(find_template(kind, name))[0]) for name in template_names(kind)}
+    if kind == "engines":
+        from jumpcad.simulation.engines import ENGINES
+
+        return {name: "installed" if engine.is_installed else "not installed" for name, engine in ENGINES.items()}
+    if kind == "objectives":
+        from jumpcad.search.objective import OBJECTIVES
+
+        return {name: f"{one.meaning} ({one.unit})" for name, one in OBJECTIVES.items()}
+    from jumpcad.catalogue import load_catalogue
+
+    parts: Mapping[str, Any] = getattr(load_catalogue(), kind)
+    return {name: part_in_words(kind, part) for name, part in parts.items()}
+
+
+def part_in_words(kind: str, part: Any) -> str:
+    """Return a bought part's main figures."""
+    if kind == "kits":
+        return f"{', '.join(part.motors)}; {part.battery}; {part.controller}; {part.driver}"
+    if kind == "motors":
+        return (
+            f"{part.ratio:g}:1, {part.voltage_v:g} V, {part.no_load_rpm:g}/min, "
+            f"{1000.0 * part.stall_torque_nm:.0f} mN·m stalled, {part.mass_g:g} g"
+        )
+    if kind == "bearings":
+        sides = f"{part.bore_mm:g} x {part.outer_mm:g} x {part.width_mm:g} mm"
+        return f"{sides}, {part.static_load_n:g} N, {part.mass_g:g} g"
+    if kind == "batteries":
+        return f"{part.description}, {part.mass_g:g} g"
+    if kind == "springs":
+        return (
+            f"wire {part.wire_mm:g} mm, inside {part.inside_diameter_mm:g} mm, {part.turns:g} turns, "
+            f"{part.rate_nmm_per_deg:g} N·mm/°"
+        )
+    return str(part.description).rstrip(",")
+
+
+def _first_sentence(text: str) -> str:
+    """Return the first sentence of the comment at the beginning of a file."""
+    words = []
+    for line in text.splitlines():
+        if not line.startswith("#") or line.strip() == "#":
+            break
+        words.append(line[1:].strip())
+    return " ".join(words).split(". ")[0].removesuffix(".")
+
+
+def _printer(data: Mapping[str, Any]) -> str:
+    bed = " x ".join(f"{side:g}" for side in data["bed_mm"])
+    return f"{data['name']}: bed {bed} mm, nozzle {data['nozzle_mm']:g} mm"
+
+
+def _material(data: Mapping[str, Any]) -> str:
+    strength = data.get("strength_in_plane_mpa")
+    bears = f"{strength:g} MPa along its layers" if strength else "strengths to be entered in the workshop"
+    return f"{data['density_g_cm3']:g} g/cm³, {bears}"
+
+
+def _print(entries: Mapping[str, str]) -> None:
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, show_header=False, padding=(0, 2, 0, 0))
+    table.add_column(no_wrap=True)
+    table.add_column()
+    for name, words in entries.items():
+        table.add_row(f"  {name}", words)
+    console().print(table)

@@ -1,0 +1,186 @@
+"""ROS 2: a description package, for `colcon build` in a workspace; written on request.
+
+Unlike the URDF of a bundle it begins with `base_link`, without mass, as ROS expects and PyBullet does not: there such a
+link weighs 1 kg. Joints that the loop ties to the leg mimic it by a straight line.
+"""
+
+import math
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.exporters.collision import Capsule, body_box, capsules
+from jumpcad.exporters.mjcf_scene import HOLD
+from jumpcad.exporters.sdf import write_config, write_sdf
+from jumpcad.exporters.urdf import add_joint, add_link
+from jumpcad.exporters.xml import add, document, shorten
+from jumpcad.files import templates_folder
+from jumpcad.mechanism.model import BODY, Mechanism
+from jumpcad.mechanism.poses import standing
+from jumpcad.robot import Robot
+from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.settings import Settings, coefficients
+from jumpcad.solids.stl import write_stl
+from jumpcad.transforms import Array
+
+TEMPLATES = {
+    "package.xml": "package.xml",
+    "CMakeLists.txt": "CMakeLists.txt",
+    "README.md": "README.md",
+    "view_robot.launch.py": "launch/view_robot.launch.py",
+    "gazebo.launch.py": "launch/gazebo.launch.py",
+    "controllers.yaml": "config/controllers.yaml",
+    "view.rviz": "rviz/view.rviz",
+}
+"""Shipped texts with @WORDS@ to fill in, and where they go in the package."""
+BASE = "base_link"
+XACRO = "http://www.ros.org/wiki/xacro"
+MESHES = "meshes"
+MIMIC_POINTS = 65
+"""Leg angles at which the straight lines are fitted."""
+MIMIC_DIGITS = 6
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """A joint's angle as `slope`·leg + `offset_rad`, wrong by at most `error_rad` over the leg's travel."""
+
+    slope: float
+    offset_rad: float
+    error_rad: float
+
+
+def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of every file of the package."""
+    model = model_name(robot.name)
+    package = f"{model}_description"
+    folder, visible, mimics = f"ros2/{package}", visuals(robot), mimicked(robot)
+    words = {
+        "PACKAGE": package,
+        "MODEL": model,
+        "NAME": robot.name,
+        "HEIGHT_M": f"{standing(robot, 0.0).body_position_m[2]:.4f}",
+        "HOLD": f"{HOLD * robot.spring.peak_torque_nm:.3f}",
+        **{f"{name.upper()}_DEG": _degrees(mimic.error_rad) for name, mimic in mimics.items()},
+    }
+    for name, path in TEMPLATES.items():
+        text = (templates_folder() / "ros2" / name).read_text(encoding="utf-8")
+        yield f"{folder}/{path}", re.sub("@([A-Z_]+)@", lambda found: words[found[1]], text)
+    for mesh, shape in {shape.mesh_name: shape.mesh for shape in visible}.items():
+        yield f"{folder}/{MESHES}/{mesh}.stl", write_stl(shape)
+    yield f"{folder}/urdf/{model}.urdf.xacro", _top(model)
+    yield f"{folder}/urdf/links.xacro", _links(robot, visible, mimics, f"package://{package}/{MESHES}")
+    yield f"{folder}/urdf/ros2_control.xacro", _control(robot)
+    yield f"{folder}/urdf/gazebo.xacro", _gazebo(robot)
+    yield f"{folder}/models/{model}/model.config", write_config(robot.name, "model.sdf")
+    yield f"{folder}/models/{model}/model.sdf", write_sdf(robot, visible, meshes=f"../../{MESHES}")
+
+
+def model_name(name: str) -> str:
+    """Return a robot's name as ROS packages may have it: small letters, digits, single underscores (REP 144)."""
+    plain = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
+    return plain if plain[:1].isalpha() else f"robot_{plain}".rstrip("_")
+
+
+def mimicked(mechanism: Mechanism) -> dict[str, Mimic]:
+    """Return how front and ankle joint follow the leg's, fitted by least squares over its travel."""
+    leg = np.linspace(-mechanism.spring.wind_rad, 0.0, MIMIC_POINTS)
+    pose = mechanism.linkage.pose(leg)
+    return {"front": _line(leg, pose.front_rad), "ankle": _line(leg, pose.ankle_rad)}
+
+
+def _line(x: Array, y: Array) -> Mimic:
+    off = x - x.mean()
+    slope = round(math.fsum(off * y) / math.fsum(off * off), MIMIC_DIGITS)
+    offset = round(float(y.mean() - slope * x.mean()), MIMIC_DIGITS) + 0.0
+    return Mimic(slope, offset, float(np.abs(slope * x + offset - y).max()))
+
+
+def _degrees(angle_rad: float) -> str:
+    return f"{math.degrees(angle_rad):.2f}"
+
+
+def _top(model: str) -> str:
+    """Return the file that includes the others."""
+    root = _root(model)
+    for name, default in (("mimic", "true"), ("gazebo", "false"), ("controllers", "")):
+        add(root, "xacro:arg", name=name, default=default)
+    for name in ("links", "ros2_control", "gazebo"):
+        add(root, "xacro:include", filename=f"{name}.xacro")
+    return document(root)
+
+
+def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], meshes: str) -> str:
+    """Return the bodies with what is seen and what touches, and the joints of the tree."""
+    root = _root()
+    add(root, "link", name=BASE)
+    base = add(root, "joint", name="base", type="fixed")
+    add(base, "parent", link=BASE)
+    add(base, "child", link=BODY)
+    for body in robot.bodies.values():
+        link = add_link(root, body, [shape for shape in visible if shape.body == body.name], meshes)
+        for number, capsule in enumerate(capsules(robot, body.name), start=1):
+            _cylinder(link, f"{body.name}_{number}", capsule)
+    if box := body_box(robot, visible):
+        collision = add(next(link for link in root if link.get("name") == BODY), "collision", name="body_box")
+        add(collision, "origin", xyz=(box.low_m + box.high_m) / 2.0, rpy="0 0 0")
+        add(add(collision, "geometry"), "box", size=box.high_m - box.low_m)
+    for joint in robot.joints:
+        node = add_joint(root, joint, robot, Settings())
+        if joint.name in mimics:
+            mimic = mimics[joint.name]
+            follows = add(node, "xacro:if", value="$(arg mimic)")
+            add(follows, "mimic", joint=robot.spring.joint, multiplier=mimic.slope, offset=mimic.offset_rad)
+    shorten(root)
+    return document(root)
+
+
+def _cylinder(link: ET.Element, name: str, capsule: Capsule) -> None:
+    """Append a capsule as a cylinder, which URDF knows; spheres stand where its ends touch the ground."""
+    along = capsule.end_m - capsule.start_m
+    length = math.hypot(*along)
+    turns = 0.0, math.atan2(math.hypot(along[0], along[1]), along[2]), math.atan2(along[1], along[0])  # of z to it
+    collision = add(link, "collision", name=name)
+    add(collision, "origin", xyz=(capsule.start_m + capsule.end_m) / 2.0, rpy=turns)
+    add(add(collision, "geometry"), "cylinder", radius=capsule.radius_m, length=length)
+
+
+def _control(robot: Robot) -> str:
+    """Return the interfaces of ros2_control: the leg is driven, the others follow."""
+    root = _root()
+    system = add(root, "ros2_control", name="jumper", type="system")
+    hardware = add(system, "hardware")
+    add(add(hardware, "xacro:if", value="$(arg gazebo)"), "plugin", "gz_ros2_control/GazeboSimSystem")
+    add(add(hardware, "xacro:unless", value="$(arg gazebo)"), "plugin", "mock_components/GenericSystem")
+    for joint in robot.joints:
+        node = add(system, "joint", name=joint.name)
+        if joint.name == robot.spring.joint:
+            add(node, "command_interface", name="effort")
+        for state in ("position", "velocity"):
+            add(node, "state_interface", name=state)
+    return document(root)
+
+
+def _gazebo(robot: Robot) -> str:
+    """Return what only Gazebo reads: friction of the bodies, the springs, and the plugin of ros2_control."""
+    root, rubs = _root(), coefficients(robot, Settings())
+    for body in robot.bodies.values():
+        node = add(root, "gazebo", reference=body.name)
+        for direction in ("mu1", "mu2"):
+            add(node, direction, f"{rubs.contact(body.surface):g}")
+    spring = add(root, "gazebo", reference=robot.spring.joint)
+    add(spring, "springReference", f"{robot.spring.preload_rad:.9g}")
+    add(spring, "springStiffness", f"{robot.spring.stiffness_nm_per_rad:.9g}")
+    only = add(root, "xacro:if", value="$(arg gazebo)")
+    plugin = add(add(only, "gazebo"), "plugin", filename="gz_ros2_control-system",
+                 name="gz_ros2_control::GazeboSimROS2ControlPlugin")  # fmt: skip
+    add(plugin, "parameters", "$(arg controllers)")
+    return document(root)
+
+
+def _root(name: str = "") -> ET.Element:
+    named = {"name": name} if name else {}
+    return ET.Element("robot", {"xmlns:xacro": XACRO, **named})

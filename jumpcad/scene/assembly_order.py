@@ -1,0 +1,440 @@
+"""The order of assembly as data: in every step which things move where, by which tool they are fastened, and words.
+
+Names are patterns of things' names; what a robot lacks is left out, and so are words that `need` it. Lengths and
+diameters of tools are those of a usual screwdriver, key or pair of pliers.
+
+The pin in the leg that the springs push comes late: without it they are slack, so that both plates stand before
+anything is loaded, the cam can be turned by hand, and the motor turns it for the first time without springs.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+ROBOT, LEG, FOOT, LOWER, UPPER, STOP = "robot", "leg", "foot", "lower tray", "upper tray", "rest stop"
+"""Assemblies: the robot grows on the right plate, the others on the bench."""
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A straight tool: a cylinder that must be free from a fastener's end on, along its axis (mm)."""
+
+    name: str
+    diameter_mm: float
+    length_mm: float
+
+
+HEX_M3 = Tool("hex key 2 mm, long end", 3.0, 50.0)
+"""ISO 2936: 2.3 mm across corners, long arm 50 mm."""
+HEX_M2 = Tool("hex key 1.3 mm, long end", 2.0, 40.0)
+HEX_AXLE = Tool("hex key 2.5 mm, long end", 3.5, 50.0)
+NUT_M3 = Tool("nut driver 5.5 mm", 9.0, 40.0)
+PLIERS = Tool("needle-nose pliers", 4.0, 40.0)
+"""Both jaws together at the tip of electronics pliers; judgement."""
+CLIP = Tool("clip applicator", 6.0, 30.0)
+PRESS = Tool("flat-ended bolt or thumb", 8.0, 40.0)
+
+
+@dataclass(frozen=True)
+class Move:
+    """Things that take their place together.
+
+    Attributes
+    ----------
+    parts
+        Pattern of their names.
+    along
+        A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`.
+    way
+        `straight`, checked on the shapes; `bent`, also straight, around things of `past`; `snapped`, by their own size
+        only, sideways onto a groove; `laid` for what is soldered or flexible, which has no path to check.
+    past
+        Pattern of things that may be in the way, since one of the two gives.
+    tool, reach
+        What fastens them, and the side from which it reaches them: that of their path, or one as in `along`.
+    trial
+        It is taken off again at the end of the step.
+    brings
+        An assembly of an earlier step that is put on as one piece.
+    retention
+        The kinds of axles that are put on here; all where empty.
+    """
+
+    parts: str
+    along: str = "from the left"
+    way: Literal["straight", "snapped", "bent", "laid"] = "straight"
+    past: str = ""
+    tool: Tool | None = None
+    reach: str = ""
+    trial: bool = False
+    brings: str = ""
+    retention: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Words:
+    """A sentence or two, said where the robot has a thing of the pattern `needs`, and none of the pattern `lacks`."""
+
+    text: str
+    needs: str = ""
+    lacks: str = ""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A step before it meets a robot: its moves onto an assembly; words on what to do, heed, and check afterwards."""
+
+    key: str
+    title: str
+    onto: str = ROBOT
+    moves: tuple[Move, ...] = ()
+    text: tuple[Words, ...] = ()
+    warnings: tuple[Words, ...] = ()
+    checks: tuple[Words, ...] = ()
+
+
+def _pin(name: str, reach: str, clips: tuple[str, str] = ("from the right", "from the left")) -> tuple[Move, ...]:
+    """Return the moves of a pin with its split pin, to which pliers come from a side, or with its clips."""
+    return (
+        Move(name, "from the left"),
+        Move(rf"{name}_split_pin", "from the front", "bent", past=name, tool=PLIERS, reach=reach),
+        *_clips(name, clips),
+    )
+
+
+def _clips(name: str, reach: tuple[str, str] = ("from the right", "from the left")) -> tuple[Move, ...]:
+    """Return the moves of the clips at the right and the left end of an axle, sideways onto their grooves."""
+    return tuple(
+        Move(rf"({name})_clip_{end}", "from the front", "snapped", past=rf"({name})", tool=CLIP, reach=side)
+        for end, side in enumerate(reach, start=1)
+    )
+
+
+AXLES = r"(leg|front|cam|idler)_axle"
+SMALL = r"(wiring_)?(switch|plug|capacitor|diode|wire|resistor)s?(_.*)?"
+
+ORDER: tuple[Plan, ...] = (
+    Plan(
+        "leg", "Main leg", LEG,
+        (
+            Move("main_leg"),
+            Move("main_leg_bar|main_leg_end", way="laid"),
+            Move("hub_bearing_1", "from the right"),
+            Move("hub_bearing_2", "from the left"),
+            Move("roller_washer"),
+            Move("roller"),
+            Move("roller_screw", "from the left", tool=HEX_M3),
+            Move("roller_nut", "from the right", past="roller_screw", tool=NUT_M3, reach="from the right"),
+        ),
+        (
+            Words("Cut the bars of leg and front link to length, sand their ends, degrease them and the sockets. Glue "
+                  "each bar with epoxy into the sockets of its two ends, as deep as it goes, lying on a flat plate, "
+                  "and let it cure.", needs="main_leg_bar"),
+            Words("Press one bearing into either side of the hub, between flat jaws with a sheet of card, until it is "
+                  "flush: push on its outer ring alone.", needs="hub_bearing.*"),
+            Words("Open the eye at the leg's lower end with a drill or reamer of {eye_drill} mm, turned by hand, until "
+                  "the pin turns in it without rocking. Open the leg's hole for the springs' pin too, until its pin "
+                  "goes in under the push of a thumb; the pin itself stays out until step {step_arm}."),
+            Words("Washer and roller go on the lever's left side (the lever is the short arm at the hub; it points "
+                  "backwards and up when the leg hangs down). Put the screw in from the left and turn the lock nut on "
+                  "from the right until the washer has no play: {torque_m3} N·m, hand-tight."),
+        ),
+        checks=(Words("The roller's outer ring spins freely; the leg turns freely on a piece of its axle."),),
+    ),
+    Plan(
+        "foot", "Foot and front link", FOOT,
+        (
+            Move("foot"),
+            Move("toe_(left|right)", "from outside"),
+            Move("toe_(left|right)_screw_.*", "head last", tool=HEX_M3),
+            Move("nose_pad_.*|toe_(left|right)_pad", "from below", "straight"),
+        ),
+        (
+            Words("Screw the toes to the foot's stubs from outside: {torque_plastic} N·m at most, the thread is cut "
+                  "into plastic.", needs="toe_(left|right)"),
+            Words("Degrease the soles with alcohol. Cut the pads to size and press them on for half a minute: under "
+                  "either toe's tip, and around both lugs of the nose, from the sole up its round front. Leave them "
+                  "for an hour before the first jump.", needs="nose_pad_.*"),
+            Words("Open the eyes of the front link with the drill of {eye_drill} mm, as the leg's; the holes of the "
+                  "foot must let the pins through without force.", needs=r"front_link(_\d)?"),
+        ),
+        checks=(Words("Both pins turn in their eyes and do not rock."),),
+    ),
+    Plan(
+        "motor", "Motor, standoffs, right plate", ROBOT,
+        (
+            Move("body_plate_right"),
+            Move("standoff_\\d+"),
+            Move("standoff_\\d+_screw_right", "from the right", tool=HEX_M3),
+            Move("motor|motor_shaft"),
+            Move("motor_cap"),
+            Move("cap_screw_.*", "from the left", tool=HEX_M2),
+        ),
+        (
+            Words("Solder the motor's two wires first ({motor_wire} mm each): its terminals are behind the plate's "
+                  "window later. The terminal with the mark is motor +."),
+            Words("Screw the standoffs to the right plate, the one with the motor's socket, from outside: "
+                  "{torque_plastic} N·m. Then lay it on the bench, outside down: up is the robot's left from now on."),
+            Words("Lead the wires through the window and push the motor into its socket from above, its shaft up, its "
+                  "shorter side as the socket's. Put the cap on and turn its two screws into the plastic, in turns, "
+                  "until the motor has no play: {torque_m2} N·m."),
+        ),
+        checks=(Words("The motor does not move in its socket, and nothing touches its shaft."),),
+    ),
+    Plan(
+        "lower", "Lower tray with the battery", LOWER,
+        (
+            Move("electronics_tray_1"),
+            Move("battery", "from above"),
+            Move(r"(battery_)?strap(_.*)?", way="laid"),
+        ),
+        (
+            Words("Lay the battery on the lower tray, its leads backwards, and pull a strap or a cable tie of up to "
+                  "4 mm through the slots beside it: tight enough that it does not slide, not so tight that it dents. "
+                  "Do not plug it in yet.", lacks=r"(battery_)?strap.*"),
+            Words("Lay the battery on the lower tray and close its strap: tight enough that it does not slide, not so "
+                  "tight that it dents. Do not plug it in yet.", needs=r"(battery_)?strap.*"),
+        ),
+        (
+            Words("A lithium battery that is dented, swollen or shorted can burn: do not use it, and keep tools off "
+                  "its plug."),
+        ),
+    ),
+    Plan(
+        "boards", "Upper tray with the boards", UPPER,
+        (
+            Move("electronics_tray_2"),
+            Move("controller|driver|regulator", "from above"),
+            Move(r"(controller|driver|regulator|board)_(screw|clip|post|foot)s?(_.*)?", "from above"),
+            Move(SMALL, way="laid"),
+        ),
+        (
+            Words("Fasten the boards to the upper tray as the picture shows, with double-sided foam tape 1 mm thick "
+                  "where they have no screws: solder joints must not lie on each other."),
+            Words("Solder every wire of the table under Wiring, the shortest first, and slide heat-shrink tube over "
+                  "each joint. The motor's wires go to the driver last. Tie the wires to the tray so that no joint "
+                  "bears a pull."),
+            Words("Put the firmware on the controller over USB (firmware/README.md) before the battery is plugged in "
+                  "for the first time."),
+        ),
+        (
+            Words("Charge with {charge_ma} mA at most: {charge_how}"),
+            Words("Before the battery is plugged in: switch on, multimeter across the plug's poles, no contact. Plus "
+                  "of plug and battery must agree: makers of batteries do not."),
+        ),
+    ),
+    Plan(
+        "power", "First power-up, on the bench", ROBOT, (),
+        (
+            Words("Nothing is on the motor's shaft yet. Lay right plate and trays side by side, switch off; plug the "
+                  "battery in, switch on."),
+            Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
+                  "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
+                  "and let go after a second: the motor stops {after_ms} ms later and the count is 1."),
+            Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
+                  "not, exchange its two wires at the driver."),
+        ),
+        (
+            Words("Something becomes hot or smells: switch off, unplug, look for the short. Do not leave a connected "
+                  "battery alone."),
+        ),
+        (
+            Words("Battery {battery_v} V at rest, at least {min_v} V. The shaft alone turns with about {free_rpm} rpm "
+                  "and draws about {free_ma} mA."),
+        ),
+    ),
+    Plan(
+        "trays", "Trays and sensor into the right plate", ROBOT,
+        (
+            Move("", brings=LOWER),
+            Move("", brings=UPPER),
+            Move(r"sensor_(mount|holder|seat|bracket|lever|arm)(_.*)?"),
+            Move(r"(wiring_)?sensor"),
+            Move(r"sensor_screw.*", "head last", tool=HEX_M2),
+        ),
+        (
+            Words("Switch off. Push the tabs of both trays into the right plate's slots, the battery's tray "
+                  "below. Lead the wires along the plate, away from leg, cam and gears, and tie them."),
+            Words("The sensor closes shortly before the cam's drop.", needs=r"(wiring_)?sensor.*"),
+        ),
+    ),
+    Plan(
+        "legs", "Axles, springs and legs", ROBOT,
+        (
+            Move(f"{AXLES}|spring_pin", retention=("plates", "clips")),
+            Move("spring_bushing_right"),
+            Move("spring_right(_leg_arm)?"),
+            Move("", brings=LEG),
+            Move("spring_left(_leg_arm)?"),
+            Move("spring_bushing_left"),
+            Move("front_spacer_right"),
+            Move(r"front_link(_\d|_bar)?"),
+            Move("front_spacer_left"),
+            Move("cam_spacer_right"),
+            Move("idler_spacer_right"),
+        ),
+        (
+            Words("Stand the axles and the springs' pin in their bores. They lean until the left plate is on: the tube "
+                  "that comes first on each holds it upright, so push that down to the plate.", lacks=".*_axle_nut"),
+            Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
+                  "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
+            Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
+                  "up; the RIGHT-HAND spring; the bushing of {bushing_left} mm. A bushing's thicker end is at "
+                  "the leg. Seen on the standing robot, the outer arm of either "
+                  "spring lies below the springs' pin, and the inner arms beside the leg, above the hole for its pin. "
+                  "Left-hand: held upright, the wire in front rises to the left."),
+            Words("Front axle: tube, front link, tube ({front_tubes}). Cam axle: its tube ({cam_tube} mm)."),
+        ),
+        (
+            Words("The springs are slack in this step. Nothing may have to be forced; an arm that does not lie "
+                  "against its pin belongs to the spring of the other hand."),
+        ),
+        (Words("The leg swings freely from the motor to its end, and falls by its own weight."),),
+    ),
+    Plan(
+        "stop", "Pad of the rest stop", STOP,
+        (Move("stop_bar"), Move("stop_pad", "from the leg", "straight")),
+        (Words("Glue the pad into its seat in the bar, the one with raised edges."),),
+    ),
+    Plan(
+        "cam", "Rest stop, cam and gears", ROBOT,
+        (
+            Move("", brings=STOP),
+            Move("cam"),
+            Move("cam_gear"),
+            Move("cam_spacer_left"),
+            Move("idler"),
+        ),
+        (
+            Words("Push the stop's tab into the right plate behind the leg, its pad towards the leg."),
+            Words("Grease the jaws, the roller's path and the teeth thinly (silicone or lithium grease). On the cam "
+                  "axle go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
+            Words("Then the idler, its small wheel down.", needs="idler"),
+        ),
+        checks=(
+            Words("The cam turns in its gear freely from jaw to jaw, by {dog_play}°: this play is needed, do not glue "
+                  "it."),
+        ),
+    ),
+    Plan(
+        "trial", "Trial: left plate on, cam turned by hand", ROBOT,
+        (Move("body_plate_left", trial=True),),
+        (
+            Words("The pinion is still off. Put the left plate on for a trial, without screws: hold it level, let the "
+                  "longest axle find its bore first, then one after the other, the trays' and the stop's tabs last. Do "
+                  "not press: where it does not go down, something is beside its bore."),
+            Words("Hold the plates together with thumb and finger and turn the cam gear by hand one full turn, "
+                  "{cam_turn} as seen from the left. Then take the plate off again."),
+        ),
+        checks=(
+            Words("The cam lifts the leg by {stroke}° over {lift}° of its turn; then the leg falls. Nothing rubs."),
+            Words("The sensor clicks before the drop.", needs=r"(wiring_)?sensor.*"),
+        ),
+    ),
+    Plan(
+        "dry", "Pinion; first winding, without springs", ROBOT,
+        (
+            Move("motor_pinion", past="motor_shaft", tool=PRESS, reach="from the left"),
+            Move("body_plate_left", trial=True),
+            Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3, trial=True),
+        ),
+        (
+            Words("Press the pinion onto the motor's shaft, flat to flat and its teeth between the wheel's, until it "
+                  "is level with the wheel: its ribs are cut. Support the motor from below; {press_n} N at most, more "
+                  "damages the gearhead."),
+            Words("Put the left plate on with its screws. The springs are slack: the leg has no pin yet that they "
+                  "could push. Hold the robot upright by the plates, its leg hanging, plug the battery in, switch on, "
+                  "type `wind`, then `jump`; ten times."),
+            Words("Switch off, unplug, lay the robot on its right plate and take the left one off again."),
+        ),
+        (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),
+        (
+            Words("It winds in about {dry_s} s with about {dry_ma} mA and stops by itself, ready. After `jump` the leg "
+                  "falls within {release_ms} ms. A motor that runs for {wind_max} s and says `fault` had no signal: "
+                  "mend the sensor before the springs are armed."),
+        ),
+    ),
+    Plan(
+        "arm", "The springs' pin in the leg", ROBOT,
+        (
+            *_pin("leg_spring_pin", "from the front", ("from the front", "from the front")),
+        ),
+        (
+            Words("With the leg on its stop push the pin ({leg_pin}) through it from the left, below the inner arms of "
+                  "both springs: all four arms then lie between it and the springs' other pin."),
+            Words("A bought spring's arms may stand up to 10° off: push the arm aside with a screwdriver; 10° take "
+                  "{arm_n} N. Arms that are more than 15° off are not those of the order."),
+            Words("The springs are loaded by {preload}° in this pose: hold either arm back with pliers, {preload_n} N, "
+                  "while the pin goes in.", needs="preload"),
+            Words("Bend the split pin's ends around the pin and cut off what stands out.",
+                  needs="leg_spring_pin_split_pin"),
+            Words("Press the clips into the pin's grooves.", needs="leg_spring_pin_clip_.*"),
+        ),
+    ),
+    Plan(
+        "close", "Left plate, for good", ROBOT,
+        (
+            Move("body_plate_left"),
+            Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3),
+            Move(f"{AXLES}|spring_pin", "from the left", tool=HEX_AXLE, retention=("nuts",)),
+            Move(f"({AXLES}|spring_pin)_nut", "from the right", past=f"{AXLES}|spring_pin", tool=NUT_M3,
+                 reach="from the right"),
+            *_clips(f"{AXLES}|spring_pin"),
+        ),
+        (
+            Words("Left plate and its screws for good, {torque_plastic} N·m. The closed bores of both plates hold the "
+                  "axles.", lacks=".*_axle_(nut|clip_1)"),
+            Words("Left plate and its screws for good, {torque_plastic} N·m. Put the axles' screws in from the left, "
+                  "each pushing its rod out, and turn the lock nuts on until the plates just bear no load.",
+                  needs=".*_axle_nut"),
+            Words("Left plate and its screws for good, {torque_plastic} N·m. Press a clip into the groove at either "
+                  "end of every axle.", needs=".*_axle_clip_1"),
+        ),
+        (
+            Words("From now on the springs can be loaded: {energy} J, set free within {push_ms} ms. Keep "
+                  "fingers out from between leg and body and away from foot, cam and gears, and your eyes away, "
+                  "whenever the battery is plugged in or the leg is off its stop."),
+        ),
+        (
+            Words("Axles can be moved along by {end_play} mm at most. The leg lies on its stop and springs back to it "
+                  "when its end is pulled forward a little: {foot_n} N there would load it completely, so do not."),
+        ),
+    ),
+    Plan(
+        "feet", "Foot onto the legs", ROBOT,
+        (
+            Move("", "from below", brings=FOOT),
+            *_pin("ankle_pin", "from the right"),
+            *_pin("front_eye_pin", "from the right"),
+        ),
+        (
+            Words("Set the leg's eye between the lugs where the toes meet and push {ankle_pin} through from the left; "
+                  "then the front link's between the lugs of the nose, with {front_pin}."),
+            Words("Bend the split pins' ends around the pins and cut off what stands out.",
+                  needs="ankle_pin_split_pin"),
+            Words("Press the clips into the grooves.", needs="ankle_pin_clip_.*"),
+        ),
+        checks=(Words("The robot stands on nose and toes, the leg on its stop; pressed down, it comes up again."),),
+    ),
+    Plan(
+        "jump", "First winding and first jump", ROBOT, (),
+        (
+            Words("Wear glasses. Put the robot on a floor that is not slippery, with {far} m free ahead of it and "
+                  "{high} m above. Plug in, switch on; `wind` from the computer, or the board's button."),
+            Words("`jump`, or the button again: it releases after {delay_s} s. For {landing_s} s after a jump it "
+                  "ignores everything."),
+        ),
+        (
+            Words("Wound springs stay loaded when the battery is empty or unplugged. To slacken them, hold the robot "
+                  "by its plates, feet away from you and free, and release: `jump`. Never take it apart while the leg "
+                  "is off its stop."),
+        ),
+        (
+            Words("It winds in about {wind_s} s with {wind_ma} mA, {peak_ma} mA at most. As computed it jumps {range} "
+                  "mm far and {rise} mm high; what others measured on the bench was 77 to 87 % of the computed energy "
+                  "at best, so expect less."),
+            Words("Half of that: does a foot slip, does a link rub, is the springs' rate right, does the roller leave "
+                  "the cam at once?"),
+        ),
+    ),
+)  # fmt: skip
+"""What is done, in this order."""

@@ -1,0 +1,134 @@
+"""Labels and arrows over a picture: words in its margins, each with a line to what it names, in letters as polygons.
+
+The letters are outlines of one font that the package ships with its plotting library: the same pixels everywhere.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from jumpcad.solids.outline import Region
+from jumpcad.solids.text import text
+from jumpcad.transforms import Array
+
+FINE = 3
+"""Letters and lines are drawn this much larger and scaled down."""
+CAPITAL_PX, ROW_PX, EDGE_PX = 9.0, 22.0, 8.0
+INK, LINE, ARROW = (25, 28, 33), (120, 125, 132), (200, 40, 30)
+HEAD_PX = 9.0
+
+
+def labelled(
+    picture: Image.Image,
+    names: Sequence[str],
+    at_px: Array,
+    place_px: Array,
+    margin_px: int,
+    turns_px: Sequence[Array] = (),
+) -> Image.Image:
+    """Return a picture between two margins with labels.
+
+    Parameters
+    ----------
+    picture
+        Without margins.
+    names
+        What stands in the margins.
+    at_px, place_px
+        Where each named thing is, and where it goes (n, 2), in pixels of the picture; an arrow joins them where they
+        differ.
+    margin_px
+        Width of either margin.
+    turns_px
+        Lines (n, 2) along which something turns, drawn as arrows.
+    """
+    size = (picture.width + 2 * margin_px, picture.height)
+    sheet = Image.new("RGB", size, (255, 255, 255))
+    sheet.paste(picture, (margin_px, 0))
+    beside = np.array([margin_px, 0.0])
+    ends = np.asarray(at_px, dtype=float).reshape(-1, 2) + beside
+    goals = np.asarray(place_px, dtype=float).reshape(-1, 2) + beside
+    large = sheet.resize((FINE * size[0], FINE * size[1]), Image.Resampling.NEAREST)
+    draw = ImageDraw.Draw(large)
+    for end, goal in zip(ends, goals, strict=True):
+        if np.hypot(*(goal - end)) > 2.0 * HEAD_PX:
+            _arrow(draw, end, goal)
+    for line in turns_px:
+        curve = np.asarray(line) + beside
+        draw.line([tuple(FINE * point) for point in curve[:-1]], fill=ARROW, width=2 * FINE)
+        _arrow(draw, curve[-3], curve[-1])
+    for name, end, (x, y), left in _rows(names, ends, size):
+        _words(draw, name, x, y, left)
+        start = (x + EDGE_PX, y) if left else (x - EDGE_PX, y)
+        draw.line([tuple(FINE * np.array(start)), tuple(FINE * end)], fill=LINE, width=FINE)
+        _dot(draw, end)
+    return large.resize(size, Image.Resampling.BOX)
+
+
+def _rows(
+    names: Sequence[str], ends: Array, size: tuple[int, int]
+) -> list[tuple[str, Array, tuple[float, float], bool]]:
+    """Return each name with its end, the point where its words meet their line, and whether it stands on the left."""
+    order: list[int] = np.argsort(ends[:, 0], kind="stable").tolist()
+    half = len(order) // 2
+    rows = []
+    for side, indices in ((True, order[:half]), (False, order[half:])):
+        indices = sorted(indices, key=lambda index: ends[index, 1])
+        y = _spread([float(ends[index, 1]) for index in indices], size[1])
+        widest = max((_width(names[index]) for index in indices), default=0.0)
+        x = EDGE_PX + widest if side else size[0] - EDGE_PX - widest
+        rows += [(names[index], ends[index], (x, height), side) for index, height in zip(indices, y, strict=True)]
+    return rows
+
+
+def _spread(wanted: list[float], height: int) -> list[float]:
+    """Return heights at least a row apart, near those wanted (in ascending order)."""
+    placed: list[float] = []
+    for want in wanted:
+        placed.append(max(want, placed[-1] + ROW_PX if placed else ROW_PX))
+    over = (placed[-1] - (height - ROW_PX)) if placed else 0.0
+    for index in range(len(placed) - 1, -1, -1):
+        limit = height - ROW_PX if index == len(placed) - 1 else placed[index + 1] - ROW_PX
+        placed[index] = min(placed[index], limit) if over > 0.0 else placed[index]
+    return placed
+
+
+def _letters(name: str) -> Region:
+    return text(name, CAPITAL_PX)
+
+
+def _width(name: str) -> float:
+    return float(_letters(name).bounds()[2])
+
+
+def _words(draw: ImageDraw.ImageDraw, name: str, x: float, y: float, left: bool) -> None:
+    """Draw words that end (on the left) or begin (on the right) at a point, centred in height."""
+    start = x - _width(name) if left else x
+    outlines = [
+        FINE * np.column_stack([start + contour[:, 0], y + CAPITAL_PX / 2.0 - contour[:, 1]])
+        for contour in _letters(name).to_polygons()
+    ]
+    # y points down: outlines run clockwise, holes counter-clockwise; holes are drawn last
+    for points in sorted(outlines, key=_turn):
+        draw.polygon([tuple(point) for point in points], fill=INK if _turn(points) < 0.0 else (255, 255, 255))
+
+
+def _turn(points: Array) -> float:
+    """Return twice the signed area of a contour (n, 2)."""
+    after = np.roll(points, -1, axis=0)
+    return float(np.sum(points[:, 0] * after[:, 1] - points[:, 1] * after[:, 0]))
+
+
+def _arrow(draw: ImageDraw.ImageDraw, start: Array, end: Array) -> None:
+    along = (end - start) / np.hypot(*(end - start))
+    across = np.array([-along[1], along[0]])
+    neck = end - HEAD_PX * along
+    draw.line([tuple(FINE * start), tuple(FINE * neck)], fill=ARROW, width=2 * FINE)
+    head = [end, neck + 0.45 * HEAD_PX * across, neck - 0.45 * HEAD_PX * across]
+    draw.polygon([tuple(FINE * point) for point in head], fill=ARROW)
+
+
+def _dot(draw: ImageDraw.ImageDraw, at: Array) -> None:
+    x, y = FINE * at
+    draw.ellipse([x - 2 * FINE, y - 2 * FINE, x + 2 * FINE, y + 2 * FINE], fill=INK)

@@ -1,0 +1,247 @@
+"""What the picture of a step shows: what is there, what is put on, how far it stands before its place, and labels."""
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot import Robot
+from jumpcad.scene.assembly_steps import Placed, Step, assembly_steps, travel
+from jumpcad.scene.camera import View
+from jumpcad.scene.visuals import Visual
+from jumpcad.transforms import Array, chained, pose_at
+
+FROM_LEFT = View(yaw_deg=62.0, pitch_deg=28.0)
+"""From the left, from where things are put on the axles."""
+FROM_RIGHT = View(yaw_deg=-118.0, pitch_deg=28.0)
+APART_M = 0.006
+"""Least distance between things that stand before their places; judgement."""
+NEAREST_M = 0.03
+"""At least this much is shown around what a step puts on."""
+DIGITS = 8
+"""Of lengths in m: the last digits of sums and sines differ between processors."""
+FARTHEST_M = 0.11
+"""From its place, of anything; judgement: otherwise the picture becomes small."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """Words at a point (3,) in the world, and where that point will be when everything is in its place (m)."""
+
+    text: str
+    at_m: Array
+    place_m: Array
+
+
+@dataclass(frozen=True)
+class StepView:
+    """A picture: things with their poses (4, 4) in the world (m), which of them are pale, labels, and its frame.
+
+    `turns_m` are curves (n, 3) along which something turns.
+    """
+
+    name: str
+    title: str
+    things: tuple[Visual, ...]
+    poses: tuple[Array, ...]
+    pale: tuple[bool, ...]
+    labels: tuple[Label, ...]
+    frame_m: Array
+    view: View
+    turns_m: tuple[Array, ...] = ()
+
+
+@dataclass(frozen=True)
+class Inset:
+    """A closer look within a step: the things that are shown, those that are framed, the direction of view."""
+
+    step: str
+    name: str
+    title: str
+    shown: str
+    framed: str
+    view: View
+    room: float = 1.0
+
+
+INSETS = (
+    Inset("leg", "hub", "Hub and roller", "main_leg|hub_bearing_.*|roller.*", "hub_bearing_.*|roller.*",
+          View(-40.0, 25.0)),
+    Inset("foot", "pads", "Pads from below", "foot|toe_.*|nose_pad_.*", "nose_pad_.*", View(35.0, -30.0), room=2.6),
+    Inset("arm", "springs", "Springs, seen from the left: arms and pins",
+          "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_(left|right).*|leg_spring_pin", View(75.0, 12.0)),
+    Inset("cam", "dog", "Dog: jaws of the cam, pockets of the gear", "cam|cam_gear|cam_axle", "cam|cam_gear",
+          View(24.0, 20.0)),
+)  # fmt: skip
+
+
+TURNS = {"power": ("motor_shaft", 0), "trial": ("cam_gear", 1)}
+"""What turns in a step, and its sense about +y; 0: that of the motor, which follows from the pairs of gears."""
+TURN_M = 0.008
+
+
+def motor_sense(robot: Robot) -> int:
+    """Return the sense in which the motor turns about +y: against the cam over one pair of gears, with it over two."""
+    return -1 if len(robot.layout.drive.train.stages) == 1 else 1
+
+
+def step_views(robot: Robot) -> dict[str, list[StepView]]:
+    """Return the pictures of every step by its key: the step first, then closer looks."""
+    poses = body_poses(robot)
+    built: dict[str, list[Visual]] = {}
+    views: dict[str, list[StepView]] = {}
+    for step in assembly_steps(robot):
+        there = built.setdefault(step.onto, [])
+        before = list(there)
+        for placed in step.placed:
+            if placed.move.brings:
+                built.pop(placed.move.brings)
+            there += [] if placed.move.trial else placed.things
+        if not before and not step.placed:
+            continue
+        moved = _apart(robot, step, poses, bool(before))
+        views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot))]
+        for inset in INSETS:
+            if inset.step == step.key and any(re.fullmatch(inset.framed, thing.name) for thing in there):
+                views[step.key].append(_view(inset.name, inset.title, step, before, moved, poses, inset))
+    return views
+
+
+def label_of(thing: Visual) -> str:
+    """Return what a thing is called in words."""
+    name = re.sub(r"^wiring_", "", thing.name)
+    if name.startswith("spring_left") or name.startswith("spring_right"):
+        side = "left" if "left" in name else "right"
+        return f"{'right' if side == 'left' else 'left'}-hand spring"
+    name = re.sub(r"(_screw)_(left|right)$", r"\1", name)
+    name = re.sub(r"_\d+(?=_|$)", "", name)
+    return name.replace("_", " ")
+
+
+def _view(
+    name: str, title: str, step: Step, before: list[Visual], moved: dict[str, Array], poses: dict[str, Array],
+    inset: Inset | None, motor: int = 1,
+) -> StepView:  # fmt: skip
+    """Return the picture of a step, or of an inset within it."""
+    added = [thing for placed in step.placed for thing in placed.things]
+    things = [*before, *added]
+    if inset is not None:
+        things = [thing for thing in things if re.fullmatch(inset.shown, thing.name)]
+    new = {thing.name for thing in added}
+    at = [_shifted(_at_place(thing, poses), moved.get(thing.name)) for thing in things]
+    framed = [
+        index for index, thing in enumerate(things)
+        if (re.fullmatch(inset.framed, thing.name) if inset else thing.name in new or not new)
+    ]  # fmt: skip
+    corners = np.concatenate([_corners(things[index], at[index]) for index in framed])
+    places = [_corners(things[index], _at_place(things[index], poses)) for index in framed]
+    if not inset:
+        middle = corners.mean(axis=0)
+        corners = np.concatenate([corners, *places, [middle - NEAREST_M, middle + NEAREST_M]])
+    pale = tuple(thing.name not in new and bool(new) for thing in things)
+    labels = _labels(things, at, poses, new if not inset else {things[i].name for i in framed}, step)
+    view = inset.view if inset else _direction(step)
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
+    corners = middle + (inset.room if inset else 1.0) * (corners - middle)
+    turning, sense = TURNS.get(step.key, ("", 0))
+    turns = [
+        _turn(thing, pose, sense or motor)
+        for thing, pose in zip(things, at, strict=True)
+        if thing.name == turning and not inset
+    ]
+    return StepView(name, title, tuple(things), tuple(at), pale, labels, corners, view, tuple(turns))
+
+
+def _turn(thing: Visual, pose: Array, senses: int) -> Array:
+    """Return three quarters of a circle around a thing's end on the left, in the sense in which it turns."""
+    low, high = thing.mesh.bounds / 1000.0
+    radius = max(TURN_M, 1.15 * float(high[0] - low[0]) / 2.0)
+    corners = _corners(thing, pose)
+    middle = corners.mean(axis=0)
+    angle = senses * np.linspace(0.0, 1.5 * np.pi, 40)
+    y = np.full_like(angle, corners[:, 1].max() + 0.001)
+    # about +y from z towards x: counter-clockwise as seen from the left
+    return np.column_stack([middle[0] + radius * np.sin(angle), y, middle[2] + radius * np.cos(angle)])
+
+
+def _direction(step: Step) -> View:
+    """Return the side from which most things of a step come."""
+    right = sum(placed.move.along == "from the right" for placed in step.placed)
+    return FROM_RIGHT if right > len(step.placed) / 2 else FROM_LEFT
+
+
+def _apart(robot: Robot, step: Step, poses: dict[str, Array], onto: bool) -> dict[str, Array]:
+    """Return by how much (3,) everything of a step is moved back on its path, so that those of one path are apart.
+
+    The first thing stays where it is, unless there is something `onto` which it is put.
+    """
+    moved: dict[str, Array] = {}
+    stacked: list[tuple[Array, Array, float]] = []
+    for placed in step.placed:
+        way = _way(robot, placed, poses)
+        if placed.move.way == "laid":
+            continue
+        corners = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in placed.things])
+        along = np.einsum("ni,i->n", corners, way)
+        back = 2.0 * APART_M if onto or step.placed[0] is not placed else 0.0
+        for other_way, other, offset in stacked:
+            if (other_way * way).sum() > 0.99 and _beside(corners, other, way):
+                # its front must stay behind the rear of what comes before it
+                back = max(back, offset + float(along.max() - np.einsum("ni,i->n", other, way).min()) + APART_M)
+        back = min(back, FARTHEST_M)
+        stacked.append((way, corners, back))
+        for thing in placed.things:
+            own = way if placed.move.brings else travel(robot, thing, placed.move, poses[thing.body])
+            moved[thing.name] = np.round(-back * own, DIGITS)
+    return moved
+
+
+def _beside(one: Array, other: Array, way: Array) -> bool:
+    """Tell whether two sets of corners (n, 3) overlap as seen along a path."""
+    across = np.cross(way, [0.0, 0.0, 1.0] if abs(way[2]) < 0.9 else [1.0, 0.0, 0.0])
+    for axis in (across, np.cross(way, across)):
+        a, b = (np.einsum("ni,i->n", corners, axis) for corners in (one, other))
+        if a.min() >= b.max() or b.min() >= a.max():
+            return False
+    return True
+
+
+def _way(robot: Robot, placed: Placed, poses: dict[str, Array]) -> Array:
+    first = placed.things[0]
+    return travel(robot, first, placed.move, poses[first.body])
+
+
+def _shifted(pose: Array, by_m: Array | None) -> Array:
+    return pose if by_m is None else pose_at(pose[:3, :3], pose[:3, 3] + by_m)
+
+
+def _labels(
+    things: list[Visual], at: list[Array], poses: dict[str, Array], wanted: set[str], step: Step
+) -> tuple[Label, ...]:
+    """Return one label for all things of one name that stand together, and one for a whole assembly."""
+    brought = {thing.name: placed.move.brings for placed in step.placed for thing in placed.things}
+    found: dict[str, list[tuple[Array, Array]]] = {}
+    for thing, pose in zip(things, at, strict=True):
+        if thing.name in wanted and not thing.name.startswith("motor_shaft"):
+            text = brought.get(thing.name, "") or label_of(thing)
+            ends = (_corners(thing, one).mean(axis=0) for one in (pose, _at_place(thing, poses)))
+            here, there = (np.round(end, DIGITS) for end in ends)
+            found.setdefault(text, []).append((here, there))
+    return tuple(
+        Label(text if len(ends) == 1 or text in brought.values() or "spring" in text else f"{len(ends)} x {text}",
+              *ends[0])
+        for text, ends in found.items()
+    )  # fmt: skip
+
+
+def _corners(thing: Visual, pose: Array) -> Array:
+    """Return the corners (8, 3) of a thing's bounding box in the world (m)."""
+    low, high = thing.mesh.bounds / 1000.0
+    box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+    return np.asarray(np.round(np.einsum("ij,nj->ni", pose[:3, :3], box) + pose[:3, 3], DIGITS))
+
+
+def _at_place(thing: Visual, poses: dict[str, Array]) -> Array:
+    """Return the pose (4, 4) in the world of a thing at its place (m)."""
+    return chained(poses[thing.body], thing.T_body_mesh)

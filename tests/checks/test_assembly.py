@@ -1,0 +1,93 @@
+"""Assembly: in the guide's order all paths are free and tools reach their fasteners; in another they do not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.built import LONG_TOES, built, geared, placed
+
+from jumpcad.building import build
+from jumpcad.checks.assembly import assembly_findings, assembly_ways, paths, tools
+from jumpcad.design import load_design
+from jumpcad.findings import errors
+from jumpcad.robot import Robot
+from jumpcad.scene import assembly_order, assembly_steps
+from jumpcad.scene.assembly_order import Tool
+from jumpcad.workshop import load_workshop
+
+ROBOTS = {
+    "kenan-2.0": lambda: built("kenan-2.0"),
+    "two pairs of gears": geared,
+    LONG_TOES: lambda: built(LONG_TOES),
+    "strong-2s, screws as axles": lambda: _bought("best-bo", kit="strong-2s", retention="nuts"),
+    "clips": lambda: _bought("best-printable", axle="silver-steel", retention="clips"),
+}
+
+
+def _bought(name: str, kit: str = "light-1s", **chosen: str) -> Robot:
+    shop = load_workshop()
+    parts = shop.catalogue.kits[kit].model_dump() | {"kit": kit} | chosen
+    return build(load_design(name), shop.model_copy(update={"bought": shop.bought.model_copy(update=parts)}), name)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_everything_reaches_its_place_and_every_tool_its_fastener(name: str) -> None:
+    findings = assembly_findings(ROBOTS[name]())
+    assert [finding.name for finding in findings] == ["assembly_paths", "tool_access"]
+    assert not errors(findings), [finding.message for finding in errors(findings)]
+
+
+def _reordered(monkeypatch: pytest.MonkeyPatch, first: str, then: str) -> None:
+    """Put one step before another."""
+    plans = list(assembly_order.ORDER)
+    keys = [plan.key for plan in plans]
+    plan = plans.pop(keys.index(first))
+    plans.insert([plan.key for plan in plans].index(then), plan)
+    monkeypatch.setattr(assembly_steps, "ORDER", tuple(plans))
+
+
+@pytest.mark.parametrize(
+    ("first", "then", "blocked"),
+    [
+        ("close", "legs", "leg_axle"),  # a plate over the bores: nothing gets between the plates
+        ("close", "arm", "leg_spring_pin"),  # the pin lies behind the left plate
+        ("cam", "legs", "main_leg"),  # the cam gear covers the roller's lever
+    ],
+)
+def test_another_order_is_blocked(monkeypatch: pytest.MonkeyPatch, first: str, then: str, blocked: str) -> None:
+    _reordered(monkeypatch, first, then)
+    found = [stop.name for _, stop in paths(assembly_ways(built("kenan-2.0"))) if stop]
+    if blocked == "main_leg":
+        assert {"roller", "roller_screw", "main_leg"} & set(found)
+    else:
+        assert blocked in found
+
+
+def test_a_thick_tool_does_not_reach_the_motors_cap(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its screws are 9.6 mm from the motor's axis, so a tool of 20 mm meets the shaft."""
+    plans = [
+        replace(
+            plan,
+            moves=tuple(
+                replace(move, tool=Tool("broomstick", 20.0, 40.0)) if move.parts.startswith("cap_screw") else move
+                for move in plan.moves
+            ),
+        )
+        for plan in assembly_order.ORDER
+    ]
+    monkeypatch.setattr(assembly_steps, "ORDER", tuple(plans))
+    stops = [stop for *_, stop in tools(assembly_ways(built("kenan-2.0"))) if stop]
+    assert {stop.name for stop in stops} == {"cap_screw_1", "cap_screw_2"}
+    assert {stop.by for stop in stops} <= {"motor_shaft", "motor_pinion", "body_plate_right", "standoff_1"}
+
+
+def test_the_left_plate_meets_nothing_on_its_way_down() -> None:
+    """The same path by another program: trimesh's meshes, moved to the left in steps."""
+    robot = built("kenan-2.0")
+    plate = placed(robot, "body_plate_left")
+    for name in ("cam_gear", "cam", "stop_bar", "motor_cap", "electronics_tray"):
+        other = placed(robot, name)
+        for away in np.linspace(0.5, 40.0, 12):
+            moved = plate.copy().apply_translation([0.0, away, 0.0])
+            both = moved.intersection(other, engine="manifold")
+            assert both.is_empty or both.volume < 0.05, (name, away)

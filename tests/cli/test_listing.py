@@ -1,0 +1,51 @@
+"""`jumpcad list`: every name that it gives is taken where it says."""
+
+import json
+
+import pytest
+from support.commands import Run
+
+from jumpcad.cli.listing import USED_AS
+from jumpcad.files import template_names
+from jumpcad.workshop import load_workshop
+
+
+def names(run: Run, kind: str) -> list[str]:
+    code, out, err = run("list", kind, "--json")
+    assert (code, err) == (0, "")
+    rows = json.loads(out)[kind]
+    assert all(row["description"] for row in rows)
+    return [row["name"] for row in rows]
+
+
+def test_everything_is_listed_with_its_kind(run: Run) -> None:
+    code, out, _ = run("list")
+    assert code == 0
+    for kind in USED_AS:
+        assert f"\n{kind} (" in f"\n{out}"
+    assert {"kenan-2.0", "best-bo"} <= set(out.split())
+
+
+@pytest.mark.parametrize("kind", ["printers", "materials", "workshops"])
+def test_listed_names_are_taken(run: Run, kind: str, tmp_path) -> None:
+    for name in names(run, kind):
+        option = f"--{kind.removesuffix('s')}"
+        code, _, err = run("new", tmp_path / "w.toml", option, name, "--force")
+        if name == "PA12":
+            assert "strength_in_plane_mpa" in err
+        else:
+            assert (code, err) == (0, "")
+
+
+def test_kits_and_parts_are_those_of_the_catalogue(run: Run) -> None:
+    bought, catalogue = load_workshop().bought, load_workshop().catalogue
+    assert bought.kit in names(run, "kits")
+    assert names(run, "motors") == list(catalogue.motors)
+    assert bought.sensor in names(run, "components")
+    assert names(run, "templates") == template_names("robots")
+
+
+def test_an_unknown_kind_is_refused_with_a_hint(run: Run) -> None:
+    code, out, err = run("list", "printer")
+    assert (code, out) == (2, "")
+    assert "did you mean printers?" in err

@@ -1,0 +1,76 @@
+"""Blows along the drive: conservation of energy and momentum, and an independent solver of the motion."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from jumpcad.drive import blows
+from jumpcad.drive.blows import damping_share, largest_torques_nm
+
+CAM, GEAR, ROTOR = 6e-7, 2e-6, 3e-3
+"""Moments of inertia at the cam (kg·m²) of a usual drive."""
+
+
+@pytest.mark.parametrize("rebound", [0.4, 0.5, 0.8, 1.0])
+def test_a_spring_with_a_damper_throws_back_as_said(rebound: float) -> None:
+    """A mass of 1 kg on a spring of 1 N/m, until the force is zero."""
+    share = damping_share(rebound)
+
+    def pushes(_: float, state: np.ndarray) -> float:
+        return float(state[0] + 2.0 * share * state[1])
+
+    pushes.terminal, pushes.direction = True, -1.0  # type: ignore[attr-defined]
+    flight = solve_ivp(
+        lambda t, s: [s[1], -pushes(t, s)], (0.0, 10.0), [1e-9, 1.0], events=pushes, rtol=1e-9, atol=1e-12
+    )
+    assert -flight.y[1, -1] == pytest.approx(rebound, abs=1e-4)
+
+
+def test_two_masses_without_losses_meet_with_the_root_of_the_stiffness() -> None:
+    """½·m·v² = ½·T²/k with the reduced mass."""
+    blow, _ = largest_torques_nm((CAM, GEAR, ROTOR), 60.0, 0.0, 1e6, 150.0, 1.0)
+    assert blow == pytest.approx(60.0 * math.sqrt(150.0 * CAM * GEAR / (CAM + GEAR)), rel=0.01)
+
+
+def test_a_light_cam_throws_the_gear_and_the_rotor_stops_it() -> None:
+    """Without losses the gear leaves with 2·J/(J + Jg) of the cam's speed, and an endless rotor stops it."""
+    _, kick = largest_torques_nm((CAM, GEAR, 1e6), 60.0, 0.0, 0.02, 150.0, 1.0)
+    thrown = 60.0 * 2.0 * CAM / (CAM + GEAR)
+    assert kick == pytest.approx(thrown * math.sqrt(150.0 * GEAR), rel=0.01)
+
+
+def test_without_backlash_cam_and_gear_stop_together_at_most() -> None:
+    """All of the cam's energy in the spring of the rotor is the most there can be."""
+    for rebound in (0.3, 0.5, 1.0):
+        _, kick = largest_torques_nm((CAM, GEAR, ROTOR), 60.0, 0.0, 0.0, 150.0, rebound)
+        assert 0.0 < kick <= 60.0 * math.sqrt(150.0 * CAM) * 1.001
+
+
+@pytest.mark.parametrize("backlash_deg", [0.0, 0.3, 2.0])
+def test_the_torques_are_those_of_an_independent_solver(backlash_deg: float) -> None:
+    speed, motor, k, share = 60.0, 1.5, 150.0, damping_share(0.5)
+    gap = math.radians(backlash_deg)
+    dampings = [2.0 * share * math.sqrt(k * a * b / (a + b)) for a, b in ((CAM, GEAR), (GEAR, ROTOR))]
+
+    def torques(state: np.ndarray) -> list[float]:
+        deep = (state[0] - state[1], state[1] - state[2] - gap)
+        closing = (state[3] - state[4], state[4] - state[5])
+        return [max(k * d + c * v, 0.0) if d > 0.0 else 0.0 for d, v, c in zip(deep, closing, dampings, strict=True)]
+
+    def motion(_: float, state: np.ndarray) -> list[float]:
+        dog, head = torques(state)
+        return [*state[3:], -dog / CAM, (dog - head) / GEAR, head / ROTOR]
+
+    start = [1e-12, 0.0, 0.0, speed, motor, motor]
+    solved = solve_ivp(motion, (0.0, 0.008), start, max_step=2e-6, rtol=1e-7, atol=1e-12)
+    expected = np.array([torques(state) for state in solved.y.T]).max(axis=0)
+    found = largest_torques_nm((CAM, GEAR, ROTOR), speed, motor, gap, k, 0.5)
+    assert found == pytest.approx(expected, rel=0.01)
+
+
+def test_finer_steps_give_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    usual = largest_torques_nm((CAM, GEAR, ROTOR), 60.0, 1.5, 0.03, 150.0, 0.5)
+    monkeypatch.setattr(blows, "STEP_SHARE", 0.002)
+    assert usual == pytest.approx(largest_torques_nm((CAM, GEAR, ROTOR), 60.0, 1.5, 0.03, 150.0, 0.5), rel=0.01)

@@ -1,0 +1,113 @@
+"""Legs with a bought bar between printed ends: measured on meshes, and against handbook formulas."""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from jumpcad import build, load_design, load_workshop
+from jumpcad.catalogue import load_catalogue
+from jumpcad.checks import check
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.findings import errors
+from jumpcad.robot import Robot
+from jumpcad.strength.leg_bar import Socket, bar_bending_mpa, bar_shear_mpa, bent_energy_nmm, buckling_n
+from jumpcad.workshop import Workshop
+
+BARS = load_catalogue().bars
+
+
+def workshop(leg: str) -> Workshop:
+    shop = load_workshop()
+    return Workshop(**(shop.model_dump() | {"bought": shop.bought.model_dump() | {"leg": leg}}))
+
+
+@lru_cache(maxsize=4)
+def robot(leg: str, name: str = "kenan-2.0") -> Robot:
+    return build(load_design(name), workshop(leg), name)
+
+
+def pieces(found: Robot, body: str) -> dict[str, np.ndarray]:
+    """Bounds (2, 3) of every piece of a leg in the leg's frame (mm), the bar's too."""
+    sizes = {}
+    for part in found.parts:
+        for number, place in enumerate(part.placements):
+            if place.body == body and part.name.startswith(body):
+                mesh = part.mesh.copy().apply_transform(place.T_body_part)
+                assert mesh.is_watertight
+                sizes[f"{part.name}{number}"] = mesh.bounds
+    bar = next(item for item in found.hardware if item.name == f"{body}_bar")
+    sizes["bar"] = bar.look.copy().apply_transform(bar.T_body_part).bounds
+    return sizes
+
+
+@pytest.mark.parametrize("leg", ["carbon-tube-4x2", "carbon-strip-3x6"])
+def test_bars_sit_in_the_sockets_of_both_ends(leg: str) -> None:
+    """Each end holds the bar over twice its height or 8 mm, and nothing else joins them."""
+    found = robot(leg)
+    for body, last in (("main_leg", "main_leg_end0"), ("front_link", "front_link1")):
+        sizes = pieces(found, body)
+        first, end, bar = (sizes[name][:, 0] for name in (f"{body}0", last, "bar"))
+        assert first[1] < end[0], "the printed ends are apart"
+        assert bar[0] < first[1] - 7.5
+        assert bar[1] > end[0] + 7.5
+        height, width = np.ptp(sizes["bar"][:, 2]), np.ptp(sizes["bar"][:, 1])
+        assert (width, height) == pytest.approx((BARS[leg].width_mm, BARS[leg].height_mm), abs=0.1)
+
+
+@pytest.mark.parametrize("leg", ["carbon-tube-4x2", "carbon-strip-3x6"])
+def test_such_legs_pass_every_check_and_nothing_meets(leg: str) -> None:
+    found = check(robot(leg))
+    assert not errors(found)
+    names = {finding.name for finding in found}
+    assert {"leg_bar_strength", "leg_socket_strength", "leg_bar_bond", "leg_bar_flex", "front_bar_buckling"} <= names
+    assert not {"leg_flex", "front_link_buckling"} & names
+
+
+def test_a_tube_makes_the_legs_lighter() -> None:
+    whole, light = robot(""), robot("carbon-tube-4x2")
+    assert whole.mass_kg - light.mass_kg > 2e-3
+    assert light.bodies["main_leg"].inertia_kg_m2[1, 1] < whole.bodies["main_leg"].inertia_kg_m2[1, 1]
+
+
+def test_the_mass_of_a_bar_is_its_section_times_its_length() -> None:
+    """4 x 2 mm of 1.5 g/cm³: 14.1 g a metre."""
+    bar = next(item for item in robot("carbon-tube-4x2").hardware if item.name == "front_link_bar")
+    length = np.ptp(bar.shape.bounds_mm[:, 0])
+    assert bar.mass_kg == pytest.approx(14.1e-6 * length, rel=0.01)
+    assert f"cut {length:.1f} mm" in bar.article
+
+
+def test_a_bar_that_is_too_weak_is_found() -> None:
+    """Half of best-printable's torque is more than a tube of 4 x 3 mm bears in shear at its socket."""
+    (found,) = [one for one in check(robot("carbon-tube-4x3", "best-printable")) if one.name == "leg_bar_strength"]
+    assert found.severity == "error"
+    assert "bought.leg" in found.remedy
+
+
+def test_a_leg_that_is_too_short_is_refused_with_the_length_that_misses() -> None:
+    short = load_design("kenan-2.0").model_copy(update={"carrying_link_mm": 62.0})
+    with pytest.raises(CannotBuildError, match=r"bought\.leg.* mm of the .* are free between the bar's sockets; 5 mm"):
+        build(short, workshop("carbon-tube-6x4"))
+
+
+def test_an_unknown_bar_is_refused_with_a_hint() -> None:
+    with pytest.raises(JumpcadError, match=r"no leg bar 'carbon-tube-4x1'.*carbon-tube-4x2"):
+        build(load_design("kenan-2.0"), workshop("carbon-tube-4x1"))
+
+
+def test_formulas_are_those_of_the_handbooks() -> None:
+    """Tube and strip: Shigley 3-10, 3-12, 4-12, energy of a tip load F²l³/(6EI); socket by equilibrium."""
+    tube, strip = BARS["carbon-tube-6x4"], BARS["carbon-strip-3x6"]
+    assert bar_bending_mpa(tube, 500.0, 0.0) == pytest.approx(32.0 * 500.0 * 6.0 / (math.pi * (6.0**4 - 4.0**4)))
+    assert bar_bending_mpa(strip, 500.0, 36.0) == pytest.approx(6.0 * 500.0 / (3.0 * 36.0) + 2.0)
+    assert bar_shear_mpa(strip, 12.0, 0.0) == pytest.approx(1.0)
+    assert bar_shear_mpa(tube, 0.0, 100.0) == pytest.approx(100.0 * 3.0 / (2.0 * tube.second_moment_mm4))
+    assert buckling_n(strip, 100.0) == pytest.approx(math.pi**2 * 127000.0 * 6.0 * 27.0 / 12.0 / 1e4)
+    energy = bent_energy_nmm(np.full(2001, 1e6), 1000.0, 100.0)
+    assert energy == pytest.approx(10.0**2 * 100.0**3 / (6.0 * 1e6), rel=1e-3)
+    socket = Socket(strip, 30.0, 6.0, 9.0, 0.0)
+    x = np.linspace(-15.0, 15.0, 3001)
+    pressed = 3.0 * socket.pressure_mpa(600.0, 0.0) * x / 15.0  # a force a length that changes evenly
+    assert np.trapezoid(pressed * x, x) == pytest.approx(600.0, rel=1e-3)

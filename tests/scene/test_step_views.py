@@ -1,0 +1,42 @@
+"""What pictures of steps show: things stand before their places, behind what comes first, and turn as they will."""
+
+import numpy as np
+import pytest
+from support.built import built, geared
+
+from jumpcad.scene.step_views import StepView, motor_sense, step_views
+
+
+@pytest.fixture(scope="module")
+def views() -> dict[str, list[StepView]]:
+    return step_views(built("kenan-2.0"))
+
+
+def test_what_goes_on_an_axle_first_stands_nearest_to_its_place(views: dict[str, list[StepView]]) -> None:
+    view = views["legs"][0]
+    y = {thing.name: pose[1, 3] for thing, pose in zip(view.things, view.poses, strict=True)}
+    order = ["spring_bushing_right", "spring_right", "main_leg", "spring_left", "spring_bushing_left"]
+    heights = [y[name] for name in order]
+    assert heights == sorted(heights)
+
+
+def test_labels_name_what_is_put_on_and_lead_to_its_place(views: dict[str, list[StepView]]) -> None:
+    labels = {label.text: label for label in views["arm"][0].labels}
+    pin = labels["leg spring pin"]
+    assert pin.at_m[1] > pin.place_m[1] + 0.005, "from the left"
+    assert np.allclose(pin.at_m[[0, 2]], pin.place_m[[0, 2]], atol=1e-6)
+    assert {"left-hand spring", "right-hand spring"} <= {label.text for label in views["legs"][0].labels}
+
+
+def test_two_meshing_gears_turn_oppositely_and_three_alike() -> None:
+    assert motor_sense(built("kenan-2.0")) == -1
+    assert motor_sense(geared()) == 1
+
+
+def test_the_turn_of_the_cam_is_counter_clockwise_as_seen_from_the_left(views: dict[str, list[StepView]]) -> None:
+    """Seen from +y with z up, x points to the left, so x-z must be mirrored for the usual area."""
+    (curve,) = views["trial"][0].turns_m
+    across, up = -curve[:, 0], curve[:, 2]
+    middle = np.array([across.mean(), up.mean()])
+    a, b = np.array([across[0], up[0]]) - middle, np.array([across[5], up[5]]) - middle
+    assert a[0] * b[1] - a[1] * b[0] > 0.0
