@@ -34,7 +34,7 @@ SPACE = Space.default()
 
 def request_of(rows: int) -> Request:
     """Return the request that the study answers."""
-    return Request(SPACE, RobotModel("capsule"), method="bo", evaluations=rows, batch=1)
+    return Request(SPACE, RobotModel("capsule"), method="ga", evaluations=rows)
 
 
 def trials(rows: int) -> Iterator[Trial]:
@@ -44,7 +44,7 @@ def trials(rows: int) -> Iterator[Trial]:
     for number in range(rows):
         evaluation = replace(found, metrics={**found.metrics, "fitness": float(scores[number])})
         yield Trial(
-            "bo", 0, number, SPACE.to_design(points[number]), evaluation, float(scores[number]), "m" * 64, 0.1
+            "ga", number, 0, SPACE.to_design(points[number]), evaluation, float(scores[number]), "m" * 64, 0.1
         )  # fmt: skip
 
 
@@ -71,7 +71,8 @@ def resume(path: Path, rows: int) -> None:
     with StudyStore.write(path, request.identity([])) as store, local_pool(0) as pool:
         evaluator = Evaluator(SPACE, request.aim, request.model, store, pool)
         points = SPACE.spread(rows, np.random.default_rng(0))
-        evaluator.evaluate([SPACE.to_design(point) for point in points], "bo", 0)
+        for number, point in enumerate(points):  # as a method's steps, from the study
+            evaluator.evaluate([SPACE.to_design(point)], "ga", number)
         run_bayesian(evaluator, Task(2, 0))
 
 

@@ -16,11 +16,13 @@ from jumpcad.search.objective import Objective
 from jumpcad.search.parameter import Parameter
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Posterior, unwarped, warped
-from jumpcad.search.trial import Trial
+from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
 ACQUISITION = "log10 of EI × P(feasible)"
+MOST_DRAWN = 2000
+"""Trials that are drawn as shapes of their own; more of them are one image, or the best of them are drawn."""
 DECADES = 6.0
 """The acquisition is drawn down to this many decades below its maximum."""
 
@@ -30,12 +32,13 @@ def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score of every evaluation, and the best so far."""
     figure, (axes,) = panels(1, 6.4, 3.6)
     scores = _scores(trials)
-    number = np.arange(1, len(trials) + 1)
+    number, many = np.arange(1, len(trials) + 1), len(trials) > MOST_DRAWN
     for colour, phase in zip(COLOURS, dict.fromkeys(trial.phase for trial in trials), strict=False):
         of_phase = np.array([trial.phase == phase for trial in trials])
-        axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase)
+        axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase, rasterized=many)
     axes.plot(number, np.fmax.accumulate(scores), "-", lw=1.2, color="black", label="best so far")
-    axes.plot(number[np.isnan(scores)], np.zeros(int(np.isnan(scores).sum())), "|", color=GREY, label="rejected")
+    rejected = number[np.isnan(scores)]
+    axes.plot(rejected, np.zeros(len(rejected)), "|", color=GREY, label="rejected", rasterized=many)
     labels(axes, "evaluation", f"{objective.meaning} ({objective.unit})")
     axes.legend()
     return figure
@@ -50,16 +53,16 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
     for axes, parameter in zip(all_axes, space.free, strict=True):
         values = [parameter.number(trial.variant.value(parameter.name)) for trial in feasible]
         _name_ticks(axes, parameter.names)
-        axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8)
+        axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8, rasterized=len(feasible) > MOST_DRAWN)
         labels(axes, parameter.name, objective.unit)
     return figure
 
 
 @typed
 def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
-    """Draw every feasible design as a line over the free parameters, the better the darker."""
+    """Draw feasible designs as lines over the free parameters, the better the darker; at most the best `MOST_DRAWN`."""
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
-    feasible = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: trial.score or 0.0)
+    feasible = feasible_trials(trials)[:MOST_DRAWN][::-1]
     ranks = np.linspace(0.0, 1.0, len(feasible))
     for rank, trial in zip(ranks, feasible, strict=True):
         colour = (BLUE if rank < 0.95 else RED, 0.05 + 0.9 * rank**4)
