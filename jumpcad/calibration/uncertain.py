@@ -21,7 +21,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.variants import with_lengths, with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
-from jumpcad.search.robust import with_length_errors
+from jumpcad.search.tolerances import with_length_errors
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation import simulate
 from jumpcad.transforms import Array
