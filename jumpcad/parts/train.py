@@ -138,8 +138,8 @@ def _with_track(gear: Stack, layout: Layout) -> Stack:
 
     steps = round(sensor.depth_mm / step)
     rising = [(low + n * step, low + (n + 1) * step, land((n + 0.5) * step)) for n in range(steps)]
-    # what carries the land, where the web has holes
-    return gear.minus([(low, top, groove)]).plus([(0.0, low, land(0.0)), *rising])
+    # the ring under the groove carries the land where the web has holes
+    return gear.minus([(low, top, groove)]).plus([(0.0, low, groove), *rising])
 
 
 def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:
