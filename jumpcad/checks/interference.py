@@ -26,7 +26,8 @@ WINDING_POSITIONS = 13
 DROP_POSITIONS = 13
 PAST_POSITIONS = 3
 AHEAD_SHARES = (0.0, 0.5, 1.0)
-"""Leg positions from rest to the end of the pad's deflection, each with the cam ahead of its gear by shares of its play."""
+"""Leg positions from rest to the end of the pad's deflection, each with the cam ahead of its gear by shares of the
+play."""
 TOLERANCE_MM3 = 0.05
 """Facets of two circles that touch share less than this."""
 TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")

@@ -53,7 +53,7 @@ def sideways_findings(robot: Robot) -> list[Finding]:
     return [
         at_least(
             "sideways_tipping", worst.margin_deg, reserve, "°",
-            f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which the play of its joints "
+            f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
             f"takes {worst.play_deg:.1f}°; {reserve:g}° must be left",
             f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm",
         )

@@ -187,7 +187,7 @@ def _sideways(case: LoadCase) -> Iterator[Finding]:
 
 
 def _seats(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of the plates around axles and pins, and of the cam's dog: loaded, and struck at the end of its play."""
+    """Yield the findings of the plates around axles and pins, and of the cam's dog, loaded and at the impact."""
     safety, body = case.workshop.safety, case.workshop.material("body")
     arms, cam = case.wound_forces_n
     seat = case.layout.lateral.left_plate[1] - case.layout.lateral.left_plate[0] - case.layout.floor_mm

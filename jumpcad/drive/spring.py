@@ -156,7 +156,7 @@ class TorsionSpring:
 
     @property
     def hands(self) -> tuple[Literal["right"], Literal["left"]]:
-        """Hands of the left and the right spring, of which one is the mirror image of the other."""
+        """Hands of the left and the right spring: from plate to leg the left one's wire runs to the right."""
         return ("right", "left")
 
 

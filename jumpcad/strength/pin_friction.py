@@ -15,8 +15,8 @@ def pin_torque_nm(mechanism: Mechanism, coefficient: float) -> float:
 
     Rounded to 1 µN·m: it is written into files, and the forces come from linear algebra.
 
-    The work is that of coefficient · radius · force along the turn of each pin, over the springs' travel. The forces are those
-    of `push_off`, for which legs and foot have no mass, times `TILTING`.
+    The work of coefficient · radius · force along the turn of each pin is divided by the springs' travel. The forces
+    are those of `push_off`, for which legs and foot have no mass, times `TILTING`.
     """
     friction = mechanism.friction
     if friction is None or coefficient == 0.0:
