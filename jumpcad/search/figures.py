@@ -38,6 +38,7 @@ MEANINGS = {
 """What a picture means, by its name in `PICTURES`."""
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#d9822b", "#8a8f98", "#b3322b"
+INK = "#4a4f57"
 PNG_DPI = 150
 LETTERS_PER_INCH = 17.0
 """Of the sentence below a picture."""
@@ -71,7 +72,7 @@ def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
     """
     pixels = io.BytesIO()
     if name in MEANINGS:
-        figure.supxlabel(fill(MEANINGS[name], int(LETTERS_PER_INCH * figure.get_figwidth())), fontsize=7.5, color=GREY)
+        figure.supxlabel(fill(MEANINGS[name], int(LETTERS_PER_INCH * figure.get_figwidth())), fontsize=7.5, color=INK)
     with matplotlib.rc_context(STYLE):
         drawn = svg_text(figure)
         figure.savefig(pixels, format="png", dpi=PNG_DPI, metadata={"Software": None})

@@ -46,7 +46,8 @@ def _lines(trial: Trial) -> Iterator[tuple[str, str]]:
     design = trial.design
     for name, value in design.model_dump().items():
         yield name, f"{value:.5g}" if isinstance(value, float) else str(value)
-    yield "energy of the springs", f"{1000.0 * energy_j(design):.1f} mJ"
+    if "spring_energy_j" not in trial.evaluation.metrics:
+        yield "spring energy", f"{1000.0 * energy_j(design):.4g} mJ"
     lengths = (design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm)
     yield "main leg, front link, foot, toe", ", ".join(f"{length:.1f}" for length in lengths) + " mm"
     for name, figure in trial.evaluation.metrics.items():
