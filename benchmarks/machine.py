@@ -61,7 +61,10 @@ def judged(label: str, design: Design, workshop: str, contacts: bool) -> Judged 
     found = Judged(label, wrong=[f"finding {one.name}: {one.message}" for one in errors(robot.release.findings)])
     with tempfile.TemporaryDirectory() as folder:
         bundle = Path(folder) / "robot"
-        export(robot, bundle, pictures=False)
+        try:
+            export(robot, bundle, pictures=False)
+        except CannotBuildError as refusal:
+            return Judged(label, wrong=[str(refusal)])
         for fit in spring_pins.fits(bundle):
             found.arms_deg = max(found.arms_deg, abs(fit.angle_error_deg))
             found.wrong += [f"{fit.side} spring: {reason}" for reason in fit.wrong]

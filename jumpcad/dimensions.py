@@ -26,8 +26,10 @@ TAB_MM = 10.0
 """Length along x of a tray's tab in its slot; judgement."""
 TRAY_LENGTH_MIN_MM = 30.0
 """Least length of a tray: its two tabs, 1 mm to either end, and 8 mm between them; judgement."""
-STRAP_SLOT_MM = (2.0, 4.0)
-"""Slots beside the battery for a strap, across the robot and along it; judgement: straps of cable tie width."""
+STRAP_SLOT_MM = (2.0, 11.0)
+"""Slots beside the battery for its strap, across the robot and along it; judgement: hook-and-loop tape 10 mm wide."""
+TIE_SLOT_MM = (1.8, 4.0)
+"""Slots for a cable tie 2.5 mm wide and 1.1 mm thick; judgement: its head turns it."""
 STRAP_EDGE_MM = 2.0
 """From a strap's slot to the plate; judgement: a wall and the tray's play."""
 SOCKET_WALL_MM = 1.6

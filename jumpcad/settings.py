@@ -1,5 +1,6 @@
 """Settings of a simulation: time step, friction, damping, and what is recorded."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
@@ -7,10 +8,23 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from jumpcad.arguments import typed
-from jumpcad.files import Record, find_template
+from jumpcad.files import Contradiction, Record, TomlTable, find_template
 from jumpcad.mechanism.model import Mechanism, Surface
 
 Coefficient = Annotated[float, Field(ge=0, le=100)]
+
+
+class Draws(TomlTable):
+    """What a calibration leaves open: values of settings that go together, one of each list for each draw.
+
+    `jumpcad simulate --uncertain` reads them; a single jump takes the settings themselves.
+    """
+
+    spring_efficiency: Annotated[tuple[Annotated[float, Field(ge=0.1, le=1.5)], ...], Field(strict=False)] = ()
+    pin_friction: Annotated[tuple[Annotated[float, Field(ge=0, le=2)], ...], Field(strict=False)] = ()
+
+    def __bool__(self) -> bool:
+        return bool(self.spring_efficiency)
 
 
 class Settings(Record):
@@ -36,6 +50,9 @@ class Settings(Record):
     pin_friction: Annotated[float, Field(ge=0, le=2, description="coefficient of dry friction in the pins")] | None = (
         None
     )
+    spring_efficiency: Annotated[
+        float, Field(ge=0.1, le=1.5, description="energy that the springs give over that of their rate and angle")
+    ] = 1.0
     joint_friction_nm: Annotated[float, Field(ge=0, le=100, description="dry friction of each joint (its motor)")] = 0.0
     drag_per_s: Annotated[float, Field(ge=0, le=1e3, description="rate at which drag reduces velocity")] = 0.0
     flight: Annotated[
@@ -48,11 +65,18 @@ class Settings(Record):
     published_quantities: Annotated[
         bool, Field(description="go on to the first contact later than 0.5 s, as the published study did")
     ] = False
+    draws: Draws = Draws()
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield draws that do not go together."""
+        first, second = len(self.draws.spring_efficiency), len(self.draws.pin_friction)
+        if first != second:
+            yield ("draws", "pin_friction"), second, f"must be as many values as spring_efficiency has, {first}"
 
     def __repr__(self) -> str:
         changed = ", ".join(
             f"{name}={value:.5g}" if isinstance(value, float) else f"{name}={value}"
-            for name, value in self.model_dump(exclude_defaults=True).items()
+            for name, value in self.model_dump(exclude_defaults=True, exclude={"draws"}).items()
         )
         return f"<Settings: {(changed or 'all default')[:180]}>"
 

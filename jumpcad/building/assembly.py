@@ -10,18 +10,20 @@ from jumpcad.building.releasing import release_of
 from jumpcad.building.settle import settle
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, PAD_WALL_MM
+from jumpcad.drive import Drive
 from jumpcad.drive.stock_spring import springs_on_leg
-from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.layout.drive_places import PLATE_PINS_RAD, NoPinRoomError
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import Layout, make_layout
+from jumpcad.layout.sensor import GEAR_PLAY_MM, SensorNeeds
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface, five_bar
-from jumpcad.parts import axles, body_plate, foot, links, shopping, small, stop, toes, train
+from jumpcad.parts import axles, body_plate, foot, links, sensor, shopping, small, stop, toes, train, trays
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.pads import pads
 from jumpcad.parts.part import Drawing, Part
@@ -33,10 +35,18 @@ from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
-NOT_IN_EVERY_ROBOT = ("idler", "cam_spacer_left", "idler_spacer_right", "toe_left", "toe_right", "main_leg_end")
+NOT_IN_EVERY_ROBOT = (
+    "idler",
+    "cam_spacer_left",
+    "idler_spacer_right",
+    "toe_left",
+    "toe_right",
+    "main_leg_end",
+    "sensor_mount",
+)
 """Parts that only some designs have: a workshop with their weights serves the other designs too."""
 PIN_ROUNDS = 5
-"""In which springs for another direction of their pin are tried."""
+"""Attempts with springs for other directions of their pin."""
 
 
 def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
@@ -80,7 +90,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
 
 
 def _friction(layout: Layout, workshop: Workshop) -> Friction:
-    """Return what rubs: feet and body on the workshop's ground, pins of its axles' diameter."""
+    """Return the friction of feet and body on the workshop's ground, and of pins with its axles' diameter."""
     ground, radius_m = workshop.ground, layout.axle_mm / 2000.0
     hub_m = 0.0 if layout.hub_bearing else radius_m
     pins = (hub_m, radius_m, radius_m, radius_m)
@@ -90,7 +100,7 @@ def _friction(layout: Layout, workshop: Workshop) -> Friction:
 def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> tuple[Layout, HoleSizes]:
     """Return the layout of a design in a workshop, and the hole sizes of its parts.
 
-    Where something stands in the way of the springs' pin, springs for a free direction take their place.
+    If there is no room for the springs' pin, springs for a free direction of the pin are found instead.
     """
     small.require_axle(workshop)
     directions = PLATE_PINS_RAD
@@ -112,7 +122,15 @@ def _laid_out(
     axles.require_retention(workshop.catalogue, workshop.bought)
     chosen = workshop.bought
     carried = chosen_parts(workshop)
-    electronics = Electronics(carried.battery, carried.controller, carried.driver, carried.regulator)
+    parts = carried.components
+    electronics = Electronics(
+        carried.battery,
+        carried.controller,
+        carried.driver,
+        carried.regulator,
+        parts.get("plug"),
+        parts.get("capacitor"),
+    )
     layout = make_layout(
         settled.linkage,
         settled.sections,
@@ -130,12 +148,27 @@ def _laid_out(
         retention=chosen.retention,
         toe_half_width_mm=workshop.body.toe_half_width_mm,
         leg_bar=workshop.leg_bar,
+        sensor=_sensor_needs(workshop, carried, settled.drive),
+        switch=parts.get("switch"),
     )
     return layout, settled.holes
 
 
+def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNeeds | None:
+    """Return what the sensor's place depends on; None without a sensor that has a plunger.
+
+    The cam turns at most as fast as with an unloaded motor and a full battery.
+    """
+    part, seats = chosen.components.get("sensor"), workshop.seats
+    if part is None or part.travel is None:
+        return None
+    stop = float(f"{drive.train.cam_speed_rad_s * seats.sensor_stop_s:.5g}")
+    reserve, layer = math.radians(seats.sensor_reserve_deg), workshop.process.layer_height_mm
+    return SensorNeeds(part, part.travel, seats.sensor_axial_mm, seats.sensor_along_mm, stop, reserve, layer)
+
+
 def _held(layout: Layout, blow: Blow) -> StopBlow:
-    """Return the leg's blow on its stop, rounded: what small steps of time add up to differs between processors."""
+    """Return the leg's impact on its stop, rounded: last digits of an integration in time differ between processors."""
     stop = layout.stop
     held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
     return StopBlow(
@@ -154,7 +187,7 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     low, high = lateral.inside
     front_left = (layout.front_mm, half + GAP_MM / 2.0, high - GAP_MM / 2.0)
     front_right = (layout.front_mm, low + GAP_MM / 2.0, -half - GAP_MM / 2.0)
-    cam_right = (layout.cam_axis_mm, low + GAP_MM / 2.0, lateral.cam[0] - GAP_MM / 2.0)
+    cam_right = (layout.cam_axis_mm, low, lateral.cam[0] - GAP_MM / 2.0)
     made = [
         *links.main_leg(layout, holes),
         links.front_link(layout, holes),
@@ -169,11 +202,12 @@ def drawings(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
         small.spacer(layout, holes, "front_spacer_left", [front_left]),
         small.spacer(layout, holes, "front_spacer_right", [front_right]),
         small.spacer(layout, holes, "cam_spacer_right", [cam_right]),
-        small.trays(layout, holes),
+        *trays.trays(layout, holes),
         stop.stop_bar(layout, holes),
+        *sensor.sensor_mount(layout, holes),
     ]
     if layout.idler_mm is not None:
-        cam_left = (layout.cam_axis_mm, lateral.gears[0][1] + GAP_MM / 2.0, high - GAP_MM / 2.0)
+        cam_left = (layout.cam_axis_mm, lateral.gears[0][1] + GEAR_PLAY_MM, high)
         idler_right = (layout.idler_mm, low + GAP_MM / 2.0, lateral.gears[0][0] - GAP_MM / 2.0)
         made += [
             small.spacer(layout, holes, "cam_spacer_left", [cam_left]),

@@ -9,6 +9,7 @@ from jumpcad.drive.release import ReleaseLimits
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.layout.drive_places import PLATE_PINS_RAD
+from jumpcad.layout.sensor import track_mm
 from jumpcad.layout.stop import GIVE_ROOM_RAD
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.strength.fatigue import spring_share
@@ -86,8 +87,14 @@ def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
         tip_min_mm=workshop.process.line_width_mm,
         pinion_root_min_mm=workshop.bought.axle_mm / 2.0 + fits.sliding_mm + fits.wall_mm,
         shaft_wall_mm=fits.press_mm + fits.wall_mm,
-        cam_gear_root_min_mm=sections.dog_mm / 2.0 + fits.sliding_mm + fits.wall_mm,
+        cam_gear_root_min_mm=sections.dog_mm / 2.0 + max(fits.sliding_mm + fits.wall_mm, _track_mm(workshop)),
     )
+
+
+def _track_mm(workshop: Workshop) -> float:
+    """Return the room that the sensor's track needs between the dog and the cam gear's teeth; 0 without."""
+    sensor = chosen_parts(workshop).components.get("sensor")
+    return track_mm(sensor.travel, workshop.seats.sensor_along_mm) if sensor and sensor.travel else 0.0
 
 
 def release_limits(workshop: Workshop) -> ReleaseLimits:

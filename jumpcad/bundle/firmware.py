@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 
+from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import gpio, wiring_of
 from jumpcad.electronics.supply import supply_of
@@ -20,7 +21,7 @@ SLOWEST = 1.5
 """Time allowed for winding over that on an empty battery; judgement: cold grease and scatter of the motor."""
 SETTLE_MS = 10
 """How long a switch must keep its state; usual of small switches: they bounce for 1 to 5 ms."""
-AFTER_RELEASE_MS = 60
+AFTER_RELEASE_MS = round(1000.0 * RUN_ON_S)
 """Motor runs on after the sensor has opened: twice the leg's fall, and past the switch's bounce; judgement."""
 LANDING_MS = 1500
 """How long after a jump commands and sensor are ignored: the flight, and the landing's 300 m/s² and more; judgement."""
@@ -42,7 +43,7 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
     slow = supply.driven(train.motor, supply.empty_v, torque_max)
     share = min(train.motor_torque_nm / slow.stall_torque_nm, 0.9)
     slowest_s = 2.0 * math.pi * train.ratio / (slow.no_load_rpm * math.pi / 30.0) / (1.0 - share)
-    controller = chosen.controller
+    controller, sensor = chosen.controller, robot.layout.sensor
     pins = {signal: gpio(controller, pin) for signal, pin in wiring.pins.items()}
     return {
         "PIN_MOTOR": pins.get("motor"),
@@ -57,13 +58,22 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "BATTERY_SAG_V": round(train.peak_current_a * chosen.battery.ohm, 3),
         "LOW_MS": LOW_MS,
         "WIND_MAX_MS": math.ceil(SLOWEST * slowest_s * 10.0) * 100,
-        "RELEASE_MAX_MS": math.ceil(SLOWEST * slowest_s / 4.0 * 10.0) * 100,
+        "RELEASE_MAX_MS": math.ceil(SLOWEST * slowest_s * release_share(robot) * 10.0) * 100,
+        "READY_DEG": None if sensor is None else round(math.degrees(sensor.ready_rad), 1),
         "AFTER_RELEASE_MS": AFTER_RELEASE_MS,
         "SETTLE_MS": SETTLE_MS,
         "LANDING_MS": LANDING_MS,
         "BUTTON_DELAY_MS": BUTTON_DELAY_MS,
         "RAMP_MS": RAMP_MS,
     }
+
+
+def release_share(robot: Robot) -> float:
+    """Return the share of a turn from the earliest ready position until the sensor opens at the latest."""
+    sensor = robot.layout.sensor
+    if sensor is None:
+        return 0.25
+    return (sensor.ready_rad + sensor.open_rad + 2.0 * sensor.scatter_rad) / (2.0 * math.pi)
 
 
 WORDS = {
@@ -77,6 +87,7 @@ WORDS = {
     "LOW_MS": "for so long",
     "WIND_MAX_MS": "a blocked motor is off after this at the latest",
     "RELEASE_MAX_MS": "as above, from the ready position over the drop",
+    "READY_DEG": "cam angle before the drop at which the sensor closes; for information",
     "AFTER_RELEASE_MS": "motor runs on after the sensor has opened",
     "SETTLE_MS": "a switch counts after this",
     "LANDING_MS": "ignored after a jump",

@@ -1,16 +1,14 @@
 """wiring.svg and the guide's wiring table: every wire with its ends as the boards name them, its colour and length."""
 
-import math
 from collections.abc import Iterator
 from html import escape
 
 from jumpcad.bundle.electronics import jumps_per_charge
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.nets import LOWER_OHM, Net, Terminal, Wiring, wiring_of
+from jumpcad.parts.leads import lead_lengths
 from jumpcad.robot import Robot
 
-SLACK_MM = 30.0
-"""Added to the straight line for bends and two soldered ends; judgement."""
 ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
            ("controller", "sensor", "upper resistor", "lower resistor"))  # fmt: skip
@@ -19,17 +17,8 @@ STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#
 
 
 def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
-    """Return every wire: its net, both ends, colour and length (mm): the straight line between the parts, and slack.
-
-    Parts that have no place of their own yet count as if they were at the battery.
-    """
-    chosen = chosen_parts(robot.workshop)
-    wiring = wiring_of(chosen, robot.workshop.bought.pins)
-    return [
-        (net.name, start, end, net.colour, _length_mm(robot, start.part, end.part))
-        for net in wiring.nets
-        for start, end in net.wires
-    ]
+    """Return every wire: its net, both ends, colour and length to cut (mm)."""
+    return lead_lengths(robot.layout, wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins))
 
 
 def wiring_lines(robot: Robot) -> Iterator[str]:
@@ -38,7 +27,7 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
     wiring, train = wiring_of(chosen, robot.workshop.bought.pins), robot.layout.drive.train
     yield from ("", "## Wiring", "", "![wiring](wiring.svg)", "", "| from | to | colour | mm |", "|---|---|---|--:|")
     for _, start, end, colour, length in wires(robot):
-        yield f"| {start} | {end} | {colour} | {length:.0f} |"
+        yield f"| {start} | {end} | {colour} | {f'{length:.0f}' if length else 'none'} |"
     yield from ("", *_notes(chosen, wiring), "")
     yield (
         f"One jump takes {train.electrical_j:.2f} J from the battery: {train.motor_j:.2f} J the motor, "
@@ -49,7 +38,8 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
 
 def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
     """Yield what a table does not say."""
-    yield "- lengths are straight lines and 30 mm of slack: an estimate, until every part has its place"
+    yield "- lengths follow the trays, those of sensor and motor pass the plates' holes; 30 mm are for bends and solder"
+    yield "- none: the part's own legs or leads reach"
     yield "- the capacitor at the driver's supply pins, with short legs; its minus is marked"
     if wiring.upper_ohm is not None:
         yield f"- resistors: upper {wiring.upper_ohm // 1000} kΩ, lower {LOWER_OHM // 1000} kΩ, 0.1 W or more"
@@ -61,14 +51,6 @@ def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
     yield "- the driver's reverse input is at ground: the cam must not turn back against its drop"
     yield "- red and black wires may be joined at any terminal of theirs; the table starts each at its source"
     yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles (multimeter)"
-
-
-def _length_mm(robot: Robot, one: str, other: str) -> float:
-    """Return the length of a wire between two roles."""
-    places = {item.name: item.mass.com_m for item in robot.hardware}
-    a, b = (places.get(role, places["battery"]) for role in (one, other))
-    straight = math.dist(a, b)
-    return 10.0 * round((1000.0 * straight + SLACK_MM) / 10.0)
 
 
 def wiring_svg(robot: Robot) -> str:

@@ -6,11 +6,13 @@ from jumpcad.catalogue.articles import (
     Bearing,
     Board,
     Component,
+    ElectricalParts,
     Kit,
     Motor,
     OwnParts,
     Pad,
     StockSpring,
+    Travel,
 )
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.bars import LegBar
@@ -25,6 +27,7 @@ __all__ = [
     "ClevisPin",
     "Clip",
     "Component",
+    "ElectricalParts",
     "Kit",
     "LegBar",
     "Motor",
@@ -36,6 +39,7 @@ __all__ = [
     "Screw",
     "Standoff",
     "StockSpring",
+    "Travel",
     "Washer",
     "Wire",
     "load_catalogue",

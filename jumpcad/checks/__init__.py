@@ -9,7 +9,9 @@ eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, 
 cam_dog_strength, toe_bar_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength,
 leg_pin_strength, foot_pin_strength, roller_screw_strength, axle_retention, pin_retention, spring_fatigue,
 axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque, release_*; `electronics`
-supply_voltage_*, motor_current_*, gearbox_torque, wiring_*; `ground` ground_clearance, foot_clearance; `sideways`
+supply_voltage_*, motor_current_*, gearbox_torque, wiring_*; `sensor` sensor_press,
+sensor_overtravel, sensor_free, sensor_ready, sensor_open; `holding` electronics_hold; `leads` wires_clear;
+`ground` ground_clearance, foot_clearance; `sideways`
 sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs, bridges, solid; `interference` interference;
 `stop` stop_strength, stop_plates, stop_leg, stop_pad, stop_clearance; `engraving` engraving; `assembly`
 assembly_paths, tool_access.
@@ -24,8 +26,11 @@ from jumpcad.checks.drive import drive_findings
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.checks.engraving import engraving_findings
 from jumpcad.checks.ground import foot_findings, ground_findings
+from jumpcad.checks.holding import holding_findings
 from jumpcad.checks.interference import interference_findings
+from jumpcad.checks.leads import lead_findings
 from jumpcad.checks.printability import bed_findings, printability_findings
+from jumpcad.checks.sensor import sensor_findings
 from jumpcad.checks.sideways import sideways_findings
 from jumpcad.checks.stop import stop_findings
 from jumpcad.checks.strength import strength_findings
@@ -56,6 +61,9 @@ CHECKS = (
     Check(stop_findings, cheap=True),
     Check(drive_findings, cheap=True),
     Check(electronics_findings, cheap=True),
+    Check(sensor_findings, cheap=True),
+    Check(holding_findings, cheap=True),
+    Check(lead_findings),
     Check(ground_findings, cheap=True),
     Check(sideways_findings, cheap=True),
     Check(bed_findings, cheap=True),

@@ -13,6 +13,7 @@ from typer.exceptions import TyperException
 
 from jumpcad.cli import (
     bundle,
+    calibrate,
     check,
     coupon,
     designs,
@@ -41,7 +42,8 @@ HELP = ["--help", "-h"]
 
 app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, context_settings={"help_option_names": HELP})
 COMMANDS = (
-    listing, designs, bundle, report, check, slicing, coupon, simulate, reproduce, explore, optimize, study, studio
+    listing, designs, bundle, report, check, slicing, coupon, simulate, calibrate, reproduce, explore, optimize, study,
+    studio,
 )  # fmt: skip
 for module in COMMANDS:
     module.register(app)

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json
+from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
     require_plots,
     require_study,
-    watching,
     with_search_options,
 )
 from jumpcad.errors import JumpcadError
@@ -99,7 +99,8 @@ def explore(
     require_apart({"--study": options.study, "--plots": plots}, {"--around": around, **options.inputs()})
     require_study(options.study)
     require_plots(plots, force)
-    space, robot = Space.parse(options.fix or (), options.bound or (), options.choose or ()), options.robot_model()
+    robot = options.robot_model()
+    space = Space.parse(options.fix or (), options.bound or (), options.choose or (), workshop=robot.workshop)
     objective, centre = find_objective(options.objective or robot.default_objective), load_design(around or AROUND)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),
@@ -138,7 +139,11 @@ def _swept(centre: "Design", points: int) -> View:
         sweeps = sweep(evaluator, centre, points)
         data = {
             one.parameter: [
-                {"value": value, "score": trial.score, "verdict": trial.evaluation.verdict}
+                {
+                    "value": one.names[int(value)] if one.names else value,
+                    "score": trial.score,
+                    "verdict": trial.evaluation.verdict,
+                }
                 for value, trial in zip(one.values, one.trials, strict=True)
             ]
             for one in sweeps
@@ -198,8 +203,8 @@ def _mapped(centre: "Design", over: str, points: int) -> View:
         reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]
         counts = Counter(reason for line in reasons for reason in line).most_common()
         data = {
-            "x": {"name": found.x_name, "values": found.x},
-            "y": {"name": found.y_name, "values": found.y},
+            "x": {"name": found.x_name, "values": found.x_names or found.x},
+            "y": {"name": found.y_name, "values": found.y_names or found.y},
             "verdicts": reasons,
         }
         lines = [f"{count:6d}  {reason}" for reason, count in counts]

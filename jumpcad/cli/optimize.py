@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
+from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import (
     PlotsOption,
     SearchOptions,
     require_plots,
     require_study,
-    watching,
     with_search_options,
 )
 from jumpcad.search.methods import METHODS
@@ -51,6 +51,7 @@ UntilOption = Annotated[
     ),
 ]
 HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
+WidenFlag = Annotated[bool, typer.Option("--widen", help="Move bounds on which the best design lies, and go on.")]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
@@ -75,6 +76,7 @@ def optimize(
     from_study: FromOption = None,
     until: UntilOption = 0.0,
     hours: HoursOption = 0.0,
+    widen: WidenFlag = False,
     output: OutputOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -88,22 +90,29 @@ def optimize(
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.search.request import Request
+    from jumpcad.search.result import workshop_file
     from jumpcad.search.space import Space
     from jumpcad.search.study import run_study
 
     centre = load_design(around) if around else None
     names = [name.strip() for name in only.split(",")] if only else []
-    space = Space.parse(options.fix or (), options.bound or (), options.choose or (), centre, names, within)
+    robot = options.robot_model()
+    changes = (options.fix or (), options.bound or (), options.choose or ())
+    space = Space.parse(*changes, centre, names, within, robot.workshop)
     request = Request.make(
-        space, options.robot_model(), method, options.objective,
+        space, robot, method, options.objective,
         evaluations=evaluations, seed=options.seed, preset=preset, batch=batch, prior=from_study,
-        until_percent=until, hours=hours,
+        until_percent=until, hours=hours, widen=widen,
     )  # fmt: skip
     path = options.study or Path(request.default_name())
     require_study(path)
     design_file = output or path.with_suffix(".toml")
+    outputs = {"the study": path, "the design file": design_file, "--plots": plots}
+    if space.of_workshop:
+        outputs["the workshop file"] = workshop_file(design_file)
+        require_target(workshop_file(design_file), (".toml",), force)
     require_apart(
-        {"the study": path, "the design file": design_file, "--plots": plots},
+        outputs,
         {"--from-study": from_study, "--around": around, **options.inputs()},
     )
     require_target(design_file, (".toml",), force)
@@ -119,7 +128,10 @@ def optimize(
     pictures = _plot(path, plots)
     if as_json:
         written = None if result.winner is None else str(design_file)
-        print_json({"study": str(path), "pictures": pictures, "design_file": written} | result.to_dict())
+        data = {"study": str(path), "pictures": pictures, "design_file": written}
+        if space.of_workshop:
+            data["workshop_file"] = None if result.winner is None else str(workshop_file(design_file))
+        print_json(data | result.to_dict())
     else:
         _print_result(result, design_file)
     if result.winner is None:
@@ -150,10 +162,13 @@ def _plot(path: Path, folder: Path | None) -> list[str]:
 
 def _print_result(result: "Result", design_file: Path) -> None:
     from jumpcad.search.fronts import energy_j
+    from jumpcad.search.result import workshop_file
 
     request = result.request
     more = result.evaluations - len(result.trials)
     around = f", and {more} for the robust pick" if more else ""
+    if request.aim.neighbours_of:
+        around = f", in {result.evaluations} evaluations with their neighbours"
     print(f"{len(result.trials)} designs evaluated{around}; rejected: {_counted(result.rejected)}")
     for note in result.notes:
         print(f"note: {note}")
@@ -174,10 +189,19 @@ def _print_result(result: "Result", design_file: Path) -> None:
     print(f"\n{escaped(str(design_file))}: {request.objective} {result.score:.4f}")
     for name, value in result.design.model_dump().items():
         print(f"  {name:24s}{value:12.5g}")
+    for key, value in result.winner.workshop.items():
+        print(f"  {key:24s}" + (f"{value or repr(value):>12s}" if isinstance(value, str) else f"{value:12.5g}"))
+    for wider in result.widened:
+        change = f"{wider.worth:+.4f}" if wider.worth is not None else f"rejected by {wider.reason}"
+        moved = (
+            f"{wider.name}, {wider.side} bound {wider.value:g} to {wider.beyond:g}" if wider.side else "all together"
+        )
+        print(f"widened: {moved}: {change}")
     for bound in result.bounds:
         change = "is rejected: " + bound.reason if bound.worth is None else f"changes the score by {bound.worth:+.4f}"
         print(f"at its {bound.side} bound: {bound.name} = {bound.value:g}; {bound.beyond:g} {change}")
-    print(f"\nnext: jumpcad build {escaped(str(design_file))}")
+    workshop = f" --workshop {escaped(str(workshop_file(design_file)))}" if result.winner.workshop else ""
+    print(f"\nnext: jumpcad build {escaped(str(design_file))}{workshop}")
 
 
 def _counted(reasons: dict[str, int]) -> str:

@@ -1,26 +1,21 @@
-"""What `explore` and `optimize` share: their common options, checks of their files, progress."""
+"""What `explore` and `optimize` share: their common options, checks of their files."""
 
 import functools
 import inspect
 import os
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
-from jumpcad.cli.output import console
 from jumpcad.errors import JumpcadError
 from jumpcad.simulation.engines import ENGINES, in_words
 
 if TYPE_CHECKING:
-    from jumpcad.search.evaluator import Watch
     from jumpcad.search.models import RobotModel
     from jumpcad.search.pool import Pool
-    from jumpcad.search.trial import Trial
 
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Write pictures (SVG and PNG) into this folder.", metavar="FOLDER", file_okay=False)
@@ -37,8 +32,8 @@ class SearchOptions:
     objective: Annotated[
         str | None,
         typer.Option(
-            help="body_lengths, fitness, range, rise, range-per-joule, range-per-spring-joule, jumps-per-joule, or an "
-            "own function of a jump's figures.",
+            help="body_lengths, fitness, range, rise, range-per-joule, range-per-spring-joule, jumps-per-joule, "
+            "p10 (what nine of ten neighbours reach; p10-range and so on), or an own function of a jump's figures.",
             metavar="NAME|FILE.py:FUNCTION",
             show_default="body_lengths; fitness of robots that are not printed",
         ),
@@ -47,11 +42,16 @@ class SearchOptions:
         Path | None, typer.Option(help="The study file, new or to be continued.", metavar="F.db", dir_okay=False)
     ] = None
     seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0
-    fix: Annotated[list[str] | None, typer.Option(help="Fix a parameter.", metavar="NAME=VALUE")] = None
-    bound: Annotated[
-        list[str] | None, typer.Option(help="Search a parameter in another range.", metavar="NAME=LO:HI")
+    fix: Annotated[
+        list[str] | None, typer.Option(help="Fix a parameter, or a value of the workshop.", metavar="NAME=VALUE")
     ] = None
-    choose: Annotated[list[str] | None, typer.Option(help="Allow some values only.", metavar="NAME=a,b,c")] = None
+    bound: Annotated[
+        list[str] | None,
+        typer.Option(help="Search a parameter, or a value of the workshop, in a range.", metavar="NAME=LO:HI"),
+    ] = None
+    choose: Annotated[
+        list[str] | None, typer.Option(help="Allow some values only: bought.battery=a,b.", metavar="NAME=a,b,c")
+    ] = None
     workshop: Annotated[
         str | None,
         typer.Option(help="Workshop of the printed robot: a template's name or a file.", show_default="default"),
@@ -146,33 +146,3 @@ def require_plots(folder: Path | None, force: bool) -> None:
     for name in PICTURES:
         for suffix in (".svg", ".png"):
             require_free(folder / f"{name}{suffix}", force)
-
-
-@contextmanager
-def watching(total: int, quiet: bool) -> Iterator["Watch"]:
-    """Show rate, best score and time left on standard error while a search runs, if that is a terminal."""
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    from jumpcad.search.trial import SEARCH_PHASES
-
-    columns = (
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
-        TextColumn("{task.fields[rate]}  best {task.fields[best]}"), TimeRemainingColumn(),
-    )  # fmt: skip
-    with Progress(*columns, console=console(stderr=True), disable=quiet or not sys.stderr.isatty()) as progress:
-        task = progress.add_task("search", total=total, rate="", best="–")
-        best: list[float] = []
-
-        def watch(trial: "Trial", computed: bool) -> None:
-            if trial.phase not in SEARCH_PHASES:
-                progress.update(task, advance=1, description="robust pick")
-                return
-            if trial.score is not None and (not best or trial.score > best[0]):
-                best[:] = [trial.score]
-            speed = progress.tasks[0].speed
-            progress.update(
-                task, advance=1, description=trial.phase,
-                rate=f"{speed:.1f}/s" if speed else "", best=f"{best[0]:.4g}" if best else "–",
-            )  # fmt: skip
-
-        yield watch

@@ -18,6 +18,7 @@ from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_
 if TYPE_CHECKING:
     from jumpcad.design import Design
     from jumpcad.mechanism.model import Mechanism
+    from jumpcad.robot import Robot
     from jumpcad.simulation import Jump, Settings
 
 TRAJECTORY_SUFFIXES = (".csv", ".json")
@@ -63,6 +64,10 @@ def simulate(
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = "default",
     flight: Annotated[bool, typer.Option("--flight", help="Simulate the flight up to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
+    uncertain: Annotated[
+        bool, typer.Option("--uncertain", help="Also what is not known: 10/50/90 % of range and rise, and why.")
+    ] = False,
+    seed: Annotated[int, typer.Option(help="Random seed of --uncertain.", min=0, max=2**32 - 1)] = 0,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -78,6 +83,8 @@ def simulate(
         raise JumpcadError("--capsule and --published exclude each other: choose one model")
     if capsule or published:
         refuse_workshop(workshop, "cannot apply to a robot that is not printed; leave it out")
+    if uncertain and (capsule or published):
+        raise JumpcadError("--uncertain is for printed robots: leave --capsule and --published out")
     if published and (flight or trajectory):
         raise JumpcadError("--flight and --trajectory cannot apply to --published; leave them out")
     require_apart({"--trajectory": trajectory}, {"the design": design, "--workshop": workshop, "--settings": settings})
@@ -92,6 +99,10 @@ def simulate(
     engines = _engines(engine)
     if trajectory and len(engines) > 1:
         raise JumpcadError(f"--trajectory records one engine: choose --engine {in_words(ENGINES, 'or')}")
+    if uncertain and len(engines) > 1:
+        raise JumpcadError(f"--uncertain takes one engine: choose --engine {in_words(ENGINES, 'or')}")
+    if uncertain and Path(design).suffix == ".urdf":
+        raise JumpcadError(f"{design}: --uncertain is for printed robots: give the design, or its bundle")
     asked = _settings(settings, flight, trajectory is not None)
     robot = capsule_robot(subject) if capsule else written or designed(design, workshop)
     model = "capsule" if capsule else "URDF" if written else "printed"
@@ -99,7 +110,8 @@ def simulate(
     jumps = _jumps(robot, asked, engines)
     if trajectory:
         _write_trajectory(trajectory, jumps[0])
-    _report(heading, jumps, as_json)
+    spread = _uncertain(designed(design, workshop), settings, engines[0], seed) if uncertain else None
+    _report(heading, jumps, as_json, spread)
     if any(jump.verdict != "jump" for jump in jumps):
         raise typer.Exit(1)
 
@@ -141,17 +153,25 @@ def _settings(name: str, flight: bool, trajectory: bool) -> "Settings":
     return settings.model_copy(update=changes)
 
 
+def _uncertain(robot: "Robot", settings: str, engine: str, seed: int) -> dict[str, Any]:
+    from jumpcad.cli.uncertain import uncertain
+
+    return uncertain(robot, _settings(settings, False, False), engine, seed)
+
+
 def _jumps(robot: "Mechanism", settings: "Settings", engines: list[str]) -> "list[Jump]":
     from jumpcad.simulation import simulate as simulate_jump
 
     return [simulate_jump(robot, settings, engine) for engine in engines]
 
 
-def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None:
+def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread: dict[str, Any] | None) -> None:
+    from jumpcad.cli.uncertain import uncertain_lines
+
     if as_json:
         results = [jump.to_dict() for jump in jumps]
         if len(jumps) == 1:
-            print_json(heading | results[0])
+            print_json(heading | results[0] | ({"uncertain": spread} if spread else {}))
         else:
             engines = {jump.engine: result for jump, result in zip(jumps, results, strict=True)}
             print_json({**heading, "engines": engines, "range_difference_percent": _difference_percent(jumps)})
@@ -174,6 +194,8 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool) -> None
             for name, quantity in asdict(jump.published).items():
                 shown = "none" if quantity is None else f"{quantity:.4f} m"
                 print(f"  {'published ' + name.removesuffix('_m').replace('_', ' '):<36}{shown}")
+    if spread:
+        print("\n".join(uncertain_lines(spread)))
     difference = _difference_percent(jumps)
     if difference is not None:
         print(f"range of {jumps[1].engine}: {difference:+.3f} % from that of {jumps[0].engine}")

@@ -1,5 +1,6 @@
 """`jumpcad study`: what is in a study file, as figures, tables and pictures."""
 
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,6 +19,8 @@ StudiesArgument = Annotated[
 ExportOption = Annotated[
     Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
 ]
+WatchFlag = Annotated[bool, typer.Option("--watch", help="Print how far the search is until it ends, then the study.")]
+WATCH_S = 5.0
 ListOption = Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)]
 
 
@@ -32,6 +35,7 @@ def study(
     export: ExportOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
+    watch: WatchFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the trials."""
@@ -41,10 +45,14 @@ def study(
 
     if len(files) > 1 and (export or plots):
         raise JumpcadError("--export and --plots are for one study; name one file")
+    if watch and (len(files) > 1 or as_json):
+        raise JumpcadError("--watch is for one study, and for people: name one file, and leave --json out")
     require_apart({"--export": export, "--plots": plots}, {f"the study {file}": file for file in files})
     require_plots(plots, force)
     if export is not None:
         require_target(export, TABLES, force)
+    if watch:
+        _watch(files[0])
     summaries = []
     for file in files:
         with StudyStore.read(file) as store:
@@ -61,6 +69,30 @@ def study(
         _print_one(summaries[0])
     else:
         _print_comparison(summaries)
+
+
+def _watch(file: Path) -> None:
+    """Print how far a search is whenever it has moved, until no search writes the study."""
+    from jumpcad.search.database import is_written
+    from jumpcad.search.store import StudyStore
+    from jumpcad.search.trial import SEARCH_PHASES
+
+    told = ""
+    while True:
+        running = is_written(file)  # before reading: what is written until then is read
+        with StudyStore.read(file) as store:
+            counts, best = store.progress()
+            planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
+        searched = sum(count for phase, count in counts.items() if phase in SEARCH_PHASES)
+        around = sum(counts.values()) - searched
+        line = f"{searched} of {planned} designs, best {'none' if best is None else f'{best:.4f}'}"
+        line += f", {around} around the best" if around else ""
+        if line != told:
+            print(line, flush=True)
+            told = line
+        if not running:
+            return
+        time.sleep(WATCH_S)
 
 
 def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
@@ -97,6 +129,10 @@ def _print_one(summary: dict[str, Any]) -> None:
         print(f"  note: {note}")
     for number, trial in enumerate(summary["top"], start=1):
         values = "  ".join(f"{value:.5g}" for value in trial["design"].values())
+        values += "".join(
+            f"  {key}={value if isinstance(value, str) else f'{value:.5g}'}"
+            for key, value in trial.get("workshop", {}).items()
+        )
         print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}")
 
 

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from jumpcad.catalogue import Battery, Board, Component
-from jumpcad.workshop import Workshop
+from jumpcad.catalogue import Battery, Board, Catalogue, Component
+from jumpcad.workshop import BoughtParts, Workshop
 
 COMPONENTS = ("sensor", "switch", "plug", "capacitor", "diode", "wire")
 """Roles of small parts; a workshop may leave each out."""
@@ -39,7 +39,11 @@ def chosen_parts(workshop: Workshop) -> Chosen:
     JumpcadError
         If the catalogue does not have one of them.
     """
-    catalogue, names = workshop.catalogue, workshop.bought
+    return chosen_of(workshop.catalogue, workshop.bought)
+
+
+def chosen_of(catalogue: Catalogue, names: BoughtParts) -> Chosen:
+    """Return the electrical parts of those names in a catalogue."""
     roles = [role for role in COMPONENTS if getattr(names, role)]
     return Chosen(
         battery=catalogue.batteries[names.battery],

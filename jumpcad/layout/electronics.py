@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.catalogue import Battery, Board
+from jumpcad.catalogue import Battery, Board, Component
 from jumpcad.dimensions import (
     CLEAR_MM,
     GAP_MM,
     STANDOFF_RADIUS_MM,
     STRAP_EDGE_MM,
     STRAP_SLOT_MM,
+    TIE_SLOT_MM,
     TRAY_LENGTH_MIN_MM,
     TRAY_MM,
 )
@@ -22,10 +23,23 @@ from jumpcad.layout.places import best_place, grid_candidates
 from jumpcad.layout.room import EVERYWHERE, Obstacle, box_obstacle, disc
 from jumpcad.transforms import Array
 
-BOARDS_APART_MM = 1.0
-"""Gap between boards, and above the battery; judgement: wires and solder joints."""
+ABOVE_BATTERY_MM = 1.6
+"""Gap above the battery; judgement: ties under the upper tray, 1.1 mm thick, and swelling of the cell."""
 TRAY_MORE_MM = 2.0
-"""By how much a tray is longer and wider than its load; judgement: an edge of 1 mm all around."""
+"""By how much a tray is longer than its battery; judgement: an edge of 1 mm at either end."""
+TAPE_MM = 1.0
+"""Foam tape under boards: solder joints sink into it."""
+SEAT_PLAY_MM, RIM_MM, RIM_HEIGHT_MM = 0.2, 1.2, 1.6
+"""Play of a board in its seat, and the rims at its ends: three lines wide, up to the middle of the board."""
+TIE_END_MM = 1.6
+"""From a tie's slot to the end of a tray; judgement: four lines of a 0.4 mm nozzle."""
+USB_BESIDE_MM, BESIDE_PLATE_MM = 0.9, 0.6
+"""From a board's end to the plate, which keeps it there: of the controller, whose USB socket stands into the plate's
+opening, and of the others; judgement."""
+TRAY_SIDE_MM = 1.0
+"""From a tie's slot to the plate: a wall of two lines and the tray's play; judgement."""
+TIES_APART_MM = 2.0 * (SEAT_PLAY_MM + TIE_SLOT_MM[0]) + 0.8
+"""Between boards: a slot for the tie of either, and a wall of two lines."""
 GRID_MM = 2.0
 """Distance between candidate places; judgement."""
 TRAY_AHEAD_MM, TRAY_HIGHEST_MM = 30.0, 60.0
@@ -40,13 +54,33 @@ STANDOFFS_APART_MM = 8.0
 
 
 @dataclass(frozen=True)
+class Seat:
+    """Where something lies on a tray: its middle along the robot from that of the trays, and across it in the body.
+
+    `bottom_mm` is above the lower tray's underside; `size_mm` is along the robot, across it, and up.
+    """
+
+    x_mm: float
+    y_mm: float
+    bottom_mm: float
+    size_mm: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
 class Electronics:
-    """Battery and boards that the trays carry."""
+    """Battery, boards, plug and capacitor that the trays carry.
+
+    The battery is strapped to the lower tray. On the upper one the boards lie in a row across it, from the back: the
+    controller with its USB socket at the right plate, the others at the left one. The capacitor lies beside the
+    controller, the plug beside the foremost board and opens to the front.
+    """
 
     battery: Battery
     controller: Board
     driver: Board
     regulator: Board | None = None
+    plug: Component | None = None
+    capacitor: Component | None = None
 
     @property
     def boards(self) -> dict[str, Board]:
@@ -62,40 +96,104 @@ class Electronics:
 
     @property
     def length_mm(self) -> float:
-        """Along x: the battery, or all boards one behind the other."""
-        return max(max(self.battery.length_mm, self.boards_mm) + TRAY_MORE_MM, TRAY_LENGTH_MIN_MM)
+        """Along x: the battery, or all boards one behind the other with the slots of their ties."""
+        boards = self.boards_mm + 2.0 * (SEAT_PLAY_MM + TIE_SLOT_MM[0] + TIE_END_MM)
+        return max(self.battery.length_mm + TRAY_MORE_MM, boards, TRAY_LENGTH_MIN_MM)
 
     @property
     def boards_mm(self) -> float:
         """Length of all boards one behind the other, across which each has its length."""
         widths = [board.width_mm for board in self.boards.values()]
-        return sum(widths) + BOARDS_APART_MM * (len(widths) - 1)
+        return sum(widths) + TIES_APART_MM * (len(widths) - 1)
 
     @property
     def width_mm(self) -> float:
-        """Across the robot (y): the battery with its strap, or a board."""
+        """Across the robot (y): the battery with its strap, or a board with what lies beside it."""
         strap = 2.0 * (1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM)
-        boards = max(board.length_mm for board in self.boards.values()) + TRAY_MORE_MM
-        return max(self.battery.width_mm + strap, boards)
+        boards = (board.length_mm + self._beside_mm(role) for role, board in self.boards.items())
+        return max(self.battery.width_mm + strap, *boards)
 
     @property
     def upper_tray_mm(self) -> float:
         """From the bottom of the lower tray to that of the upper one."""
-        return TRAY_MM + self.battery.height_mm + BOARDS_APART_MM
+        return TRAY_MM + self.battery.height_mm + ABOVE_BATTERY_MM
 
     @property
     def height_mm(self) -> float:
-        """From the bottom of the lower tray to the top of the boards."""
-        return self.upper_tray_mm + TRAY_MM + max(board.height_mm for board in self.boards.values())
+        """From the bottom of the lower tray to the top of the boards and of what lies beside them."""
+        highest = TAPE_MM + max(board.height_mm for board in self.boards.values())
+        beside = (part.height_mm or 0.0 for part in self.tied.values())
+        return self.upper_tray_mm + TRAY_MM + max(highest, *beside, 0.0)
 
     @property
     def half_mm(self) -> tuple[float, float]:
         """Half of length and height, trays and boards together."""
         return self.length_mm / 2.0, self.height_mm / 2.0
 
+    @property
+    def tied(self) -> dict[str, Component]:
+        """Capacitor and plug, as far as their sizes are known."""
+        parts = {"capacitor": self.capacitor, "plug": self.plug}
+        return {role: part for role, part in parts.items() if part is not None and part.length_mm}
+
+    def _neighbour(self, role: str) -> str:
+        """Return what lies beside a board: the capacitor, the plug, or nothing."""
+        beside = {"controller": "capacitor", list(self.boards)[-1]: "plug"}.get(role, "")
+        return beside if beside in self.tied else ""
+
+    def _beside_mm(self, role: str) -> float:
+        """Return the room across the robot that a board needs besides its own length."""
+        part = self.tied.get(self._neighbour(role))
+        tied = 0.0 if part is None else (part.width_mm or 0.0) + 2.0 * TIE_SLOT_MM[0]
+        return _from_plate_mm(role) + SEAT_PLAY_MM + RIM_MM + tied + TRAY_SIDE_MM
+
+    def seats(self, inside: Interval) -> dict[str, Seat]:
+        """Return where everything lies on the trays between the plates."""
+        low, high = inside
+        battery, board_bottom = self.battery, self.upper_tray_mm + TRAY_MM + TAPE_MM
+        size = (battery.length_mm, battery.width_mm, battery.height_mm)
+        # as near to the legs' plane as strap and plates let it: the robot tips less sideways
+        strap = battery.width_mm / 2.0 + 1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM
+        y = min(max(0.0, low + strap), high - strap)
+        seats = {"battery": Seat(0.0, y, TRAY_MM, size)}
+        start = -self.boards_mm / 2.0
+        for role, board in self.boards.items():
+            x, reach = start + board.width_mm / 2.0, _from_plate_mm(role) + board.length_mm / 2.0
+            y, side = (low + reach, 1.0) if role == "controller" else (high - reach, -1.0)
+            seats[role] = Seat(x, y, board_bottom, (board.width_mm, board.length_mm, board.height_mm))
+            beside = self._neighbour(role)
+            if beside:
+                part = self.tied[beside]
+                size = (part.length_mm or 0.0, part.width_mm or 0.0, part.height_mm or 0.0)
+                end = board.length_mm / 2.0 + SEAT_PLAY_MM + RIM_MM + TIE_SLOT_MM[0]
+                at = self.length_mm / 2.0 - size[0] / 2.0 if beside == "plug" else x
+                seats[beside] = Seat(at, y + side * (end + size[1] / 2.0), board_bottom - TAPE_MM, size)
+            start += board.width_mm + TIES_APART_MM
+        return seats
+
+    def tie_slots(self, inside: Interval) -> dict[str, list[tuple[float, float, tuple[float, float]]]]:
+        """Return the slots of every tie on the upper tray: middles along and across the robot, and sizes (x, y).
+
+        A board's tie runs along the robot, beside the socket's end; those of capacitor and plug run across it.
+        """
+        slots = {}
+        for role, seat in self.seats(inside).items():
+            along, across = seat.size_mm[0] / 2.0, seat.size_mm[1] / 2.0
+            if role in self.boards:
+                reach = along + SEAT_PLAY_MM + TIE_SLOT_MM[0] / 2.0
+                slots[role] = [(seat.x_mm + side * reach, seat.y_mm, TIE_SLOT_MM) for side in (-1.0, 1.0)]
+            elif role in self.tied:
+                reach, size = across + TIE_SLOT_MM[0] / 2.0, TIE_SLOT_MM[::-1]
+                slots[role] = [(seat.x_mm, seat.y_mm + side * reach, size) for side in (-1.0, 1.0)]
+        return slots
+
     def middle_mm(self, tray_mm: Array) -> Array:
         """Return the middle (2,) of trays and boards, given that of the lower tray's underside."""
         return np.asarray(tray_mm + np.array([0.0, self.half_mm[1]]))
+
+
+def _from_plate_mm(role: str) -> float:
+    return USB_BESIDE_MM if role == "controller" else BESIDE_PLATE_MM
 
 
 def tray_place(obstacles: list[Obstacle], electronics: Electronics, l1_mm: float, inside: Interval) -> Array:

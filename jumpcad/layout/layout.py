@@ -6,9 +6,17 @@ In-plane places are in the body frame's x-z plane; intervals of y come from the 
 from dataclasses import dataclass
 from typing import Literal
 
-from jumpcad.catalogue import Bearing, LegBar, Pad
+from jumpcad.catalogue import Bearing, Component, LegBar, Pad
 from jumpcad.design import Design
-from jumpcad.dimensions import AXLE_BOSS_MM, AXLE_FLOOR_MM, CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
+from jumpcad.dimensions import (
+    AXLE_BOSS_MM,
+    AXLE_FLOOR_MM,
+    CLEAR_MM,
+    GAP_MM,
+    PAD_WALL_MM,
+    SPACER_RADIUS_MM,
+    STANDOFF_PAD_MM,
+)
 from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
@@ -20,8 +28,10 @@ from jumpcad.layout.drive_places import (
     train_places,
 )
 from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
+from jumpcad.layout.fittings import Fittings, fittings_of
 from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.room import Obstacle, disc
+from jumpcad.layout.sensor import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.layout.stop import GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
@@ -69,6 +79,8 @@ class Layout:
     tray_mm: Array
     standoffs_mm: tuple[Array, ...]
     stop: StopPlace
+    fittings: Fittings
+    sensor: SensorPlace | None = None
     leg_bar: LegBar | None = None
 
     @property
@@ -125,10 +137,13 @@ def make_layout(
     retention: Retention = "plates",
     toe_half_width_mm: float = 0.0,
     leg_bar: LegBar | None = None,
+    sensor: SensorNeeds | None = None,
+    switch: Component | None = None,
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
-    `stop_rad` is how far past rest the leg shall meet its stop.
+    `stop_rad` is how far past rest the leg shall meet its stop. Without `sensor` no switch says when the robot is
+    wound.
 
     Raises
     ------
@@ -166,9 +181,18 @@ def make_layout(
     obstacles += spring_obstacles(hub, spring_pin, drive.spring, inside)
     idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis)
     obstacles += train_obstacles(motor, angle, idler, drive, lateral)
+    seats = {"leg": hub, "front": front, "cam": cam_axis, "spring": spring_pin}
+    seats |= {} if idler is None else {"idler": idler}
+    felt = None
+    if sensor is not None:
+        felt = sensor_place(obstacles, drive, lateral, cam_axis, seats, motor, axle_mm, sensor)
+    obstacles += [sensor_obstacle(felt, lateral)] if felt else []
     tray = tray_place(obstacles, electronics, linkage.l1, inside)
     obstacles.append(electronics_obstacle(electronics, tray, inside))
     standoffs = standoff_places(obstacles, cam_axis, front, electronics, tray, inside)
+    obstacles += [disc("standoff", place, STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]
+    beside = [*seats.values(), stop.tab_mm]
+    fittings = fittings_of(obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + PAD_WALL_MM)
     return Layout(
         linkage=linkage,
         sections=sections,
@@ -192,6 +216,8 @@ def make_layout(
         standoffs_mm=standoffs,
         stop=stop,
         leg_bar=leg_bar,
+        fittings=fittings,
+        sensor=felt,
     )
 
 
@@ -202,6 +228,15 @@ def _moving(
     lever_y = (-sections.thickness_mm / 2.0 - LEVER_NUT_MM, lateral.cam[1] + LEVER_HEAD_MM)
     cam = drive.cam
     return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, gap_mm, reach_rad)
+
+
+def moving_obstacles(layout: Layout) -> list[Obstacle]:
+    """Return the room that links, cam and gears sweep, without a clearance."""
+    drive, lateral = layout.drive, layout.lateral
+    found = _moving(layout.linkage, layout.sections, drive, lateral, layout.stop.reach_rad, 0.0)
+    found += [o for o in _cam_obstacles(layout.cam_axis_mm, drive, lateral) if o.name != "cam axle"]
+    pinion = drive.train.stages[0].pinion.tip_radius_mm
+    return [*found, disc("pinion", layout.motor_mm, pinion, lateral.gears[-1])]
 
 
 def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:

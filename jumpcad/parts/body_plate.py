@@ -15,8 +15,10 @@ from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF
 from jumpcad.layout.layout import Layout
 from jumpcad.layout.stop import EAR_MM
 from jumpcad.mechanism.model import BODY
+from jumpcad.parts.fittings import fitting_openings, fitting_pads
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, laid
+from jumpcad.parts.sensor import plate_opening, plate_pad
 from jumpcad.parts.stop import stop_slot
 from jumpcad.solids.outline import (
     SAGITTA_MM,
@@ -53,14 +55,21 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     label = engravable(name).strip()
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm
-    closed = _outline(layout) - _openings(layout, holes)
+    outline = _outline(layout)
+    closed = outline - _openings(layout, holes, "left")
     common = closed - _bores(layout, holes)
     y0, y1 = lateral.left_plate
     shaft = hole(holes.loose(motor.shaft_mm), layout.motor_mm)
+    covered = union([])
+    if layout.sensor is not None:
+        shaft, covered = shaft + plate_opening(layout.sensor, holes), plate_pad(layout.sensor)
     slabs = [(y0, y1 - floor, common - shaft), *_floor(y1 - floor, y1, closed - shaft)]
     slabs += _boss(layout, holes, y0 - layout.boss_mm, y0)
-    left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), name and f"{label} L".strip(), "left")
+    words = name and f"{label} L".strip()
+    left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
+    closed = outline - _openings(layout, holes, "right")
+    common = closed - _bores(layout, holes)
     play = 2.0 * holes.fits.sliding_mm
     cavity = _motor_box(layout, motor.width_mm + play, motor.height_mm + play)
     window = _motor_box(layout, motor.width_mm - 2.0, motor.height_mm - 2.0)
@@ -102,11 +111,17 @@ def socket_about_axis(width_mm: float, height_mm: float) -> Region:
     return filleted(rectangle((width_mm + wall, height_mm + wall)) + ears, 1.0)
 
 
-def tray_slots(layout: Layout) -> list[tuple[float, float]]:
-    """Return the middles (x, z) of the slots that hold both trays' tabs."""
+def tray_slots(layout: Layout, side: Face) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
+    """Return the middles (x, z) of a plate's slots for the tabs of the lower and of the upper tray.
+
+    Where the right plate has the opening for a USB plug, above the upper tray's back end, it has no slot.
+    """
     middle, reach = layout.tray_mm, layout.electronics.length_mm / 2.0 - TAB_MM / 2.0 - 1.0
     levels = (TRAY_MM / 2.0, layout.electronics.upper_tray_mm + TRAY_MM / 2.0)
-    return [(float(middle[0] + sign * reach), float(middle[1] + level)) for level in levels for sign in (-1.0, 1.0)]
+    lower, upper = (
+        [(float(middle[0] + sign * reach), float(middle[1] + level)) for sign in (-1.0, 1.0)] for level in levels
+    )
+    return lower, upper[1:] if side == "right" and layout.fittings.usb_mm is not None else upper
 
 
 def _motor_box(layout: Layout, width_mm: float, height_mm: float) -> Region:
@@ -121,8 +136,10 @@ def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
     pads += [disc(STANDOFF_PAD_MM + more, place) for place in layout.standoffs_mm]
     pads.append(disc(8.0 + more, layout.spring_pin_mm))
     slot = (TAB_MM + 5.0 + more, TRAY_MM + 5.0 + more)
-    pads += [rectangle(slot, place, 1.0 + more_mm) for place in tray_slots(layout)]
+    pads += [rectangle(slot, place, 1.0 + more_mm) for level in tray_slots(layout, "left") for place in level]
+    pads += fitting_pads(layout.fittings, more_mm)
     pads.append(grown(socket_outline(layout), more_mm))
+    pads += [plate_pad(layout.sensor, more_mm)] if layout.sensor is not None else []
     return pads
 
 
@@ -150,11 +167,13 @@ def _outline(layout: Layout) -> Region:
     return rounded(around, 2.0) - (grown(pockets, POCKET_RADIUS_MM) - stop) + stop
 
 
-def _openings(layout: Layout, holes: HoleSizes) -> Region:
-    """Return the holes that pass both plates: standoff screws, slots of trays and stop."""
+def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
+    """Return the holes that pass a plate: standoff screws, slots of trays and stop, what people and wires need."""
     play = 2.0 * holes.fits.sliding_mm
     cut = [hole(holes.m3_clearance_mm, place) for place in layout.standoffs_mm]
-    cut += [rectangle((TAB_MM + play, TRAY_MM + play), slot) for slot in tray_slots(layout)]
+    size = (TAB_MM + play, TRAY_MM + play)
+    cut += [rectangle(size, slot) for level in tray_slots(layout, side) for slot in level]
+    cut += fitting_openings(layout.fittings, holes, side)
     cut.append(stop_slot(layout, 2.0 * holes.fits.press_mm))
     return union(cut)
 
@@ -165,7 +184,7 @@ def _bores(layout: Layout, holes: HoleSizes) -> Region:
 
 
 def _floor(y0: float, y1: float, region: Region) -> list[tuple[float, float, Region]]:
-    """Return what closes the bores outside, if anything does."""
+    """Return the layers that close the bores on the outside, if there are any."""
     return [(y0, y1, region)] if y1 > y0 else []
 
 
@@ -182,10 +201,12 @@ def _drawing(
     engraved_y: tuple[float, float],
     label: str,
     face: Face,
+    covered: Region | None = None,
 ) -> Drawing:
-    """Lay a plate outside down and engrave its label where its face, the first slab, has room for it."""
+    """Lay a plate outside down and engrave its label where its face, the first slab, has room and nothing covers it."""
     stack, pose = laid(slabs, face)
-    letters = _letters(label, slabs[0][2], mirrored=face == "left") if label else None
+    bare = slabs[0][2] if covered is None else slabs[0][2] - covered
+    letters = _letters(label, bare, mirrored=face == "left") if label else None
     if letters is not None:
         cut, _ = laid([(*engraved_y, letters)], face)
         stack = stack.minus(cut)

@@ -6,17 +6,21 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.catalogue import Bearing, Catalogue, Screw
-from jumpcad.dimensions import ROLLER_WASHER_MM, TRAY_MM
-from jumpcad.electronics.chosen import COMPONENTS
+from jumpcad.catalogue import Battery, Bearing, Board, Catalogue, Component, Screw
+from jumpcad.dimensions import ROLLER_WASHER_MM
+from jumpcad.electronics.chosen import chosen_of
+from jumpcad.electronics.nets import LOWER_OHM, wiring_of
 from jumpcad.layout.drive_places import arm_line
-from jumpcad.layout.electronics import BOARDS_APART_MM
+from jumpcad.layout.electronics import TAPE_MM
+from jumpcad.layout.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
-from jumpcad.parts import axles, toes
+from jumpcad.parts import axles, sensor, toes
 from jumpcad.parts.body_plate import ear_places
+from jumpcad.parts.fittings import SWITCH_SCREWS_MM
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.leads import metres_by_colour
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.parts.spring_wire import coil_with_arm, leg_arm_wire, spring_article
 from jumpcad.parts.train import gear_turns
@@ -28,6 +32,13 @@ TOE_THREAD_MM = 4.0
 """Least length of thread of a toe's screw in the foot's stub."""
 SCREW_END_MM = 6.0
 """Length of thread of a standoff's screw inside the standoff."""
+SWITCH_EAR_MM = 0.5
+"""Thickness of the ears of a slide switch, tapped M2; usual."""
+STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm", (10.0, 1.0), 0.8
+TIE, TIE_MM, TIE_G = "cable tie 2.5 x 100 mm, polyamide", (2.5, 1.1), 0.3
+TAPE, TAPE_G_CM3 = "double-sided foam tape 1 mm", 0.5
+HEAT_SHRINK, HEAT_SHRINK_G, RESISTOR_G, WIRE_LENGTH_MM = "heat-shrink tube 2 mm, 0.3 m", 0.4, 0.2, 500.0
+"""What holds battery and boards: order text, width and thickness, mass or density; what is soldered; from memory."""
 
 
 def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> list[BoughtPart]:
@@ -39,6 +50,7 @@ def bought_parts(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen:
         *_springs(layout, catalogue),
         *_motor_things(layout, catalogue),
         *_standoffs(layout, catalogue),
+        *_sensor(layout, catalogue),
         *_electronics(layout, catalogue, chosen),
         *_toe_screws(layout, holes, catalogue),
     ]
@@ -67,7 +79,7 @@ def _d_shaft(diameter_mm: float, across_flat_mm: float) -> Region:
 
 
 def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
-    """Yield what the main leg carries: hub bearings, the roller with its screw."""
+    """Yield the bought parts on the main leg: hub bearings, the roller with its screw."""
     lateral, cam = layout.lateral, layout.drive.cam
     low, high = lateral.leg
     if holes.bearing is not None:
@@ -170,27 +182,91 @@ def _toe_screws(layout: Layout, holes: HoleSizes, catalogue: Catalogue) -> Itera
 
 
 def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
-    """Yield battery and boards on their trays, in the middle across the robot, and the small parts between."""
-    electronics = layout.electronics
-    middle = (layout.lateral.inside[0] + layout.lateral.inside[1]) / 2.0
+    """Yield battery, boards, plug and capacitor on their seats, what holds them, and the small parts in the wires."""
+    electronics, inside = layout.electronics, layout.lateral.inside
     x, z = layout.tray_mm
-    battery = electronics.battery
-    yield _box("battery", battery.description, x, middle, z + TRAY_MM, battery.length_mm, battery.width_mm,
-               battery.height_mm, battery.mass_g)  # fmt: skip
-    top = z + electronics.upper_tray_mm + TRAY_MM
-    start = x - electronics.boards_mm / 2.0
-    for name, board in electronics.boards.items():
-        yield _box(name, board.description, start + board.width_mm / 2.0, middle, top, board.width_mm, board.length_mm,
-                   board.height_mm, board.mass_g)  # fmt: skip
-        start += board.width_mm + BOARDS_APART_MM
-    # Until they have places of their own: flat in the gap above the battery, where their mass is about right.
-    small = [(role, getattr(chosen, role)) for role in COMPONENTS if getattr(chosen, role)]
-    size, above = battery.length_mm / max(1, len(small)), z + TRAY_MM + battery.height_mm
-    for number, (role, name) in enumerate(small):
-        component = catalogue.components[name]
-        at = x - battery.length_mm / 2.0 + (number + 0.5) * size
-        yield _box(f"wiring_{role}", component.description, at, middle, above + 0.25 * BOARDS_APART_MM, 0.8 * size,
-                   battery.width_mm / 2.0, 0.5 * BOARDS_APART_MM, component.mass_g)  # fmt: skip
+    items: dict[str, Battery | Board | Component] = {
+        "battery": electronics.battery,
+        **electronics.boards,
+        **electronics.tied,
+    }
+    for role, seat in electronics.seats(inside).items():
+        item, (length, width, height) = items[role], seat.size_mm
+        at, top = (x + seat.x_mm, seat.y_mm), z + seat.bottom_mm + height
+        yield _box(role, item.description, *at, z + seat.bottom_mm, length, width, height, item.mass_g)
+        if role == "battery":
+            yield _box("strap_battery", STRAP, *at, top, STRAP_MM[0], width, STRAP_MM[1], STRAP_G)
+        elif role in electronics.boards:
+            yield _box(f"tie_{role}", TIE, *at, top, length, TIE_MM[0], TIE_MM[1], TIE_G)
+            mass = TAPE_G_CM3 * length * width * TAPE_MM / 1000.0
+            yield _box(f"tape_{role}", TAPE, *at, z + seat.bottom_mm - TAPE_MM, length, width, TAPE_MM, mass)
+        else:
+            yield _box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
+    yield from _switch(layout, catalogue)
+    placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
+    soldered = list(_soldered(layout, catalogue, chosen, placed))
+    # Wire, and what is soldered into it, is everywhere: flat in the gap above the battery its mass is about right.
+    size = electronics.battery.length_mm / max(1, len(soldered))
+    above = z + electronics.upper_tray_mm - 0.5
+    for number, (name, article, mass_g) in enumerate(soldered):
+        at = x - electronics.battery.length_mm / 2.0 + (number + 0.5) * size
+        yield _box(f"wiring_{name}", article, at, sum(inside) / 2.0, above, 0.8 * size,
+                   electronics.battery.width_mm / 2.0, 0.4, mass_g)  # fmt: skip
+    for role, place, y in (
+        ("sensor", layout.fittings.left_mm, layout.lateral.outside[1]),
+        ("motor", layout.fittings.right_mm, layout.lateral.outside[0] - TIE_MM[1]),
+    ):
+        slabs = [(0.0, TIE_MM[1], _box_of(RELIEF_APART_MM, TIE_MM[0]))]
+        at_mm = (place[0], y, place[1] - HOLE_HALF_MM[1] + HOLE_MM + RELIEF_UP_MM)
+        yield bought(f"tie_{role}_leads", TIE, BODY, TIE_G, slabs, at_mm)
+
+
+def _soldered(
+    layout: Layout, catalogue: Catalogue, chosen: BoughtParts, placed: set[str]
+) -> Iterator[tuple[str, str, float]]:
+    """Yield name, article and mass (g) of what has no seat: wire by its colour, and what is soldered into it."""
+    parts = chosen_of(catalogue, chosen)
+    wiring = wiring_of(parts, chosen.pins)
+    for role, part in parts.components.items():
+        if role == "wire":
+            per_m = 1000.0 * part.mass_g / (part.length_mm or WIRE_LENGTH_MM)
+            for colour, metres in metres_by_colour(layout, wiring).items():
+                article = f"{part.description}, {colour}, {math.ceil(10.0 * metres - 1e-6) / 10.0:g} m"
+                yield f"wire_{colour}", article, per_m * metres
+            yield "heat_shrink", HEAT_SHRINK, HEAT_SHRINK_G
+        elif role not in placed and (role != "diode" or parts.regulator is not None):
+            yield role, part.description, part.mass_g
+    if wiring.upper_ohm is not None:
+        for name, ohm in (("upper", wiring.upper_ohm), ("lower", LOWER_OHM)):
+            yield f"resistor_{name}", f"resistor {ohm // 1000} kOhm 0.25 W, 1 %", RESISTOR_G
+
+
+def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
+    """Yield the switch behind the right plate and the screws through its ears."""
+    place, switch, low = layout.fittings.switch_mm, layout.fittings.switch, layout.lateral.inside[0]
+    if place is None or switch is None:
+        return
+    slabs = [(0.0, switch.height_mm or 0.0, _box_of(switch.length_mm or 0.0, switch.width_mm or 0.0))]
+    yield bought("switch", switch.description, BODY, switch.mass_g, slabs, (place[0], low, place[1]))
+    screw, outer = catalogue.screws["M2"], layout.lateral.outside[0]
+    length = screw.length_for(low - outer + SWITCH_EAR_MM)
+    for number, sign in enumerate((-1.0, 1.0), start=1):
+        at = np.array([place[0] + sign * SWITCH_SCREWS_MM, place[1]])
+        yield _screw(f"switch_screw_{number}", BODY, at, (outer, outer + length), -1.0, screw, catalogue)
+
+
+def _sensor(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
+    """Yield the switch over the cam gear's track and the screws of its mount."""
+    felt, outside = layout.sensor, layout.lateral.left_plate[1]
+    if felt is None:
+        return
+    part, at = felt.needs.part, (felt.place_mm[0], outside + felt.base_mm, felt.place_mm[1])
+    slabs = sensor.sensor_slabs(part, felt.needs.travel)
+    yield bought("sensor", part.description, BODY, part.mass_g, slabs, at, felt.turn_rad)
+    head = outside + sensor.ear_height_mm(layout)
+    for number, place in enumerate(sensor.screw_places(felt), start=1):
+        shank = (head - sensor.screw_mm(), head)
+        yield _screw(f"sensor_screw_{number}", BODY, place, shank, 1.0, catalogue.screws["M2"], catalogue)
 
 
 def _box(

@@ -1,25 +1,21 @@
-"""Small printed parts: motor cap, spring bushings, spacers, electronics trays (mm)."""
+"""Small printed parts: motor cap, spring bushings, spacers (mm)."""
 
 from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM, STRAP_SLOT_MM, TAB_MM, TRAY_MM
+from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.errors import JumpcadError
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.body_plate import ear_reach_mm, socket_about_axis, tray_slots
+from jumpcad.parts.body_plate import ear_reach_mm, socket_about_axis
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right, upright
-from jumpcad.solids.outline import disc, hole, rectangle, ring, union
+from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right
+from jumpcad.solids.outline import disc, hole, ring, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z
 from jumpcad.workshop import Workshop
 
-TRAY_EDGE_MM, TRAY_LEDGE_MM = 5.0, 2.0
-"""Of a tray's window: distance from the tray's ends, and width left under the narrowest thing on a tray."""
-WINDOW_MIN_MM = 4.0
-"""Least width of the window: that of its round ends."""
 CAP_HEAD_MM = 3.9
 """Counterbore for an M2 button head of 3.5 mm (ISO 7380)."""
 CAP_HEAD_DEPTH_MM = 1.4
@@ -89,31 +85,3 @@ def spacer(layout: Layout, holes: HoleSizes, name: str, places: list[tuple[np.nd
 @lru_cache(maxsize=32)
 def _tube(outer_mm: float, bore_mm: float, length_mm: float) -> Stack:
     return Stack.of([(0.0, length_mm, ring(outer_mm, bore_mm))])
-
-
-def trays(layout: Layout, holes: HoleSizes) -> Drawing:
-    """Return the two equal trays between the plates: battery on the lower, boards on the upper one."""
-    electronics = layout.electronics
-    low, high = layout.lateral.inside
-    outer_low, outer_high = layout.lateral.outside
-    length = electronics.length_mm
-    middle_y = (low + high) / 2.0
-    floor = rectangle((length, high - low - 2.0 * holes.fits.sliding_mm), corner_radius_mm=1.5)
-    tab_x = [slot[0] - layout.tray_mm[0] for slot in tray_slots(layout)[:2]]
-    tab_y = outer_high - outer_low
-    tabs = [rectangle((TAB_MM, tab_y), (x, (outer_low + outer_high) / 2.0 - middle_y)) for x in tab_x]
-    strap_y = electronics.battery.width_mm / 2.0 + STRAP_SLOT_MM[0]
-    slots = [
-        rectangle(STRAP_SLOT_MM[::-1], (x, sign * strap_y))
-        for x in (-length / 4.0, length / 4.0)
-        for sign in (-1.0, 1.0)
-    ]
-    narrowest = min(electronics.battery.width_mm, *(board.length_mm for board in electronics.boards.values()))
-    across = narrowest - 2.0 * TRAY_LEDGE_MM
-    window = [rectangle((length - 2.0 * TRAY_EDGE_MM, across), corner_radius_mm=2.0)] if across >= WINDOW_MIN_MM else []
-    region = union([floor, *tabs]) - union([*slots, *window])
-    levels = (0.0, electronics.upper_tray_mm)
-    placements = tuple(
-        Placement(BODY, upright(layout.tray_mm[1] + level, layout.tray_mm[0], middle_y)) for level in levels
-    )
-    return Drawing("electronics_tray", "body", Stack.of([(0.0, TRAY_MM, region)]), placements)

@@ -15,9 +15,10 @@ from jumpcad.dimensions import GAP_MM
 from jumpcad.drive.dog import Dog
 from jumpcad.drive.gears import Gear
 from jumpcad.layout.layout import Layout
+from jumpcad.layout.sensor import GEAR_PLAY_MM
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left
+from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left, lying_on_right
 from jumpcad.solids.outline import Region, d_bore, disc, hole, polygon, rectangle, ring, rounded, union
 from jumpcad.solids.stack import Stack
 from jumpcad.strength.sizing import dog_inside_mm
@@ -53,14 +54,16 @@ def gears(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     """Return motor pinion, compound idler where there is one, and cam gear.
 
     Each is drawn with a tooth on +x and turned where it is placed, so that equal gears are one shape in every robot.
+    The cam gear stands as it is and prints with its left face up, in which the sensor's track is.
     """
     stages, motor = layout.drive.train.stages, layout.drive.train.motor
     cam_y, motor_y = layout.lateral.gears[0], layout.lateral.gears[-1]
     turns = gear_turns(layout)
-    cam_gear = _cam_gear(stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes)
+    cam_gear = _cam_gear(stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes, _hub_mm(layout))
+    cam_gear = _with_track(cam_gear, layout)
     pinion = _motor_pinion(stages[0].pinion, motor.shaft_mm, motor.shaft_flat_mm, holes)
     made = [
-        Drawing("cam_gear", "gears", cam_gear, (_placed(cam_y[1], layout.cam_axis_mm, turns["cam_gear"]),)),
+        Drawing("cam_gear", "gears", cam_gear, (Placement(BODY, lying_on_right(cam_y[0], *layout.cam_axis_mm)),)),
         Drawing("motor_pinion", "gears", pinion, (_placed(motor_y[1], layout.motor_mm, turns["motor_pinion"]),)),
     ]
     if layout.idler_mm is not None:
@@ -100,13 +103,43 @@ def _placed(top_mm: float, centre_mm: np.ndarray, turn_rad: float) -> Placement:
 
 
 @lru_cache(maxsize=64)
-def _cam_gear(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes) -> Stack:
-    """Return the cam gear: a hub on the axle, and around it pockets in which the cam's jaws slide."""
+def _cam_gear(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes, hub_mm: float) -> Stack:
+    """Return the cam gear: a hub on the axle, and around it pockets in which the cam's jaws slide.
+
+    The hub stands out by `hub_mm` to the left, up to the plate. As it prints, x points to the back.
+    """
     play = 2.0 * holes.fits.sliding_mm
     outer, inner = dog.outer_mm + play, dog_inside_mm(holes.fits, axle_mm) - play
     around = hole(outer) - disc(inner)
-    region = _webbed(gear, hole(holes.running(axle_mm)), outer / 2.0) - (around ^ _sectors(dog.pockets_rad, outer))
-    return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, region)]))
+    bore, width = hole(holes.running(axle_mm)), gear.face_width_mm
+    region = _webbed(gear, bore, outer / 2.0) - (around ^ _sectors(dog.pockets_rad, outer))
+    slabs = [(0.0, width, region.mirror((1.0, 0.0)))]
+    slabs += [(width, width + hub_mm, disc(inner) - bore)] if hub_mm > 0.0 else []
+    return holes.chamfered(Stack.of(slabs))
+
+
+def _hub_mm(layout: Layout) -> float:
+    """Return by how much the cam gear's hub stands out towards the plate; not where a spacer lies between."""
+    return GAP_MM - GEAR_PLAY_MM if layout.idler_mm is None else 0.0
+
+
+def _with_track(gear: Stack, layout: Layout) -> Stack:
+    """Return the cam gear with the sensor's groove and, in it, the land, whose ramps rise at 45° a layer a step."""
+    sensor = layout.sensor
+    if sensor is None:
+        return gear
+    top, lift = layout.lateral.gears[0][1] - layout.lateral.gears[0][0], layout.drive.cam.law.lift_rad
+    low, step = top - sensor.depth_mm, sensor.needs.layer_mm
+    groove = ring(2.0 * (sensor.radius_mm + sensor.half_width_mm), 2.0 * (sensor.radius_mm - sensor.half_width_mm))
+
+    def land(above_mm: float) -> Region:
+        sector = _sectors([sensor.land_rad(above_mm, lift)], 2.0 * (sensor.radius_mm + sensor.half_width_mm))
+        return (groove ^ sector).mirror((1.0, 0.0))
+
+    steps = round(sensor.depth_mm / step)
+    rising = [(low + n * step, low + (n + 1) * step, land((n + 0.5) * step)) for n in range(steps)]
+    # the ring under the groove carries the land where the web has holes
+    return gear.minus([(low, top, groove)]).plus([(0.0, low, groove), *rising])
 
 
 def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:
@@ -121,7 +154,7 @@ def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Reg
 
 @lru_cache(maxsize=64)
 def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes) -> Stack:
-    """Return a pinion whose bore has crush ribs: they are narrower than the shaft, which it cuts, so it cannot rock."""
+    """Return a pinion whose bore has crush ribs: the shaft cuts into them, so that the pinion has no play."""
     region = _webbed(gear, ribbed_d_bore(shaft_mm, flat_mm, holes), 0.0)
     return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, region)]))
 
@@ -129,7 +162,7 @@ def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes)
 def ribbed_d_bore(shaft_mm: float, flat_mm: float, holes: HoleSizes, rib_mm: float | None = None) -> Region:
     """Return the hole for a D-shaft with a press fit around it and five crush ribs, `rib_mm` or `fits.rib_mm` into it.
 
-    Two ribs bear on the flat, which faces +x and takes the torque, and three on the round side.
+    Two ribs press on the flat, which faces +x and transmits the torque, and three on the round side.
     """
     press, rib = holes.fits.press_mm, holes.fits.rib_mm if rib_mm is None else rib_mm
     bore = d_bore(shaft_mm + 2.0 * press, flat_mm + 2.0 * press)

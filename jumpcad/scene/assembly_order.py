@@ -10,7 +10,8 @@ anything is loaded, the cam can be turned by hand, and the motor turns it for th
 from dataclasses import dataclass
 from typing import Literal
 
-ROBOT, LEG, FOOT, LOWER, UPPER, STOP = "robot", "leg", "foot", "lower tray", "upper tray", "rest stop"
+ROBOT, LEG, FOOT, STOP = "robot", "leg", "foot", "rest stop"
+LOWER, UPPER, LEFT = "lower tray", "upper tray", "left plate"
 """Assemblies: the robot grows on the right plate, the others on the bench."""
 
 
@@ -110,7 +111,7 @@ def _clips(name: str, reach: tuple[str, str] = ("from the right", "from the left
 
 
 AXLES = r"(leg|front|cam|idler)_axle"
-SMALL = r"(wiring_)?(switch|plug|capacitor|diode|wire|resistor)s?(_.*)?"
+SMALL = r"(tape|tie)_(?!(sensor|motor)_leads).*|plug|capacitor|wiring_(?!sensor|switch).*"
 
 ORDER: tuple[Plan, ...] = (
     Plan(
@@ -165,6 +166,8 @@ ORDER: tuple[Plan, ...] = (
             Move("body_plate_right"),
             Move("standoff_\\d+"),
             Move("standoff_\\d+_screw_right", "from the right", tool=HEX_M3),
+            Move("switch"),
+            Move("switch_screw_\\d+", "head last", tool=HEX_M2),
             Move("motor|motor_shaft"),
             Move("motor_cap"),
             Move("cap_screw_.*", "from the left", tool=HEX_M2),
@@ -174,6 +177,8 @@ ORDER: tuple[Plan, ...] = (
                   "window later. The terminal with the mark is motor +."),
             Words("Screw the standoffs to the right plate, the one with the motor's socket, from outside: "
                   "{torque_plastic} N·m. Then lay it on the bench, outside down: up is the robot's left from now on."),
+            Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside.",
+                  needs="switch"),
             Words("Lead the wires through the window and push the motor into its socket from above, its shaft up, its "
                   "shorter side as the socket's. Put the cap on and turn its two screws into the plastic, in turns, "
                   "until the motor has no play: {torque_m2} N·m."),
@@ -183,16 +188,13 @@ ORDER: tuple[Plan, ...] = (
     Plan(
         "lower", "Lower tray with the battery", LOWER,
         (
-            Move("electronics_tray_1"),
+            Move("electronics_tray_lower"),
             Move("battery", "from above"),
-            Move(r"(battery_)?strap(_.*)?", way="laid"),
+            Move("strap_battery", way="laid"),
         ),
         (
-            Words("Lay the battery on the lower tray, its leads backwards, and pull a strap or a cable tie of up to "
-                  "4 mm through the slots beside it: tight enough that it does not slide, not so tight that it dents. "
-                  "Do not plug it in yet.", lacks=r"(battery_)?strap.*"),
             Words("Lay the battery on the lower tray and close its strap: tight enough that it does not slide, not so "
-                  "tight that it dents. Do not plug it in yet.", needs=r"(battery_)?strap.*"),
+                  "tight that it dents. Do not plug it in yet."),
         ),
         (
             Words("A lithium battery that is dented, swollen or shorted can burn: do not use it, and keep tools off "
@@ -202,14 +204,14 @@ ORDER: tuple[Plan, ...] = (
     Plan(
         "boards", "Upper tray with the boards", UPPER,
         (
-            Move("electronics_tray_2"),
+            Move("electronics_tray_upper"),
             Move("controller|driver|regulator", "from above"),
-            Move(r"(controller|driver|regulator|board)_(screw|clip|post|foot)s?(_.*)?", "from above"),
             Move(SMALL, way="laid"),
         ),
         (
-            Words("Fasten the boards to the upper tray as the picture shows, with double-sided foam tape 1 mm thick "
-                  "where they have no screws: solder joints must not lie on each other."),
+            Words("Lay every board on its piece of foam tape, in its place between the rims, the controller's USB "
+                  "socket to the right, and pull a cable tie over it. Plug and capacitor get a tie too: the plug opens "
+                  "forwards."),
             Words("Solder every wire of the table under Wiring, the shortest first, and slide heat-shrink tube over "
                   "each joint. The motor's wires go to the driver last. Tie the wires to the tray so that no joint "
                   "bears a pull."),
@@ -221,6 +223,23 @@ ORDER: tuple[Plan, ...] = (
             Words("Before the battery is plugged in: switch on, multimeter across the plug's poles, no contact. Plus "
                   "of plug and battery must agree: makers of batteries do not."),
         ),
+    ),
+    Plan(
+        "left", "Left plate with the sensor", LEFT,
+        (
+            Move("body_plate_left"),
+            Move("sensor", "from the left"),
+            Move("sensor_mount", "from the left"),
+            Move("sensor_screw_\\d+", "head last", tool=HEX_M2),
+            Move("tie_sensor_leads", way="laid"),
+        ),
+        (
+            Words("Lead the sensor's two leads through the plate's wire hole and solder them to its terminals (table "
+                  "under Wiring). Put the sensor into the plate's opening from outside, its plunger through to the "
+                  "inside, the mount over it, and turn the two screws into the plastic: {torque_m2} N·m. Tie the leads "
+                  "at the hole so that its terminals bear no pull.", needs="sensor"),
+        ),
+        checks=(Words("Pressed on the inside, the plunger clicks and comes out again.", needs="sensor"),),
     ),
     Plan(
         "power", "First power-up, on the bench", ROBOT, (),
@@ -243,18 +262,15 @@ ORDER: tuple[Plan, ...] = (
         ),
     ),
     Plan(
-        "trays", "Trays and sensor into the right plate", ROBOT,
+        "trays", "Trays into the right plate", ROBOT,
         (
             Move("", brings=LOWER),
             Move("", brings=UPPER),
-            Move(r"sensor_(mount|holder|seat|bracket|lever|arm)(_.*)?"),
-            Move(r"(wiring_)?sensor"),
-            Move(r"sensor_screw.*", "head last", tool=HEX_M2),
+            Move("tie_motor_leads", way="laid"),
         ),
         (
             Words("Switch off. Push the tabs of both trays into the right plate's slots, the battery's tray "
                   "below. Lead the wires along the plate, away from leg, cam and gears, and tie them."),
-            Words("The sensor closes shortly before the cam's drop.", needs=r"(wiring_)?sensor.*"),
         ),
     ),
     Plan(
@@ -317,7 +333,7 @@ ORDER: tuple[Plan, ...] = (
     ),
     Plan(
         "trial", "Trial: left plate on, cam turned by hand", ROBOT,
-        (Move("body_plate_left", trial=True),),
+        (Move("", brings=LEFT, trial=True),),
         (
             Words("The pinion is still off. Put the left plate on for a trial, without screws: hold it level, let the "
                   "longest axle find its bore first, then one after the other, the trays' and the stop's tabs last. Do "
@@ -327,14 +343,14 @@ ORDER: tuple[Plan, ...] = (
         ),
         checks=(
             Words("The cam lifts the leg by {stroke}° over {lift}° of its turn; then the leg falls. Nothing rubs."),
-            Words("The sensor clicks before the drop.", needs=r"(wiring_)?sensor.*"),
+            Words("The sensor clicks before the drop.", needs="sensor"),
         ),
     ),
     Plan(
         "dry", "Pinion; first winding, without springs", ROBOT,
         (
             Move("motor_pinion", past="motor_shaft", tool=PRESS, reach="from the left"),
-            Move("body_plate_left", trial=True),
+            Move("", brings=LEFT, trial=True),
             Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3, trial=True),
         ),
         (
@@ -373,7 +389,7 @@ ORDER: tuple[Plan, ...] = (
     Plan(
         "close", "Left plate, for good", ROBOT,
         (
-            Move("body_plate_left"),
+            Move("", brings=LEFT),
             Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3),
             Move(f"{AXLES}|spring_pin", "from the left", tool=HEX_AXLE, retention=("nuts",)),
             Move(f"({AXLES}|spring_pin)_nut", "from the right", past=f"{AXLES}|spring_pin", tool=NUT_M3,

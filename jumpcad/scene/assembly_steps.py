@@ -109,7 +109,7 @@ def _placed(plan: Plan, robot: Robot, left: list[Visual], built: dict[str, list[
         if move.retention and robot.layout.retention not in move.retention:
             continue
         if move.brings:
-            things = built.pop(move.brings, [])
+            things = list(built.get(move.brings, [])) if move.trial else built.pop(move.brings, [])
         else:
             things = [thing for thing in left if re.fullmatch(move.parts, thing.name)]
             left[:] = [thing for thing in left if thing not in things or move.trial]

@@ -95,7 +95,7 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
         there = built.setdefault(step.onto, [])
         before = list(there)
         for placed in step.placed:
-            if placed.move.brings:
+            if placed.move.brings and not placed.move.trial:
                 built.pop(placed.move.brings)
             there += [] if placed.move.trial else placed.things
         if not before and not step.placed:

@@ -24,6 +24,9 @@ PRINTED_COLOURS: dict[str, Colour] = {
 }
 """Colours by the role of a printed part."""
 BOUGHT_COLOURS: dict[str, Colour] = {
+    "cable tie": (0.16, 0.16, 0.17),
+    "foam tape": (0.92, 0.91, 0.86),
+    "hook-and-loop": (0.16, 0.16, 0.17),
     "torsion spring": (0.30, 0.33, 0.38),
     "gear motor": (0.85, 0.70, 0.30),
     "bearing": (0.72, 0.74, 0.77),

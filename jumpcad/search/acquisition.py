@@ -7,23 +7,25 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import minimize
 
-from jumpcad.design import Design
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Posterior
+from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
 
 CANDIDATES = 1024
 LOCAL = 128
 STARTS = 6
+REDRAWN = 0.3
+"""How often a name is drawn anew near a good design."""
 _STEP = 1e-6
 _STEPS = 40
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """A design to evaluate, its point (d,), and the logarithms of its EI and its probability of feasibility."""
+    """What to evaluate, its point (d,), and the logarithms of its EI and its probability of feasibility."""
 
-    design: Design
+    variant: Variant
     unit: Array
     log_improvement: float
     log_feasible: float
@@ -38,11 +40,11 @@ def propose(
     posterior: Posterior,
     best: float,
     elite: Array,
-    admits: Callable[[Design], bool],
+    admits: Callable[[Variant], bool],
     generator: np.random.Generator,
     penalty: Callable[[Array], Array] | None = None,
 ) -> Proposal | None:
-    """Return the design with the largest acquisition found, or None if no candidate is admitted.
+    """Return the variant with the largest acquisition found, or None if no candidate is admitted.
 
     Parameters
     ----------
@@ -53,7 +55,7 @@ def propose(
     elite
         Points (k, d) near which to look more closely: the best designs so far.
     admits
-        Whether a design may be proposed: it is new, and the model admits it.
+        Whether a variant may be proposed: it is new, and the model admits it.
     generator
         Random generator that draws the candidates.
     penalty
@@ -67,7 +69,10 @@ def propose(
     candidates = [space.spread(CANDIDATES, generator)]
     for point in elite:
         scale = 10.0 ** generator.uniform(-3, -0.7, (LOCAL, 1))
-        candidates.append(space.snap(point + scale * generator.standard_normal((LOCAL, space.dimension))))
+        near = point + scale * generator.standard_normal((LOCAL, space.dimension))
+        for axis in np.flatnonzero(space.categories):
+            near[:, axis] = np.where(generator.random(LOCAL) < REDRAWN, generator.random(LOCAL), point[axis])
+        candidates.append(space.snap(near))
     points = np.vstack(candidates)
     values = log_acquisition(points)
     order = np.argsort(-values, kind="stable")
@@ -76,11 +81,11 @@ def propose(
     points = np.vstack([*polished, points[order]])
     values = log_acquisition(points)
     for index in np.argsort(-values, kind="stable"):
-        design = space.to_design(points[index])
-        if admits(design):
+        variant = space.to_variant(points[index])
+        if admits(variant):
             at = points[index][None]
             improvement, feasible = posterior.log_improvement(at, best), posterior.log_feasible(at)
-            return Proposal(design, points[index], float(improvement[0]), float(feasible[0]))
+            return Proposal(variant, points[index], float(improvement[0]), float(feasible[0]))
     return None
 
 

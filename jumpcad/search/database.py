@@ -66,6 +66,23 @@ def lock(path: Path) -> int:
     return descriptor
 
 
+def is_written(path: Path) -> bool:
+    """Whether a running search has locked a study file."""
+    import fcntl
+
+    try:
+        descriptor = os.open(path, os.O_RDONLY)
+    except OSError:
+        return False
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except OSError:
+        return True
+    finally:
+        os.close(descriptor)
+    return False
+
+
 @contextmanager
 def plain_errors(path: Path | None) -> Iterator[None]:
     """Raise errors of SQLite as one line about the file."""

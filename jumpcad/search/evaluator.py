@@ -10,7 +10,8 @@ from jumpcad.search.objective import QUARANTINED, Model, Objective
 from jumpcad.search.pool import Pool
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.trial import Key, Trial
+from jumpcad.search.trial import Trial
+from jumpcad.search.variant import Key, Variant
 
 Watch = Callable[[Trial, bool], None]
 """Called with every trial, and whether it was computed now (or read from the study file)."""
@@ -65,6 +66,7 @@ class Evaluator:
         self._finished = {trial.key: trial for trial in held}
         self._taken = {(trial.phase, trial.step, trial.place): trial.key for trial in held}
         self._seen: dict[Key, Trial] = {}
+        self._spent = 0
         self.prior = list(prior)
         pool.notice = store.note
 
@@ -73,9 +75,15 @@ class Evaluator:
         """All trials of this search so far, in order."""
         return list(self._seen.values())
 
-    def admits(self, design: Design) -> bool:
-        """Whether a design is new, and the model admits it without an evaluation."""
-        return tuple(design.to_vector()) not in self._seen and self.model.admits(design)
+    @property
+    def spent(self) -> int:
+        """How many robots the trials took: one each, more where an objective looks at neighbours."""
+        return self._spent
+
+    def admits(self, one: Design | Variant) -> bool:
+        """Whether a design or variant is new, and the model admits it without an evaluation."""
+        variant = Variant.of(one)
+        return variant.key not in self._seen and self.model.admits(variant.design)
 
     def finished(self, phase: str, step: int, count: int) -> list[Trial] | None:
         """Read a whole step of `count` trials from the study file; None if one of them is missing."""
@@ -91,7 +99,7 @@ class Evaluator:
 
     def evaluate(
         self,
-        designs: Sequence[Design],
+        designs: Sequence[Design | Variant],
         phase: str,
         step: int,
         limit: int | None = None,
@@ -106,9 +114,9 @@ class Evaluator:
         JumpcadError
             If the model cannot work at all, or the study file holds other designs at these places.
         """
+        variants = [Variant.of(design) for design in designs]
         fresh: dict[Key, int] = {}
-        for index, design in enumerate(designs):
-            key = tuple(design.to_vector())
+        for index, key in enumerate(variant.key for variant in variants):
             if key not in self._seen and key not in fresh and (limit is None or len(fresh) < limit):
                 fresh[key] = index
         places = {key: (phase, step, place) for place, key in enumerate(fresh)}
@@ -119,13 +127,14 @@ class Evaluator:
         missing = [key for key in fresh if key not in self._finished]
         computed: list[Trial] = []
         try:
-            for outcome in self._pool.evaluate(self.model, [designs[fresh[key]] for key in missing]):
+            for outcome in self._pool.evaluate(self.model, [variants[fresh[key]] for key in missing]):
                 key = missing[outcome.index]
+                variant = variants[fresh[key]]
                 proposal = {} if proposals is None else proposals[fresh[key]]
                 score = self.objective.score(outcome.evaluation)
                 computed.append(
-                    Trial(*places[key], designs[fresh[key]], outcome.evaluation.bare, score, self.model.digest,
-                        outcome.duration_s, proposal)
+                    Trial(*places[key], variant.design, outcome.evaluation.bare, score, self.model.digest,
+                        outcome.duration_s, proposal, variant.workshop)
                 )  # fmt: skip
         except BaseException:
             self._commit(computed)
@@ -134,7 +143,7 @@ class Evaluator:
         self._commit(computed)
         for key in fresh:
             self._add(self._finished[key], computed=key in missing)
-        return [self._seen.get(tuple(design.to_vector())) for design in designs]
+        return [self._seen.get(variant.key) for variant in variants]
 
     def _commit(self, trials: list[Trial]) -> None:
         if trials:
@@ -144,6 +153,7 @@ class Evaluator:
             self._taken[trial.phase, trial.step, trial.place] = trial.key
 
     def _add(self, trial: Trial, computed: bool) -> None:
+        self._spent += 0 if trial.key in self._seen else trial.cost
         self._seen[trial.key] = trial
         self._watch(trial, computed)
 

@@ -13,7 +13,10 @@ from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.parameter import Parameter
 from jumpcad.search.surrogate import Surrogate, warped
 from jumpcad.search.trial import Trial, feasible_trials
+from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
+from jumpcad.workshop import load_workshop, workshop_value
+from jumpcad.workshop.varied import Value
 
 ELITE_SHARE = 0.1
 ELITE_LEAST = 20
@@ -28,11 +31,12 @@ UNIFORM_NOTE = (
 
 @dataclass(frozen=True)
 class Sweep:
-    """One parameter varied alone, with one trial for each of its values."""
+    """One parameter varied alone, with one trial for each of its values; of names, ``values`` are their numbers."""
 
     parameter: str
     values: Array
     trials: list[Trial]
+    names: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -71,18 +75,23 @@ class FeasibilityMap:
     x: Array
     y: Array
     trials: list[list[Trial]]
+    x_names: tuple[str, ...] = ()
+    y_names: tuple[str, ...] = ()
 
 
 @typed
 def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
-    """Vary each free parameter alone, over `points` values of its range (or over its choices)."""
+    """Vary each free parameter alone, over `points` values of its range (or over its choices).
+
+    The others are as in a design, and as in the model's workshop.
+    """
     if points < 2:
         raise JumpcadError(f"points = {points} must be at least 2")
-    sweeps = []
+    sweeps, start = [], _start(evaluator, around)
     for step, parameter in enumerate(evaluator.space.free):
         values = _grid(parameter, points)
-        trials = _all(evaluator, [_with(around, {parameter.name: value}) for value in values], "sweep", step)
-        sweeps.append(Sweep(parameter.name, values, trials))
+        trials = _all(evaluator, [_with(start, {parameter: value}) for value in values], "sweep", step)
+        sweeps.append(Sweep(parameter.name, values, trials, parameter.names))
     return sweeps
 
 
@@ -92,7 +101,7 @@ def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
     if count < 20:
         raise JumpcadError(f"samples = {count} must be at least 20")
     points = evaluator.space.spread(count, np.random.default_rng([seed, 5]))
-    return _all(evaluator, [evaluator.space.to_design(point) for point in points], "sample", 0)
+    return _all(evaluator, [evaluator.space.to_variant(point) for point in points], "sample", 0)
 
 
 @typed
@@ -102,7 +111,7 @@ def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
 
     if len(trials) < 3:
         raise JumpcadError(f"{len(trials)} designs are too few for principal components; raise --samples")
-    units = np.array([evaluator.space.to_unit(trial.design) for trial in trials])
+    units = np.array([evaluator.space.to_unit(trial.variant) for trial in trials])
     deviation = units.std(axis=0)
     found = PCA(svd_solver="full").fit((units - units.mean(axis=0)) / np.where(deviation > 0, deviation, 1.0))
     names = tuple(parameter.name for parameter in evaluator.space.free)
@@ -126,7 +135,7 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
         raise JumpcadError(
             f"{len(feasible)} of {len(trials)} designs jump, which is too few to say what is important; raise --samples"
         )
-    x = np.array([evaluator.space.to_unit(trial.design) for trial in feasible])
+    x = np.array([evaluator.space.to_unit(trial.variant) for trial in feasible])
     y = warped(np.array([trial.score for trial in feasible]))
     generator = np.random.default_rng([seed, 6])
     fold = generator.permutation(len(y)) % FOLDS
@@ -155,20 +164,33 @@ def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: s
     if x_name == y_name:
         raise JumpcadError(f"a map needs two different parameters, not {x_name} twice")
     x, y = _grid(parameters[x_name], points), _grid(parameters[y_name], points)
-    designs = [_with(around, {x_name: u, y_name: v}) for v in y for u in x]
-    trials = _all(evaluator, designs, "sweep", evaluator.space.dimension)
-    return FeasibilityMap(x_name, y_name, x, y, [trials[j * len(x) : (j + 1) * len(x)] for j in range(len(y))])
+    start = _start(evaluator, around)
+    variants = [_with(start, {parameters[x_name]: u, parameters[y_name]: v}) for v in y for u in x]
+    trials = _all(evaluator, variants, "sweep", evaluator.space.dimension)
+    lines = [trials[j * len(x) : (j + 1) * len(x)] for j in range(len(y))]
+    return FeasibilityMap(x_name, y_name, x, y, lines, parameters[x_name].names, parameters[y_name].names)
 
 
 def _grid(parameter: Parameter, points: int) -> Array:
     return np.array(parameter.choices) if parameter.choices else np.linspace(parameter.lower, parameter.upper, points)
 
 
-def _with(design: Design, values: dict[str, float]) -> Design:
-    return Design(**{**design.model_dump(), **{name: float(value) for name, value in values.items()}})
+def _start(evaluator: Evaluator, around: Design) -> Variant:
+    """Return a design in the model's workshop, with the values that the space varies."""
+    held: dict[str, Value] = {}
+    for parameter in evaluator.space.of_workshop:
+        workshop = getattr(evaluator.model, "workshop", None) or load_workshop()
+        held[parameter.name] = workshop_value(workshop, parameter.name)
+        if not parameter.free:
+            held[parameter.name] = parameter.value(parameter.lower)
+    return Variant(around, held)
 
 
-def _all(evaluator: Evaluator, designs: Sequence[Design], phase: str, step: int) -> list[Trial]:
+def _with(start: Variant, values: dict[Parameter, float]) -> Variant:
+    return start.changed({parameter.name: parameter.value(value) for parameter, value in values.items()})
+
+
+def _all(evaluator: Evaluator, designs: Sequence[Variant], phase: str, step: int) -> list[Trial]:
     return [trial for trial in evaluator.evaluate(designs, phase, step) if trial is not None]
 
 

@@ -42,9 +42,16 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
     space = evaluator.space
     _, elite = incumbent(space, trials)
     fixed = [parameter for parameter in space.parameters if not parameter.free]
-    known = [one for one in evaluator.trials if all(getattr(one.design, fix.name) == fix.lower for fix in fixed)]
+    known = [
+        one for one in evaluator.trials if all(fix.number(one.variant.value(fix.name)) == fix.lower for fix in fixed)
+    ]
     thetas: dict[str, Any] = next(
-        (trial.proposal["theta"] for trial in reversed(trials) if "theta" in trial.proposal), {}
+        (
+            trial.proposal["theta"]
+            for trial in reversed(trials)
+            if all(len(theta) == space.dimension + 2 for theta in trial.proposal.get("theta", {"": ()}).values())
+        ),
+        {},
     )
     generator = np.random.default_rng([seed, 7, step])
     proposals: list[Proposal] = []
@@ -56,7 +63,7 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
             if proposal is not None:
                 proposals.append(proposal)
     notes = [proposal.note() | {"theta": posterior.thetas} for proposal in proposals]
-    found = evaluator.evaluate([proposal.design for proposal in proposals], "margin", step, proposals=notes)
+    found = evaluator.evaluate([proposal.variant for proposal in proposals], "margin", step, proposals=notes)
     return [trial for trial in found if trial is not None]
 
 

@@ -3,25 +3,34 @@
 import hashlib
 import importlib.metadata
 import json
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from jumpcad.arguments import require_fields, typed
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, did_you_mean, templates_folder
-from jumpcad.findings import errors
+from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.search.objective import Evaluation
+from jumpcad.search.objective import COST, QUANTILE, Evaluation, Objective, find_objective
+from jumpcad.search.tolerances import tenth, varied_lengths, varied_parameters
+from jumpcad.search.variant import NOTHING
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
 from jumpcad.version import __version__
-from jumpcad.workshop import DEFAULT, Workshop, load_workshop
+from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
+from jumpcad.workshop.varied import Value
 
+NEIGHBOURS = 10
+"""Neighbours of a design that the objective p10 looks at, half of each kind."""
 MODELS = ("printed", "capsule", "published")
-PRESENTATION = ("bundle", "cli", "coupon")
+PRESENTATION = ("bundle", "calibration", "cli", "coupon")
 """The packages of jumpcad that do not affect the trials of a study."""
 
 
@@ -38,12 +47,16 @@ class RobotModel:
         Where `printed` is built; the default if None.
     settings, engine
         How `printed` and `capsule` are simulated; the default settings if None.
+    neighbours_of
+        An objective by name: of a design that jumps, neighbours are evaluated too, and the figure `p10` is that score
+        of the worst of them. The design is rejected with the first neighbour that is.
     """
 
     name: str
     workshop: Workshop | None = None
     settings: Settings | None = None
     engine: str = "pybullet"
+    neighbours_of: str = ""
 
     def __repr__(self) -> str:
         return f"<RobotModel {self.name}, {self.describe()['engine']}>"
@@ -55,8 +68,46 @@ class RobotModel:
                 f"{self.name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(self.name, MODELS)}"
             )
 
-    def __call__(self, design: Design) -> Evaluation:
-        """Evaluate a design; one that cannot be built is a verdict, not an error."""
+    def __call__(self, design: Design, workshop: Mapping[str, Value] = NOTHING) -> Evaluation:
+        """Evaluate a design, in the workshop with these values; one that cannot be built is a verdict, not an error."""
+        if workshop:
+            try:
+                return self.varied(workshop)(design)
+            except JumpcadError as error:  # the values do not go together
+                return Evaluation("workshop", detail=str(error))
+        found = self._alone(design)
+        return self._with_neighbours(design, found) if self.neighbours_of and found.feasible else found
+
+    def _with_neighbours(self, design: Design, found: Evaluation) -> Evaluation:
+        """Return an evaluation with the score that nine of ten neighbours reach.
+
+        They deviate alike from every design, so that the figure is as smooth as the score.
+        """
+        generators = (np.random.default_rng(kind) for kind in (0, 1))
+        kinds = (
+            varied_parameters(design, next(generators)),
+            varied_lengths(design, self.tolerance_mm, next(generators)),
+        )
+        objective, scores = find_objective(self.neighbours_of), []
+        neighbours = [one for pair in zip(*kinds, strict=True) for one in pair][:NEIGHBOURS]
+        for number, neighbour in enumerate(neighbours, start=1):
+            beside = self._alone(neighbour)
+            score = objective.score(beside)
+            if score is None:
+                reasons = ", ".join(beside.reasons)
+                failed = Finding(
+                    "neighbours", "error", (number - 1) / NEIGHBOURS - 1.0, "",
+                    f"neighbour {number} of {NEIGHBOURS} within the tolerances is rejected: {reasons}",
+                    "keep away from the limits that reject it",
+                )  # fmt: skip
+                metrics = {**found.metrics, COST: 1.0 + number}
+                return replace(found, metrics=metrics, findings=(*found.findings, failed), detail=reasons)
+            scores.append(score)
+        passed = Finding("neighbours", "info", 1.0 / NEIGHBOURS, "", "all neighbours jump", "")
+        metrics = {**found.metrics, QUANTILE: tenth(scores), COST: 1.0 + NEIGHBOURS}
+        return replace(found, metrics=metrics, findings=(*found.findings, passed))
+
+    def _alone(self, design: Design) -> Evaluation:
         findings = tuple(geometry_findings(design))
         rejecting = errors(findings)
         if rejecting:
@@ -65,6 +116,10 @@ class RobotModel:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:
             return Evaluation("cannot_build", detail=str(error))
+
+    def varied(self, values: Mapping[str, Value]) -> "RobotModel":
+        """Return the model of the robot that is built in the workshop with other values."""
+        return replace(self, workshop=varied(self.workshop or load_workshop(), values))
 
     @property
     def tolerance_mm(self) -> float:
@@ -89,13 +144,32 @@ class RobotModel:
 
         return not errors(statics_findings(capsule_robot(design)))
 
+    def quick_score(self, design: Design, objective: Objective) -> float:
+        """Return about what the capsule robot of a printed design scores; -inf where it does not jump, or is no guide.
+
+        Where it has no such figure, its fitness ranks the designs: it has no size but that of its links.
+        """
+        if self.name != "printed":
+            return -math.inf
+        quick = RobotModel("capsule", None, load_settings("screening"), self.engine)
+        if not quick.admits(design):
+            return -math.inf
+        found = quick(design)
+        if found.verdict != "jump":
+            return -math.inf
+        plain = find_objective(objective.neighbours_of) if objective.neighbours_of else objective
+        try:
+            return plain.score(replace(found, findings=())) or 0.0
+        except JumpcadError:
+            return found.metrics["fitness"]
+
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""
         record: dict[str, Any] = {"name": self.name, "engine": "pybullet" if self.name == "published" else self.engine}
         for key in ("workshop", "settings"):
             value = getattr(self, key)
             record[key] = None if value is None else value.model_dump(mode="json")
-        return record
+        return record | ({"neighbours_of": self.neighbours_of} if self.neighbours_of else {})
 
     @cached_property
     def digest(self) -> str:

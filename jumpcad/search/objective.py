@@ -12,6 +12,10 @@ from jumpcad.findings import Finding, errors
 from jumpcad.search.code_hash import code_hash
 from jumpcad.search.own_objective import SUFFIX, checked, load_function, name_of, require_function
 
+COST = "evaluations"
+"""Figure of an evaluation that took several robots: how many."""
+QUANTILE = "p10"
+"""Figure, and objective: the score that nine of ten neighbours reach."""
 QUARANTINED = "quarantined"
 """Verdict of a design whose evaluation failed twice: ended its worker, or ran past its limit."""
 
@@ -41,6 +45,11 @@ class Evaluation:
         return names or (() if self.feasible else (self.verdict,))
 
     @property
+    def cost(self) -> int:
+        """How many robots were built and simulated for it."""
+        return int(self.metrics.get(COST, 1.0))
+
+    @property
     def bare(self) -> "Evaluation":
         """The same with findings of name, severity, margin and unit only: what studies keep.
 
@@ -55,7 +64,10 @@ class Evaluation:
 
 
 class Model(Protocol):
-    """What evaluates designs: a picklable, pure function of the design."""
+    """What evaluates designs: a picklable, pure function of the design.
+
+    One that is built in a workshop takes, as a second argument, values in which this differs; see `Variant`.
+    """
 
     def __call__(self, design: Design, /) -> Evaluation:
         """Evaluate a design. Raises `JumpcadError` only if no design would work."""
@@ -78,7 +90,8 @@ class Model(Protocol):
 class Objective:
     """A score to be maximised; a rejected design has none.
 
-    ``code`` is the hash of an own objective's function.
+    ``code`` is the hash of an own objective's function. ``neighbours_of`` names the objective whose score, of the worst
+    of ten neighbours, is this one's: the model then evaluates neighbours too.
     """
 
     name: str
@@ -86,6 +99,7 @@ class Objective:
     unit: str
     figure: Callable[[Mapping[str, float]], float]
     code: str = ""
+    neighbours_of: str = ""
 
     def describe(self) -> dict[str, str]:
         """Return what a study remembers of it."""
@@ -153,6 +167,8 @@ def find_objective(objective: str | Callable[..., Any]) -> Objective:
     if isinstance(objective, str):
         if objective in OBJECTIVES:
             return OBJECTIVES[objective]
+        if objective.removeprefix(f"{QUANTILE}-") in OBJECTIVES:
+            return _quantile(OBJECTIVES[objective.removeprefix(f"{QUANTILE}-")])
         if f"{SUFFIX}:" not in objective:
             raise JumpcadError(
                 f"{objective!r} is not one of the objectives {', '.join(OBJECTIVES)}"
@@ -161,6 +177,11 @@ def find_objective(objective: str | Callable[..., Any]) -> Objective:
         objective = load_function(objective)
     function = require_function(objective)
     return Objective(name_of(function), "own objective", "own units", checked(function), code_hash(function))
+
+
+def _quantile(plain: Objective) -> Objective:
+    meaning = f"{plain.meaning} of nine in ten neighbours"
+    return Objective(f"{QUANTILE}-{plain.name}", meaning, plain.unit, lambda m: m[QUANTILE], neighbours_of=plain.name)
 
 
 def described_objective(identity: Mapping[str, Any]) -> Objective:

@@ -11,10 +11,12 @@ from jumpcad.search.models import robot_model
 from jumpcad.search.pool import open_pool
 from jumpcad.search.request import Request
 from jumpcad.search.result import Result
-from jumpcad.search.space import NOTHING, Space
+from jumpcad.search.space import Space
 from jumpcad.search.study import run_study
+from jumpcad.search.variant import NOTHING
 from jumpcad.settings import Settings
 from jumpcad.workshop import Workshop
+from jumpcad.workshop.varied import Value
 
 
 @typed
@@ -25,9 +27,9 @@ def optimize(
     objective: str | Callable[..., Any] | None = None,
     model: str = "printed",
     study: str | Path | None = None,
-    fixed: Mapping[str, float] = NOTHING,
+    fixed: Mapping[str, Value] = NOTHING,
     bounds: Mapping[str, tuple[float, float]] = NOTHING,
-    choices: Mapping[str, Sequence[float]] = NOTHING,
+    choices: Mapping[str, Sequence[Value]] = NOTHING,
     around: Design | str | Path | None = None,
     only: Sequence[str] = (),
     within_percent: float | int | None = None,
@@ -42,6 +44,7 @@ def optimize(
     prior: str | Path | None = None,
     until_percent: float | int = 0.0,
     hours: float | int = 0.0,
+    widen: bool = False,
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -50,21 +53,25 @@ def optimize(
     Parameters
     ----------
     method
-        `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), or `pareto` and `nsga2` for a front.
+        `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), `paper` (the published study's stages), or
+        `pareto` and `nsga2` for a front.
     evaluations
         How many designs are evaluated, those of the robust pick included: a quarter of them, at most 160.
     seed
         Random seed: the same call gives the same result.
     objective
         One of `jumpcad.search.OBJECTIVES` by name; if None, `range` for a front, `body_lengths` of the printed robot,
-        `fitness` of the others. Or an own one: a function that takes the figures of a jump (a mapping of names to
-        numbers) and returns the score, or `FILE.py:FUNCTION`.
+        `fitness` of the others. `p10`, or as `p10-range`: the score that nine of ten neighbours reach within the
+        tolerances of the robust pick; a design that jumps then counts as up to eleven evaluations. Or an own one: a
+        function that takes the figures of a jump (a mapping of names to numbers) and returns the score, or
+        `FILE.py:FUNCTION`.
     model
         The robot that is evaluated: `printed`, `capsule` or `published`.
     study
         A file (.db) in which every trial is kept, and from which the same call continues; none if None.
     fixed, bounds, choices
-        By parameter: a value, a pair of limits in place of `SEARCH_BOUNDS`, allowed values.
+        By parameter: a value, a pair of limits in place of `SEARCH_BOUNDS`, allowed values. A key of the workshop is
+        a parameter too: ``bounds={"body.plate_mm": (1.6, 2.4)}``, ``choices={"bought.spring": ["", "9271K619"]}``.
     around, only, within_percent
         Free only some parameters, or search near a design; see `Space.make`.
     workshop, settings, engine
@@ -77,11 +84,14 @@ def optimize(
     until_percent, hours
         End earlier: when Bayesian proposals promise to gain less than this share of the best score, or after this time
         (h); see `Request`. 0 for neither.
+    widen
+        Move bounds on which the best design lies, as far as a design or workshop can be, and go on; `Result.widened`
+        has what each bound costs.
 
     Returns
     -------
     Result
-        `design`, `score` and `fitness` of the winner, the ranked `candidates`, all `trials`.
+        `design`, `workshop`, `score` and `fitness` of the winner, the ranked `candidates`, all `trials`.
 
     Raises
     ------
@@ -89,11 +99,12 @@ def optimize(
         If an argument is wrong, or the study file holds another study, is damaged or in use.
     """
     centre = load_design(around) if isinstance(around, str | Path) else around
-    space = Space.make(fixed, bounds, choices, centre, only, within_percent)
+    robot = robot_model(model, workshop, settings, engine)
+    space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop)
     request = Request.make(
-        space, robot_model(model, workshop, settings, engine), method, objective,
+        space, robot, method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
-        until_percent=until_percent, hours=hours,
+        until_percent=until_percent, hours=hours, widen=widen,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, None if study is None else Path(study), pool)

@@ -1,6 +1,11 @@
-"""One parameter of a search: free in a range, free among choices, or fixed; and changes of it that users ask for."""
+"""One parameter of a search: free in a range, free among choices, or fixed; and changes of it that users ask for.
 
-from collections.abc import Iterable
+A parameter is one of a design's eight, or a value of the workshop by its dotted key.
+"""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -12,6 +17,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
 from jumpcad.transforms import Array
+from jumpcad.workshop import Workshop, varied, workshop_value
+from jumpcad.workshop.varied import Value
 
 Kind = Literal["fix", "bound", "choose"]
 FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
@@ -22,13 +29,21 @@ FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", "
 class Parameter:
     """What a search may do with one parameter, in the parameter's own unit.
 
-    ``lower == upper`` means fixed; ``choices``, sorted, lists the only values allowed.
+    ``lower == upper`` means fixed; ``choices``, sorted, lists the only values allowed. Where the values are names,
+    ``names`` lists them, and ``choices`` are their numbers from 0; they have no order.
     """
 
     name: str
     lower: float
     upper: float
     choices: tuple[float, ...] = ()
+    names: tuple[str, ...] = ()
+
+    @classmethod
+    def of_names(cls, name: str, names: Sequence[str]) -> "Parameter":
+        """Return a parameter whose values are names."""
+        last = len(names) - 1
+        return cls(name, 0.0, float(last), tuple(map(float, range(last + 1))) if last else (), tuple(names))
 
     @property
     def free(self) -> bool:
@@ -54,11 +69,33 @@ class Parameter:
         nearest: Array = choices[np.abs(values[:, None] - choices).argmin(axis=1)]
         return nearest
 
+    def value(self, number: float) -> Value:
+        """Return a value as users know it: of names, the one with this number."""
+        return self.names[round(number)] if self.names else float(number)
+
+    def number(self, value: Value) -> float:
+        """Return the number of a value; NaN for a name that is none of its values."""
+        if not self.names:
+            return value if isinstance(value, int | float) else float("nan")
+        return float(self.names.index(value)) if value in self.names else float("nan")
+
     def describe(self) -> dict[str, Any]:
         """Return the range, the choices or the fixed value as plain data."""
         if not self.free:
-            return {"fixed": self.lower}
-        return {"choices": list(self.choices)} if self.choices else {"lower": self.lower, "upper": self.upper}
+            return {"fixed": self.value(self.lower)}
+        if self.choices:
+            return {"choices": [self.value(choice) for choice in self.choices]}
+        return {"lower": self.lower, "upper": self.upper}
+
+    @classmethod
+    def from_record(cls, name: str, record: Mapping[str, Any]) -> "Parameter":
+        """Return the parameter that `describe` described."""
+        values = record.get("choices", [record["fixed"]] if "fixed" in record else [])
+        if any(isinstance(value, str) for value in values):
+            return cls.of_names(name, list(map(str, values)))
+        if "lower" in record:
+            return cls(name, record["lower"], record["upper"])
+        return cls(name, min(values), max(values), tuple(values) if len(values) > 1 else ())
 
 
 @dataclass(frozen=True)
@@ -67,11 +104,16 @@ class Change:
 
     kind: Kind
     name: str
-    values: tuple[float, ...]
+    values: tuple[Any, ...]
 
 
 def physical_limits(name: str) -> tuple[float, float]:
-    """Return the least and the greatest value that a design can have in a parameter."""
+    """Return the least and the greatest value that a design can have in a parameter.
+
+    Those of a workshop's value are found when the workshop is made.
+    """
+    if name not in PARAMETERS:
+        return -math.inf, math.inf
     limits = Design.model_fields[name].metadata
     lower = next(limit.ge for limit in limits if hasattr(limit, "ge"))
     upper = next(limit.le for limit in limits if hasattr(limit, "le"))
@@ -84,11 +126,12 @@ def read_change(kind: Kind, text: str) -> Change:
     name, equals, value = text.partition("=")
     if not equals:
         raise JumpcadError(f"{text!r} is not of the form NAME={form}")
-    name = known_name(name.strip())
-    values = [_number(item, text) for item in (value.split(separator) if separator else [value])]
-    if kind == "bound" and len(values) != 2:
+    name, items = name.strip(), value.split(separator) if separator else [value]
+    if kind == "bound" and len(items) != 2:
         raise JumpcadError(f"{text!r} is not of the form NAME=LO:HI")
-    return Change(kind, name, tuple(values))
+    if "." in name and kind != "bound":  # of the workshop: what is a number, the workshop decides
+        return Change(kind, name, tuple(item.strip() for item in items))
+    return Change(kind, name, tuple(_number(item, text) for item in items))
 
 
 def _number(text: str, whole: str) -> float:
@@ -98,19 +141,63 @@ def _number(text: str, whole: str) -> float:
         raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
 
 
-def changed_parameters(changes: Iterable[Change]) -> dict[str, Parameter]:
-    """Return the changed parameters by name."""
+def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = None) -> dict[str, Parameter]:
+    """Return the changed parameters by name; those of the workshop are checked in it."""
     changed: dict[str, Parameter] = {}
     for change in changes:
-        name = known_name(change.name)
+        name = change.name
         if name in changed:
             raise JumpcadError(f"{name} is given twice: fix it, bound it or choose its values, only once")
-        changed[name] = _parameter(change)
+        if name in PARAMETERS:
+            changed[name] = _parameter(change, [_possible(name, value) for value in change.values])
+        elif "." not in str(name):
+            known_name(name)
+        elif workshop is None:
+            raise JumpcadError(f"{shown(name)}: this robot is made in no workshop; search it on the printed robot")
+        else:
+            changed[name] = _of_workshop(change, workshop)
     return changed
 
 
-def _parameter(change: Change) -> Parameter:
-    name, values = change.name, [_possible(change.name, value) for value in change.values]
+def _of_workshop(change: Change, workshop: Workshop) -> Parameter:
+    """Return a parameter that is a value of the workshop; every value is tried in it.
+
+    What the workshop holds as a whole number is chosen among whole numbers.
+    """
+    name, held = change.name, workshop_value(workshop, change.name)
+    values = [_tried(workshop, name, value) for value in change.values]
+    texts = [value for value in values if isinstance(value, str)]
+    if not texts:
+        parameter = _parameter(change, [float(value) for value in values])
+        if isinstance(held, int) and parameter.free and not parameter.choices:
+            whole = tuple(map(float, range(math.ceil(parameter.lower), math.floor(parameter.upper) + 1)))
+            return replace(parameter, choices=whole)
+        return parameter
+    if change.kind == "bound" or len(texts) < len(values):
+        raise JumpcadError(f"{name}: names and numbers do not mix: choose among names, or give a range of numbers")
+    return Parameter.of_names(name, list(dict.fromkeys(texts)))
+
+
+def _tried(workshop: Workshop, name: str, value: Any) -> Value:
+    """Return a value that the workshop can have: a name as it is, else the number that a text stands for."""
+    if not isinstance(value, int | float | str | np.integer | np.floating):
+        raise JumpcadError(f"{name} = {described(value)} is neither a number nor a name")
+    tried: list[Value] = [value] if isinstance(value, str) else [float(value)]
+    if isinstance(value, str):
+        with suppress(ValueError):
+            tried.append(float(value))
+    complaint = JumpcadError(f"{name} = {described(value)} does not suit the workshop")
+    for one in tried:
+        try:
+            varied(workshop, {name: one})
+            return one
+        except JumpcadError as error:
+            complaint = error
+    raise complaint
+
+
+def _parameter(change: Change, values: Sequence[float]) -> Parameter:
+    name = change.name
     if change.kind == "bound":
         if len(values) != 2:
             raise JumpcadError(f"{name} has {len(values)} bounds; give the lower and the upper one")

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -12,13 +13,16 @@ from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.fronts import energy_j, front
 from jumpcad.search.objective import Objective
+from jumpcad.search.parameter import Parameter
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Posterior, unwarped, warped
-from jumpcad.search.trial import Trial
+from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.transforms import Array
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
 ACQUISITION = "log10 of EI × P(feasible)"
+MOST_DRAWN = 2000
+"""Trials that are drawn as shapes of their own; more of them are one image, or the best of them are drawn."""
 DECADES = 6.0
 """The acquisition is drawn down to this many decades below its maximum."""
 
@@ -28,12 +32,13 @@ def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score of every evaluation, and the best so far."""
     figure, (axes,) = panels(1, 6.4, 3.6)
     scores = _scores(trials)
-    number = np.arange(1, len(trials) + 1)
+    number, many = np.arange(1, len(trials) + 1), len(trials) > MOST_DRAWN
     for colour, phase in zip(COLOURS, dict.fromkeys(trial.phase for trial in trials), strict=False):
         of_phase = np.array([trial.phase == phase for trial in trials])
-        axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase)
+        axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase, rasterized=many)
     axes.plot(number, np.fmax.accumulate(scores), "-", lw=1.2, color="black", label="best so far")
-    axes.plot(number[np.isnan(scores)], np.zeros(int(np.isnan(scores).sum())), "|", color=GREY, label="rejected")
+    rejected = number[np.isnan(scores)]
+    axes.plot(rejected, np.zeros(len(rejected)), "|", color=GREY, label="rejected", rasterized=many)
     labels(axes, "evaluation", f"{objective.meaning} ({objective.unit})")
     axes.legend()
     return figure
@@ -46,22 +51,23 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
     feasible = [trial for trial in trials if trial.score is not None]
     order = np.arange(len(feasible))
     for axes, parameter in zip(all_axes, space.free, strict=True):
-        values = [getattr(trial.design, parameter.name) for trial in feasible]
-        axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8)
+        values = [parameter.number(trial.variant.value(parameter.name)) for trial in feasible]
+        _name_ticks(axes, parameter.names)
+        axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8, rasterized=len(feasible) > MOST_DRAWN)
         labels(axes, parameter.name, objective.unit)
     return figure
 
 
 @typed
 def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
-    """Draw every feasible design as a line over the free parameters, the better the darker."""
+    """Draw feasible designs as lines over the free parameters, the better the darker; at most the best `MOST_DRAWN`."""
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
-    feasible = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: trial.score or 0.0)
+    feasible = feasible_trials(trials)[:MOST_DRAWN][::-1]
     ranks = np.linspace(0.0, 1.0, len(feasible))
     for rank, trial in zip(ranks, feasible, strict=True):
         colour = (BLUE if rank < 0.95 else RED, 0.05 + 0.9 * rank**4)
-        axes.plot(range(space.dimension), space.to_unit(trial.design), "-", lw=0.8, color=colour)
-    ticks = [f"{p.name}\n{p.lower:g} … {p.upper:g}" for p in space.free]
+        axes.plot(range(space.dimension), space.to_unit(trial.variant), "-", lw=0.8, color=colour)
+    ticks = [f"{p.name}\n{_end(p, p.lower)} … {_end(p, p.upper)}" for p in space.free]
     axes.set_xticks(range(space.dimension), ticks, rotation=30, ha="right", fontsize=7)
     labels(axes, "", "place in its range", "the best twentieth in red")
     return figure
@@ -97,7 +103,8 @@ def sweeps(found: Sequence[Sweep], objective: Objective) -> Figure:
     figure, all_axes = panels(len(found))
     for axes, one in zip(all_axes, found, strict=True):
         scores = _scores(one.trials)
-        axes.plot(one.values, scores, ".-", color=BLUE)
+        axes.plot(one.values, scores, "." if one.names else ".-", color=BLUE)
+        _name_ticks(axes, one.names)
         rejected = np.isnan(scores)
         axes.plot(one.values[rejected], np.zeros(int(rejected.sum())), "x", color=RED, ms=4)
         labels(axes, one.parameter, objective.unit)
@@ -132,6 +139,9 @@ def feasibility(found: FeasibilityMap) -> Figure:
     patches = [Patch(color=colour, label=name) for colour, name in zip(palette, names, strict=True)]
     figure.legend(handles=patches, loc="outside right upper")
     labels(axes, found.x_name, found.y_name)
+    _name_ticks(axes, found.x_names)
+    if found.y_names:
+        axes.set_yticks(range(len(found.y_names)), found.y_names, fontsize=7)
     return figure
 
 
@@ -159,7 +169,8 @@ def _one_parameter(
         above.fill_between(x, low, high, color=BLUE, alpha=0.2, lw=0, label="± 2 σ")
         above.plot(x, unwarped(mean), color=BLUE, label="surrogate")
     feasible = [trial for trial in trials if trial.score is not None]
-    values = [getattr(trial.design, parameter.name) for trial in feasible]
+    values = [parameter.number(trial.variant.value(parameter.name)) for trial in feasible]
+    _name_ticks(below, parameter.names)
     above.plot(values, _scores(feasible), "o", ms=4, color="black", label="evaluated")
     above.legend()
     labels(above, "", objective.unit)
@@ -179,9 +190,10 @@ def _two(space: Space, trials: Sequence[Trial], posterior: Posterior, objective:
     heat(figure, right, x, y, _log_acquisition(posterior, points, best).reshape(61, 61), ACQUISITION)
     for axes, title in ((left, "surrogate"), (right, "acquisition")):
         for colour, chosen in (("white", True), (RED, False)):
-            shown = [trial.design for trial in trials if (trial.score is not None) == chosen]
+            shown = [trial.variant for trial in trials if (trial.score is not None) == chosen]
             axes.plot(
-                [getattr(d, first.name) for d in shown], [getattr(d, second.name) for d in shown],
+                [first.number(one.value(first.name)) for one in shown],
+                [second.number(one.value(second.name)) for one in shown],
                 ".", ms=7, mec="black", mew=0.4, color=colour,
             )  # fmt: skip
         labels(axes, first.name, second.name, f"{title}; rejected designs in red")
@@ -193,6 +205,17 @@ def _log_acquisition(posterior: Posterior, points: Array, best: float) -> Array:
     value = (posterior.log_improvement(points, best) + posterior.log_feasible(points)) / np.log(10.0)
     shown: Array = np.maximum(value, value.max() - DECADES)
     return shown
+
+
+def _end(parameter: Parameter, number: float) -> str:
+    value = parameter.value(number)
+    return value if isinstance(value, str) else f"{value:g}"
+
+
+def _name_ticks(axes: Axes, names: Sequence[str]) -> None:
+    """Mark the numbers of names with the names."""
+    if names:
+        axes.set_xticks(range(len(names)), names, rotation=30, ha="right", fontsize=7)
 
 
 def _scores(trials: Sequence[Trial]) -> Array:

@@ -23,6 +23,7 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model
+from jumpcad.search.variant import Variant
 from jumpcad.search.worker import Failure, evaluate_task, start_worker
 
 TASK_S = 0.1
@@ -94,7 +95,7 @@ class Pool:
             self._end(self._executor)
             self._executor = None
 
-    def evaluate(self, model: Model, designs: Sequence[Design]) -> Iterator[Outcome]:
+    def evaluate(self, model: Model, designs: Sequence[Design | Variant]) -> Iterator[Outcome]:
         """Evaluate designs; outcomes come in the order in which they finish.
 
         Raises
@@ -117,7 +118,8 @@ class Pool:
             again: dict[int, str] = {}
             yield from self._collect(self._submit(sent, [designs[index]]), [index], again)
             if again:
-                values = ", ".join(f"{value:.6g}" for value in designs[index].to_vector())
+                key = Variant.of(designs[index]).key
+                values = ", ".join(value if isinstance(value, str) else f"{value:.6g}" for value in key)
                 self.notice(f"a design is quarantined: {again[index]}; before: {reason}; design: {values}")
                 yield Outcome(index, Evaluation(QUARANTINED, detail=again[index]), 0.0)
 
@@ -131,7 +133,7 @@ class Pool:
             start += size
         return tasks
 
-    def _submit(self, sent: bytes, designs: list[Design]) -> Future[Any]:
+    def _submit(self, sent: bytes, designs: list[Design | Variant]) -> Future[Any]:
         if self._executor is None:
             self._executor = self._open()
         try:

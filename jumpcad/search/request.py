@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
 
@@ -15,7 +15,7 @@ from jumpcad.search.methods import DEFAULT, FRONTS, METHODS, NAMES, SEQUENCES
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel, versions
-from jumpcad.search.objective import Model, Objective, find_objective
+from jumpcad.search.objective import QUANTILE, Model, Objective, find_objective
 from jumpcad.search.robust import pick_share
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -24,6 +24,8 @@ MOST_EVALUATIONS = 1_000_000
 """About six days at two evaluations per second."""
 MOST_FIRST = 50
 """Most evaluations of the first of two methods: with 190 of 240, the second found the best design in 10 (measured)."""
+WIDENINGS, WIDENING_SHARE = 3, 0.5
+"""How often active bounds are moved, and the share of the search that follows; judgement."""
 LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 """Packages that decide what is proposed next, in addition to those that decide an evaluation."""
 
@@ -57,6 +59,9 @@ class Request:
         score; 0 spends all evaluations.
     hours
         The search ends after this time (h), the robust pick follows; 0 for no limit. The same request goes on later.
+    widen
+        Whether bounds on which the best design lies are moved, and the search goes on: `WIDENINGS` times, with
+        `WIDENING_SHARE` of the evaluations.
     """
 
     space: Space
@@ -72,6 +77,7 @@ class Request:
     own: Objective | None = None
     until_percent: float = 0.0
     hours: float = 0.0
+    widen: bool = False
 
     @classmethod
     def make(
@@ -88,7 +94,11 @@ class Request:
         workshop. An own objective is a function, or `FILE.py:FUNCTION`.
         """
         default = "range" if method in FRONTS else model.default_objective
+        if objective == QUANTILE:
+            objective = f"{QUANTILE}-{default}"
         aim = find_objective(default if objective is None else objective)
+        if aim.neighbours_of:
+            model = replace(model, neighbours_of=aim.neighbours_of)
         own = aim if aim.code else None
         return cls(space, model, aim.name, method or DEFAULT, tolerance_mm=model.tolerance_mm, own=own, **others)
 
@@ -111,6 +121,10 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
+        if self.widen and self.is_front:
+            raise JumpcadError(f"widen: does not apply to {self.method}, which has no best design")
+        if self.is_front and any(one.name == "bought.spring" for one in self.space.of_workshop):
+            raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
         if self.batch > 1 and not any(METHODS[name].learns for name in SEQUENCES.get(self.method, (self.method,))):
             learning = ", ".join(name for name, method in METHODS.items() if method.learns)
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
@@ -125,8 +139,11 @@ class Request:
 
     @property
     def pick(self) -> int:
-        """How many of the evaluations examine the neighbours and the bounds of the best designs; none of a front's."""
-        return 0 if self.is_front else pick_share(self.evaluations)
+        """How many of the evaluations examine the neighbours and the bounds of the best designs.
+
+        None for a front, nor where the objective looks at neighbours itself.
+        """
+        return 0 if self.is_front or self.aim.neighbours_of else pick_share(self.evaluations)
 
     @property
     def searched(self) -> int:
@@ -154,6 +171,7 @@ class Request:
             "seed": self.seed,
             "preset": self.preset,
             "batch": self.batch,
+            **({"widen": True} if self.widen else {}),
             "tolerance_mm": self.tolerance_mm,
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
@@ -168,11 +186,15 @@ class Request:
 
 @dataclass(frozen=True)
 class Stage:
-    """One method's share: how many evaluations, and how many of them spread evenly first, if it learns."""
+    """One method's share: how many evaluations, and how many of them spread evenly first, if it learns.
+
+    With ``widen``, active bounds are moved before.
+    """
 
     method: str
     evaluations: int
     initial: int = 0
+    widen: bool = False
 
 
 def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
@@ -181,7 +203,14 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     Of a sequence, the first method gets a third of the evaluations, at most `MOST_FIRST`: Bayesian optimisation learns
     from them as from evenly spread designs, and more of them are wasted.
     """
-    total = request.searched
+    if request.widen:
+        wider = [Stage("bo", int(WIDENING_SHARE * request.searched / WIDENINGS), widen=True)] * WIDENINGS
+        narrow = replace(request, widen=False)
+        return [*_plan(narrow, request.searched - sum(stage.evaluations for stage in wider), prior), *wider]
+    return _plan(request, request.searched, prior)
+
+
+def _plan(request: Request, total: int, prior: int) -> list[Stage]:
     if request.method in SEQUENCES:
         first, second = SEQUENCES[request.method]
         share = min(total // 3, MOST_FIRST)

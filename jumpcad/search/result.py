@@ -1,18 +1,29 @@
 """`Result`: what a study found, as values, as plain data, and as a design file."""
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
+from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_atomically
 from jumpcad.search.fronts import front, hypervolume
+from jumpcad.search.models import RobotModel
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
 from jumpcad.search.trial import Trial, count_rejections
+from jumpcad.search.widening import Widened
+from jumpcad.workshop import Workshop
 
 HEADING = "# Found by jumpcad optimize"
+WORKSHOP_END = "-workshop.toml"
+
+
+def workshop_file(design_file: Path) -> Path:
+    """Return where the workshop of a design file is written."""
+    return design_file.with_name(f"{design_file.stem}{WORKSHOP_END}")
 
 
 @dataclass(frozen=True, repr=False)
@@ -34,7 +45,9 @@ class Result:
     notes
         What happened to the run: lost workers, quarantined designs.
     evaluations
-        How many designs were evaluated in all, those of the robust pick included.
+        How many robots were built and simulated in all, those of the robust pick included.
+    widened
+        Bounds that the search moved, with what they cost.
     """
 
     request: Request
@@ -44,6 +57,7 @@ class Result:
     bounds: list[ActiveBound]
     notes: list[str]
     evaluations: int
+    widened: Sequence[Widened] = ()
 
     @property
     def winner(self) -> Trial | None:
@@ -60,6 +74,12 @@ class Result:
             If no design jumps.
         """
         return self._won().design
+
+    @property
+    def workshop(self) -> Workshop | None:
+        """The workshop with the winner's values; None where the search varied none. Raises as `design`."""
+        values, model = self._won().workshop, self.request.model
+        return model.varied(values).workshop if values and isinstance(model, RobotModel) else None
 
     @property
     def score(self) -> float:
@@ -89,10 +109,25 @@ class Result:
     def to_toml(self) -> str:
         """Return the winner's design file. Raises as `design`."""
         heading = f"{HEADING}: {self.request.title} {self.score:.4g}.\n"
+        if self._won().workshop:
+            heading += f"# Its workshop was searched too: it is in the file that ends in {WORKSHOP_END}.\n"
         return sealed(heading + self.design.to_toml())
 
+    def workshop_toml(self) -> str:
+        """Return the winner's workshop file, complete; empty where the search varied none. Raises as `design`."""
+        workshop = self.workshop
+        if workshop is None:
+            return ""
+        changes = "".join(
+            f"#   {key} = {shown(value) if isinstance(value, str) else f'{value:g}'}\n"
+            for key, value in self._won().workshop.items()
+        )
+        return sealed(f"{HEADING}, with\n{changes}{workshop.to_toml()}")
+
     def save(self, path: str | Path, force: bool = False) -> Path:
-        """Write the winner's design file.
+        """Write the winner's design file and, where the search varied the workshop, beside it the workshop's.
+
+        `jumpcad build X.toml --workshop X-workshop.toml` makes the robot.
 
         Raises
         ------
@@ -101,9 +136,12 @@ class Result:
         JumpcadError
             If the file does not end in .toml, cannot be written, or is a user's and `force` is not given.
         """
-        text = self.to_toml()
-        require_target(Path(path), (".toml",), force)
-        write_atomically(Path(path), text)
+        texts = {Path(path): self.to_toml(), workshop_file(Path(path)): self.workshop_toml()}
+        files = {file: text for file, text in texts.items() if text}
+        for file in files:
+            require_target(file, (".toml",), force)
+        for file, text in files.items():
+            write_atomically(file, text)
         return Path(path)
 
     def to_dict(self) -> dict[str, Any]:
@@ -118,6 +156,7 @@ class Result:
             "winner": None if self.winner is None else self.winner.to_dict(),
             "candidates": [candidate.to_dict() for candidate in self.candidates],
             "active_bounds": [asdict(bound) for bound in self.bounds],
+            **({"widened": [one.to_dict() for one in self.widened]} if self.request.widen else {}),
             "notes": self.notes,
         }
         if self.request.is_front:

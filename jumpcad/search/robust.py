@@ -13,15 +13,15 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
 
-from jumpcad.design import PARAMETERS, Design
+from jumpcad.design import PARAMETERS
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.margin import propose_robust
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.space import Space
+from jumpcad.search.tolerances import PERCENT, SAMPLES, tenth, varied_lengths, varied_parameters
 from jumpcad.search.trial import Trial, feasible_trials
-from jumpcad.transforms import Array
+from jumpcad.search.variant import Variant
 
 MOST_PICK, LEAST_PICK = 200, 6
 """Most evaluations of the robust pick; with fewer than the least it examines nothing."""
@@ -32,9 +32,6 @@ JOINING = 3
 LEAST_TO_JOIN = 16
 ROUNDS = 8
 """Numbers of steps in the study file that one pick takes."""
-SAMPLES = 16
-PERCENT = 1.0
-PERCENTILE = 10
 APART = 0.02
 WIDENING = 0.05
 
@@ -70,6 +67,7 @@ class Candidate:
             "refusals": self.rejections,
             "neighbours": self.neighbours,
             "design": self.trial.design.model_dump(),
+            **({"workshop": dict(self.trial.workshop)} if self.trial.workshop else {}),
         }
 
     def __repr__(self) -> str:
@@ -175,7 +173,7 @@ class _Examined:
         """The lower percentile; the own score as long as no neighbour is known."""
         return min(map(self._tenth, self.scores))
 
-    def neighbours(self, new: int, seed: int, tolerance_mm: float) -> list[tuple[str, Design]]:
+    def neighbours(self, new: int, seed: int, tolerance_mm: float) -> list[tuple[str, Variant]]:
         """Return the next neighbours, half of each kind."""
         generator = np.random.default_rng([seed, 4, self.index])
         kinds = {
@@ -183,7 +181,8 @@ class _Examined:
             "print": varied_lengths(self.trial.design, tolerance_mm, generator),
         }
         start, end = self.examined // 2, (self.examined + new) // 2
-        return [(kind, design) for kind, designs in kinds.items() for design in designs[start:end]]
+        chosen = [(kind, design) for kind, designs in kinds.items() for design in designs[start:end]]
+        return [(kind, Variant(design, self.trial.workshop)) for kind, design in chosen]
 
     def candidate(self) -> Candidate:
         """Return the result."""
@@ -192,7 +191,7 @@ class _Examined:
 
     def _tenth(self, kind: str) -> float:
         scores = self.scores[kind]
-        return float(np.percentile(scores, PERCENTILE, method="lower")) if scores else self.trial.score or 0.0
+        return tenth(scores) if scores else self.trial.score or 0.0
 
 
 def _examine(
@@ -203,7 +202,7 @@ def _examine(
     A rejected one scores 0, or where scores are negative as far below the worst as the best is above it.
     """
     asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, tolerance_mm)]
-    found = evaluator.evaluate([design for _, _, design in asked], "robust", step)
+    found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step)
     scores = [trial.score for trial in evaluator.trials if trial.score is not None]
     rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0
     for (one, kind, _), trial in zip(asked, found, strict=True):
@@ -216,28 +215,12 @@ def best_apart(space: Space, trials: Sequence[Trial], count: int) -> list[Trial]
     """Return the best feasible trials that differ by at least a fiftieth of a range in some parameter, best first."""
     chosen: list[Trial] = []
     for trial in feasible_trials(trials):
-        unit = space.to_unit(trial.design)
-        if all(np.abs(unit - space.to_unit(other.design)).max() >= APART for other in chosen):
+        unit = space.to_unit(trial.variant)
+        if all(np.abs(unit - space.to_unit(other.variant)).max() >= APART for other in chosen):
             chosen.append(trial)
         if len(chosen) == count:
             break
     return chosen
-
-
-def varied_parameters(design: Design, generator: np.random.Generator) -> list[Design]:
-    """Return designs with every parameter varied evenly within ±1 %, and within a design's limits."""
-    factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)
-    return [_clipped(np.array(design.to_vector()) * factor) for factor in factors]
-
-
-def varied_lengths(design: Design, tolerance_mm: float, generator: np.random.Generator) -> list[Design]:
-    """Return designs whose links l2…l5 each vary evenly within a tolerance (mm)."""
-    lengths = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm])
-    varied = []
-    for error in tolerance_mm * _even(4, generator):
-        l2, l3, l4, l5 = lengths + error
-        varied.append(_clipped(np.array([l2, l3 / l2, l4 / l2, l5 / l2, *design.to_vector()[4:]])))
-    return varied
 
 
 def active_bounds(
@@ -249,7 +232,9 @@ def active_bounds(
     """
     found = []
     for parameter in evaluator.space.free:
-        value = getattr(trial.design, parameter.name)
+        if parameter.names or (parameter.choices and parameter in evaluator.space.of_workshop):
+            continue  # choices of a workshop end where it ends
+        value = parameter.number(trial.variant.value(parameter.name))
         lowest, highest = physical_limits(parameter.name)
         reach = WIDENING * parameter.width
         for side, bound, beyond in (
@@ -258,8 +243,8 @@ def active_bounds(
         ):
             if abs(value - bound) <= 1e-3 * parameter.width and beyond != bound:
                 found.append(ActiveBound(parameter.name, side, bound, beyond, None))
-    designs = [trial.design.model_copy(update={bound.name: bound.beyond}) for bound in found]
-    trials = evaluator.evaluate(designs, "bounds", step, limit=evaluations)
+    variants = [trial.variant.changed({bound.name: bound.beyond}) for bound in found]
+    trials = evaluator.evaluate(variants, "bounds", step, limit=evaluations)
     return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True)]
 
 
@@ -269,14 +254,3 @@ def _worth(bound: ActiveBound, trial: Trial, beyond: Trial | None) -> ActiveBoun
     if beyond.score is None:
         return replace(bound, reason=", ".join(beyond.evaluation.reasons))
     return replace(bound, worth=beyond.score - (trial.score or 0.0))
-
-
-def _even(dimension: int, generator: np.random.Generator) -> Array:
-    """Return evenly spread points (SAMPLES, dimension) of the cube from -1 to 1."""
-    points: Array = qmc.Sobol(dimension, seed=generator).random(SAMPLES)
-    return 2.0 * points - 1.0
-
-
-def _clipped(vector: Array) -> Design:
-    limits = np.array([physical_limits(name) for name in PARAMETERS])
-    return Design.from_vector(np.clip(vector, limits[:, 0], limits[:, 1]).tolist())

@@ -1,13 +1,14 @@
-"""The search space: each of the eight parameters free in a range, free among choices, or fixed.
+"""The search space: each of the eight parameters free in a range, free among choices, or fixed; and values of the
+workshop in the same way.
 
-Methods work in the unit cube of the free parameters. Choices are placed in it in proportion to their values.
+Methods work in the unit cube of the free parameters. Choices are placed in it in proportion to their values,
+names evenly.
 """
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from types import MappingProxyType
 from typing import Any, Self
 
 import numpy as np
@@ -26,14 +27,15 @@ from jumpcad.search.parameter import (
     read_change,
     several,
 )
+from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.transforms import Array
-
-NOTHING: Mapping[str, Any] = MappingProxyType({})
+from jumpcad.workshop import Workshop
+from jumpcad.workshop.varied import Value
 
 
 @dataclass(frozen=True, repr=False)
 class Space:
-    """The part of the design space that is searched: one `Parameter` each, in the order of `PARAMETERS`."""
+    """What is searched: one `Parameter` each, in the order of `PARAMETERS`, then the workshop's by their keys."""
 
     parameters: tuple[Parameter, ...]
 
@@ -43,7 +45,7 @@ class Space:
     def __post_init__(self) -> None:
         require_fields(self)
         if not any(parameter.free for parameter in self.parameters):
-            raise JumpcadError("all eight parameters are fixed: nothing is left to search; free at least one")
+            raise JumpcadError("all parameters are fixed: nothing is left to search; free at least one")
 
     @classmethod
     def default(cls) -> Self:
@@ -54,36 +56,40 @@ class Space:
     @typed
     def make(
         cls,
-        fixed: Mapping[str, float] = NOTHING,
+        fixed: Mapping[str, Value] = NOTHING,
         bounds: Mapping[str, tuple[float, float]] = NOTHING,
-        choices: Mapping[str, Sequence[float]] = NOTHING,
+        choices: Mapping[str, Sequence[Value]] = NOTHING,
         around: Design | None = None,
         only: Iterable[str] = (),
         within_percent: float | None = None,
+        workshop: Workshop | None = None,
     ) -> Self:
         """Return the default space with changes.
 
         Parameters
         ----------
         fixed, bounds, choices
-            By name of a parameter: its value, its lower and upper limit, its allowed values. Each parameter is in at
-            most one of them.
+            By name of a parameter, or by a key of the workshop such as `body.plate_mm`: its value, its lower and upper
+            limit, its allowed values. Each is in at most one of them.
         around
             A design that gives the values of what is not free and the middle of `within_percent`.
         only
             Names of the parameters that stay free; all others are fixed at `around`.
         within_percent
-            Narrow every range to this share of its width on either side of `around`.
+            Narrow every range of a design to this share of its width on either side of `around`.
+        workshop
+            The workshop whose values may be varied; None for a robot that is made in none.
 
         Raises
         ------
         JumpcadError
-            For an unknown name, a value outside of what a design can be, an empty range or nothing left free.
+            For an unknown name, a value outside of what a design or workshop can be, an empty range or nothing left
+            free.
         """
         changes = [Change("fix", name, (value,)) for name, value in fixed.items()]
         changes += [Change("bound", name, several(name, limits)) for name, limits in bounds.items()]
         changes += [Change("choose", name, several(name, values)) for name, values in choices.items()]
-        return cls._changed(changes, around, only, within_percent)
+        return cls._changed(changes, around, only, within_percent, workshop)
 
     @classmethod
     @typed
@@ -95,6 +101,7 @@ class Space:
         around: Design | None = None,
         only: Iterable[str] = (),
         within_percent: float | None = None,
+        workshop: Workshop | None = None,
     ) -> Self:
         """Return the default space with changes from a command line; see `make`.
 
@@ -102,7 +109,7 @@ class Space:
         ----------
         fix, bound, choose
             ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``, each parameter in at most one of them.
-        around, only, within_percent
+        around, only, within_percent, workshop
             As for `make`.
 
         Raises
@@ -112,16 +119,21 @@ class Space:
         """
         texts: tuple[tuple[Kind, Iterable[str]], ...] = (("fix", fix), ("bound", bound), ("choose", choose))
         changes = [read_change(kind, text) for kind, some in texts for text in some]
-        return cls._changed(changes, around, only, within_percent)
+        return cls._changed(changes, around, only, within_percent, workshop)
 
     @classmethod
     def _changed(
-        cls, changes: Iterable[Change], around: Design | None, only: Iterable[str], within_percent: float | None
+        cls,
+        changes: Iterable[Change],
+        around: Design | None,
+        only: Iterable[str],
+        within_percent: float | None,
+        workshop: Workshop | None,
     ) -> Self:
         only = [known_name(name) for name in only]
         if around is None and (only or within_percent is not None):
             raise JumpcadError("to free only some parameters, or to search near a design, say around which design")
-        changed = changed_parameters(changes)
+        changed = changed_parameters(changes, workshop)
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
         for name, limits in SEARCH_BOUNDS.items():
@@ -130,13 +142,23 @@ class Space:
                 parameter = Parameter(name, centre[name], centre[name])
             elif within_percent is not None:
                 parameter = narrowed(parameter, centre[name], within_percent)
-            parameters.append(changed.get(name, parameter))
-        return cls(tuple(parameters))
+            parameters.append(changed.pop(name, parameter))
+        return cls((*parameters, *changed.values()))
 
     @cached_property
     def free(self) -> tuple[Parameter, ...]:
         """The parameters that the search moves."""
         return tuple(parameter for parameter in self.parameters if parameter.free)
+
+    @property
+    def of_workshop(self) -> tuple[Parameter, ...]:
+        """The parameters that are values of the workshop, free or fixed."""
+        return self.parameters[len(PARAMETERS) :]
+
+    @property
+    def categories(self) -> tuple[int, ...]:
+        """Of each free parameter, how many names it chooses among; 0 where its values have an order."""
+        return tuple(len(parameter.names) for parameter in self.free)
 
     @property
     def dimension(self) -> int:
@@ -150,10 +172,21 @@ class Space:
 
     def to_design(self, unit: Sequence[float] | Array) -> Design:
         """Return the design at a point (dimension,) of the unit cube."""
-        return Design.from_vector(self.values(np.asarray(unit, dtype=float)[None])[0].tolist())
+        return self.to_variant(unit).design
+
+    def to_variant(self, unit: Sequence[float] | Array) -> Variant:
+        """Return the design and the workshop's values at a point (dimension,) of the unit cube."""
+        numbers = self.values(np.asarray(unit, dtype=float)[None])[0].tolist()
+        eight = len(PARAMETERS)
+        values = zip(self.of_workshop, numbers[eight:], strict=True)
+        workshop = {parameter.name: parameter.value(number) for parameter, number in values}
+        return Variant(Design.from_vector(numbers[:eight]), workshop)
 
     def values(self, units: Array) -> Array:
-        """Return the parameters (n, 8), as a design's vector has them, at points (n, dimension) of the unit cube."""
+        """Return the parameters (n, 8 + w) at points (n, dimension) of the unit cube.
+
+        First as a design's vector has them, then the workshop's; of names, their numbers.
+        """
         columns = iter(units.T)
         return np.column_stack(
             [
@@ -162,18 +195,22 @@ class Space:
             ]
         )
 
-    def to_unit(self, design: Design) -> Array:
-        """Return the point (dimension,) of a design; outside of the unit cube where the design is out of bounds."""
-        vector = design.to_vector()
-        pairs = zip(self.parameters, vector, strict=True)
-        return np.array([(value - parameter.lower) / parameter.width for parameter, value in pairs if parameter.free])
+    def to_unit(self, one: Design | Variant) -> Array:
+        """Return the point (dimension,) of a design or variant; outside of the unit cube where it is out of bounds."""
+        variant = Variant.of(one)
+        numbers = ((parameter, parameter.number(variant.value(parameter.name))) for parameter in self.free)
+        return np.array([(number - parameter.lower) / parameter.width for parameter, number in numbers])
 
-    def contains(self, design: Design) -> bool:
-        """Whether a design has the fixed values and lies within all ranges and choices (to 1e-9 of a range)."""
-        for parameter, value in zip(self.parameters, design.to_vector(), strict=True):
+    def contains(self, one: Design | Variant) -> bool:
+        """Whether it has the fixed values and lies within all ranges and choices (to 1e-9 of a range)."""
+        variant = Variant.of(one)
+        if list(variant.workshop) != [parameter.name for parameter in self.of_workshop]:
+            return False
+        for parameter in self.parameters:
+            value = parameter.number(variant.value(parameter.name))
             slack = 1e-9 * max(parameter.width, abs(parameter.upper))
             allowed = parameter.choices or (min(max(value, parameter.lower), parameter.upper),)
-            if all(abs(value - near) > slack for near in allowed):
+            if not any(abs(value - near) <= slack for near in allowed):  # nor is NaN
                 return False
         return True
 
@@ -192,16 +229,41 @@ class Space:
         power = max(0, math.ceil(math.log2(max(count, 1))))
         return self.snap(qmc.Sobol(self.dimension, seed=generator).random_base2(power)[:count])
 
+    def near(self, centre: Variant, names: Sequence[str] = (), percent: float | None = None) -> "Space | None":
+        """Return the part of the space in which only some parameters vary, the others as they are in its `centre`.
+
+        Parameters
+        ----------
+        centre
+            A variant of the space.
+        names
+            Which of the free parameters stay free; all of them if empty.
+        percent
+            Of a range, to either side of the centre, to which ranges are narrowed; not if None.
+
+        Returns
+        -------
+        Space or None
+            None where nothing stays free.
+        """
+        parts = []
+        for parameter in self.parameters:
+            number = parameter.number(centre.value(parameter.name))
+            if names and parameter.name not in names:
+                held = (parameter.names[round(number)],) if parameter.names else ()
+                at = 0.0 if held else number
+                parameter = Parameter(parameter.name, at, at, names=held)
+            elif percent is not None and parameter.free and not parameter.choices:
+                reach = parameter.width * percent / 100.0
+                lower, upper = max(parameter.lower, number - reach), min(parameter.upper, number + reach)
+                parameter = replace(parameter, lower=lower, upper=upper)
+            parts.append(parameter)
+        return Space(tuple(parts)) if any(part.free for part in parts) else None
+
     @classmethod
     def from_record(cls, record: Mapping[str, Mapping[str, Any]]) -> Self:
         """Return the space that `describe` described."""
-        parameters = []
-        for name, part in record.items():
-            choices = tuple(part.get("choices", ()))
-            lower = part.get("lower", part.get("fixed", min(choices, default=0.0)))
-            upper = part.get("upper", part.get("fixed", max(choices, default=0.0)))
-            parameters.append(Parameter(name, lower, upper, choices))
-        return cls(tuple(parameters))
+        return cls(tuple(Parameter.from_record(name, part) for name, part in record.items()))
 
     def describe(self) -> dict[str, Any]:
         """Return the space as plain data, as the study file keeps it."""

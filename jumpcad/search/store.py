@@ -9,7 +9,8 @@ import itertools
 import json
 import os
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
@@ -22,6 +23,7 @@ from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
 from jumpcad.findings import Finding
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
+from jumpcad.search.methods import STEPS
 from jumpcad.search.stored import (
     require_remembered,
     stored_count,
@@ -30,17 +32,19 @@ from jumpcad.search.stored import (
     stored_figure,
     stored_proposal,
     stored_text,
+    stored_workshop,
 )
-from jumpcad.search.trial import LEARNING_PHASES, PHASES, Trial
+from jumpcad.search.trial import LEARNING_PHASES, PHASES, SEARCH_PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50
-FORMAT = 2
-FORMATS = (1, 2)
-"""Formats that are read; in the first one, every finding has its texts."""
+FORMAT = 3
+FORMATS = (1, 2, 3)
+"""Formats that are read; in the first one, every finding has its texts, in the first two a search has no workshop's
+values."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
-_SCHEMA = f"""
+_WITHOUT_WORKSHOP = f"""
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
 CREATE TABLE notes (text TEXT NOT NULL);
 CREATE TABLE evaluations (
@@ -51,13 +55,18 @@ CREATE TABLE evaluations (
   PRIMARY KEY (phase, step, place), UNIQUE ({", ".join(PARAMETERS)})
 );
 PRAGMA application_id = {APPLICATION_ID};
-PRAGMA user_version = {FORMAT};
 """
+_SCHEMA = (
+    _WITHOUT_WORKSHOP.replace("  model TEXT", "  workshop TEXT NOT NULL, model TEXT").replace(
+        f"{PARAMETERS[-1]})", f"{PARAMETERS[-1]}, workshop)"
+    )
+    + f"PRAGMA user_version = {FORMAT};"
+)
 _COLUMNS = (
-    "phase", "step", "place", *PARAMETERS,
+    "phase", "step", "place", *PARAMETERS, "workshop",
     "model", "verdict", "score", "metrics", "findings", "detail", "proposal", "duration_s",
 )  # fmt: skip
-_TEXTS = ("phase", "model", "verdict", "metrics", "findings", "detail", "proposal")
+_TEXTS = ("phase", "workshop", "model", "verdict", "metrics", "findings", "detail", "proposal")
 """Columns that are read as bytes: the row that holds damaged text can then be named."""
 
 
@@ -172,17 +181,30 @@ class StudyStore:
 
     def trials(self) -> list[Trial]:
         """Return all trials in the order of their study."""
-        columns = (f"CAST({name} AS BLOB)" if name in _TEXTS else name for name in _COLUMNS)
+        columns = [f"CAST({name} AS BLOB)" if name in _TEXTS else name for name in _COLUMNS]
         with plain_errors(self.path):
-            records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations").fetchall()
-        space = self.identity.get("space", {})
-        free = sum("fixed" not in part for part in space.values())
-        trials = [self._trial(dict(zip(_COLUMNS, record, strict=True)), free) for record in records]
+            if self._format() < FORMAT:
+                columns[_COLUMNS.index("workshop")] = "CAST('{}' AS BLOB)"
+            space = self.identity.get("space", {})
+            free, keys = sum("fixed" not in part for part in space.values()), [name for name in space if "." in name]
+            # Row by row: all of them as text would take more memory than the trials.
+            records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations")
+            trials = [self._trial(dict(zip(_COLUMNS, record, strict=True)), free, keys) for record in records]
         trials.sort(key=lambda trial: trial.position)
         for one, other in itertools.pairwise(trials):
             if one.position == other.position:
                 raise JumpcadError(f"{self.path}: is damaged: two rows {one.phase} {one.step} {one.place}")
         return trials
+
+    def progress(self) -> tuple[dict[str, int], float | None]:
+        """Return the number of trials by phase, and the best score; quick, whatever the number of rows."""
+        with plain_errors(self.path):
+            rows = self._connection.execute(
+                "SELECT CAST(phase AS BLOB), count(*), max(score) FROM evaluations GROUP BY phase"
+            ).fetchall()
+        counts = {stored_text({"phase": phase}, "phase"): count for phase, count, _ in rows}
+        scores = [best for phase, _, best in rows if best is not None and phase.decode() in SEARCH_PHASES]
+        return counts, max(scores, default=None)
 
     def append(self, trials: Iterable[Trial]) -> None:
         """Add trials, all or none."""
@@ -259,33 +281,36 @@ class StudyStore:
         except JumpcadError as error:
             raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
-    def _trial(self, record: dict[str, Any], free: int) -> Trial:
-        """Return a trial as it was written in a search of `free` parameters."""
+    def _trial(self, record: dict[str, Any], free: int, keys: Sequence[str]) -> Trial:
+        """Return a trial as it was written in a search of `free` parameters and these keys of the workshop."""
         try:
             phase = stored_text(record, "phase")
             if phase not in PHASES:
                 raise JumpcadError(f"phase = {shown(phase)} is none of {', '.join(PHASES)}")
             score = None if record["score"] is None else stored_figure(record, "score")
             step, proposal = stored_count(record, "step"), stored_proposal(record, free)
-            if phase in LEARNING_PHASES and step and "theta" not in proposal:
+            if phase in LEARNING_PHASES and step % STEPS and "theta" not in proposal:
                 raise JumpcadError("proposal.theta: missing")
             return Trial(
                 phase, step, stored_count(record, "place"), stored_design(record),
-                stored_evaluation(record), score, stored_text(record, "model"), stored_figure(record, "duration_s"),
-                proposal,
+                stored_evaluation(record), score, sys.intern(stored_text(record, "model")),
+                stored_figure(record, "duration_s"), proposal, stored_workshop(record, keys),
             )  # fmt: skip
         except JumpcadError as error:
             name = " ".join(shown(record[key]).removeprefix("b") for key in ("phase", "step", "place"))
             raise JumpcadError(f"{self.path}: is damaged: row {name}: {error}") from None
 
+    def _format(self) -> int:
+        return int(self._connection.execute("PRAGMA user_version").fetchone()[0])
+
     def _check_format(self) -> None:
         application = self._connection.execute("PRAGMA application_id").fetchone()[0]
-        version = self._connection.execute("PRAGMA user_version").fetchone()[0]
+        version = self._format()
         if application != APPLICATION_ID:
             raise JumpcadError(f"{self.path}: is not a study file")
         if version not in FORMATS:
             raise JumpcadError(f"{self.path}: is a study of format {version}; this version of jumpcad reads {FORMAT}")
-        if _schema(self._connection) != _own_schema():
+        if _schema(self._connection) != _own_schema(version):
             raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
@@ -297,9 +322,9 @@ def _schema(connection: sqlite3.Connection) -> list[tuple[str, str, str]]:
 
 
 @cache
-def _own_schema() -> list[tuple[str, str, str]]:
+def _own_schema(version: int) -> list[tuple[str, str, str]]:
     connection = sqlite3.connect(":memory:")
-    connection.executescript(_SCHEMA)
+    connection.executescript(_SCHEMA if version == FORMAT else _WITHOUT_WORKSHOP)
     return _schema(connection)
 
 
@@ -319,7 +344,8 @@ def _difference(there: Any, here: Any, name: str = "") -> str:
 def _record(trial: Trial) -> tuple[Any, ...]:
     evaluation = trial.evaluation
     return (
-        trial.phase, trial.step, trial.place, *trial.key, trial.model, evaluation.verdict, trial.score,
+        trial.phase, trial.step, trial.place, *trial.design.to_vector(), _text(dict(trial.workshop)),
+        trial.model, evaluation.verdict, trial.score,
         _text(dict(evaluation.metrics)), _text([_finding(one) for one in evaluation.findings]),
         evaluation.detail, _text(dict(trial.proposal)), trial.duration_s,
     )  # fmt: skip

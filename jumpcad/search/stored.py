@@ -2,7 +2,10 @@
 
 import math
 import re
-from collections.abc import Mapping
+import sys
+import zlib
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
@@ -12,12 +15,14 @@ from jumpcad.design import PARAMETERS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
-from jumpcad.files.names import Name
+from jumpcad.files.names import Name, Text
 from jumpcad.findings import Finding
 from jumpcad.search.methods import METHODS
 from jumpcad.search.objective import Evaluation
 
 STRICT = ConfigDict(strict=True, extra="forbid")
+KEY = re.compile(r"[^.\x00-\x1f\x7f]{1,80}(\.[^.\x00-\x1f\x7f]{1,80}){1,3}")
+"""Dotted keys of a workshop."""
 WORD = re.compile(r"[A-Za-z]\w{0,79}", re.ASCII)
 """Names of verdicts, findings, figures and parameters."""
 LARGEST = 1e12
@@ -37,14 +42,18 @@ class _Named(TomlTable):
 class _Range(TomlTable):
     lower: float | None = None
     upper: float | None = None
-    fixed: float | None = None
-    choices: Annotated[list[float], Field(min_length=1)] | None = None
+    fixed: float | Text | None = None
+    choices: Annotated[list[float] | list[Text], Field(min_length=1)] | None = None
 
 
 def _whole(space: dict[str, _Range]) -> dict[str, _Range]:
-    if tuple(space) != PARAMETERS:
+    if tuple(space)[: len(PARAMETERS)] != PARAMETERS:
         raise PydanticCustomError("value_error", "must have all eight parameters of a design, in their order")
     for name, part in space.items():
+        if name not in PARAMETERS and not KEY.fullmatch(name):
+            raise PydanticCustomError("value_error", "{name} is no key of a workshop", {"name": shown(name)})
+        if name in PARAMETERS and isinstance((part.choices or [part.fixed])[0], str):
+            raise PydanticCustomError("value_error", "{name} must be numbers", {"name": name})
         if list(part.model_fields_set) not in (["fixed"], ["choices"]) and part.model_fields_set != {"lower", "upper"}:
             raise PydanticCustomError("value_error", f"{name} must be fixed, have lower and upper, or choices")
     return space
@@ -72,6 +81,7 @@ class _Stage(TomlTable):
     method: Annotated[str, AfterValidator(_is_method)]
     evaluations: Count
     initial: Count = 0
+    widen: bool = False
 
 
 def _spread(finding: Any) -> Any:
@@ -87,6 +97,7 @@ _REMEMBERED: dict[str, TypeAdapter[Any]] = {
 }
 _METRICS = TypeAdapter(dict[str, float], config=STRICT)
 _FINDINGS = TypeAdapter(tuple[Annotated[Finding, BeforeValidator(_spread)], ...], config=STRICT)
+_WORKSHOP = TypeAdapter(dict[str, Finite | Text], config=STRICT)
 _PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]]], config=STRICT)
 
 
@@ -134,7 +145,81 @@ def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
             number = getattr(finding, figure)
             if number is not None and math.isnan(number):  # infinite is allowed: the audit of a run that diverged
                 raise JumpcadError(f"the {figure} of {finding.name} is not a number")
-    return Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
+    whole = Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
+    return StoredEvaluation(whole, record["metrics"], record["findings"])
+
+
+class StoredEvaluation(Evaluation):
+    """An evaluation read from a study, equal to the one that was written.
+
+    Figures and findings stay packed until someone asks for them: 50,000 rows would take 2 GB otherwise.
+    """
+
+    def __init__(self, whole: Evaluation, metrics: bytes, findings: bytes) -> None:
+        held = {
+            "verdict": sys.intern(whole.verdict), "detail": whole.detail, "_reasons": _shared(whole.reasons),
+            "_feasible": whole.feasible, "_cost": whole.cost, "_packed": zlib.compress(metrics, 1),
+            "_packed_findings": zlib.compress(findings, 1),
+        }  # fmt: skip
+        self.__dict__.update(held)
+
+    @property
+    def metrics(self) -> Mapping[str, float]:
+        """Named figures."""
+        return dict(_metrics_of(self.__dict__["_packed"]))
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Findings, bare ones."""
+        return _findings_of(self.__dict__["_packed_findings"])
+
+    @property
+    def feasible(self) -> bool:
+        """As of what was written."""
+        return bool(self.__dict__["_feasible"])
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """As of what was written."""
+        reasons: tuple[str, ...] = self.__dict__["_reasons"]
+        return reasons
+
+    @property
+    def cost(self) -> int:
+        """As of what was written."""
+        return int(self.__dict__["_cost"])
+
+    @property
+    def bare(self) -> Evaluation:
+        """A plain evaluation with bare findings."""
+        return Evaluation(self.verdict, self.metrics, self.findings, self.detail).bare
+
+    def __eq__(self, other: object) -> bool:
+        """Whether another evaluation, stored or not, is the same."""
+        if not isinstance(other, Evaluation):
+            return NotImplemented
+        return (self.verdict, self.detail, self.metrics, self.findings) == (
+            other.verdict, other.detail, dict(other.metrics), other.findings,
+        )  # fmt: skip
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+@lru_cache(maxsize=4096)
+def _shared(reasons: tuple[str, ...]) -> tuple[str, ...]:
+    return reasons
+
+
+@lru_cache(maxsize=64)
+def _metrics_of(packed: bytes) -> dict[str, float]:
+    found: dict[str, float] = _METRICS.validate_json(zlib.decompress(packed))
+    return found
+
+
+@lru_cache(maxsize=1000)
+def _findings_of(packed: bytes) -> tuple[Finding, ...]:
+    found: tuple[Finding, ...] = _FINDINGS.validate_json(zlib.decompress(packed))
+    return found
 
 
 def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
@@ -147,9 +232,23 @@ def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
     """
     proposal: dict[str, Any] = _validated(_PROPOSAL.validate_json, "proposal", record["proposal"])
     thetas = proposal.get("theta", {})
-    if not isinstance(thetas, dict) or any(len(theta) != free + 2 for theta in thetas.values()):
-        raise JumpcadError(f"proposal.theta: must be lists of {free + 2} hyperparameters")
+    if not isinstance(thetas, dict) or any(not 3 <= len(theta) <= free + 2 for theta in thetas.values()):
+        raise JumpcadError(f"proposal.theta: must be lists of at most {free + 2} hyperparameters")
     return proposal
+
+
+def stored_workshop(record: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+    """Return the workshop's values of a row in a search of these keys.
+
+    Raises
+    ------
+    JumpcadError
+        If they are not numbers and names, or belong to other keys.
+    """
+    values: dict[str, Any] = _validated(_WORKSHOP.validate_json, "workshop", record["workshop"])
+    if list(values) != list(keys):
+        raise JumpcadError(f"workshop: has {shown(list(values))}, not the keys of the study's space")
+    return values
 
 
 def stored_text(record: Mapping[str, Any], key: str) -> str:

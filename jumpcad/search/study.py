@@ -12,13 +12,37 @@ from pathlib import Path
 from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
-from jumpcad.search.methods import METHODS, Task
+from jumpcad.search.methods import METHODS, STEPS, Task
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import Request, Stage, plan_stages
 from jumpcad.search.result import Result
 from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
 from jumpcad.search.store import StudyStore
-from jumpcad.search.trial import Trial, best_trial
+from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
+from jumpcad.search.widening import Widened, widen
+
+FIRST = 50
+"""Designs after which it is said that none jumps."""
+
+
+class Hopeless:
+    """Looks at the first designs of a search: when none of them jumps, its bounds may hold no robot."""
+
+    def __init__(self) -> None:
+        self._first: list[Trial] | None = []
+
+    def warning(self, trial: Trial) -> str:
+        """Return what to tell after a trial, with the reasons counted; mostly nothing."""
+        if self._first is None or trial.phase not in SEARCH_PHASES:
+            return ""
+        self._first.append(trial)
+        if trial.score is not None:
+            self._first = None
+        elif len(self._first) == FIRST:
+            reasons = ", ".join(f"{name} {count}" for name, count in count_rejections(self._first).items())
+            self._first = None
+            return f"none of the first {FIRST} designs jumps ({reasons}): there may be no robot within these bounds"
+        return ""
 
 
 @typed
@@ -35,15 +59,35 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if remark:
             store.note_once(remark)
         stages = _stages(request, store, len(prior))
+        hopeless, allowance = Hopeless(), 0
+        widened: list[Widened] = []
+
+        def watched(trial: Trial, computed: bool) -> None:
+            if warning := hopeless.warning(trial):
+                store.note_once(warning)
+            watch(trial, computed)
+
         end_s = time.monotonic() + 3600.0 * (request.hours or math.inf)
         evaluator = Evaluator(
-            request.space, request.aim, request.model, store, pool, prior, watch, lambda: time.monotonic() >= end_s
+            request.space,
+            request.aim,
+            request.model,
+            store,
+            pool,
+            prior,
+            watched,
+            lambda: time.monotonic() >= end_s or evaluator.spent >= allowance,
         )
-        for stage in stages:
+        for number, stage in enumerate(stages):
+            allowance += stage.evaluations
             if not evaluator.trials or not evaluator.expired():
+                before, first_step = len(evaluator.trials), 0
+                if stage.widen:
+                    first_step = number * STEPS
+                    widened += widen(evaluator, first_step)
                 task = Task(
-                    stage.evaluations, request.seed, stage.initial, request.batch, request.preset,
-                    request.until_percent / 100.0,
+                    stage.evaluations - (len(evaluator.trials) - before), request.seed, stage.initial, request.batch,
+                    request.preset, request.until_percent / 100.0, first_step,
                 )  # fmt: skip
                 METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
@@ -55,7 +99,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if candidates:
             left = request.pick - (len(evaluator.trials) - len(trials))
             bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
-        return Result(request, trials, best, candidates, bounds, store.notes(), len(evaluator.trials))
+        return Result(request, trials, best, candidates, bounds, store.notes(), evaluator.spent, widened)
 
 
 def _bounds_step(request: Request, trials: list[Trial]) -> int:
@@ -96,7 +140,7 @@ def _read_prior(request: Request) -> tuple[list[Trial], str]:
         trials = [
             replace(trial, score=objective.score(trial.evaluation))
             for trial in store.trials()
-            if request.space.contains(trial.design)
+            if request.space.contains(trial.variant)
         ]
         same = all(trial.model == request.model.digest for trial in trials)
         remark = f"{request.prior} was made by another program; the search learns from it nevertheless"

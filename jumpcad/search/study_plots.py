@@ -14,7 +14,7 @@ from jumpcad.search.objective import described_objective
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.surrogate import Posterior
-from jumpcad.search.trial import Trial, searched
+from jumpcad.search.trial import LEARNING_PHASES, Trial, searched
 
 
 @typed
@@ -42,7 +42,9 @@ def _moments(trials: Sequence[Trial]) -> list[tuple[str, int, int]]:
 
     Of each: the picture's name, the trial whose hyperparameters are drawn, and how many trials are.
     """
-    proposed = [number for number, trial in enumerate(trials) if "theta" in trial.proposal]
+    proposed = [
+        number for number, trial in enumerate(trials) if "theta" in trial.proposal and trial.phase in LEARNING_PHASES
+    ]
     if not proposed:
         return []
     return [("acquisition-first", proposed[0], proposed[0]), ("acquisition", proposed[-1], len(trials))]

@@ -8,6 +8,7 @@ import warnings
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Self
 
 import numpy as np
@@ -26,6 +27,49 @@ MAX_CONSTRAINTS = 8
 _FIT_STEPS = 30
 
 
+class Axes:
+    """The axes of the unit cube as a process sees them: an axis of names becomes one of 0 and 1/√2 for each name.
+
+    Two different names are then 1 apart, whichever they are: Hamming's distance, with one length for all of them.
+
+    Parameters
+    ----------
+    categories
+        Of each axis of the cube, the number of its names; 0 for one of numbers.
+    """
+
+    def __init__(self, categories: Sequence[int]) -> None:
+        self._categories = categories
+        self.origin = np.repeat(np.arange(len(categories)), [max(count, 1) for count in categories])
+        """The axis of the cube (k,) that each axis of the process comes from."""
+
+    def expand(self, points: Array) -> Array:
+        """Return points (m, d) of the cube as the process sees them (m, k)."""
+        if not any(self._categories):
+            return points
+        columns = []
+        for column, count in zip(points.T, self._categories, strict=True):
+            if count:
+                chosen = np.round(column * max(count - 1, 1))
+                columns += [(chosen == number) * np.sqrt(0.5) for number in range(count)]
+            else:
+                columns.append(column)
+        return np.column_stack(columns)
+
+    def unfold(self, theta: Array) -> Array:
+        """Return hyperparameters (d + 2,) with the length of a named axis repeated for each of its names (k + 2,)."""
+        return np.concatenate([theta[:1], theta[1:-1][self.origin], theta[-1:]])
+
+    def fold(self, slopes: Array) -> Array:
+        """Return derivatives (k + 2,) by all lengths as those by the lengths of the cube's axes (d + 2,)."""
+        return np.concatenate([slopes[:1], np.bincount(self.origin, slopes[1:-1]), slopes[-1:]])
+
+    def folded(self, theta: Array) -> Array:
+        """Return the hyperparameters (d + 2,) that `unfold` repeated."""
+        first = np.searchsorted(self.origin, np.arange(len(self._categories)))
+        return np.concatenate([theta[:1], theta[1:-1][first], theta[-1:]])
+
+
 class Surrogate:
     """A Gaussian process over the unit cube: constant times Matérn 5/2 with one length per axis, plus noise.
 
@@ -37,20 +81,36 @@ class Surrogate:
         Logarithms of the hyperparameters to start from, (d + 2,).
     fit
         Whether to improve them by maximum likelihood.
+    categories
+        Of each axis, the number of its names; 0 for one of numbers. All of numbers if empty.
     """
 
-    def __init__(self, x: Array, y: Array, theta: Sequence[float] | None = None, fit: bool = True) -> None:
+    def __init__(
+        self,
+        x: Array,
+        y: Array,
+        theta: Sequence[float] | None = None,
+        fit: bool = True,
+        categories: Sequence[int] = (),
+    ) -> None:
         from sklearn.exceptions import ConvergenceWarning
         from sklearn.gaussian_process import GaussianProcessRegressor
 
+        self.categories = tuple(categories) or (0,) * x.shape[1]
+        self._axes = Axes(self.categories)
+        seen = self._axes.expand(x)
+        known = None if theta is None else self._axes.unfold(np.array(theta))
         regressor = GaussianProcessRegressor(
-            _kernel(x.shape[1], theta), alpha=1e-8, normalize_y=True, optimizer=_improve if fit else None
+            _kernel(seen.shape[1], known),
+            alpha=1e-8,
+            normalize_y=True,
+            optimizer=partial(_improve, axes=self._axes) if fit else None,
         )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its upper bound: the axis has no effect
-            regressor.fit(x, y)
-        self.x, self.y = x, y
-        self.theta: list[float] = regressor.kernel_.theta.tolist()
+            regressor.fit(seen, y)
+        self.x, self.y, self._seen = x, y, seen
+        self.theta: list[float] = self._axes.folded(regressor.kernel_.theta).tolist()
         scale, self._lengths = regressor.kernel_.k1.k1.constant_value, regressor.kernel_.k1.k2.length_scale
         self._variance = float(scale)
         self._chol, self._alpha = regressor.L_, regressor.alpha_.reshape(-1)
@@ -64,26 +124,29 @@ class Surrogate:
         return self._centre + self._spread * (covariance @ self._alpha), self._spread * np.sqrt(variance)
 
     def slope(self, points: Array) -> Array:
-        """Return the gradient (m, d) of the mean at points (m, d)."""
+        """Return the gradient (m, d) of the mean at points (m, d); 0 along axes of names."""
+        points = self._axes.expand(points)
         distance = self._distance(points)
         weights = (1.0 + distance) * np.exp(-distance) * self._alpha
-        pull = weights @ self.x - weights.sum(axis=1, keepdims=True) * points
-        slope: Array = self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
-        return slope
+        pull = weights @ self._seen - weights.sum(axis=1, keepdims=True) * points
+        slope = self._spread * self._variance * (5.0 / 3.0) * pull / self._lengths**2
+        first = np.searchsorted(self._axes.origin, np.arange(len(self.categories)))
+        along: Array = np.where(self.categories, 0.0, slope[:, first])
+        return along
 
     def condition_on(self, point: Array) -> Self:
         """Return the process with its own mean at a point (d,) added as a measurement (kriging believer)."""
         mean, _ = self.predict(point[None])
-        return type(self)(np.vstack([self.x, point]), np.append(self.y, mean), self.theta, fit=False)
+        return type(self)(np.vstack([self.x, point]), np.append(self.y, mean), self.theta, False, self.categories)
 
     def _covariance(self, points: Array) -> Array:
         """Return the covariance (m, n) of points with the data."""
-        distance = self._distance(points)
+        distance = self._distance(self._axes.expand(points))
         return self._variance * (1.0 + distance + distance**2 / 3.0) * np.exp(-distance)
 
     def _distance(self, points: Array) -> Array:
-        """Return the distances (m, n) of points from the data, √5·r in lengths of the kernel."""
-        difference = points[:, None, :] / self._lengths - self.x[None] / self._lengths
+        """Return the distances (m, n) of points (m, k) from the data, √5·r in lengths of the kernel."""
+        difference = points[:, None, :] / self._lengths - self._seen[None] / self._lengths
         distance: Array = np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
         return distance
 
@@ -110,11 +173,12 @@ class Posterior:
         fit
             Names of the processes to fit; None for all. What has no hyperparameters yet is always fitted.
         """
-        x = np.array([space.to_unit(trial.design) for trial in trials]).reshape(-1, space.dimension)
+        x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension)
 
         def learn(name: str, chosen: Array, values: Array) -> Surrogate:
             known = thetas.get(name)
-            return Surrogate(x[chosen], values, known, fit=known is None or fit is None or name in fit)
+            fitted = known is None or fit is None or name in fit
+            return Surrogate(x[chosen], values, known, fitted, space.categories)
 
         feasible = np.array([trial.score is not None for trial in trials], dtype=bool)
         score = None
@@ -208,21 +272,28 @@ def _scaled(margins: Array) -> Array:
     return np.arcsinh(margins / (size if size > 0 else 1.0))
 
 
-def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:
+def _kernel(dimension: int, theta: Array | None) -> Any:
     from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
 
     kernel = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * dimension, (0.05, 10.0), nu=2.5) + WhiteKernel(
         1e-4, (1e-6, 1e-1)
     )
-    return kernel if theta is None else kernel.clone_with_theta(np.array(theta))
+    return kernel if theta is None else kernel.clone_with_theta(theta)
 
 
-def _improve(objective: Callable[..., Any], start: Array, bounds: Array) -> tuple[Array, float]:
+def _improve(objective: Callable[..., Any], start: Array, bounds: Array, axes: Axes) -> tuple[Array, float]:
     """Maximise the likelihood with few steps; the next fit starts where this one ends."""
+
+    def of_axes(theta: Array) -> tuple[float, Array]:
+        value, slopes = objective(axes.unfold(theta))
+        return value, axes.fold(slopes)
+
+    limits = np.column_stack([axes.folded(side) for side in np.asarray(bounds).T])
     found = minimize(
-        objective, start, method="L-BFGS-B", jac=True, bounds=list(map(tuple, bounds)), options={"maxiter": _FIT_STEPS}
-    )
-    return found.x, found.fun
+        of_axes, axes.folded(start), method="L-BFGS-B", jac=True, bounds=list(map(tuple, limits)),
+        options={"maxiter": _FIT_STEPS},
+    )  # fmt: skip
+    return axes.unfold(found.x), found.fun
 
 
 def _log_h(z: Array) -> Array:

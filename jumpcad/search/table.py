@@ -1,7 +1,8 @@
 """Trials as a table: CSV, or Parquet for very many."""
 
 import io
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +15,12 @@ from jumpcad.search.trial import Trial
 TABLES = (".csv", ".parquet")
 
 
-def _table(trials: Sequence[Trial]) -> list[dict[str, Any]]:
-    """Return one flat record per trial, all with the same columns; a figure that a trial does not have is None."""
+def _table(trials: Sequence[Trial]) -> Iterator[dict[str, Any]]:
+    """Yield one flat record per trial, all with the same columns; a figure that a trial does not have is None."""
     metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
     margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
-    return [_record(trial, metrics, margins) for trial in trials]
+    keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
+    return (_record(trial, keys, metrics, margins) for trial in trials)
 
 
 @typed
@@ -34,10 +36,11 @@ def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) 
     require_target(path, TABLES, force)
     records = _table(trials)
     if path.suffix == ".csv":
-        columns = list(records[0]) if records else ["phase"]
-        write_atomically(path, to_csv([columns, *(list(record.values()) for record in records)]))
+        first = next(records, {"phase": None})
+        lines = itertools.chain([first] if trials else [], records)
+        write_atomically(path, to_csv(itertools.chain([list(first)], (list(record.values()) for record in lines))))
     else:
-        write_atomically(path, _parquet(records))
+        write_atomically(path, _parquet(list(records)))
 
 
 def _parquet(records: list[dict[str, Any]]) -> bytes:
@@ -51,7 +54,7 @@ def _parquet(records: list[dict[str, Any]]) -> bytes:
     return stream.getvalue()
 
 
-def _record(trial: Trial, metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
+def _record(trial: Trial, keys: Sequence[str], metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
     evaluation = trial.evaluation
     worst: dict[str, float] = {}
     for finding in evaluation.findings:
@@ -61,6 +64,7 @@ def _record(trial: Trial, metrics: Sequence[str], margins: Sequence[str]) -> dic
         "step": trial.step,
         "place": trial.place,
         **trial.design.model_dump(),
+        **{key: trial.workshop.get(key) for key in keys},
         "verdict": evaluation.verdict,
         "feasible": evaluation.feasible,
         "reasons": " ".join(evaluation.reasons),

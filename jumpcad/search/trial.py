@@ -9,14 +9,14 @@ from typing import Any
 from jumpcad.design import Design
 from jumpcad.search.methods import METHODS
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.variant import Key, Variant
+from jumpcad.workshop.varied import Value
 
-PHASES = (*METHODS, "sample", "sweep", "margin", "bounds", "robust")
+PHASES = ("sample", "sweep", *METHODS, "widen", "margin", "bounds", "robust")
 """All phases, in the order in which a study goes through them; the last three examine designs near the best."""
 SEARCH_PHASES = PHASES[:-3]
 LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learns)
 """Phases that, after a first step, start from the hyperparameters of the step before."""
-
-Key = tuple[float, ...]
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,6 +37,8 @@ class Trial:
         How long that took.
     proposal
         What the method predicted when it proposed the design.
+    workshop
+        Values of the workshop that the search varies, by key.
     """
 
     phase: str
@@ -48,11 +50,22 @@ class Trial:
     model: str
     duration_s: float
     proposal: Mapping[str, Any] = field(default_factory=dict)
+    workshop: Mapping[str, Value] = field(default_factory=dict)
 
     @cached_property
     def key(self) -> Key:
-        """What identifies the design: its vector."""
-        return tuple(self.design.to_vector())
+        """What identifies what was evaluated."""
+        return self.variant.key
+
+    @property
+    def variant(self) -> Variant:
+        """What was evaluated: the design, in the workshop with its values."""
+        return Variant(self.design, self.workshop)
+
+    @property
+    def cost(self) -> int:
+        """How many robots were built and simulated for it."""
+        return self.evaluation.cost
 
     @property
     def position(self) -> tuple[int, int, int]:
@@ -70,6 +83,7 @@ class Trial:
             "verdict": evaluation.verdict,
             "detail": evaluation.detail,
             "design": self.design.model_dump(),
+            **({"workshop": dict(self.workshop)} if self.workshop else {}),
             "metrics": dict(evaluation.metrics),
             "margins": margins,
         }

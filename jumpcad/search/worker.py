@@ -16,6 +16,7 @@ import cloudpickle
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import Evaluation, Model
+from jumpcad.search.variant import Variant
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ def _unpacked(sent: bytes) -> Model:
     return model
 
 
-def evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> bytes:
+def evaluate_task(sent: bytes, designs: Sequence[Design | Variant], limit_s: float) -> bytes:
     """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
 
     If the executor pickles it, with its support of functions and classes, that takes four times as long.
@@ -71,13 +72,19 @@ def evaluate_task(sent: bytes, designs: Sequence[Design], limit_s: float) -> byt
         start = time.perf_counter()
         with _alarm(limit_s):
             try:
-                result: Evaluation | Failure = model(design)
+                result: Evaluation | Failure = _evaluated(model, Variant.of(design))
             except JumpcadError:
                 raise
             except Exception as error:  # a bug that one design in a thousand meets must not end the run
                 result = Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
         results.append((result, time.perf_counter() - start))
     return pickle.dumps(results)
+
+
+def _evaluated(model: Any, variant: Variant) -> Evaluation:
+    """Return the outcome; a model that is made in no workshop gets the design alone."""
+    found: Evaluation = model(variant.design, variant.workshop) if variant.workshop else model(variant.design)
+    return found
 
 
 @contextlib.contextmanager

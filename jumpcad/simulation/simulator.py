@@ -3,6 +3,7 @@
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings as Settings
 from jumpcad.settings import load_settings as load_settings
 from jumpcad.simulation.engines import engine_named
@@ -18,7 +19,9 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
     mechanism
         Its bodies, joints, loop and spring are simulated.
     settings
-        Time step, friction and so on; what they leave open follows the robot, as all does if None.
+        Time step, friction and so on; what they leave open follows the robot, as all does if None. With a
+        `spring_efficiency` other than 1 the springs have that much of their energy, and the jump's `spring_energy_j`
+        is what they give.
     engine
         A name of `jumpcad.simulation.ENGINES`: `pybullet`, `mujoco` for an independent result to compare, or `planar`,
         the push-off in the plane in a fraction of their time.
@@ -35,6 +38,7 @@ def simulate(mechanism: Mechanism, settings: Settings | None = None, engine: str
         If the engine is unknown, is not installed, or cannot do what the settings ask.
     """
     settings = settings or Settings()
+    mechanism = with_spring_factor(mechanism, settings.spring_efficiency)
     maker = engine_named(engine)
     findings = geometry_findings(mechanism.design)
     if not errors(findings):

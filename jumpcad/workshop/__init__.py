@@ -2,6 +2,7 @@
 
 from jumpcad.workshop.loading import DEFAULT, load_workshop
 from jumpcad.workshop.tables import BoughtParts, Fits, Material, Printer, Process
+from jumpcad.workshop.varied import varied, workshop_value
 from jumpcad.workshop.workshop import OWN_PARTS, Workshop
 
 __all__ = [
@@ -14,4 +15,6 @@ __all__ = [
     "Process",
     "Workshop",
     "load_workshop",
+    "varied",
+    "workshop_value",
 ]

@@ -69,7 +69,7 @@ def test_says_what_the_robot_is(robot: Robot, jump: Jump) -> None:
     assert {finding.name for finding in constraint_findings(robot)} <= set(found)
     assert {part.name for part in robot.parts} <= set(found)
     assert {thing.article for thing in robot.hardware} <= set(found)
-    assert found["electronics_tray"][2] == "2"
+    assert found["electronics_tray_upper"][2] == "1"
 
 
 def test_what_is_violated_stands_out_and_names_are_escaped(robot: Robot, jump: Jump) -> None:

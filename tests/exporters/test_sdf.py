@@ -64,10 +64,17 @@ def test_friction_is_the_product_of_ground_and_foot(small_robot: Robot) -> None:
 
 
 def test_meshes_are_those_beside_the_urdf(small_robot: Robot) -> None:
-    ((path, text),) = sdf_files(small_robot)
-    assert path == f"sdf/{small_robot.name}.sdf"
+    text = dict(sdf_files(small_robot))[f"sdf/{small_robot.name}.sdf"]
     uris = {uri.text for uri in ET.fromstring(text).iter("uri")}
     assert {f"../urdf/meshes/{part.name}.stl" for part in small_robot.parts} <= uris
+
+
+def test_gazebo_finds_the_model_by_its_config(small_robot: Robot) -> None:
+    """Gazebo opens the file that `model.config` names, beside it, if it has the version given."""
+    files = dict(sdf_files(small_robot))
+    (named,) = ET.fromstring(files["sdf/model.config"]).iter("sdf")
+    assert files.keys() == {"sdf/model.config", f"sdf/{named.text}"}
+    assert ET.fromstring(files[f"sdf/{named.text}"]).get("version") == named.get("version")
 
 
 @pytest.fixture(scope="module", params=["kenan-1.0", "best-bo"])

@@ -1,9 +1,12 @@
 """Trays and standoffs: sizes by hand from the catalogue, places where nothing is in the way."""
 
+import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.dimensions import STRAP_EDGE_MM, TRAY_LENGTH_MIN_MM
@@ -17,16 +20,16 @@ INSIDE = (-20.0, 20.0)
 
 
 def test_sizes_are_those_of_what_lies_on_the_trays() -> None:
-    """The longest of battery and both boards in a row 1 mm apart, and 1 mm at each end; trays of 1.6 mm.
+    """The longest of battery and both boards in a row; trays of 1.6 mm, foam tape of 1 mm, 1.6 mm above the battery.
 
+    Beside every board are 0.2 mm of play and a slot of 1.8 mm for its tie, 0.8 mm between slots and 1.6 mm at the ends.
     Across lies the battery between two straps of 2 mm, each in the middle of 3 mm, with an edge beyond.
     """
     battery, boards = CARRIED.battery, (CARRIED.controller, CARRIED.driver)
-    across = boards[0].width_mm + boards[1].width_mm + 1.0
-    assert CARRIED.length_mm == max(battery.length_mm + 2.0, across + 2.0, TRAY_LENGTH_MIN_MM)
-    strap = 2.0 * (3.0 + STRAP_EDGE_MM)
-    assert CARRIED.width_mm == max(battery.width_mm + strap, *(board.length_mm + 2.0 for board in boards))
-    height = 1.6 + battery.height_mm + 1.0 + 1.6 + max(board.height_mm for board in boards)
+    row = boards[0].width_mm + boards[1].width_mm + 4 * (0.2 + 1.8) + 0.8 + 2 * 1.6
+    assert CARRIED.length_mm == pytest.approx(max(battery.length_mm + 2.0, row, TRAY_LENGTH_MIN_MM))
+    assert CARRIED.width_mm == battery.width_mm + 2.0 * (3.0 + STRAP_EDGE_MM)
+    height = 1.6 + battery.height_mm + 1.6 + 1.6 + 1.0 + max(board.height_mm for board in boards)
     assert CARRIED.height_mm == pytest.approx(height)
     long = CARRIED.battery.model_copy(update={"length_mm": 90.0})
     assert Electronics(long, *boards).length_mm == 92.0
@@ -64,3 +67,27 @@ def test_standoffs_are_above_the_boards_and_apart_from_each_other() -> None:
     assert second[1] >= top
     ahead = np.array([tray[0] + CARRIED.length_mm, 0.0])  # a cam for which both would be at one place
     assert math.dist(*standoff_places([boards], ahead, front, CARRIED, tray, INSIDE)) >= 15.2
+
+
+def test_what_lies_on_a_tray_has_its_own_place_between_the_plates() -> None:
+    parts = CATALOGUE.components
+    full = replace(
+        CARRIED, regulator=CATALOGUE.boards["s7v7f5"],
+        plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"],
+    )  # fmt: skip
+    inside = (-full.width_mm / 2.0, full.width_mm / 2.0)
+    boxes = {
+        role: shapely.box(s.x_mm - s.size_mm[0] / 2, s.y_mm - s.size_mm[1] / 2, s.x_mm + s.size_mm[0] / 2,
+                          s.y_mm + s.size_mm[1] / 2)
+        for role, s in full.seats(inside).items()
+    }  # fmt: skip
+    slots = [shapely.box(x - w / 2, y - h / 2, x + w / 2, y + h / 2)
+             for pairs in full.tie_slots(inside).values() for x, y, (w, h) in pairs]  # fmt: skip
+    tray = shapely.box(-full.length_mm / 2, inside[0], full.length_mm / 2, inside[1])
+    upper = [box for role, box in boxes.items() if role != "battery"]
+    assert len(upper) == 5
+    assert len(slots) == 10
+    assert all(tray.covers(box) for box in boxes.values())
+    assert all(tray.buffer(-0.8).covers(slot) for slot in slots)
+    for one, other in itertools.combinations([*upper, *slots], 2):
+        assert one.intersection(other).area < 1e-6

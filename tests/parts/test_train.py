@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,8 +11,12 @@ from scipy.optimize import brentq
 from shapely import affinity
 from support.built import built, cut, geared, hole_centres, in_body, placed, region
 
+from jumpcad.building.assembly import layout_of
+from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
+from jumpcad.parts.train import gears
 from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
 
 ALPHA = math.radians(20)
 BACKLASH_MM = 0.15
@@ -233,3 +238,19 @@ def test_the_roller_falls_free_of_the_cam(name: str) -> None:
     start = float(cam.wind_rad(cam.free_rad - 1e-9))
     for wind in np.linspace(min(start, wound), -math.radians(4.9), 30):
         assert gap(cam.free_rad, float(wind)) > 0.3
+
+
+def test_the_sensors_land_is_one_piece_with_a_gear_whose_web_has_holes() -> None:
+    """A wheel of 38 teeth has room for holes where the land stands."""
+    layout, holes = layout_of(load_design("kenan-2.0"), load_workshop())
+    (stage,) = layout.drive.train.stages
+    wheel = replace(stage.wheel, teeth=38)
+    train = replace(layout.drive.train, stages=(replace(stage, wheel=wheel),))
+    (gear,) = (
+        made
+        for made in gears(replace(layout, drive=replace(layout.drive, train=train)), holes)
+        if made.name == "cam_gear"
+    )
+    solid = gear.shape.solid()
+    assert solid.genus() > 3  # bore, and holes in the web
+    assert len(solid.decompose()) == 1

@@ -7,6 +7,8 @@ from jumpcad.search.acquisition import propose
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Posterior, Surrogate
 
+STIFFNESS = "stiffness_nmm_per_deg"
+
 
 def fitted_to(function, count=40):
     """Return the posterior of a function (n, 3) to (n,) of the unit cube."""
@@ -20,20 +22,20 @@ def test_bounds_become_active_where_the_top_is_beyond_them():
         fitted_to(lambda x: x[:, 0] - x[:, 2]),
         4.0,
         np.empty((0, 3)),
-        lambda design: True,
+        lambda variant: True,
         np.random.default_rng(1),
     )
     assert proposal.unit[[0, 2]].tolist() == [1.0, 0.0]
-    assert proposal.design.compression_ratio == SMALL.free[0].upper
+    assert proposal.variant.design.compression_ratio == SMALL.free[0].upper
 
 
 def test_choices_and_refusals_are_respected():
     space = Space.parse(fix=FIXED, choose=["stiffness_nmm_per_deg=8,19,30"])
     posterior = fitted_to(lambda x: -((x - 0.4) ** 2).sum(axis=1))
-    proposal = propose(space, posterior, 0.0, np.empty((0, 3)), lambda design: True, np.random.default_rng(1))
-    assert proposal.design.stiffness_nmm_per_deg == 19.0
+    proposal = propose(space, posterior, 0.0, np.empty((0, 3)), lambda variant: True, np.random.default_rng(1))
+    assert proposal.variant.design.stiffness_nmm_per_deg == 19.0
     other = propose(
-        space, posterior, 0.0, np.empty((0, 3)), lambda d: d.stiffness_nmm_per_deg != 19.0, np.random.default_rng(1)
+        space, posterior, 0.0, np.empty((0, 3)), lambda v: v.value(STIFFNESS) != 19.0, np.random.default_rng(1)
     )
-    assert other.design.stiffness_nmm_per_deg == 8.0
+    assert other.variant.design.stiffness_nmm_per_deg == 8.0
     assert propose(space, posterior, 0.0, np.empty((0, 3)), lambda d: False, np.random.default_rng(1)) is None

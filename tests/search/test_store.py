@@ -157,7 +157,7 @@ def read_all(path):
 @pytest.mark.parametrize(
     ("column", "value", "reason"),
     [
-        ("phase", "'x'", r"row 'x' 0 2: phase = 'x' is none of ga, bo"),
+        ("phase", "'x'", r"row 'x' 0 2: phase = 'x' is none of sample, sweep, ga, bo"),
         ("phase", "x'ff'", r"row '\\xff' 0 2: phase = b'\\xff' is not text"),
         ("step", "'one'", r"step = 'one' is not a whole number"),
         ("place", "-1", r"place = -1 is not a whole number of at least 0"),
@@ -175,7 +175,7 @@ def read_all(path):
         ("findings", "replace(findings, 'unit', 'init')", r"findings.0.(unit|init): "),
         ("findings", "replace(findings, 'info', 'fine')", r"findings.0.severity: Input should be 'info'"),
         ("findings", "replace(findings, 'loop', '=1+1')", r"'=1\+1' is not the name of a verdict, a finding"),
-        ("proposal", '\'{"theta": {"score": [1.0]}}\'', r"proposal.theta: must be lists of 9 hyperparameters"),
+        ("proposal", '\'{"theta": {"score": [1.0]}}\'', r"proposal.theta: must be lists of at most 9 hyperparameters"),
         ("proposal", "'5'", r"proposal: Input should be an object"),
         ("duration_s", "'x'", r"duration_s = 'x' is not a plausible number"),
     ],

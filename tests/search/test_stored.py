@@ -2,6 +2,8 @@
 
 import json
 import math
+import sqlite3
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +12,7 @@ from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding, at_most
+from jumpcad.search import store as store_module
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.store import StudyStore
 from jumpcad.search.stored import stored_evaluation
@@ -53,9 +56,17 @@ def test_a_study_keeps_names_and_margins_without_their_texts(tmp_path: Path) -> 
     assert again.evaluation.reasons == whole.reasons == ("audit_energy",)
 
 
-def test_a_study_of_the_format_before_is_read(tmp_path: Path) -> None:
-    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+@pytest.mark.parametrize("version", [1, 2])
+def test_a_study_of_a_format_before_is_read(tmp_path: Path, version: int) -> None:
+    with StudyStore.write(tmp_path / "new.db", IDENTITY) as store:
         store.append(trials(3))
-        store._connection.execute("PRAGMA user_version = 1")
-    with StudyStore.read(tmp_path / "s.db") as store:
+    with closing(sqlite3.connect(tmp_path / "old.db")) as old:
+        old.executescript(store_module._WITHOUT_WORKSHOP)
+        old.execute("ATTACH ? AS new", (str(tmp_path / "new.db"),))
+        columns = ", ".join(name for name in store_module._COLUMNS if name != "workshop")
+        old.execute(f"INSERT INTO evaluations ({columns}) SELECT {columns} FROM new.evaluations")
+        old.execute("INSERT INTO study SELECT * FROM new.study")
+        old.execute(f"PRAGMA user_version = {version}")
+        old.commit()
+    with StudyStore.read(tmp_path / "old.db") as store:
         assert store.trials() == trials(3)

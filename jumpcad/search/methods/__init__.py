@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from jumpcad.search.evaluator import Evaluator
 
 
+STEPS = 1_000_000
+"""Steps of the study file that one run of a method may have; a study's next run of it starts there."""
+
+
 @dataclass(frozen=True)
 class Task:
     """What a method is asked to do.
@@ -30,6 +34,8 @@ class Task:
         Settings of the genetic algorithm, by name.
     least_gain
         Share of the best score below which a method that learns ends; 0 for none.
+    first_step
+        Number of its first step in the study file: a method may run several times in a study.
     """
 
     evaluations: int
@@ -38,6 +44,7 @@ class Task:
     batch: int = 1
     preset: str = "recommended"
     least_gain: float = 0.0
+    first_step: int = 0
 
 
 @dataclass(frozen=True)
@@ -77,6 +84,7 @@ METHODS = {
         Method("ga", "genetic.run_genetic", "genetic algorithm"),
         Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True),
         Method("pareto", "pareto.run_pareto", "front of range against spring energy", front=True, learns=True),
+        Method("paper", "paper.run_paper", "the published study's stages"),
         Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
     )
 }

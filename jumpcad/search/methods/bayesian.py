@@ -12,13 +12,14 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from jumpcad.design import Design
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
 from jumpcad.search.space import Space
+from jumpcad.search.start import first_points
 from jumpcad.search.surrogate import Posterior
 from jumpcad.search.trial import Trial, feasible_trials
+from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
 
 REFIT_AFTER, REFIT_EVERY = 80, 5
@@ -64,9 +65,13 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
                 posterior = posterior.condition_on(proposal.unit)
         return proposals
 
+    start = len(evaluator.trials)
+
     def converged() -> bool:
+        if sum("theta" in trial.proposal for trial in evaluator.trials[start:]) < PATIENCE:
+            return False  # what earlier searches in another space promised says nothing
         gains = promised_gains([*evaluator.prior, *evaluator.trials])[-PATIENCE:]
-        return len(gains) == PATIENCE and max(gains) < task.least_gain
+        return max(gains) < task.least_gain
 
     run_steps(evaluator, "bo", task, proposer, converged)
 
@@ -90,13 +95,15 @@ def run_steps(
     evaluator: Evaluator, phase: str, task: Task, proposer: Proposer, ended: Callable[[], bool] = lambda: False
 ) -> None:
     """Evaluate the initial designs, then what `proposer` proposes, one batch per step, until the search has `ended`."""
-    space = evaluator.space
+    space, start = evaluator.space, len(evaluator.trials)
     if task.initial:
-        points = space.spread(task.initial, np.random.default_rng([task.seed, 1]))
-        evaluator.evaluate([space.to_design(point) for point in points], phase, 0, limit=task.evaluations)
-    left = task.evaluations - sum(trial.phase == phase for trial in evaluator.trials)
+        points = first_points(evaluator, task.initial, np.random.default_rng([task.seed, 1]))
+        evaluator.evaluate(
+            [space.to_variant(point) for point in points], phase, task.first_step, limit=task.evaluations
+        )
+    left = task.evaluations - (len(evaluator.trials) - start)
     thetas: dict[str, Any] = {}
-    for step in itertools.count(1):
+    for step in itertools.count(task.first_step + 1):
         if left <= 0 or ended() or evaluator.expired():
             return
         count = min(task.batch, left)
@@ -112,26 +119,27 @@ def run_steps(
                 proposals = proposer(posterior, known, count, np.random.default_rng([task.seed, 2, step]))
             thetas = thetas | posterior.thetas
             notes = [proposal.note() | {"theta": thetas} for proposal in proposals]
-            evaluator.evaluate([proposal.design for proposal in proposals], phase, step, proposals=notes)
+            evaluator.evaluate([proposal.variant for proposal in proposals], phase, step, proposals=notes)
             count = len(proposals)
         if count == 0:
             return
         left -= count
 
 
-def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[[Design], bool]:
-    """Return a function that tells whether a design may be proposed together with these."""
-    taken = {tuple(proposal.design.to_vector()) for proposal in proposals}
+def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[[Variant], bool]:
+    """Return a function that tells whether a variant may be proposed together with these."""
+    taken = {proposal.variant.key for proposal in proposals}
 
-    def admits(design: Design) -> bool:
-        return tuple(design.to_vector()) not in taken and evaluator.admits(design)
+    def admits(variant: Variant) -> bool:
+        return variant.key not in taken and evaluator.admits(variant)
 
     return admits
 
 
 def known_trials(evaluator: Evaluator) -> list[Trial]:
-    """Return the trials to learn from: the prior study's and the evaluator's, each design once."""
-    return list({trial.key: trial for trial in [*evaluator.prior, *evaluator.trials]}.values())
+    """Return the trials to learn from: those of the prior study and of the evaluator in its space, each design once."""
+    trials = {trial.key: trial for trial in [*evaluator.prior, *evaluator.trials]}
+    return [trial for trial in trials.values() if evaluator.space.contains(trial.variant)]
 
 
 def learned_trials(space: Space, trials: Sequence[Trial], best: int = LEARNED_BEST) -> list[Trial]:
@@ -139,9 +147,9 @@ def learned_trials(space: Space, trials: Sequence[Trial], best: int = LEARNED_BE
     if len(trials) <= LEARNED:
         return list(trials)
     ranked = feasible_trials(trials)
-    centre = space.to_unit(ranked[0].design) if ranked else np.full(space.dimension, 0.5)
+    centre = space.to_unit(ranked[0].variant) if ranked else np.full(space.dimension, 0.5)
     chosen = {trial.key for trial in ranked[:best]}
-    distances = [float(np.abs(space.to_unit(trial.design) - centre).max()) for trial in trials]
+    distances = [float(np.abs(space.to_unit(trial.variant) - centre).max()) for trial in trials]
     nearest = [trials[index] for index in np.argsort(distances, kind="stable") if trials[index].key not in chosen]
     chosen |= {trial.key for trial in nearest[: LEARNED - len(chosen)]}
     return [trial for trial in trials if trial.key in chosen]
@@ -150,5 +158,5 @@ def learned_trials(space: Space, trials: Sequence[Trial], best: int = LEARNED_BE
 def incumbent(space: Space, trials: Sequence[Trial]) -> tuple[float, Array]:
     """Return the best score so far (0 where there is none) and the points (k, d) of the best few designs."""
     feasible = feasible_trials(trials)
-    elite = np.array([space.to_unit(trial.design) for trial in feasible[:ELITE]]).reshape(-1, space.dimension)
+    elite = np.array([space.to_unit(trial.variant) for trial in feasible[:ELITE]]).reshape(-1, space.dimension)
     return (feasible[0].score or 0.0) if feasible else 0.0, np.clip(elite, 0.0, 1.0)

@@ -18,6 +18,7 @@ from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
 from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.space import Space
+from jumpcad.search.start import first_points
 from jumpcad.search.trial import feasible_trials
 from jumpcad.transforms import Array
 
@@ -70,18 +71,19 @@ def run_genetic(evaluator: Evaluator, task: Task) -> None:
     operators = dict(settings.operators)
     if "mutation_num_genes" in operators:
         operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
-    score = Fitness(evaluator, "ga", task.evaluations, rejected=-2.0 * LARGEST)
+    score = Fitness(evaluator, "ga", task.evaluations, rejected=-2.0 * LARGEST, first_step=task.first_step)
     evolve(score, _first_population(evaluator, settings.population, task.seed), operators, task.seed)
 
 
 class Fitness:
     """What PyGAD asks for: the fitness of a population, and whether to stop."""
 
-    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, rejected: Any) -> None:
+    def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, rejected: Any, first_step: int = 0) -> None:
         self.evaluator = evaluator
         self.phase = phase
         self.left = evaluations
         self.rejected = rejected
+        self.first_step = first_step
         self._idle = 0
 
     def objectives(self, trial: Any) -> Any:
@@ -92,8 +94,10 @@ class Fitness:
         """Return the fitness of each solution (n, genes); designs beyond the budget count as rejected."""
         space = self.evaluator.space
         before = len(self.evaluator.trials)
-        designs = [space.to_design(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
-        trials = self.evaluator.evaluate(designs, self.phase, int(ga.generations_completed), limit=self.left)
+        variants = [space.to_variant(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
+        trials = self.evaluator.evaluate(
+            variants, self.phase, self.first_step + int(ga.generations_completed), limit=self.left
+        )
         new = len(self.evaluator.trials) - before
         self.left -= new
         self._idle = 0 if new else self._idle + 1
@@ -124,6 +128,7 @@ def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], se
         fitness_batch_size=len(population),
         initial_population=population.tolist(),
         gene_space=_gene_space(fitness.evaluator.space),
+        gene_categorical=[names > 0 for names in fitness.evaluator.space.categories],
         on_generation=after_generation,
         random_seed=seed,
         suppress_warnings=True,
@@ -138,7 +143,7 @@ def _gene_space(space: Space) -> list[Any]:
 
 def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
     space = evaluator.space
-    spread = space.spread(count, np.random.default_rng([seed, 0]))
+    spread = first_points(evaluator, count, np.random.default_rng([seed, 0]))
     best = feasible_trials(evaluator.prior)
-    known = np.array([space.to_unit(trial.design) for trial in best[: count // 2]]).reshape(-1, space.dimension)
+    known = np.array([space.to_unit(trial.variant) for trial in best[: count // 2]]).reshape(-1, space.dimension)
     return np.vstack([known, spread])[:count]

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from jumpcad.design import PARAMETERS
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.fronts import energies_j, energy_j
@@ -28,7 +29,7 @@ POPULATION = 40
 def energy_caps_j(space: Space) -> Array:
     """Return the caps (CAPS,): even steps up to the largest energy at the corners of the space (J)."""
     corners = np.array(list(itertools.product((0.0, 1.0), repeat=space.dimension)))
-    energies = energies_j(space.values(corners))
+    energies = energies_j(space.values(corners)[:, : len(PARAMETERS)])
     largest = float(energies[np.isfinite(energies)].max())
     return largest * np.arange(1, CAPS + 1) / CAPS
 
@@ -58,7 +59,7 @@ def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
     """Return a penalty that is 0 below a cap on the energy and 1 at a hundredth above it, growing smoothly."""
 
     def penalty(points: Array) -> Array:
-        over = energies_j(space.values(points)) / cap_j - 1.0
+        over = energies_j(space.values(points)[:, : len(PARAMETERS)]) / cap_j - 1.0
         return 1e4 * np.clip(over, 0.0, 1e3) ** 2
 
     return penalty

@@ -12,7 +12,7 @@ from jumpcad.search.request import Request, Stage, plan_stages
 from jumpcad.search.trial import LEARNING_PHASES, PHASES
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", [name for name in METHODS if name != "paper"])  # it runs others
 def test_every_method_spends_its_evaluations_in_a_phase_of_its_name(evaluator, name):
     one = evaluator()
     METHODS[name].run(one, Task(12, seed=0, initial=4, batch=2))

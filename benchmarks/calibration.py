@@ -1,0 +1,149 @@
+"""Calibration on robots whose parameters are known, and the study's own test: from Kenan 1.0 to Kenan 2.0.
+
+`trials`: parameters are drawn from the priors; the planar engine jumps with them (not the interpolated jumps that the
+calibration uses); noise as large as the likelihood says is added. The 80 % interval of every parameter should hold the
+true one in 70 to 90 of 100 trials. `paper`: calibrated on the first prototype, the second predicted.
+"""
+
+import argparse
+import json
+import math
+from collections import defaultdict
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from jumpcad.calibration import Model, calibrate, explanations, load_subject, predicted_jump
+from jumpcad.calibration.likelihood import ANGLE_DEG, JUMP_SHARE, MODEL_SHARE, TAILS
+from jumpcad.calibration.measurements import Measurements
+from jumpcad.calibration.posterior import SHARES, Posterior, sampled
+from jumpcad.calibration.prediction import growth
+from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, SPRING_EFFICIENCY, modelled_mass
+from jumpcad.calibration.subject import Subject
+from jumpcad.calibration.video import seen_takeoff
+from jumpcad.mechanism.variants import with_spring_factor
+from jumpcad.settings import Settings
+from jumpcad.simulation import Jump, simulate
+
+PLANS = ("ranges", "ranges, mass, rate", "ranges, mass, rate, video")
+JUMPS = 5
+RATE_SHARE, SCALE_SHARE = 0.03, 0.01
+FRAMES, CLOCK_S, PIXEL_M = 20, 1.0 / 120.0, 0.002
+"""Frames of a video, their distance in time, and how well a point is seen."""
+SHORT = {"steps": 400, "most_steps": 400, "walkers_each": 40}
+"""Many walkers on short chains, some 2,000 independent draws: for hundreds of calibrations."""
+
+
+def hidden(subject: Subject, rng: np.random.Generator) -> tuple[dict[str, float], Jump]:
+    """Draw true parameters from the priors, and the jump of the engine with them; again until it jumps."""
+    priors = {
+        "spring_efficiency": SPRING_EFFICIENCY,
+        "pin_friction": PIN_FRICTION,
+        "rate": subject.rate,
+        "mass": modelled_mass(1.0),
+        "floor": FLOOR,
+    }
+    while True:
+        true = {name: float(prior.at(rng.standard_normal())) for name, prior in priors.items()}
+        energy = true["spring_efficiency"] * true["rate"] / true["mass"]
+        settings = Settings(pin_friction=true["pin_friction"], ground_friction=true["floor"])
+        jump = simulate(with_spring_factor(subject.robot, energy), settings, "planar")
+        if jump.verdict == "jump":
+            return true, jump
+
+
+def measured(subject: Subject, true: dict[str, float], jump: Jump, plan: int, rng: np.random.Generator) -> Subject:
+    """Return the robot with what a plan measures on the hidden one."""
+    assert jump.ballistic_range_m is not None
+    assert jump.takeoff_speed_m_s is not None
+    assert jump.takeoff_angle_deg is not None
+    deviation = math.hypot(JUMP_SHARE / math.sqrt(JUMPS), MODEL_SHARE)
+    single = JUMP_SHARE * rng.standard_normal(JUMPS)
+    logs = math.log(1000.0 * jump.ballistic_range_m) + deviation * rng.standard_t(TAILS) + single - single.mean()
+    data: dict[str, Any] = {
+        "design": subject.measured.design, "source": "synthetic", "release": "dog",
+        "jumps": ({"distance_mm": tuple(np.exp(logs).tolist()), "distance_of": "centre-of-mass"},),
+    }  # fmt: skip
+    seen = ()
+    if plan >= 1:
+        scale = 1.0 + SCALE_SHARE * rng.standard_normal()
+        data["mass"] = {"robot_g": 1000.0 * subject.robot.mass_kg * true["mass"] * scale}
+        rate = subject.rate_nmm_per_deg * true["rate"] * (1.0 + RATE_SHARE * rng.standard_normal())
+        data["spring"] = {"rate_nmm_per_deg": rate, "springs": 2, "error_share": RATE_SHARE}
+    if plan >= 2:
+        share = math.hypot(JUMP_SHARE / 2.0, MODEL_SHARE)
+        speed = jump.takeoff_speed_m_s * math.exp(share * rng.standard_normal())
+        angle = math.radians(jump.takeoff_angle_deg + ANGLE_DEG * rng.standard_normal())
+        t = CLOCK_S * np.arange(FRAMES)
+        x, z = speed * math.cos(angle) * t, speed * math.sin(angle) * t - 0.5 * 9.81 * t**2
+        noise = PIXEL_M * rng.standard_normal((2, FRAMES))
+        seen = (seen_takeoff(np.column_stack([t, x + noise[0], z + noise[1]]), "synthetic"),)
+        data["videos"] = ({"points": "synthetic.csv", "point": "centre-of-mass"},)
+    return subject.remeasured(Measurements(**data), seen)
+
+
+def trials(robot: str, count: int, seed: int) -> dict[str, Any]:
+    """Return, by plan and parameter, in how many trials the 80 % interval holds the truth, and its median width."""
+    subject = replace(load_subject(robot), name="robot")
+    result: dict[str, Any] = {}
+    for plan, name in enumerate(PLANS):
+        held: dict[str, list[bool]] = defaultdict(list)
+        widths: dict[str, list[float]] = defaultdict(list)
+        for trial in range(count):
+            rng = np.random.default_rng([seed, trial])
+            true, jump = hidden(subject, rng)
+            posterior = sampled(Model([measured(subject, true, jump, plan, rng)]), trial, **SHORT)
+            true["energy per mass"] = true["spring_efficiency"] * true["rate"] / true["mass"]
+            found = {key.split(":")[0]: values for key, values in posterior.values.items()}
+            found["energy per mass"] = found["spring_efficiency"] * found["rate"] / found["mass"]
+            for key, value in true.items():
+                low, middle, high = np.quantile(found[key], SHARES)
+                held[key].append(bool(low <= value <= high))
+                widths[key].append(float(high - low) / middle)
+        result[name] = {
+            key: {"held": sum(held[key]), "of": count, "width_share": float(np.median(widths[key]))} for key in held
+        }
+    return result
+
+
+def paper(seed: int) -> dict[str, Any]:
+    """Calibrate on Kenan 1.0, predict Kenan 2.0, and say what would have to differ between them."""
+    first, second = calibrate(["kenan-1.0"], seed), load_subject("kenan-2.0")
+    prediction = predicted_jump(first, second, seed)
+    times = growth(first, "kenan-1.0", prediction)
+    times = times[np.isfinite(times)]
+    both = calibrate(["kenan-1.0", "kenan-2.0"], seed)
+    return {
+        "parameters": first.summaries(),
+        "energy_per_mass": first.energies(),
+        "residuals": first.residuals(),
+        "prediction": prediction.quantiles(),
+        "beside": prediction.beside(),
+        "growth": np.quantile(times, SHARES).tolist(),
+        "growth_of_1.40": float((times >= 1.4).mean()),
+        "explanations": [vars(one) for one in explanations(prediction, 0.35)],
+        "both": {"energy_per_mass": both.energies(), "residuals": both.residuals(), "parameters": _plain(both)},
+    }
+
+
+def _plain(posterior: Posterior) -> dict[str, list[float]]:
+    return {one["key"]: [round(value, 3) for value in one["posterior"]] for one in posterior.summaries()}
+
+
+def main() -> None:
+    """Compute and print as JSON."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("part", choices=("trials", "paper"))
+    parser.add_argument("--robot", default="kenan-2.0")
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=0)
+    arguments = parser.parse_args()
+    found = (
+        paper(arguments.seed) if arguments.part == "paper" else trials(arguments.robot, arguments.count, arguments.seed)
+    )
+    print(json.dumps(found, indent=1))
+
+
+if __name__ == "__main__":
+    main()

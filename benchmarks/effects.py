@@ -1,0 +1,116 @@
+"""What the model of the jump leaves out, priced; where the springs' energy goes; what the floor's friction changes.
+
+Leg flexure: the energy that bends the loaded main leg (`leg_flex` of the checks), as if none came back. Air drag: the
+flight with drag ½·ρ·cd·A·v², the body's plates across the wind. Springs' internal friction: 5 % of their energy. Gears:
+5 % less efficient stages, which costs battery and time, and no jump.
+"""
+
+import argparse
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from jumpcad.building import build
+from jumpcad.calibration import plots
+from jumpcad.checks import check
+from jumpcad.design import load_design
+from jumpcad.files import template_names
+from jumpcad.robot import Robot
+from jumpcad.search import save_figure
+from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.workshop import load_workshop
+
+AIR_KG_M3, DRAG_AREA_M2, GRAVITY_M_S2 = 1.2, 54e-4, 9.81
+"""Air at 20 °C; cd·A of the bench review of the printed robot."""
+SPRING_FRICTION, GEAR_LOSS = 0.05, 0.05
+FRICTIONS = np.round(np.arange(0.3, 1.501, 0.05), 2)
+SWEPT = ("kenan-2.0", "best-printable")
+STEP_S = 1e-4
+
+
+@dataclass(frozen=True)
+class Priced:
+    """What effects take of the range (%), and weaker gears of the battery's energy and the winding time (%)."""
+
+    leg_flex_energy: float
+    leg_flex_range: float
+    drag_range: float
+    spring_friction_range: float
+    gears_energy: float
+    gears_time: float
+
+
+def less_range(robot: Robot, efficiency: float, jump: Jump) -> float:
+    """Return by how much the range falls (%) when the springs give a share of their energy."""
+    weaker = simulate(robot, Settings(spring_efficiency=efficiency), "planar")
+    assert jump.ballistic_range_m is not None
+    return 100.0 * (1.0 - (weaker.ballistic_range_m or 0.0) / jump.ballistic_range_m)
+
+
+def drag_loss(jump: Jump) -> float:
+    """Return what drag takes of a ballistic flight back to the height of take-off (%)."""
+    assert jump.takeoff_speed_m_s is not None
+    assert jump.takeoff_angle_deg is not None
+    angle = math.radians(jump.takeoff_angle_deg)
+    ranges = []
+    for area in (0.0, DRAG_AREA_M2):
+        velocity = jump.takeoff_speed_m_s * np.array([math.cos(angle), math.sin(angle)])
+        place = np.zeros(2)
+        while place[1] >= 0.0:
+            drag = 0.5 * AIR_KG_M3 * area / jump.mass_kg * float(np.hypot(*velocity)) * velocity
+            change = STEP_S * (np.array([0.0, -GRAVITY_M_S2]) - drag)
+            place = place + STEP_S * (velocity + 0.5 * change)
+            velocity = velocity + change
+        ranges.append(place[0])
+    return 100.0 * (1.0 - ranges[1] / ranges[0])
+
+
+def priced(name: str, robot: Robot, jump: Jump) -> Priced:
+    """Return what the missing effects take of one template's jump."""
+    (flex,) = (finding.value for finding in check(robot) if finding.name == "leg_flex")
+    assert flex is not None
+    workshop = load_workshop("default")
+    safety = workshop.safety.model_copy(update={"gear_efficiency": workshop.safety.gear_efficiency - GEAR_LOSS})
+    weaker = build(load_design(name), workshop.model_copy(update={"safety": safety})).layout.drive.train
+    train = robot.layout.drive.train
+    return Priced(
+        flex,
+        less_range(robot, 1.0 - flex / 100.0, jump),
+        drag_loss(jump),
+        less_range(robot, 1.0 - SPRING_FRICTION, jump),
+        100.0 * (weaker.electrical_j / train.electrical_j - 1.0),
+        100.0 * (weaker.winding_s / train.winding_s - 1.0),
+    )
+
+
+def main() -> None:
+    """Compute, print as JSON, and draw where asked for."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--plots", type=Path)
+    arguments = parser.parse_args()
+    robots = {name: build(load_design(name), name=name) for name in template_names("robots")}
+    jumps = {name: simulate(robot, Settings(), "planar") for name, robot in robots.items()}
+    accounts = {name: jump.energy_account_j or {} for name, jump in jumps.items()}
+    floors = {}
+    for name in SWEPT:
+        found = [simulate(robots[name], Settings(ground_friction=float(at)), "planar") for at in FRICTIONS]
+        floors[name] = tuple(
+            np.array([getattr(jump, key) or np.nan for jump in found]) for key in ("ballistic_range_m", "com_rise_m")
+        )
+    result = {
+        "effects": {name: vars(priced(name, robot, jumps[name])) for name, robot in robots.items()},
+        "accounts_j": accounts,
+        "floors": {"friction": FRICTIONS.tolist()}
+        | {name: {"range_m": both[0].tolist(), "rise_m": both[1].tolist()} for name, both in floors.items()},
+    }
+    if arguments.plots:
+        save_figure(plots.energy_accounts(accounts), arguments.plots, "energy-account")
+        save_figure(plots.floors(FRICTIONS.tolist(), floors), arguments.plots, "floor-friction")
+    print(json.dumps(result, indent=1))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,42 @@
+"""From measured jumps to a calibrated model, and from a calibrated model to jumps with an interval.
+
+The public names load when they are first used.
+"""
+
+from typing import TYPE_CHECKING
+
+from jumpcad.faces import face
+
+if TYPE_CHECKING:
+    from jumpcad.calibration import plots as plots
+    from jumpcad.calibration.likelihood import Model as Model
+    from jumpcad.calibration.measurements import Measurements as Measurements
+    from jumpcad.calibration.measurements import load_measurements as load_measurements
+    from jumpcad.calibration.posterior import Posterior as Posterior
+    from jumpcad.calibration.posterior import calibrate as calibrate
+    from jumpcad.calibration.prediction import explanations as explanations
+    from jumpcad.calibration.prediction import predicted_jump as predicted_jump
+    from jumpcad.calibration.settings_file import settings_toml as settings_toml
+    from jumpcad.calibration.subject import Subject as Subject
+    from jumpcad.calibration.subject import load_subject as load_subject
+    from jumpcad.calibration.uncertain import Uncertainty as Uncertainty
+    from jumpcad.calibration.uncertain import uncertain_jump as uncertain_jump
+
+_HOMES = {
+    "Measurements": "measurements",
+    "Model": "likelihood",
+    "Posterior": "posterior",
+    "Subject": "subject",
+    "Uncertainty": "uncertain",
+    "calibrate": "posterior",
+    "explanations": "prediction",
+    "load_measurements": "measurements",
+    "load_subject": "subject",
+    "plots": "plots",
+    "predicted_jump": "prediction",
+    "settings_toml": "settings_file",
+    "uncertain_jump": "uncertain",
+}
+
+__all__ = list(_HOMES)
+__getattr__, __dir__ = face(__name__, _HOMES)

@@ -1,0 +1,220 @@
+"""How likely the measurements are under given parameters, for many sets of parameters at once.
+
+Parameters are shared by all robots (springs' efficiency, pins, release, drive), by a pair of springs (rate) or belong
+to one robot (mass, floor, travel after landing). Where it was not said what a length is of, every possibility counts
+alike before the data.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.special import gammaln
+
+from jumpcad.calibration import priors
+from jumpcad.calibration.measurements import DISTANCES, HEIGHTS
+from jumpcad.calibration.priors import Prior
+from jumpcad.calibration.subject import Subject
+from jumpcad.calibration.surface import JumpAt
+from jumpcad.transforms import Array
+
+JUMP_SHARE = 0.08
+"""Scatter of the range of single jumps; judgement."""
+MODEL_SHARE = 0.03
+"""Error of the model in range, rise and speed, which more jumps do not reduce; judgement."""
+HEIGHT_M = 0.015
+"""Error of a measured height."""
+ENERGY_SHARE = 0.10
+"""Error of a measured energy from the battery."""
+ANGLE_DEG = 2.0
+"""Error of the model in the angle of take-off; judgement."""
+BODY_SPEED_SHARE, BODY_ANGLE_DEG = 0.05, 4.0
+"""Errors where a video shows the body instead of the centre of mass; judgement."""
+TAILS = 4.0
+"""Degrees of freedom of Student's t, by which a bad jump does less harm."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter: key, what people read, and its prior."""
+
+    key: str
+    label: str
+    prior: Prior
+
+
+@dataclass(frozen=True)
+class Datum:
+    """One measurement that the jump must explain: in m, J, m/s or °; `count` jumps stand behind it.
+
+    `scatter` and `error` are standard deviations of one jump and of all together, shares where `relative`.
+    """
+
+    subject: str
+    what: str
+    of: str
+    value: float
+    count: int
+    scatter: float
+    error: float
+    relative: bool = True
+
+    @property
+    def readings(self) -> tuple[str, ...]:
+        """What the value may be of."""
+        if self.of != "unknown":
+            return (self.of,)
+        return DISTANCES if self.what == "distance" else HEIGHTS
+
+
+@dataclass(frozen=True, repr=False)
+class Predicted:
+    """What a robot does at n sets of parameters; each (n,)."""
+
+    jump: JumpAt
+    travel_m: Array
+    battery_j: Array
+    beyond_m: tuple[float, float]
+    standing_m: float
+
+    def of(self, what: str, reading: str) -> Array:
+        """Return the value that a measurement would give without error."""
+        if what == "distance":
+            touchdown: Array = self.jump.range_m + self.beyond_m[0]
+            by_reading = {"centre-of-mass": self.jump.range_m, "first-touchdown": touchdown}
+            return by_reading.get(reading, touchdown + self.travel_m)
+        if what == "height":
+            return self.jump.rise_m + (self.standing_m if reading == "absolute" else 0.0)
+        return {"battery": self.battery_j, "speed": self.jump.speed_m_s, "angle": self.jump.angle_deg}[what]
+
+    def deviation(self, datum: Datum, reading: str, value: Array) -> Array:
+        """Return the standard deviation of a measurement about its value (n,)."""
+        single = math.hypot(datum.scatter / math.sqrt(datum.count), datum.error)
+        if datum.what == "height":
+            return np.hypot(HEIGHT_M / math.sqrt(datum.count), single * value)
+        spread = self.beyond_m[1] if datum.what == "distance" and reading != "centre-of-mass" else 0.0
+        if not datum.relative:
+            return np.full_like(value, single)
+        return np.hypot(single * value, spread)
+
+
+class Model:
+    """Parameters and data of some robots."""
+
+    def __init__(self, subjects: Sequence[Subject]) -> None:
+        self.subjects = list(subjects)
+        self.data = [datum for subject in subjects for datum in data_of(subject)]
+
+    @cached_property
+    def parameters(self) -> list[Parameter]:
+        """All parameters, shared ones first."""
+        shared = [
+            Parameter("spring_efficiency", "spring efficiency", priors.SPRING_EFFICIENCY),
+            Parameter("pin_friction", "friction of pins", priors.PIN_FRICTION),
+        ]
+        if any(subject.measured.release != "dog" for subject in self.subjects):
+            shared.append(Parameter("back_efficiency", "back efficiency of release", priors.BACK_EFFICIENCY))
+        if any(datum.what == "battery" for datum in self.data):
+            shared.append(Parameter("drive_efficiency", "drive efficiency / model", priors.DRIVE_EFFICIENCY))
+        own: dict[str, Parameter] = {}
+        for subject in self.subjects:
+            key = f"rate:{subject.pair}"
+            if key not in own or own[key].prior.source != "measured":
+                own[key] = Parameter(key, f"{subject.pair}: spring rate / design", subject.rate)
+            for name, label, prior in (
+                ("mass", "mass / model", subject.mass), ("floor", "friction of floor", subject.floor),
+            ):  # fmt: skip
+                own[f"{name}:{subject.name}"] = Parameter(f"{name}:{subject.name}", f"{subject.name}: {label}", prior)
+            if any("resting-place" in datum.readings for datum in self.data if datum.subject == subject.name):
+                key = f"travel:{subject.name}"
+                own[key] = Parameter(key, f"{subject.name}: travel after landing (mm)", priors.TRAVEL_MM)
+        return [*shared, *own.values()]
+
+    def values(self, z: Array) -> dict[str, Array]:
+        """Return the parameters by key, each (n,), at standard normals (n, parameters)."""
+        return {one.key: one.prior.at(z[:, index]) for index, one in enumerate(self.parameters)}
+
+    def log_probability(self, z: Array) -> Array:
+        """Return the logarithm of the posterior density of standard normals (n, parameters), less a constant."""
+        values = self.values(z)
+        predicted = {subject.name: predict(subject, values) for subject in self.subjects}
+        found = -0.5 * np.sum(z * z, axis=1)
+        for datum in self.data:
+            # Unlike scipy's logsumexp, this costs next to nothing.
+            found = found + np.logaddexp.reduce(self.log_readings(datum, predicted[datum.subject]), axis=0)
+        return np.where(np.isfinite(found), found, -np.inf)
+
+    @staticmethod
+    def log_readings(datum: Datum, predicted: Predicted) -> Array:
+        """Return the logarithm of the likelihood (readings, n) of one datum under each of its readings."""
+        chances = []
+        for reading in datum.readings:
+            value = predicted.of(datum.what, reading)
+            deviation = predicted.deviation(datum, reading, value)
+            chances.append(_log_density(datum, value, deviation))
+        return np.array(chances) - math.log(len(chances))
+
+
+def predict(subject: Subject, values: dict[str, Array]) -> Predicted:
+    """Return what a robot does at parameters by key, each (n,); the robot's own among them."""
+    rate, mass = values[f"rate:{subject.pair}"], values[f"mass:{subject.name}"]
+    energy = energy_per_mass(subject, values)
+    jump = subject.surface.at(energy, values["pin_friction"], values[f"floor:{subject.name}"])
+    travel_m = values.get(f"travel:{subject.name}", np.zeros_like(mass)) / 1000.0
+    battery_j = subject.electrical_j * rate / values.get("drive_efficiency", np.ones_like(mass))
+    return Predicted(jump, travel_m, battery_j, subject.beyond_m, subject.standing_m)
+
+
+def energy_per_mass(subject: Subject, values: dict[str, Array]) -> Array:
+    """Return the energy that the springs give over the robot's mass, over the model's (n,)."""
+    kept = 1.0 if subject.measured.release == "dog" else priors.release_share(values["back_efficiency"])
+    given: Array = values["spring_efficiency"] * values[f"rate:{subject.pair}"] * kept
+    energy: Array = given / values[f"mass:{subject.name}"]
+    return energy
+
+
+def data_of(subject: Subject) -> list[Datum]:
+    """Return what a robot's jumps and videos say; series are one datum, their mean."""
+    found = []
+    for series in subject.measured.jumps:
+        for what, of, values in (
+            ("distance", series.distance_of, series.distance_mm),
+            ("height", series.height_of, series.height_mm),
+        ):
+            if values and of is not None:
+                mean = math.exp(float(np.mean(np.log(values)))) / 1000.0
+                count = series.jumps or len(values)
+                found.append(Datum(subject.name, what, of, mean, count, JUMP_SHARE, MODEL_SHARE))
+        if series.battery_j:
+            mean = float(np.mean(series.battery_j))
+            found.append(Datum(subject.name, "battery", "battery", mean, 1, 0.0, ENERGY_SHARE))
+    for video, seen in zip(subject.measured.videos, subject.seen, strict=True):
+        shows_body = video.point == "body"
+        share = BODY_SPEED_SHARE if shows_body else MODEL_SHARE
+        speed_error = math.hypot(share, seen.speed_error_m_s / seen.speed_m_s)
+        angle_error = math.hypot(BODY_ANGLE_DEG if shows_body else ANGLE_DEG, seen.angle_error_deg)
+        # Speed goes with the root of the energy, so half the scatter of range.
+        found.append(Datum(subject.name, "speed", video.point, seen.speed_m_s, 1, JUMP_SHARE / 2.0, speed_error))
+        found.append(Datum(subject.name, "angle", video.point, seen.angle_deg, 1, 0.0, angle_error, relative=False))
+    return found
+
+
+def _log_density(datum: Datum, value: Array, deviation: Array) -> Array:
+    """Return the logarithm of a measurement's density: lengths along the ground by Student's t, others normal."""
+    positive = value > 0.0
+    safe = np.where(positive, value, 1.0)
+    if datum.what == "distance":
+        share = deviation / safe
+        off = np.log(datum.value / safe) / share
+        constant = gammaln((TAILS + 1.0) / 2.0) - gammaln(TAILS / 2.0) - 0.5 * math.log(TAILS * math.pi)
+        found = constant - (TAILS + 1.0) / 2.0 * np.log1p(off * off / TAILS) - np.log(share)
+    elif datum.what in ("battery", "speed"):
+        share = deviation / safe
+        off = np.log(datum.value / safe) / share
+        found = -0.5 * off * off - np.log(share)
+    else:
+        off = (datum.value - value) / deviation
+        found = -0.5 * off * off - np.log(deviation)
+    return np.where(positive & np.isfinite(found), found, -np.inf)

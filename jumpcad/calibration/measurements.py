@@ -1,0 +1,133 @@
+"""What was measured on one built robot, as a TOML file: masses, spring rate, floor, jumps with what they are of.
+
+A length says what it is of, because the ways of measuring differ by more than the robots do: `unknown` is allowed and
+leaves each possibility open; silence is not. What does not go together is refused with what would be enough.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from jumpcad.arguments import typed
+from jumpcad.files import Contradiction, Record, TomlTable, find_template
+from jumpcad.files.names import Name, Text
+
+Grams = Annotated[float, Field(gt=0, le=1e5)]
+Lengths = Annotated[tuple[Annotated[float, Field(gt=0, le=1e6)], ...], Field(strict=False, max_length=1000)]
+Joules = Annotated[tuple[Annotated[float, Field(gt=0, le=1e6)], ...], Field(strict=False, max_length=1000)]
+Degrees = Annotated[tuple[Annotated[float, Field(gt=0, lt=90)], ...], Field(strict=False, max_length=1000)]
+Forces = Annotated[tuple[Annotated[float, Field(gt=0, le=1e4)], ...], Field(strict=False, max_length=1000)]
+DistanceOf = Literal["centre-of-mass", "first-touchdown", "resting-place", "unknown"]
+HeightOf = Literal["rise", "absolute", "unknown"]
+DISTANCES: tuple[DistanceOf, ...] = ("centre-of-mass", "first-touchdown", "resting-place")
+HEIGHTS: tuple[HeightOf, ...] = ("rise", "absolute")
+
+
+class Weighed(TomlTable):
+    """Masses on a scale (g): the whole robot, ready to jump, and single printed parts by their names."""
+
+    robot_g: Grams | None = None
+    robot_error_g: Grams | None = None
+    parts_g: dict[Name, Grams] = Field(default_factory=dict)
+
+
+class SpringRate(TomlTable):
+    """The springs' rate on a scale: of one spring or of both together. Robots with one `pair` have the same springs."""
+
+    pair: Name | None = None
+    rate_nmm_per_deg: Annotated[float, Field(gt=0, le=1e6)] | None = None
+    springs: Literal[1, 2] | None = None
+    error_share: Annotated[float, Field(ge=1e-3, le=0.5)] = 0.03
+
+    @property
+    def both_nmm_per_deg(self) -> float | None:
+        """Rate of both springs together."""
+        return None if self.rate_nmm_per_deg is None else self.rate_nmm_per_deg * (2.0 if self.springs == 1 else 1.0)
+
+
+class FloorTest(TomlTable):
+    """Pulls (N) at which the standing robot began to slip, its weight on it; or slopes (°) on which it did."""
+
+    pull_n: Forces = ()
+    slope_deg: Degrees = ()
+
+
+class Jumps(TomlTable):
+    """Jumps from one floor: distances, heights, what they are of, and what the battery gave for each.
+
+    `jumps` is their number where the lists hold means; else every value is one jump.
+    """
+
+    distance_mm: Lengths = ()
+    distance_of: DistanceOf | None = None
+    height_mm: Lengths = ()
+    height_of: HeightOf | None = None
+    battery_j: Joules = ()
+    jumps: Annotated[int, Field(ge=1, le=1000)] | None = None
+
+
+class Video(TomlTable):
+    """Points of one flight, a CSV file of t (s), x and z (m), from take-off to before touchdown, and what they show."""
+
+    points: Text
+    point: Literal["centre-of-mass", "body"]
+
+
+class Measurements(Record):
+    """Everything measured on one robot; paths are relative to its file.
+
+    `release` is `dog` for a robot as jumpcad builds it, `fixed` where the cam sits fast on its gear or shaft.
+    """
+
+    design: Text
+    workshop: Text = "default"
+    source: Text
+    release: Literal["dog", "fixed", "unknown"]
+    unknown: Annotated[tuple[Text, ...], Field(strict=False)] = ()
+    mass: Weighed = Weighed()
+    spring: SpringRate = SpringRate()
+    floor: FloorTest = FloorTest()
+    jumps: Annotated[tuple[Jumps, ...], Field(strict=False)] = ()
+    videos: Annotated[tuple[Video, ...], Field(strict=False)] = ()
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield measurements whose method is not said."""
+        if self.spring.rate_nmm_per_deg is not None and self.spring.springs is None:
+            reason = "of one spring or of both? say springs = 1 or springs = 2"
+            yield ("spring", "rate_nmm_per_deg"), self.spring.rate_nmm_per_deg, reason
+        if self.mass.robot_error_g is not None and self.mass.robot_g is None:
+            yield ("mass", "robot_error_g"), self.mass.robot_error_g, "is the error of nothing: give robot_g too"
+        for series in self.jumps:
+            yield from _unsaid(series)
+
+
+def _unsaid(series: Jumps) -> Iterator[Contradiction]:
+    """Yield what is wrong with one series of jumps."""
+    for what, kinds in (("distance", DISTANCES), ("height", HEIGHTS)):
+        values, of = getattr(series, f"{what}_mm"), getattr(series, f"{what}_of")
+        if values and of is None:
+            names = ", ".join(f'"{kind}"' for kind in kinds)
+            reason = f'what was measured? say {what}_of = {names} or "unknown"'
+            yield ("jumps", f"{what}_mm"), values[0], reason
+        if of is not None and not values:
+            yield ("jumps", f"{what}_of"), of, f"is of nothing: give {what}_mm too"
+    if not (series.distance_mm or series.height_mm or series.battery_j):
+        yield ("jumps",), "nothing", "holds no value: give distance_mm, height_mm or battery_j"
+    most = max(map(len, (series.distance_mm, series.height_mm, series.battery_j)))
+    if series.jumps is not None and series.jumps < most:
+        yield ("jumps", "jumps"), series.jumps, f"must be at least {most}, the values given"
+
+
+@typed
+def load_measurements(name_or_path: str | Path) -> tuple[Measurements, Path]:
+    """Return the measurements of a template (`kenan-1.0`, `kenan-2.0`) or of a TOML file, and where they are.
+
+    Raises
+    ------
+    JumpcadError
+        If there is no such file, a key is unknown or out of range, or it is not said how something was measured.
+    """
+    path = find_template("measurements", name_or_path)
+    return Measurements.from_toml(path), path

@@ -1,0 +1,237 @@
+"""The posterior of a calibration: sampled by emcee, judged by how far it moved from the prior."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from jumpcad.arguments import typed
+from jumpcad.calibration.likelihood import Datum, Model, Parameter, Predicted, energy_per_mass, predict
+from jumpcad.calibration.subject import load_subject, renamed
+from jumpcad.errors import JumpcadError
+from jumpcad.transforms import Array
+
+WALKERS_EACH = 6
+"""Walkers for each parameter."""
+STEPS, MOST_STEPS = 1500, 12_000
+LENGTHS = 50
+"""Autocorrelation times that a chain must have (Foreman-Mackey et al. 2013; emcee's documentation)."""
+KEPT = 20_000
+"""Draws that are kept."""
+SHARES = (0.1, 0.5, 0.9)
+IDENTIFIED, PARTLY = 0.5, 0.85
+"""Deviation of the posterior over the prior's, in the prior's own scale, up to which data identify a parameter."""
+TOGETHER = 0.5
+"""Correlation from which on two parameters are known together."""
+
+
+@dataclass(frozen=True, repr=False)
+class Posterior:
+    """Draws of a calibration's parameters.
+
+    `z` (draws, parameters) are standard normals under the prior; `autocorrelation` is the longest autocorrelation time,
+    `steps` the length of the chain without its beginning, `walkers` their number.
+    """
+
+    model: Model
+    z: Array
+    autocorrelation: float
+    steps: int
+    walkers: int
+
+    @cached_property
+    def values(self) -> dict[str, Array]:
+        """The parameters of every draw, by key."""
+        return self.model.values(self.z)
+
+    @cached_property
+    def predicted(self) -> dict[str, Predicted]:
+        """What each robot does at every draw."""
+        return {subject.name: predict(subject, self.values) for subject in self.model.subjects}
+
+    @property
+    def effective(self) -> float:
+        """Independent draws that the chains are worth."""
+        return self.steps * self.walkers / self.autocorrelation
+
+    @property
+    def converged(self) -> bool:
+        """Whether the chains are long enough."""
+        return self.steps >= LENGTHS * self.autocorrelation
+
+    def summaries(self) -> list[dict[str, Any]]:
+        """Return each parameter's prior and posterior quantiles, and what the data say of it."""
+        deviation = self.z.std(axis=0)
+        return [
+            {
+                "key": one.key,
+                "label": one.label,
+                "prior": _quantiles(one),
+                "posterior": np.quantile(self.values[one.key], SHARES).tolist(),
+                "spread": float(deviation[index]),
+                "verdict": _verdict(float(deviation[index]), float(self.z[:, index].mean())),
+                "source": one.prior.source,
+            }
+            for index, one in enumerate(self.model.parameters)
+        ]
+
+    def energies(self) -> dict[str, list[float]]:
+        """Return, by robot, quantiles of the springs' energy over mass, over the model's: what a jump tells first."""
+        return {
+            subject.name: np.quantile(energy_per_mass(subject, self.values), SHARES).tolist()
+            for subject in self.model.subjects
+        }
+
+    def together(self) -> list[tuple[str, str, float]]:
+        """Return pairs of parameters that are known together rather than alone, with their correlation."""
+        found = np.atleast_2d(np.corrcoef(self.z, rowvar=False))
+        keys = [one.key for one in self.model.parameters]
+        pairs = [
+            (keys[i], keys[j], float(found[i, j]))
+            for i in range(len(keys))
+            for j in range(i + 1, len(keys))
+            if abs(found[i, j]) >= TOGETHER
+        ]
+        return sorted(pairs, key=lambda pair: -abs(pair[2]))
+
+    def residuals(self) -> list[dict[str, Any]]:
+        """Return every measurement beside what the posterior predicts, and how likely each reading of it is."""
+        return [_residual(datum, self.predicted[datum.subject]) for datum in self.model.data]
+
+
+@typed
+def calibrate(files: Sequence[str | Path], seed: int = 0) -> Posterior:
+    """Calibrate on the measurements of one or several robots.
+
+    Parameters
+    ----------
+    files
+        Templates' names or TOML files, one a robot.
+    seed
+        Random seed of the sampler.
+
+    Raises
+    ------
+    JumpcadError
+        If a measurement contradicts another or the robot, its unit or its method is not clear, there is too little to
+        calibrate on, or emcee is not installed.
+    CannotBuildError
+        If a design cannot be built.
+    """
+    if not files:
+        raise JumpcadError("no measurements: name at least one file, or the template kenan-1.0")
+    return sampled(Model(renamed([load_subject(file) for file in files])), seed)
+
+
+def sampled(
+    model: Model, seed: int = 0, steps: int = STEPS, most_steps: int = MOST_STEPS, walkers_each: int = WALKERS_EACH
+) -> Posterior:
+    """Sample the posterior of a model, with chains that are doubled until they are long enough, or too long.
+
+    Many walkers on short chains cost less where much the same is sampled again and again.
+
+    Raises
+    ------
+    JumpcadError
+        If no measurement tells of a jump, or none of the priors explains them.
+    """
+    require_data(model)
+    emcee = _emcee()
+    dimension = len(model.parameters)
+    walkers = 2 * (walkers_each * dimension // 2)
+    sampler = emcee.EnsembleSampler(
+        walkers,
+        dimension,
+        model.log_probability,
+        vectorize=True,
+        moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)],
+    )
+    generator = np.random.default_rng(seed)
+    start = _start(model, walkers, generator)
+    state = emcee.State(start, random_state=np.random.RandomState(seed).get_state())  # what emcee takes
+    sampler.run_mcmc(state, steps)
+    while True:
+        burnt = sampler.iteration // 3
+        length = float(np.max(sampler.get_autocorr_time(discard=burnt, tol=0)))
+        if not math.isfinite(length):
+            length = float(sampler.iteration)
+        left = sampler.iteration - burnt
+        if left >= LENGTHS * length or sampler.iteration >= most_steps:
+            break
+        sampler.run_mcmc(None, sampler.iteration)
+    chain = sampler.get_chain(discard=burnt, flat=True)
+    # At random: even steps through the chain could meet the same walkers again and again.
+    chosen = np.sort(generator.choice(len(chain), min(KEPT, len(chain)), replace=False))
+    return Posterior(model, chain[chosen], length, left, walkers)
+
+
+def require_data(model: Model) -> None:
+    """Refuse measurements that tell nothing of a jump.
+
+    Raises
+    ------
+    JumpcadError
+        Saying what would be enough.
+    """
+    for subject in model.subjects:
+        if not any(datum.subject == subject.name and datum.what != "battery" for datum in model.data):
+            raise JumpcadError(
+                f"{subject.name}: too little to calibrate on: give at least one [[jumps]] with distance_mm and "
+                "distance_of, or one of [[videos]]"
+            )
+
+
+def _start(model: Model, walkers: int, generator: np.random.Generator) -> Array:
+    """Return starting points (walkers, parameters): the likeliest of many draws from the prior."""
+    drawn = generator.standard_normal((100 * walkers, len(model.parameters)))
+    chance = model.log_probability(drawn)
+    order = np.argsort(-chance, kind="stable")[:walkers]
+    if not np.isfinite(chance[order]).all():
+        raise JumpcadError(
+            "no masses, springs and floors that the priors allow give these jumps: check the units, what distance and "
+            "height are of, and weigh the robot"
+        )
+    return np.array(drawn[order] + 1e-3 * generator.standard_normal((walkers, len(model.parameters))))
+
+
+def _emcee() -> Any:
+    try:
+        import emcee
+    except ImportError:
+        raise JumpcadError('emcee, the sampler, is not installed: pip install "jumpcad[calibrate]"') from None
+    return emcee
+
+
+def _quantiles(parameter: Parameter) -> list[float]:
+    return list(parameter.prior.quantiles(SHARES))
+
+
+def _verdict(spread: float, shift: float) -> str:
+    """Return what the data say of a parameter, from deviation and mean of its standard normals."""
+    if spread <= IDENTIFIED:
+        return "identified"
+    return "partly identified" if spread <= PARTLY or abs(shift) >= 1.0 else "stays at its prior"
+
+
+def _residual(datum: Datum, predicted: Predicted) -> dict[str, Any]:
+    """Return one measurement beside its prediction, under the reading that is likeliest."""
+    chances = Model.log_readings(datum, predicted)
+    share = np.exp(chances - np.logaddexp.reduce(chances, axis=0)).mean(axis=1)
+    likeliest = datum.readings[int(np.argmax(share))]
+    value = predicted.of(datum.what, likeliest)
+    middle = float(np.median(value))
+    deviation = float(np.median(predicted.deviation(datum, likeliest, value)))
+    return {
+        "robot": datum.subject,
+        "what": datum.what,
+        "of": datum.of,
+        "measured": datum.value,
+        "predicted": np.quantile(value, SHARES).tolist(),
+        "as": likeliest,
+        "readings": dict(zip(datum.readings, share.tolist(), strict=True)),
+        "off_by_deviations": (datum.value - middle) / deviation,
+    }

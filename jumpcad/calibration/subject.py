@@ -1,0 +1,234 @@
+"""One measured robot: built in its workshop, with its measurements checked against what was built."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from jumpcad.building import build
+from jumpcad.calibration.measurements import Measurements, load_measurements
+from jumpcad.calibration.priors import FLOOR, Prior, modelled_mass, tested_floor, weighed_mass
+from jumpcad.calibration.surface import Surface, surface_of
+from jumpcad.calibration.video import TakeoffSeen, read_points, seen_takeoff
+from jumpcad.design import load_design
+from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.variants import with_spring_factor
+from jumpcad.robot import Robot
+from jumpcad.settings import Settings
+from jumpcad.simulation import simulate
+from jumpcad.simulation.mechanics import Mechanics, loaded_state
+from jumpcad.workshop import Workshop, load_workshop
+
+LANDINGS = (0.7, 0.85, 1.0, 1.2, 1.5)
+"""Springs' energies, over the model's, with which it is seen where the robot touches down."""
+UNITS = {
+    "mass": ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?")),
+    "rate": (
+        (180.0 / math.pi, "is that per radian?"), (1e-3, "is that N·m/deg?"), (0.5, "is that of one spring?"),
+        (180.0 / math.pi / 1000.0, "is that N·m/rad?"), (10.0, "a digit too many?"), (0.1, "a digit too few?"),
+    ),
+    "length": ((1e-3, "is that m?"), (0.1, "is that cm?"), (10.0, "a digit too many?")),
+    "energy": ((1e3, "is that mJ?"), (1.0 / 3600.0, "is that Wh?"), (10.0, "a digit too many?")),
+}  # fmt: skip
+"""What a wrong unit makes of a value: the factor, and the question."""
+MOST_OFF = {"mass": 2.5, "rate": 1.8, "length": 5.0, "energy": 5.0}
+"""Factors by which a value may differ from the model's."""
+MOST_ENERGY_SHARE = 1.1
+"""Useful energy over that of the springs above which measurements contradict each other: errors of both together."""
+
+
+@dataclass(frozen=True, repr=False)
+class Subject:
+    """A robot with its measurements; `seen` are the take-offs of its videos."""
+
+    name: str
+    measured: Measurements
+    robot: Robot
+    seen: tuple[TakeoffSeen, ...]
+
+    @cached_property
+    def surface(self) -> Surface:
+        """Its jump over what is calibrated."""
+        return surface_of(self.robot)
+
+    @cached_property
+    def standing_m(self) -> float:
+        """Height of the centre of mass above the floor, springs loaded (m)."""
+        return float(Mechanics(self.robot, GRAVITY_M_S2).centre_of_mass_m(loaded_state(self.robot))[2])
+
+    @cached_property
+    def beyond_m(self) -> tuple[float, float]:
+        """How much farther than the ballistic range the body is at first touchdown: mean and deviation (m)."""
+        flight, further = Settings(flight="simulated"), []
+        for energy in LANDINGS:
+            jump = simulate(with_spring_factor(self.robot, energy), flight, "planar")
+            if jump.touchdown_distance_m is not None and jump.ballistic_range_m is not None:
+                further.append(jump.touchdown_distance_m - jump.ballistic_range_m)
+        return (float(np.mean(further)), float(np.std(further))) if further else (0.0, 0.02)
+
+    def remeasured(self, measured: Measurements, seen: tuple[TakeoffSeen, ...] = ()) -> "Subject":
+        """Return the same robot with other measurements, without letting it jump again; they are not checked."""
+        other = replace(self, measured=measured, seen=seen)
+        vars(other).update({name: getattr(self, name) for name in ("surface", "standing_m", "beyond_m")})
+        return other
+
+    @property
+    def electrical_j(self) -> float:
+        """Energy from the battery for one winding, by the model (J)."""
+        return self.robot.layout.drive.train.electrical_j
+
+    @property
+    def pair(self) -> str:
+        """Name of its pair of springs."""
+        return self.measured.spring.pair or self.name
+
+    @property
+    def rate_nmm_per_deg(self) -> float:
+        """Rate of both springs together, by the design."""
+        return 1000.0 * math.radians(self.robot.spring.stiffness_nm_per_rad)
+
+    @property
+    def rate(self) -> Prior:
+        """Rate of the springs over the design's."""
+        measured = self.measured.spring.both_nmm_per_deg
+        if measured is None:
+            scatter = self.robot.workshop.safety.spring_rate_scatter
+            return Prior("normal", 1.0, scatter / 2.0, "workshop: safety.spring_rate_scatter as two deviations", 0.3)
+        share = measured / self.rate_nmm_per_deg
+        return Prior("normal", share, share * self.measured.spring.error_share, "measured", 0.3)
+
+    @property
+    def mass(self) -> Prior:
+        """Mass over the model's."""
+        weighed = self.measured.mass
+        if weighed.robot_g is not None:
+            return weighed_mass(weighed.robot_g, 1000.0 * self.robot.mass_kg, weighed.robot_error_g)
+        known = sum(
+            part.mass.mass_kg * len(part.placements) for part in self.robot.parts if part.mass_source == "weighed"
+        )
+        return modelled_mass(1.0 - known / self.robot.mass_kg)
+
+    @property
+    def floor(self) -> Prior:
+        """Friction of the feet on the floor."""
+        weight_n = self.robot.mass_kg * self.mass.first * GRAVITY_M_S2
+        tests = self.measured.floor
+        found = [pull / weight_n for pull in tests.pull_n] + [
+            math.tan(math.radians(slope)) for slope in tests.slope_deg
+        ]
+        return tested_floor(found) if found else FLOOR
+
+
+def load_subject(name_or_path: str | Path) -> Subject:
+    """Return the robot of a measurement file, built, with its measurements checked.
+
+    Raises
+    ------
+    JumpcadError
+        If a file is missing, the measurements contradict each other, or a unit is off.
+    CannotBuildError
+        If the design cannot be built.
+    """
+    measured, path = load_measurements(name_or_path)
+    design = load_design(_beside(path, measured.design))
+    workshop = load_workshop(_beside(path, measured.workshop))
+    robot = build(design, _with_weights(workshop, measured.mass.parts_g), Path(measured.design).stem)
+    files = [path.parent / video.points for video in measured.videos]
+    seen = tuple(seen_takeoff(read_points(file), str(file)) for file in files)
+    subject = Subject(path.stem, measured, robot, seen)
+    _require_plausible(subject, str(path))
+    return subject
+
+
+def _beside(path: Path, name: str) -> str | Path:
+    """Return a file beside the measurements if there is one of that name, else the name."""
+    beside = path.parent / name
+    return beside if name.endswith(".toml") and not Path(name).is_absolute() else name
+
+
+def _with_weights(workshop: Workshop, parts_g: dict[str, float]) -> Workshop:
+    if not parts_g:
+        return workshop
+    mass = workshop.mass.model_copy(update={"weighed_g": workshop.mass.weighed_g | parts_g})
+    return workshop.model_copy(update={"mass": mass}).revalidated()
+
+
+def _require_plausible(subject: Subject, source: str) -> None:
+    """Refuse units that are off, and energies that contradict each other."""
+    measured, robot = subject.measured, subject.robot
+    if measured.mass.robot_g is not None:
+        _require_unit(source, "mass.robot_g", measured.mass.robot_g, 1000.0 * robot.mass_kg, "g", "mass")
+    rate = measured.spring.both_nmm_per_deg
+    if rate is not None:
+        _require_unit(source, "spring.rate_nmm_per_deg", rate, subject.rate_nmm_per_deg, "N·mm/° for both", "rate")
+    if subject.floor.first > 2.0:
+        raise JumpcadError(
+            f"{source}: floor.pull_n = {measured.floor.pull_n[0]:g}: is a friction of {subject.floor.first:.3g}: pull "
+            "the standing robot by its foot, along the floor, and give newtons (100 gf are 0.98 N)"
+        )
+    jump = simulate(robot, Settings(), "planar")
+    for series in measured.jumps:
+        for key, model in (("distance_mm", jump.ballistic_range_m), ("height_mm", jump.com_rise_m)):
+            for value in getattr(series, key) if model else ():
+                expected = 1000.0 * (model or 0.0)
+                if key == "height_mm" and series.height_of != "rise":
+                    expected += 500.0 * subject.standing_m
+                _require_unit(source, f"jumps.{key}", value, expected, "mm", "length")
+        for value in series.battery_j:
+            _require_unit(source, "jumps.battery_j", value, subject.electrical_j, "J", "energy")
+            if value < robot.spring.energy_j:
+                raise JumpcadError(
+                    f"{source}: jumps.battery_j = {value:g}: the springs alone hold {robot.spring.energy_j:.3g} J: "
+                    "measure voltage times current from the start of the winding to the release"
+                )
+        _require_energy(subject, series.distance_of, series.height_of, series.distance_mm, series.height_mm, source)
+
+
+def _require_unit(source: str, key: str, value: float, expected: float, unit: str, kind: str) -> None:
+    """Refuse a value that differs from the model's by more than robots do, with the unit that would explain it."""
+    ratio, most = value / expected, MOST_OFF[kind]
+    if 1.0 / most <= ratio <= most:
+        return
+    factor, hint = min(UNITS[kind], key=lambda unit: abs(math.log(ratio / unit[0])))
+    asked = f" {hint}" if abs(math.log(ratio / factor)) < math.log(2.0) else ""
+    raise JumpcadError(f"{source}: {key} = {value:g}: the model has {expected:.3g} {unit}:{asked} give it in {unit}")
+
+
+def _require_energy(
+    subject: Subject,
+    distance_of: str | None,
+    height_of: str | None,
+    distances_mm: tuple[float, ...],
+    heights_mm: tuple[float, ...],
+    source: str,
+) -> None:
+    """Refuse a flight that takes more energy than the springs have, where all of it is known.
+
+    A flight of distance R and rise h takes at least m·g·(h + R²/16h).
+    """
+    measured = subject.measured
+    known = distance_of in ("centre-of-mass", "first-touchdown") and height_of == "rise"
+    if not (known and distances_mm and heights_mm and measured.mass.robot_g is not None):
+        return
+    distance, rise = float(np.mean(distances_mm)) / 1000.0, float(np.mean(heights_mm)) / 1000.0
+    needed = measured.mass.robot_g / 1000.0 * GRAVITY_M_S2 * (rise + distance**2 / (16.0 * rise))
+    held = subject.robot.spring.energy_j * subject.rate.first
+    if needed > MOST_ENERGY_SHARE * held:
+        raise JumpcadError(
+            f"{source}: jumps.height_mm = {1000.0 * rise:g} with distance_mm = {1000.0 * distance:g}: takes "
+            f"{needed:.3g} J for {measured.mass.robot_g:g} g, and the springs hold {held:.3g} J: measure the springs' "
+            "rate, or say what distance and height are of"
+        )
+
+
+def renamed(subjects: list[Subject]) -> list[Subject]:
+    """Return subjects with different names: a number is added to a name that comes again."""
+    names: dict[str, int] = {}
+    found = []
+    for subject in subjects:
+        names[subject.name] = count = names.get(subject.name, 0) + 1
+        found.append(subject if count == 1 else replace(subject, name=f"{subject.name} {count}"))
+    return found

@@ -1,0 +1,191 @@
+"""One jump with what is not known of it: calibration, print tolerance, springs, mass, floor, and which of them matters.
+
+Each of these is a group of inputs, independent of the others. The first-order index of a group is the share of the
+variance that knowing it would take away: Var(E[y | group]) / Var(y). E[y | group] is the group's part of an additive
+cubic that is fitted to all jumps (ANOVA by regression; Rabitz and Alis 1999), which needs far fewer jumps than
+Saltelli's scheme; what is left is due to groups together.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import ndtri
+from scipy.stats import qmc
+
+from jumpcad.calibration import priors
+from jumpcad.calibration.priors import Prior
+from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.variants import with_lengths, with_spring_factor
+from jumpcad.robot import Robot
+from jumpcad.search.models import RobotModel
+from jumpcad.search.tolerances import with_length_errors
+from jumpcad.settings import Settings, coefficients
+from jumpcad.simulation import simulate
+from jumpcad.transforms import Array
+
+SAMPLES = 256
+"""Jumps, a power of two."""
+DEGREE, RESAMPLES = 3, 100
+SHARES = (0.1, 0.5, 0.9)
+MASS_SHARE = 0.04
+"""Deviation of a printed robot's mass from the model's, as of parts from PrusaSlicer's."""
+FLOOR_SHARE = 0.15
+"""Deviation of the logarithm of a floor's friction that nobody tested; judgement: rubber slides at 0.6 to 1.0."""
+FIGURES = ("ballistic_range_m", "com_rise_m")
+EDGE, TINY = 1e-9, 1e-30
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Quantiles (10, 50, 90 %) of range and rise over `jumps` simulated jumps, and what they depend on.
+
+    `first_order` has, by group and figure, the share of the variance that it explains, `interval` its 80 % bootstrap
+    interval. A robot that does not jump counts 0; `jumps_share` is the share of those that do.
+    """
+
+    quantiles: dict[str, list[float]]
+    first_order: dict[str, dict[str, float]]
+    interval: dict[str, dict[str, list[float]]]
+    jumps: int
+    jumps_share: float
+    calibrated: bool
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        return dict(vars(self))
+
+
+Applied = tuple[Robot, Settings]
+Apply = Callable[[Robot, Settings, Array], Applied]
+
+
+@dataclass(frozen=True)
+class Group:
+    """What is not known together: `inputs` even numbers in 0…1, `values` (n, k) from them (n, inputs), their effect."""
+
+    inputs: int
+    values: Callable[[Array], Array]
+    apply: Apply
+
+
+def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0, samples: int = SAMPLES) -> Uncertainty:
+    """Return a printed robot's jump with what is not known of it.
+
+    Parameters
+    ----------
+    robot
+        As built; its workshop has the tolerance of lengths and the scatter of spring rates.
+    settings
+        Those of a calibration have draws; without them the priors of a calibration take their place.
+    engine
+        Of the jumps.
+    seed, samples
+        Random seed; jumps, a power of two.
+    """
+    groups = _groups(robot, settings)
+    width = sum(group.inputs for group in groups.values())
+    points: Array = qmc.Sobol(width, seed=np.random.default_rng(seed)).random(samples)
+    inputs, start = {}, 0
+    for name, group in groups.items():
+        inputs[name] = group.values(np.clip(points[:, start : start + group.inputs], EDGE, 1.0 - EDGE))
+        start += group.inputs
+    figures = np.array(
+        [
+            _jump(robot, settings, engine, [(group.apply, inputs[name][row]) for name, group in groups.items()])
+            for row in range(samples)
+        ]
+    )
+    generator = np.random.default_rng([seed, 1])
+    again = [_first_order(inputs, figures, generator.integers(0, samples, samples)) for _ in range(RESAMPLES)]
+    low, high = np.quantile(np.array(again), (0.1, 0.9), axis=0)
+    shares = _first_order(inputs, figures, np.arange(samples))
+    return Uncertainty(
+        {name: np.quantile(figures[:, k], SHARES).tolist() for k, name in enumerate(FIGURES)},
+        {name: dict(zip(FIGURES, shares[g].tolist(), strict=True)) for g, name in enumerate(groups)},
+        {
+            name: {figure: [float(low[g, k]), float(high[g, k])] for k, figure in enumerate(FIGURES)}
+            for g, name in enumerate(groups)
+        },
+        samples,
+        float((figures[:, 0] > 0.0).mean()),
+        bool(settings.draws),
+    )
+
+
+def _first_order(inputs: dict[str, Array], figures: Array, rows: npt.NDArray[np.intp]) -> Array:
+    """Return the first-order indices (groups, figures) from some rows of the sample."""
+    blocks = []
+    for values in inputs.values():
+        chosen = values[rows]
+        deviation = chosen.std(axis=0)
+        unit = (chosen - chosen.mean(axis=0)) / np.where(deviation > 0.0, deviation, 1.0)
+        block = np.concatenate([unit**power for power in range(1, DEGREE + 1)], axis=1)
+        blocks.append(block - block.mean(axis=0))
+    results = figures[rows] - figures[rows].mean(axis=0)
+    fitted = np.linalg.lstsq(np.concatenate(blocks, axis=1), results, rcond=None)[0]
+    variance, shares, start = np.maximum((results**2).mean(axis=0), TINY), [], 0
+    for block in blocks:
+        part = np.einsum("ij,jk->ik", block, fitted[start : start + block.shape[1]])
+        shares.append((part**2).mean(axis=0) / variance)
+        start += block.shape[1]
+    return np.array(shares)
+
+
+def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
+    """Return what is not known, by name."""
+    workshop, rubs, draws = robot.workshop, coefficients(robot, settings), settings.draws
+    tolerance_mm = RobotModel("printed", workshop).tolerance_mm
+    rate = Prior("normal", 1.0, workshop.safety.spring_rate_scatter / 2.0, "workshop", 0.3)
+    mass = Prior("normal", 1.0, MASS_SHARE, "model", 0.3)
+    floor = Prior("lognormal", rubs.ground, FLOOR_SHARE, "workshop")
+    pins = Prior("lognormal", rubs.pin, priors.PIN_FRICTION.second, "workshop")
+
+    def drawn(at: Array) -> Array:
+        pairs = np.column_stack([draws.spring_efficiency, draws.pin_friction])
+        found: Array = pairs[np.minimum((at[:, 0] * len(pairs)).astype(int), len(pairs) - 1)]
+        return found
+
+    def assumed(at: Array) -> Array:
+        return np.column_stack([priors.SPRING_EFFICIENCY.at(ndtri(at[:, 0])), pins.at(ndtri(at[:, 1]))])
+
+    def calibrated(robot: Robot, settings: Settings, value: Array) -> Applied:
+        return robot, _changed(settings, spring_efficiency=value[0], pin_friction=value[1])
+
+    def lengths(robot: Robot, settings: Settings, value: Array) -> Applied:
+        return with_lengths(robot, with_length_errors(robot.design, value)), settings
+
+    def springs(robot: Robot, settings: Settings, value: Array) -> Applied:
+        return with_spring_factor(robot, float(value[0])), settings
+
+    def masses(robot: Robot, settings: Settings, value: Array) -> Applied:
+        """A heavier robot jumps as one of the model's mass with weaker springs."""
+        return with_spring_factor(robot, 1.0 / float(value[0])), settings
+
+    def floors(robot: Robot, settings: Settings, value: Array) -> Applied:
+        return robot, _changed(settings, ground_friction=value[0])
+
+    return {
+        "calibration": Group(1, drawn, calibrated) if draws else Group(2, assumed, calibrated),
+        "lengths": Group(4, lambda at: tolerance_mm * (2.0 * at - 1.0), lengths),
+        "springs": Group(1, lambda at: rate.at(ndtri(at)), springs),
+        "mass": Group(1, lambda at: mass.at(ndtri(at)), masses),
+        "floor": Group(1, lambda at: floor.at(ndtri(at)), floors),
+    }
+
+
+def _jump(robot: Robot, settings: Settings, engine: str, changes: list[tuple[Apply, Array]]) -> tuple[float, ...]:
+    """Return the figures of one jump; 0 for what does not jump."""
+    try:
+        for apply, value in changes:
+            robot, settings = apply(robot, settings, value)
+        jump = simulate(robot, settings, engine)
+    except CannotBuildError:
+        return (0.0,) * len(FIGURES)
+    return tuple(getattr(jump, name) or 0.0 for name in FIGURES)
+
+
+def _changed(settings: Settings, **values: float) -> Settings:
+    return settings.model_copy(update={name: float(value) for name, value in values.items()})

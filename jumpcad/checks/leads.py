@@ -1,0 +1,42 @@
+"""Whether the leads of sensor and motor keep away from what moves, outside the plates and on their way to the trays."""
+
+import itertools
+from collections.abc import Iterator
+
+import numpy as np
+
+from jumpcad.findings import Finding, at_least
+from jumpcad.layout.layout import moving_obstacles
+from jumpcad.layout.room import bar, clearance
+from jumpcad.parts.leads import way_in
+from jumpcad.robot import Robot
+
+NEEDED_MM = 1.5
+"""From a lead's middle to what moves; judgement: a lead of 1.2 mm and a millimetre of air."""
+APART_MM, AROUND_MM = 1.0, 1.5
+"""Between the points that are measured, and how far around a lead across the robot things count."""
+
+
+def lead_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `wires_clear`: the least distance of the leads of sensor and motor from what moves."""
+    layout = robot.layout
+    moving = moving_obstacles(layout)
+    gaps: dict[str, float] = {}
+    inside, tray = layout.lateral.inside, layout.electronics.middle_mm(layout.tray_mm)
+    for role in ("sensor", "motor"):
+        way = way_in(layout, role)
+        if len(way) < 2:
+            continue
+        last = way[-1]
+        ends = [*way, np.array([tray[0], np.clip(last[1], *inside), tray[1]])]
+        for start, end in itertools.pairwise(ends):
+            y = (min(start[1], end[1]) - AROUND_MM, max(start[1], end[1]) + AROUND_MM)
+            points = bar(start[[0, 2]], end[[0, 2]], APART_MM)
+            gaps[role] = min(gaps.get(role, np.inf), float(clearance(moving, points, (0.0, 0.0), 0.0, y).min()))
+    if gaps:
+        role = min(gaps, key=lambda name: gaps[name])
+        yield at_least(
+            "wires_clear", min(gaps[role], 100.0), NEEDED_MM, "mm",
+            f"the {role}'s leads pass {min(gaps[role], 100.0):.1f} mm from what moves; {NEEDED_MM:g} mm are needed",
+            "raise d_coef or carrying_link_mm (a longer body)",
+        )  # fmt: skip

@@ -1,0 +1,146 @@
+"""`jumpcad calibrate`: what measured jumps say of springs, pins, release and drive, and what they leave open."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
+from jumpcad.cli.searching import PlotsOption
+
+if TYPE_CHECKING:
+    from jumpcad.calibration import Posterior
+
+SETTINGS = Path("my-settings.toml")
+UNITS = {"distance": (1000.0, "mm"), "height": (1000.0, "mm"), "battery": (1.0, "J"), "speed": (1.0, "m/s"),
+         "angle": (1.0, "°")}  # fmt: skip
+FILES_HELP = "Measured robots: templates (kenan-1.0, kenan-2.0) or TOML files, one each."
+PREDICT_HELP = "Predict this measured robot, whose jumps are not calibrated on; may be repeated."
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module."""
+    app.command()(calibrate)
+
+
+def calibrate(
+    files: Annotated[list[str], typer.Argument(help=FILES_HELP, metavar="MEASUREMENTS...")],
+    predict: Annotated[list[str] | None, typer.Option(help=PREDICT_HELP, metavar="MEASUREMENTS")] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="Write settings for simulate and optimize.", metavar=str(SETTINGS)),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)] = 0,
+    plots: PlotsOption = None,
+    force: ForceFlag = False,
+    as_json: JsonFlag = False,
+) -> None:
+    """Calibrate springs, pins, release and drive on measured jumps, and say what the data leave open."""
+    from jumpcad.calibration import calibrate as run
+    from jumpcad.calibration import load_subject, predicted_jump, settings_toml
+    from jumpcad.calibration.plots import PICTURES
+    from jumpcad.files.outputs import require_apart, require_free, require_target, write_atomically
+
+    require_apart({"--output": output, "--plots": plots}, {f"measurements {name}": name for name in files})
+    if output:
+        require_target(output, (".toml",), force)
+    for name in PICTURES if plots else ():
+        require_free(Path(str(plots)) / f"{name}.svg", force)
+    others = [load_subject(name) for name in predict or ()]
+    with status("builds the robots and lets them jump; samples"):
+        posterior = run(files, seed)
+        predictions = [predicted_jump(posterior, other, seed) for other in others]
+        document = _document(posterior, seed) | {
+            "predictions": {
+                one.subject.name: {"jumps_share": one.jumps_share, **one.quantiles(), "beside": one.beside()}
+                for one in predictions
+            }
+        }
+    if output:
+        write_atomically(output, settings_toml(posterior))
+        document["settings"] = str(output)
+    if plots:
+        document["pictures"] = _pictures(posterior, plots)
+    if as_json:
+        print_json(document)
+    else:
+        print("\n".join(map(escaped, _lines(document))))
+
+
+def _document(posterior: "Posterior", seed: int) -> dict[str, Any]:
+    return {
+        "robots": [subject.name for subject in posterior.model.subjects],
+        "parameters": posterior.summaries(),
+        "energy_per_mass": posterior.energies(),
+        "together": [list(pair) for pair in posterior.together()],
+        "residuals": posterior.residuals(),
+        "model_error": {
+            subject.name: {"median": subject.surface.error, "largest": float(subject.surface.errors.max())}
+            for subject in posterior.model.subjects
+        },
+        "sampler": {
+            "seed": seed,
+            "walkers": posterior.walkers,
+            "steps": posterior.steps,
+            "autocorrelation": posterior.autocorrelation,
+            "effective": posterior.effective,
+            "converged": posterior.converged,
+        },
+    }
+
+
+def _pictures(posterior: "Posterior", folder: Path) -> list[str]:
+    from jumpcad.calibration import plots
+    from jumpcad.search.figures import save_figure
+
+    drawn = {"parameters": plots.parameters(posterior), "measurements": plots.measurements(posterior)}
+    return [str(save_figure(figure, folder, name)) for name, figure in drawn.items()]
+
+
+def _lines(document: dict[str, Any]) -> list[str]:
+    """Return what people read."""
+    lines = [f"{'parameter':<44}{'prior 10…50…90 %':<24}{'posterior':<24}what the data say"]
+    for one in document["parameters"]:
+        lines.append(f"{one['label']:<44}{_three(one['prior']):<24}{_three(one['posterior']):<24}{one['verdict']}")
+    for name, energy in document["energy_per_mass"].items():
+        lines.append(f"{name + ': spring energy over mass / model':<68}{_three(energy)}")
+    for first, second, correlation in document["together"]:
+        lines.append(f"known together, not alone: {first} and {second} (correlation {correlation:+.2f})")
+    for row in document["residuals"]:
+        factor, unit = UNITS[row["what"]]
+        predicted = _three([factor * value for value in row["predicted"]])
+        read = (
+            "" if row["of"] == row["as"] else f", likeliest as {row['as']} ({100 * row['readings'][row['as']]:.0f} %)"
+        )
+        lines.append(
+            f"{row['robot']}: {row['what']} {factor * row['measured']:.3g} {unit}, calibrated model {predicted}{read}, "
+            f"off by {row['off_by_deviations']:+.1f} standard deviations"
+        )
+    for name, found in document["predictions"].items():
+        lines.append(f"{name}, predicted: range {_mm(found['ballistic_range_m'])}, rise {_mm(found['com_rise_m'])}")
+        for row in found["beside"]:
+            factor, unit = UNITS[row["what"]]
+            predicted = _three([factor * value for value in row["predicted"]])
+            lines.append(
+                f"  {row['what']} as {row['as']}: {predicted} {unit} predicted with its errors, measured "
+                f"{factor * row['measured']:.3g}, above {100 * row['below_share']:.0f} % of the predictions"
+            )
+    errors = [error["largest"] for error in document["model_error"].values()]
+    sampler = document["sampler"]
+    lines.append(
+        f"{sampler['effective']:.0f} independent draws; interpolated jumps are within {100 * max(errors):.1f} % of the "
+        "engine's in range"
+    )
+    if not sampler["converged"]:
+        lines.append("the chains are too short for their correlation: quantiles are rough; give more measurements")
+    if "settings" in document:
+        lines.append(f"{document['settings']}: jumpcad simulate DESIGN --uncertain --settings {document['settings']}")
+    return lines
+
+
+def _three(values: list[float]) -> str:
+    return "…".join(f"{value:.3g}" for value in values)
+
+
+def _mm(values: list[float]) -> str:
+    return f"{_three([1000.0 * value for value in values])} mm"

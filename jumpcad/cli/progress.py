@@ -1,0 +1,108 @@
+"""Progress of a search on standard error: a bar on a terminal, elsewhere one line a minute."""
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from jumpcad.cli.output import console
+
+if TYPE_CHECKING:
+    from jumpcad.search.evaluator import Watch
+    from jumpcad.search.trial import Trial
+
+LINE_EVERY_S = 60.0
+
+
+class Tally:
+    """What is known of a running search: evaluations done, the best score, rate and time left.
+
+    Trials that are read from the study file count as done, but not for the rate.
+    """
+
+    def __init__(self, total: int, clock: Callable[[], float] = time.monotonic) -> None:
+        self.total = total
+        self.done = 0
+        self.phase = "search"
+        self.best: float | None = None
+        self._clock = clock
+        self._start_s = clock()
+        self._computed = 0
+
+    def add(self, trial: "Trial", computed: bool) -> None:
+        """Count a trial."""
+        from jumpcad.search.trial import SEARCH_PHASES
+
+        self.done += trial.cost
+        self.total = max(self.total, self.done)
+        searching = trial.phase in SEARCH_PHASES
+        self.phase = trial.phase if searching else "robust pick"
+        if searching and trial.score is not None:
+            self.best = trial.score if self.best is None else max(self.best, trial.score)
+        if computed:
+            self._computed += trial.cost
+        elif not self._computed:
+            self._start_s = self._clock()
+
+    @property
+    def per_second(self) -> float:
+        """Evaluations computed per second; 0 before the first."""
+        elapsed = self._clock() - self._start_s
+        return self._computed / elapsed if elapsed > 0 else 0.0
+
+    @property
+    def left_s(self) -> float | None:
+        """Time that the other evaluations take at this rate (s); None before the first."""
+        return (self.total - self.done) / self.per_second if self.per_second else None
+
+    def line(self) -> str:
+        """Return one line for people."""
+        best = "–" if self.best is None else f"{self.best:.4g}"
+        left = "" if self.left_s is None else f", about {duration(self.left_s)} left"
+        return f"{self.phase}: {self.done} of {self.total} evaluations, best {best}, {self.per_second:.2g}/s{left}"
+
+
+def duration(seconds: float) -> str:
+    """Return a time in the unit that suits it."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+@contextmanager
+def watching(total: int, quiet: bool, clock: Callable[[], float] = time.monotonic) -> Iterator["Watch"]:
+    """Show how far a search is, how fast, its best score and the time left, while it runs.
+
+    When none of its first designs jumps, say so, with the reasons counted.
+    """
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    from jumpcad.search.study import Hopeless
+
+    terminal = sys.stderr.isatty()
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[line]}"))
+    with Progress(*columns, console=console(stderr=True), disable=quiet or not terminal) as progress:
+        tally, told_s, hopeless = Tally(total, clock), clock(), Hopeless()
+        task = progress.add_task("search", total=total, line="")
+
+        def watch(trial: "Trial", computed: bool) -> None:
+            nonlocal told_s
+            tally.add(trial, computed)
+            warning = hopeless.warning(trial)
+            if quiet:
+                return
+            if warning:
+                progress.console.print(warning, markup=False) if terminal else _tell(warning)
+            if terminal:
+                line = tally.line().removeprefix(f"{tally.phase}: ")
+                progress.update(task, completed=tally.done, total=tally.total, description=tally.phase, line=line)
+            elif computed and clock() - told_s >= LINE_EVERY_S:
+                told_s = clock()
+                _tell(tally.line())
+
+        yield watch
+
+
+def _tell(line: str) -> None:
+    print(f"jumpcad: {line}", file=sys.stderr, flush=True)

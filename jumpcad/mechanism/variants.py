@@ -1,0 +1,64 @@
+"""The same robot a little different: other springs, or links of other lengths."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+
+from jumpcad.design import Design
+from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
+from jumpcad.mechanism.model import BODY, FOOT, Body, ContactSphere, Mechanism, five_bar
+
+Robot = TypeVar("Robot", bound=Mechanism)
+
+
+def with_spring_factor(mechanism: Robot, factor: float) -> Robot:
+    """Return a robot whose springs have another stiffness, and so another energy, at the same angles.
+
+    The leg leaves the cam with the same share of the springs' energy: its speed there goes with the root of the factor.
+    """
+    if factor == 1.0:
+        return mechanism
+    spring, off = mechanism.spring, mechanism.roller_off
+    return replace(
+        mechanism,
+        spring=replace(spring, stiffness_nm_per_rad=factor * spring.stiffness_nm_per_rad),
+        roller_off=off and replace(off, leg_rad_s=math.sqrt(factor) * off.leg_rad_s),
+    )
+
+
+def with_lengths(mechanism: Robot, design: Design) -> Robot:
+    """Return a robot whose links have the lengths of another design, and whose bodies keep mass and inertia.
+
+    Joints, loop and contacts move with the ends of the links. The leg leaves the cam as far before the loaded pose as
+    it did. For small differences, such as errors of print and assembly.
+    """
+    old, spring, off = mechanism.design, mechanism.spring, mechanism.roller_off
+    joint = mechanism.joint(spring.joint)
+    joints, loop, _ = five_bar(Linkage(design), (-design.compression_rad, joint.upper_rad), joint.effort_nm)
+    eye, toe = design.l4_mm - old.l4_mm, float(toe_tip_mm(design)[0] - toe_tip_mm(old)[0])
+    half = (design.l1_mm - old.l1_mm) / 2.0
+    middle_m = old.l4_mm / 2000.0
+    bodies = dict(mechanism.bodies)
+    bodies[FOOT] = _moved(bodies[FOOT], lambda sphere: eye if sphere.centre_m[0] > middle_m else toe)
+    bodies[BODY] = _moved(bodies[BODY], lambda sphere: math.copysign(half, half * float(sphere.centre_m[0])))
+    return replace(
+        mechanism,
+        design=design,
+        bodies=bodies,
+        joints=joints,
+        loop=loop,
+        spring=replace(spring, wind_rad=design.compression_rad),
+        roller_off=off and replace(off, leg_rad=off.leg_rad + spring.wind_rad - design.compression_rad),
+    )
+
+
+def _moved(body: Body, by_mm: Callable[[ContactSphere], float]) -> Body:
+    """Return a body whose contact spheres are moved along x."""
+    contacts = tuple(
+        replace(sphere, centre_m=sphere.centre_m + np.array([by_mm(sphere) / 1000.0, 0.0, 0.0]))
+        for sphere in body.contacts
+    )
+    return replace(body, contacts=contacts)

@@ -1,0 +1,57 @@
+"""What the plates lack for switch, USB plug and wires, and where they need material for it (mm)."""
+
+from collections.abc import Iterator
+from typing import Literal
+
+from jumpcad.layout.fittings import (
+    HOLE_HALF_MM,
+    HOLE_MM,
+    RELIEF_APART_MM,
+    RELIEF_SLOT_MM,
+    RELIEF_UP_MM,
+    USB_EDGE_MM,
+    Fittings,
+    switch_half_mm,
+)
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.solids.outline import Region, hole, rectangle
+from jumpcad.transforms import Array
+
+KNOB_MM = (8.0, 4.4)
+"""Slot for the switch's knob, along its travel and across; judgement: a knob of 4 x 3 mm that goes 3 mm."""
+SWITCH_SCREWS_MM = 7.5
+"""From the switch's middle to its screws: 15 mm apart, usual of slide switches for panels."""
+
+
+def fitting_pads(fittings: Fittings, more_mm: float) -> Iterator[Region]:
+    """Yield where the plates need material, grown by a margin."""
+    boxes = [(place, HOLE_HALF_MM) for place in (fittings.left_mm, fittings.right_mm)]
+    if fittings.switch is not None and fittings.switch_mm is not None:
+        boxes.append((fittings.switch_mm, switch_half_mm(fittings.switch)))
+    if fittings.usb_mm is not None:
+        width, height = fittings.usb_size_mm
+        boxes.append((fittings.usb_mm, (width / 2.0 + USB_EDGE_MM, height / 2.0 + USB_EDGE_MM)))
+    for place, half in boxes:
+        yield rectangle([2.0 * (side + more_mm) for side in half], place, 1.0 + more_mm)
+
+
+def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left", "right"]) -> Iterator[Region]:
+    """Yield what a plate lacks: holes for leads with the slots of their tie; in the right one switch and USB plug."""
+    yield from _wire_hole(fittings.left_mm if side == "left" else fittings.right_mm)
+    if side == "left":
+        return
+    if fittings.switch_mm is not None:
+        x, z = fittings.switch_mm
+        yield rectangle(KNOB_MM, (x, z), 1.0)
+        for sign in (-1.0, 1.0):
+            yield hole(holes.fits.m2_clearance_mm, (x + sign * SWITCH_SCREWS_MM, z))
+    if fittings.usb_mm is not None:
+        yield rectangle(fittings.usb_size_mm, fittings.usb_mm, 1.0)
+
+
+def _wire_hole(place_mm: Array) -> Iterator[Region]:
+    x, z = place_mm
+    yield hole(HOLE_MM, (x, z - HOLE_HALF_MM[1] + HOLE_MM))
+    for sign in (-1.0, 1.0):
+        up = z - HOLE_HALF_MM[1] + HOLE_MM + RELIEF_UP_MM
+        yield rectangle(RELIEF_SLOT_MM, (x + sign * RELIEF_APART_MM / 2.0, up), 0.5)

@@ -1,0 +1,79 @@
+"""The electronics' trays between the plates: the battery's below, that of the boards above it (mm).
+
+Both print as they stand on the robot. Boards lie on foam tape between a plate and a rim, each under a cable tie.
+"""
+
+from jumpcad.dimensions import STRAP_SLOT_MM, TAB_MM, TRAY_MM
+from jumpcad.layout.electronics import RIM_HEIGHT_MM, RIM_MM, SEAT_PLAY_MM
+from jumpcad.layout.layout import Layout
+from jumpcad.mechanism.model import BODY
+from jumpcad.parts.body_plate import tray_slots
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Drawing, Placement, upright
+from jumpcad.solids.outline import Region, rectangle, union
+from jumpcad.solids.stack import Stack
+
+EDGE_MM, LEDGE_MM = 5.0, 2.0
+"""Of the battery's window: distance from the tray's ends, and width left under the battery."""
+BOARD_LEDGE_MM = 4.0
+"""Width left under a board for its tape; judgement."""
+WINDOW_MIN_MM = 4.0
+"""Least width of a window: that of its round ends."""
+RIM_SHARE = 0.6
+"""Length of a rim over the board's width; judgement: wires leave beside it."""
+
+
+def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
+    """Return the lower and the upper tray."""
+    electronics, inside = layout.electronics, layout.lateral.inside
+    battery, middle = electronics.battery, sum(inside) / 2.0
+    strap_y, at = battery.width_mm / 2.0 + STRAP_SLOT_MM[0], electronics.seats(inside)["battery"].y_mm - middle
+    straps = [rectangle(STRAP_SLOT_MM[::-1], (0.0, at + side * strap_y)) for side in (-1.0, 1.0)]
+    window = _window(electronics.length_mm - 2.0 * EDGE_MM, battery.width_mm - 2.0 * LEDGE_MM)
+    lower = _floor(layout, holes, 0) - union([*straps, *(region.translate((0.0, at)) for region in window)])
+    floor = _floor(layout, holes, 1)
+    cuts, rims = [], []
+    for slots in electronics.tie_slots(inside).values():
+        cuts += [rectangle(size, (x, y - middle)) for x, y, size in slots]
+    for role, seat in electronics.seats(inside).items():
+        if role not in electronics.boards:
+            continue
+        x, y = seat.x_mm, seat.y_mm - middle
+        width, length, _ = seat.size_mm
+        under = _window(width - 2.0 * BOARD_LEDGE_MM, length - 2.0 * BOARD_LEDGE_MM)
+        cuts += [window.translate((x, y)) for window in under]
+        # at its other end the plate keeps it
+        end, inwards = length / 2.0 + SEAT_PLAY_MM + RIM_MM / 2.0, 1.0 if role == "controller" else -1.0
+        rims.append(rectangle((RIM_SHARE * width, RIM_MM), (x, y + inwards * end)))
+    upper = floor - union(cuts)
+    slabs = [(0.0, TRAY_MM, upper), (TRAY_MM, TRAY_MM + RIM_HEIGHT_MM, union(rims) ^ upper)]
+    return [
+        _drawing(layout, "electronics_tray_lower", [(0.0, TRAY_MM, lower)], 0.0),
+        _drawing(layout, "electronics_tray_upper", slabs, electronics.upper_tray_mm),
+    ]
+
+
+def _drawing(layout: Layout, name: str, slabs: list[tuple[float, float, Region]], level_mm: float) -> Drawing:
+    x, z = layout.tray_mm
+    pose = upright(z + level_mm, x, sum(layout.lateral.inside) / 2.0)
+    return Drawing(name, "body", Stack.of(slabs), (Placement(BODY, pose),))
+
+
+def _floor(layout: Layout, holes: HoleSizes, level: int) -> Region:
+    """Return a tray's floor with its tabs, about the middle between the plates."""
+    low, high = layout.lateral.inside
+    middle = (low + high) / 2.0
+    width = high - low - 2.0 * holes.fits.sliding_mm
+    floor = rectangle((layout.electronics.length_mm, width), corner_radius_mm=1.5)
+    tabs = []
+    for side, face in (("left", layout.lateral.outside[1]), ("right", layout.lateral.outside[0])):
+        reach = face - middle
+        for x, _ in tray_slots(layout, side)[level]:  # type: ignore[arg-type]
+            tabs.append(rectangle((TAB_MM, abs(reach)), (x - layout.tray_mm[0], reach / 2.0)))
+    return union([floor, *tabs])
+
+
+def _window(length_mm: float, width_mm: float) -> list[Region]:
+    if min(length_mm, width_mm) < WINDOW_MIN_MM:
+        return []
+    return [rectangle((length_mm, width_mm), corner_radius_mm=WINDOW_MIN_MM / 2.0)]

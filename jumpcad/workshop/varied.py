@@ -1,0 +1,106 @@
+"""A workshop with some of its values changed, each named by a dotted key such as `body.plate_mm`."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from jumpcad.catalogue import load_catalogue
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean, find_template, read_toml, template_names
+from jumpcad.files.complaints import shown
+from jumpcad.workshop.workshop import Workshop
+
+Value = float | str
+"""A value that can vary: a number, or a name of the catalogue."""
+
+PARTS = {
+    "bought.leg_bearing": "bearings", "bought.roller": "bearings", "bought.battery": "batteries",
+    "bought.controller": "boards", "bought.driver": "boards", "bought.regulator": "boards",
+    "bought.sensor": "components", "bought.switch": "components", "bought.plug": "components",
+    "bought.capacitor": "components", "bought.diode": "components", "bought.wire": "components",
+    "bought.spring": "springs", "bought.axle": "rods", "bought.kit": "kits",
+    "ground.pad": "pads", "body.stop_pad": "pads",
+}  # fmt: skip
+"""Keys that name a part, and where in the catalogue it stands."""
+WORDS = ("name", "source", "surface")
+"""Last steps of keys that describe and decide nothing."""
+
+
+def workshop_value(workshop: Workshop, key: str) -> Value:
+    """Return the value of a key that can vary.
+
+    Raises
+    ------
+    JumpcadError
+        If there is no such key, or what it names is no single number or name.
+    """
+    known = _leaves(workshop.model_dump())
+    if key in known and _varies(key, known[key]):
+        found: Value = known[key]
+        return found
+    if key in known or any(one.startswith(f"{key}.") for one in known):
+        kind = "a list" if isinstance(known.get(key), tuple) else "no single number or name"
+        raise JumpcadError(f"{shown(key)} cannot vary: in the workshop it is {kind}")
+    varying = [one for one, value in known.items() if _varies(one, value)]
+    hint = did_you_mean(key, varying) or "; a key of the workshop is TABLE.NAME, as in body.plate_mm"
+    raise JumpcadError(f"{shown(key)} is neither a parameter of a design nor a key of the workshop{hint}")
+
+
+def varied(workshop: Workshop, values: Mapping[str, Value]) -> Workshop:
+    """Return a workshop with other values.
+
+    A kit brings all its parts, before other values are set. A material is the workshop's own, or the shipped one of
+    that name; materials that no role is left with are dropped. Keys that hold whole numbers take rounded ones.
+
+    Raises
+    ------
+    JumpcadError
+        If a key cannot vary, or a value is out of range, unknown, or contradicts another.
+    """
+    data = workshop.model_dump(exclude_none=True)
+    kits = load_catalogue().kits
+    if (kit := values.get("bought.kit")) in kits:
+        data["bought"] |= kits[str(kit)].model_dump(include=set(data["bought"]))
+    for key, value in values.items():
+        held = workshop_value(workshop, key)
+        _require_part(workshop, key, value)
+        *path, last = key.split(".")
+        table = data
+        for step in path:
+            table = table[step]
+        table[last] = round(value) if isinstance(held, int) and isinstance(value, float) else value
+    used = sorted(set(data["roles"].values()))
+    data["materials"] = {name: data["materials"].get(name) or _shipped_material(name) for name in used}
+    return Workshop(**data)
+
+
+def _require_part(workshop: Workshop, key: str, value: Value) -> None:
+    """Refuse a name that the catalogue does not have."""
+    if key in PARTS and value not in ("", "any"):
+        known = getattr(workshop.catalogue, PARTS[key])
+        if value not in known:
+            hint = did_you_mean(str(value), known)
+            raise JumpcadError(f"{key} = {shown(value)}: is none of {', '.join(known)}{hint}")
+
+
+def _shipped_material(name: Any) -> dict[str, Any]:
+    known = template_names("materials")
+    if str(name).lower() not in known:
+        raise JumpcadError(f"{shown(name)} is no material of this workshop, nor one of {', '.join(known)}")
+    return read_toml(find_template("materials", str(name).lower()))[0]
+
+
+def _varies(key: str, value: Any) -> bool:
+    return isinstance(value, int | float | str) and key.split(".")[-1] not in WORDS
+
+
+def _leaves(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is no table, by dotted key."""
+
+    def walk(part: Mapping[str, Any], start: str) -> Iterator[tuple[str, Any]]:
+        for name, value in part.items():
+            if isinstance(value, dict):
+                yield from walk(value, f"{start}{name}.")
+            else:
+                yield f"{start}{name}", value
+
+    return dict(walk(table, ""))

@@ -1,0 +1,88 @@
+"""Measurements against the robot that was built: units, contradictions, priors."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from jumpcad.calibration.measurements import Measurements
+from jumpcad.calibration.subject import Subject, load_subject, renamed
+from jumpcad.errors import JumpcadError
+
+HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
+JUMP = '[[jumps]]\ndistance_of = "centre-of-mass"\nheight_of = "rise"\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[mass]\nrobot_g = 0.103", r"robot_g = 0.103: the model has 103 g: is that kg\? give it in g"),
+        ("[mass]\nrobot_g = 1030.0", r"robot_g = 1030: the model has 103 g: a digit too many\?"),
+        ("[spring]\nrate_nmm_per_deg = 527.0\nsprings = 2", r"is that per radian\? give it in N·mm/° for both"),
+        ("[spring]\nrate_nmm_per_deg = 9.2\nsprings = 1", r"= 18.4: the model has 9.2"),
+        ("[spring]\nrate_nmm_per_deg = 0.0092\nsprings = 2", r"is that N·m/deg\?"),
+        (JUMP + "distance_mm = [0.35]\nheight_mm = [80.0]", r"distance_mm = 0.35: the model has 220 mm: is that m\?"),
+        (JUMP + "distance_mm = [22.0]\nheight_mm = [80.0]", r"is that cm\?"),
+        (
+            JUMP + "distance_mm = [220.0]\nheight_mm = [0.08]",
+            r"jumps.height_mm = 0.08: the model has 78.2 mm: is that m",
+        ),
+        (JUMP + "distance_mm = [220.0]\nheight_mm = [80.0]\nbattery_j = [1300.0]", r"is that mJ\?"),
+        ("[floor]\npull_n = [80.0]", r"is a friction of 78.9: pull the standing robot"),
+        (
+            "[mass]\nrobot_g = 103.0\n" + JUMP + "distance_mm = [350.0]\nheight_mm = [150.0]",
+            r"height_mm = 150 with distance_mm = 350: takes 0.203 J for 103 g, and the springs hold 0.133 J: measure",
+        ),
+        ("[mass.parts_g]\nwing = 3.0", r"mass.weighed_g.wing: no such part"),
+        ('[[videos]]\npoints = "no.csv"\npoint = "body"', r"no.csv: no such file"),
+    ],
+)
+def test_units_and_contradictions_in_one_line(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(HEAD + text)
+    with pytest.raises(JumpcadError, match=message) as caught:
+        load_subject(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_energy_of_a_flight(tmp_path: Path) -> None:
+    """m·g·(h + R²/16h) of 103 g, 150 mm and 350 mm is 0.203 J, as the message above says."""
+    assert pytest.approx(0.203, abs=5e-4) == 0.103 * 9.81 * (0.15 + 0.35**2 / (16 * 0.15))
+
+
+def test_priors_follow_what_was_measured(subject: Subject) -> None:
+    said = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
+    nothing = subject.remeasured(Measurements(**said))
+    assert (nothing.mass.first, nothing.rate.first, nothing.floor.shape) == (1.0, 1.0, "uniform")
+    assert nothing.rate.second == subject.robot.workshop.safety.spring_rate_scatter / 2.0
+    grams = 1000.0 * subject.robot.mass_kg
+    much = subject.remeasured(
+        Measurements(
+            **said,
+            mass={"robot_g": 1.2 * grams},
+            spring={"rate_nmm_per_deg": 5.06, "springs": 1, "error_share": 0.02},
+            floor={"pull_n": (0.6 * 1.2 * 9.81 * grams / 1000.0,), "slope_deg": (math.degrees(math.atan(0.6)),)},
+        )
+    )
+    assert much.mass.first == pytest.approx(1.2)
+    assert (much.rate.first, much.rate.second) == pytest.approx((1.1, 0.022))  # 10.12 over the design's 9.2
+    assert much.floor.first == pytest.approx(0.6)
+
+
+def test_weighed_parts_count_in_the_model(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(HEAD + "[mass.parts_g]\nmain_leg = 20.0\n")
+    found = load_subject(path)
+    (leg,) = (part for part in found.robot.parts if part.name == "main_leg")
+    assert leg.mass.mass_kg == pytest.approx(0.020)
+    assert found.mass.second < 0.2
+
+
+def test_a_design_beside_the_measurements(tmp_path: Path, subject: Subject) -> None:
+    (tmp_path / "own.toml").write_text(subject.robot.design.to_toml())
+    (tmp_path / "mine.toml").write_text(HEAD.replace("kenan-2.0", "own.toml"))
+    assert load_subject(tmp_path / "mine.toml").robot.design == subject.robot.design
+
+
+def test_names_of_robots_differ(subject: Subject) -> None:
+    assert [one.name for one in renamed([subject, subject])] == ["kenan-2.0", "kenan-2.0 2"]

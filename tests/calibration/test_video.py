@@ -1,0 +1,82 @@
+"""A ballistic flight is recovered from its points, and its gravity tells a wrong scale or clock."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from jumpcad.calibration.video import read_points, seen_takeoff
+from jumpcad.errors import JumpcadError
+from jumpcad.transforms import Array
+
+SPEED, ANGLE = 1.25, 48.0
+
+
+def flight(noise_m: float = 0.0) -> Array:
+    """Return points (24, 3) of a flight, seen at 120 frames a second."""
+    t = np.arange(24) / 120.0 + 3.0
+    fall = t - t[0]
+    x = SPEED * math.cos(math.radians(ANGLE)) * fall
+    z = SPEED * math.sin(math.radians(ANGLE)) * fall - 0.5 * 9.81 * fall**2
+    noise = noise_m * np.random.default_rng(1).standard_normal((2, 24))
+    return np.column_stack([t, x + 0.4 + noise[0], z + 0.1 + noise[1]])
+
+
+def test_speed_and_angle_at_the_first_point() -> None:
+    seen = seen_takeoff(flight(), "here")
+    assert (seen.speed_m_s, seen.angle_deg) == pytest.approx((SPEED, ANGLE), rel=1e-9)
+    assert seen.speed_error_m_s < 1e-9
+
+
+def test_the_standard_error_is_that_of_repeated_fits() -> None:
+    """Gauss: the slope of a line through points with deviation s has the deviation s / sqrt(sum((t - mean)²))."""
+    t = np.arange(24) / 120.0
+    expected = 0.002 / math.sqrt(float(np.sum((t - t.mean()) ** 2)))
+    assert seen_takeoff(flight(0.002), "here").speed_error_m_s == pytest.approx(expected, rel=0.3)
+
+
+@pytest.mark.parametrize(
+    ("scale", "message"),
+    [
+        ((1.0, 1000.0, 1000.0), r"9.81e\+03 m/s² instead of 9.81: x and z are in mm: divide them by 1000"),
+        ((1.0, 100.0, 100.0), "x and z are in cm"),
+        ((10.0, 1.0, 1.0), "t is 10 times too long: slow motion"),
+        ((1000.0, 1.0, 1.0), "t is in ms"),
+        ((1.0, 1.0, -1.0), "z points down"),
+        ((1.0, 1.0, 2.0), "keep only the points between take-off and touchdown"),
+    ],
+)
+def test_gravity_tells_a_wrong_unit(scale: tuple[float, float, float], message: str) -> None:
+    with pytest.raises(JumpcadError, match=message):
+        seen_takeoff(flight() * np.array(scale), "here")
+
+
+def test_a_flight_backwards() -> None:
+    with pytest.raises(JumpcadError, match="x must point forwards"):
+        seen_takeoff(flight() * np.array([1.0, -1.0, 1.0]), "here")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", r"no column t: the first line must be t,x,z"),
+        ("t,x,y\n", r"no column z"),
+        ("t,x,z\n0,0,0\n", r"1 points are too few: mark at least 6"),
+        ("t,x,z\n0,0,a\n", r"points.csv:2: '0,0,a' must be three numbers"),
+        ("t,x,z\n0,0,nan\n", r"must be finite"),
+        ("t,x,z\n" + "0,0,0\n" * 8, r"t must grow"),
+    ],
+)
+def test_bad_files(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "points.csv"
+    path.write_text(text)
+    with pytest.raises(JumpcadError, match=message):
+        read_points(path)
+
+
+def test_columns_in_any_order_and_empty_lines(tmp_path: Path) -> None:
+    path = tmp_path / "points.csv"
+    rows = [f"{x},{z},{t}" for t, x, z in flight()]
+    path.write_text("x, z, t\n" + "\n\n".join(rows) + "\n")
+    assert np.array_equal(read_points(path), flight())

@@ -1,0 +1,80 @@
+"""`jumpcad calibrate` and `jumpcad simulate --uncertain`: documents, files, one-line errors."""
+
+import json
+from pathlib import Path
+
+import pytest
+from support.commands import Run
+
+from jumpcad.calibration import posterior, surface, uncertain
+from jumpcad.files.templates import templates_folder
+
+COARSE = ((0.45, 0.7, 1.0, 1.6, 2.5), (0.0, 0.9), (0.3, 0.5, 0.65, 1.0))
+
+
+@pytest.fixture(autouse=True)
+def _short(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Coarse jumps and short chains: the numbers are not what is tested here."""
+    monkeypatch.setattr(surface.surface_of, "__defaults__", (None, COARSE))
+    monkeypatch.setattr(posterior.sampled, "__defaults__", (0, 200, 200, 10))
+    monkeypatch.setattr(uncertain.uncertain_jump, "__defaults__", (0, 32))
+
+
+def test_calibrated_settings_are_what_uncertain_takes(run: Run, tmp_path: Path) -> None:
+    code, out, err = run(
+        "calibrate", "kenan-2.0", "--predict", "kenan-1.0", "-o", "mine.toml", "--plots", "pictures", "--json"
+    )
+    document = json.loads(out)
+    assert (code, err) == (0, "")
+    assert document["robots"] == ["kenan-2.0"]
+    keys = [row["key"] for row in document["parameters"]]
+    assert keys[:4] == ["spring_efficiency", "pin_friction", "back_efficiency", "drive_efficiency"]
+    assert "mass:kenan-2.0" in keys
+    assert {row["what"] for row in document["residuals"]} == {"distance", "height", "battery"}
+    assert {row["as"] for row in document["predictions"]["kenan-1.0"]["beside"]} >= {"resting-place", "absolute"}
+    assert document["sampler"]["converged"] is False
+    assert sorted(path.name for path in (tmp_path / "pictures").iterdir()) == ["measurements.svg", "parameters.svg"]
+    code, out, err = run(
+        "simulate", "kenan-2.0", "--engine", "planar", "--uncertain", "--settings", "mine.toml", "--json"
+    )
+    found = json.loads(out)["uncertain"]
+    assert (code, err) == (0, "")
+    assert found["calibrated"] is True
+    assert set(found["first_order"]) == {"calibration", "lengths", "springs", "mass", "floor"}
+    low, middle, high = found["quantiles"]["ballistic_range_m"]
+    assert low < middle < high
+
+
+def test_people_read_what_the_data_leave_open(run: Run) -> None:
+    code, out, _ = run("calibrate", "kenan-2.0")
+    assert code == 0
+    assert "stays at its prior" in out
+    assert "likeliest as" in out
+    assert "the chains are too short" in out
+    code, out, _ = run("simulate", "kenan-2.0", "--engine", "planar", "--uncertain")
+    assert code == 0
+    assert "the priors of a calibration: none was given" in out
+    assert "what matters" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("calibrate", "kenan-3.0"), "neither a TOML file nor one of the measurements kenan-1.0, kenan-2.0"),
+        (("calibrate", "kenan-2.0", "-o", "mine.csv"), "must end in .toml"),
+        (("simulate", "kenan-2.0", "--capsule", "--uncertain"), "--uncertain is for printed robots"),
+        (("simulate", "kenan-2.0", "--engine", "both", "--uncertain"), "--uncertain takes one engine"),
+    ],
+)
+def test_wrong_requests(run: Run, arguments: tuple[str, ...], message: str) -> None:
+    code, out, err = run(*arguments)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert message in err
+
+
+def test_an_output_over_the_measurements(run: Run, tmp_path: Path) -> None:
+    text = (templates_folder() / "measurements" / "kenan-2.0.toml").read_text()
+    (tmp_path / "mine.toml").write_text(text)
+    code, _, err = run("calibrate", "mine.toml", "-o", "mine.toml")
+    assert code == 2
+    assert "is measurements mine.toml itself" in err

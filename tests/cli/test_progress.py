@@ -1,0 +1,93 @@
+"""Progress of a search on standard error."""
+
+import pytest
+from support.hills import SMALL, Hill
+
+from jumpcad.cli.progress import Tally, duration, watching
+from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
+from jumpcad.search.study import FIRST, run_study
+from jumpcad.search.trial import Trial
+
+DESIGN = SMALL.to_design([0.2, 0.2, 0.2])
+
+
+def trial(number, score=5.0, phase="bo"):
+    return Trial(phase, number, 0, DESIGN, Hill()(DESIGN), score, "m", 0.1)
+
+
+class Clock:
+    """A clock that stands still until it is moved."""
+
+    def __init__(self):
+        self.now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+def test_what_is_read_does_not_count_for_the_rate():
+    clock = Clock()
+    tally = Tally(100, clock)
+    for number in range(40):  # read from the study file, in no time
+        tally.add(trial(number), computed=False)
+    clock.now = 3.0
+    tally.add(trial(40), computed=False)
+    for number in range(41, 51):
+        clock.now += 2.0
+        tally.add(trial(number, score=number / 10), computed=True)
+    assert tally.per_second == pytest.approx(0.5)
+    assert tally.left_s == pytest.approx((100 - 51) / 0.5)
+    assert tally.line() == "bo: 51 of 100 evaluations, best 5, 0.5/s, about 2 min left"
+
+
+def test_neighbours_of_the_best_count_and_are_not_the_best():
+    tally = Tally(3, Clock())
+    tally.add(trial(0), computed=True)
+    tally.add(trial(0, score=7.0, phase="robust"), computed=True)
+    assert (tally.done, tally.best, tally.phase) == (2, 5.0, "robust pick")
+
+
+@pytest.mark.parametrize(("seconds", "text"), [(59.6, "60 s"), (600, "10 min"), (9000, "2.5 h")])
+def test_durations_in_the_unit_that_suits(seconds, text):
+    assert duration(seconds) == text
+
+
+def test_one_line_a_minute_where_there_is_no_terminal(capfd):
+    clock = Clock()
+    with watching(30, False, clock) as watch:
+        for number in range(30):
+            clock.now += 7.0
+            watch(trial(number), True)
+    lines = capfd.readouterr().err.splitlines()
+    assert len(lines) == 3  # 210 s
+    assert lines[0].startswith("jumpcad: bo: 9 of 30 evaluations, best 5, 0.14/s, about 2 min left")
+
+
+def test_a_quiet_search_says_nothing(capfd):
+    clock = Clock()
+    with watching(FIRST, True, clock) as watch:
+        for number in range(FIRST):
+            clock.now += 61.0
+            watch(trial(number, None), True)
+    assert capfd.readouterr() == ("", "")
+
+
+class Never(Hill):
+    """A hill on which nothing jumps."""
+
+    def __call__(self, design):
+        return Hill.__call__(self, design.model_copy(update={"compression_ratio": 0.75}))
+
+
+def test_bounds_without_a_robot_are_told_after_the_first_designs(capfd):
+    with watching(70, False) as watch, local_pool(0) as pool:
+        result = run_study(Request(SMALL, Never(), method="bo", evaluations=70), None, pool, watch)
+    said = f"none of the first {FIRST} designs jumps (loop {FIRST}): there may be no robot within these bounds"
+    assert f"jumpcad: {said}\n" in capfd.readouterr().err
+    assert result.notes == [said]
+
+
+def test_one_that_jumps_among_the_first_is_enough():
+    with local_pool(0) as pool:
+        assert run_study(Request(SMALL, Hill(), method="bo", evaluations=70), None, pool).notes == []

@@ -1,0 +1,32 @@
+"""Other springs and other lengths of the same robot."""
+
+import numpy as np
+import pytest
+
+from jumpcad.design import load_design
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.model import FOOT
+from jumpcad.mechanism.variants import with_lengths, with_spring_factor
+
+
+def test_energy_goes_with_the_factor() -> None:
+    robot = capsule_robot(load_design("kenan-2.0"))
+    assert with_spring_factor(robot, 1.0) is robot
+    assert with_spring_factor(robot, 0.8).spring.energy_j == pytest.approx(0.8 * robot.spring.energy_j)
+
+
+def test_lengths_are_those_of_a_robot_made_with_them() -> None:
+    """Joints, loop, travel and contacts of the capsules of another design; only their radius and masses stay."""
+    design = load_design("kenan-1.0")
+    longer = design.model_copy(update={"c_coef": design.c_coef + 0.004, "d_coef": design.d_coef - 0.003})
+    moved, made = with_lengths(capsule_robot(design), longer), capsule_robot(longer)
+    assert moved.spring.wind_rad == made.spring.wind_rad
+    assert np.allclose(moved.loop.point_b_m, made.loop.point_b_m, atol=1e-15)
+    for one, other in zip(moved.joints, made.joints, strict=True):
+        assert np.allclose(one.origin_m, other.origin_m, atol=1e-15)
+        assert one.rest_angle_rad == other.rest_angle_rad
+    for name, body in moved.bodies.items():
+        for one, other in zip(body.contacts, made.bodies[name].contacts, strict=True):
+            assert np.allclose(one.centre_m, other.centre_m, atol=1e-15)
+    assert moved.bodies[FOOT].mass_kg == capsule_robot(design).bodies[FOOT].mass_kg
+    assert moved.linkage.l1 == made.linkage.l1

@@ -1,0 +1,59 @@
+"""The published study's stages."""
+
+from support.hills import SMALL, Hill
+
+from jumpcad.design import PARAMETERS
+from jumpcad.search.methods import STEPS, Task
+from jumpcad.search.methods.paper import FEW, LINKS, NEAR_PERCENT, RUNS, run_paper
+from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
+from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
+from jumpcad.search.study import run_study
+from jumpcad.search.study_plots import plot_study
+
+
+def test_each_stage_moves_what_it_should(evaluator):
+    space = Space.default()
+    one = evaluator(space=space)
+    run_paper(one, Task(140, 3))
+    trials = one.trials
+    assert len(trials) <= 140
+    assert one.space is space
+    assert {trial.step // STEPS for trial in trials if trial.phase == "ga"} == set(range(RUNS))
+
+    def moved(mode):
+        some = [trial for trial in trials if trial.phase == "bo" and trial.step // STEPS == mode]
+        return some, {name for name in PARAMETERS if len({getattr(t.design, name) for t in some}) > 1}
+
+    few, names = moved(0)
+    assert names == set(FEW)
+    near, _ = moved(1)
+    for parameter in space.free:
+        values = [getattr(trial.design, parameter.name) for trial in near]
+        assert max(values) - min(values) <= 2.0 * NEAR_PERCENT / 100.0 * parameter.width * (1.0 + 1e-9)
+    last, names = moved(2)
+    assert names <= set(LINKS)
+    assert min(len(few), len(near), len(last)) >= 10
+
+
+def test_it_resumes_and_its_study_is_read(tmp_path):
+    def rows(path, evaluations):
+        with local_pool(0) as pool:
+            run_study(Request(SMALL, Hill(), method="paper", evaluations=evaluations), path, pool)
+        with StudyStore.read(path) as store:
+            assert plot_study(store, path.with_suffix(""))
+            return [(trial.position, trial.key) for trial in store.trials()]
+
+    whole = rows(tmp_path / "a.db", 80)
+    assert rows(tmp_path / "a.db", 80) == whole
+
+
+def test_without_a_jumper_it_ends():
+    class Never(Hill):
+        def __call__(self, design):
+            return super().__call__(design.model_copy(update={"compression_ratio": 0.75}))
+
+    with local_pool(0) as pool:
+        result = run_study(Request(SMALL, Never(), method="paper", evaluations=60), None, pool)
+    assert result.winner is None

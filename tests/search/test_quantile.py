@@ -1,0 +1,68 @@
+"""The objective p10: what nine of ten neighbours reach."""
+
+import pytest
+
+from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.findings import Finding
+from jumpcad.search.models import NEIGHBOURS, RobotModel, robot_model
+from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
+from jumpcad.search.space import Space
+from jumpcad.search.study import run_study
+
+DESIGN = load_design("best-ga")
+
+
+class Slope(RobotModel):
+    """Fitness is the compression ratio; rejected above a limit."""
+
+    limit = 0.9
+
+    def _alone(self, design):
+        if design.compression_ratio > self.limit:
+            return Evaluation("tips", findings=(Finding("tips", "error", -1.0, "", "", ""),))
+        return Evaluation("jump", {"fitness": design.compression_ratio})
+
+
+def test_it_is_the_worst_of_ten_neighbours_within_one_percent():
+    found = Slope("capsule", neighbours_of="fitness")(DESIGN)
+    assert found.feasible
+    assert 0.99 * DESIGN.compression_ratio <= found.metrics["p10"] < DESIGN.compression_ratio
+    assert found.metrics["evaluations"] == 1 + NEIGHBOURS
+    assert found.metrics["fitness"] == DESIGN.compression_ratio
+
+
+def test_a_design_is_rejected_with_its_first_neighbour():
+    class Near(Slope):
+        limit = DESIGN.compression_ratio * 1.002
+
+    found = Near("capsule", neighbours_of="fitness")(DESIGN)
+    assert (found.reasons, found.detail) == (("neighbours",), "tips")
+    assert 2 <= found.metrics["evaluations"] < 1 + NEIGHBOURS
+
+
+def test_designs_that_do_not_jump_cost_one():
+    class Low(Slope):
+        limit = 0.1
+
+    found = Low("capsule", neighbours_of="fitness")(DESIGN)
+    assert found.reasons == ("tips",)
+    assert "evaluations" not in found.metrics
+
+
+def test_all_evaluations_count():
+    with local_pool(0) as pool:
+        request = Request.make(Space.default(), robot_model("capsule"), "ga", "p10", evaluations=60)
+        assert (request.objective, request.pick) == ("p10-fitness", 0)
+        result = run_study(request, None, pool)
+    assert result.evaluations == sum(int(t.evaluation.metrics.get("evaluations", 1)) for t in result.trials)
+    assert 60 <= result.evaluations < 60 + 20 * (1 + NEIGHBOURS)  # the last generation is finished
+    assert len(result.trials) < result.evaluations
+
+
+def test_names():
+    assert find_objective("p10-range").neighbours_of == "range"
+    with pytest.raises(JumpcadError, match="is not one of the objectives"):
+        find_objective("p10-nonsense")

@@ -1,0 +1,103 @@
+"""Active bounds are moved, and the search goes on."""
+
+import math
+
+import pytest
+from support.hills import FIXED, TOP, Hill
+from support.shops import SHOP, Shop
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request, plan_stages
+from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
+from jumpcad.search.study import run_study
+from jumpcad.search.widening import SHARE, TOGETHER, widen
+
+BELOW = Space.parse(fix=FIXED, bound=["rest_angle_deg=30:50", "stiffness_nmm_per_deg=5:18"])
+"""The hill's top (55° and 20 N·mm/°) lies outside."""
+
+
+def searched(path=None, evaluations=100, **others):
+    with local_pool(0) as pool:
+        return run_study(Request(BELOW, Hill(), method="bo", evaluations=evaluations, widen=True, **others), path, pool)
+
+
+def test_a_top_beyond_the_bounds_is_found():
+    result = searched()
+    assert result.best.score > 9.95
+    assert result.best.design.rest_angle_deg == pytest.approx(TOP["rest_angle_deg"], abs=2.0)
+    first = {one.name: one for one in result.widened[:3]}
+    assert (first["rest_angle_deg"].side, first["rest_angle_deg"].beyond) == ("upper", 50.0 + SHARE * 20.0)
+    assert first[TOGETHER].worth > max(first["rest_angle_deg"].worth, 0.0)
+    assert result.evaluations <= 100
+
+
+def test_the_worth_of_a_bound_is_the_difference_of_the_hill(evaluator):
+    one = evaluator(space=BELOW)
+    design = BELOW.to_design([0.5, 1.0, 0.2])  # of compression, rest angle and stiffness
+    (trial,) = one.evaluate([design], "bo", 0)
+    (moved,) = widen(one, 0)
+    beyond = Hill()(design.model_copy(update={"rest_angle_deg": 55.0})).metrics["fitness"]
+    assert moved.worth == pytest.approx(beyond - trial.score)
+    assert next(p.upper for p in one.space.free if p.name == "rest_angle_deg") == 55.0
+
+
+def test_a_bound_of_what_a_design_can_be_does_not_move(evaluator):
+    space = Space.parse(fix=FIXED[:-1], bound=["rest_angle_deg=70:90"])
+    one = evaluator(space=space)
+    unit = [1.0 if parameter.name == "rest_angle_deg" else 0.5 for parameter in space.free]
+    one.evaluate([space.to_design(unit)], "bo", 0)
+    assert widen(one, 0) == []
+
+
+def test_bounds_of_the_workshop_move_as_far_as_it_can_be(evaluator):
+    class Limited(Shop):
+        def varied(self, values):
+            if values["body.plate_mm"] > 2.4:
+                raise JumpcadError("too thick")
+            return self
+
+    one = evaluator(model=Limited(), space=SHOP)
+    one.evaluate([SHOP.to_variant([0.5, 0.5, 0.5, end, 1.0]) for end in (1.0,)], "bo", 0)
+    assert widen(one, 0) == []
+    one.evaluate([SHOP.to_variant([0.5, 0.5, 0.5, 0.0, 1.0])], "bo", 1)
+    (moved,) = widen(one, 1)
+    assert (moved.name, moved.side, moved.beyond) == ("body.plate_mm", "lower", pytest.approx(1.2 - SHARE * 1.2))
+    wide, narrow = one.trials[-1].score, one.trials[-2].score
+    assert moved.worth == pytest.approx(wide - narrow)
+    assert wide == pytest.approx(narrow * math.exp(0.16 - 0.49))  # plates of 0.9 and 1.2 mm, the best are of 1.6
+
+
+def test_it_ends_with_the_rows_of_an_uninterrupted_search(tmp_path):
+    class Stop(Exception):
+        pass
+
+    def rows(path):
+        with StudyStore.read(path) as store:
+            return [(trial.position, trial.key, trial.score) for trial in store.trials()]
+
+    searched(tmp_path / "whole.db", 60)
+    seen = []
+
+    def stop(trial, computed):
+        seen.append(trial)
+        if len(seen) == 33:
+            raise Stop
+
+    with local_pool(0) as pool, pytest.raises(Stop):
+        run_study(Request(BELOW, Hill(), method="bo", evaluations=60, widen=True), tmp_path / "cut.db", pool, stop)
+    searched(tmp_path / "cut.db", 60)
+    assert rows(tmp_path / "cut.db") == rows(tmp_path / "whole.db")
+
+
+def test_its_share_is_planned_within_the_evaluations():
+    request = Request(BELOW, Hill(), method="ga+bo", evaluations=100, widen=True)
+    stages = plan_stages(request)
+    assert sum(stage.evaluations for stage in stages) == request.searched
+    assert [stage.widen for stage in stages] == [False, False, True, True, True]
+
+
+def test_a_front_has_no_best_design_to_widen_for():
+    with pytest.raises(JumpcadError, match="widen: does not apply to pareto"):
+        Request(BELOW, Hill(), method="pareto", widen=True)

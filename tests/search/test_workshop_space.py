@@ -1,0 +1,206 @@
+"""Searches in which values of the workshop vary with the design's."""
+
+import pickle
+
+import numpy as np
+import pytest
+from support.hills import FIXED, Hill
+from support.shops import HEIGHTS, PLATE_MM, SHOP, Shop
+
+from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.evaluation import evaluate
+from jumpcad.search import plots
+from jumpcad.search.explore import feasibility_map, sweep
+from jumpcad.search.methods import Task
+from jumpcad.search.methods.genetic import run_genetic
+from jumpcad.search.models import RobotModel, robot_model
+from jumpcad.search.objective import find_objective
+from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
+from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
+from jumpcad.search.study import run_study
+from jumpcad.search.study_plots import plot_study
+from jumpcad.search.surrogate import Surrogate
+from jumpcad.search.table import write_table
+from jumpcad.search.variant import Variant
+from jumpcad.workshop import load_workshop
+
+WORKSHOP = load_workshop()
+
+
+def test_points_and_variants_correspond():
+    assert SHOP.categories == (0, 0, 0, 0, 2)
+    for unit in SHOP.spread(16, np.random.default_rng(0)):
+        variant = SHOP.to_variant(unit)
+        assert 1.2 <= variant.workshop["body.plate_mm"] <= 2.4
+        assert variant.workshop["bought.battery"] in HEIGHTS
+        assert SHOP.contains(variant)
+        assert not SHOP.contains(variant.design)
+        assert SHOP.to_unit(variant) == pytest.approx(unit, abs=1e-12)
+        assert pickle.loads(pickle.dumps(variant)).key == variant.key
+    other = SHOP.to_variant(unit).changed({"bought.battery": "another"})
+    assert not SHOP.contains(other)
+
+
+def test_a_space_with_a_workshop_survives_its_record():
+    space = Space.parse(
+        fix=["bought.leg_bearing=", "body.stop_deg=4"],
+        bound=["process.perimeters=2:4"],
+        choose=["bought.roller=623,683", "process.infill=0.4,0.15", "release.play_deg=auto"],
+        workshop=WORKSHOP,
+    )
+    assert Space.from_record(space.describe()) == space
+    by_name = {parameter.name: parameter for parameter in space.parameters}
+    assert by_name["process.perimeters"].choices == (2.0, 3.0, 4.0)  # it is a whole number
+    assert by_name["bought.roller"].names == ("623", "683")  # names, though they are digits
+    assert by_name["process.infill"].choices == (0.15, 0.4)
+    assert [one.name for one in space.of_workshop if not one.free] == [
+        "bought.leg_bearing", "body.stop_deg", "release.play_deg",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("option", "message"),
+    [
+        ({"bound": ["body.plate=1:2"]}, r"did you mean body.plate_mm\?"),
+        ({"bound": ["bought.battery=1:2"]}, "bought.battery"),
+        ({"bound": ["body.plate_mm=0.1:2"]}, "must be at least 1"),
+        ({"bound": ["body.plate_mm=2:1"]}, "empty range"),
+        ({"choose": ["bought.motors=a,b"]}, "is a list"),
+        ({"choose": ["bought.battery=lipo-1s-300,nope"]}, "bought.battery = 'nope': is none of lipo"),
+        ({"choose": ["release.play_deg=auto,15"]}, "names and numbers do not mix"),
+        ({"choose": ["bought.battery=lipo-1s-300"], "fix": ["bought.battery=lipo-1s-300"]}, "given twice"),
+    ],
+)
+def test_wrong_keys_are_refused_in_one_line(option, message):
+    with pytest.raises(JumpcadError, match=message) as refused:
+        Space.parse(**option, workshop=WORKSHOP)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_robot_that_is_made_in_no_workshop_refuses_its_values():
+    with pytest.raises(JumpcadError, match="made in no workshop"):
+        Space.parse(bound=["body.plate_mm=1.2:2.4"], workshop=robot_model("capsule").workshop)
+
+
+def test_names_have_no_order_for_the_process():
+    """Predictions do not change when the names are numbered otherwise (Hamming's distance knows no order)."""
+    generator = np.random.default_rng(5)
+    x, names = generator.random((30, 2)), generator.integers(0, 4, 30)
+    y = np.sin(4 * x[:, 0]) + np.array([0.0, 2.0, -1.0, 0.5])[names]
+    order = np.array([2, 0, 3, 1])
+    points, at = generator.random((8, 2)), generator.integers(0, 4, 8)
+
+    def predicted(numbers, asked):
+        one = Surrogate(np.column_stack([x, numbers / 3]), y, categories=(0, 0, 4))
+        assert len(one.theta) == 5
+        return one.predict(np.column_stack([points, asked / 3]))
+
+    for plain, renamed in zip(predicted(names, at), predicted(order[names], order[at]), strict=True):
+        np.testing.assert_allclose(plain, renamed, rtol=1e-4, atol=1e-4)
+    mean, _ = predicted(names, at)
+    assert np.abs(mean - np.sin(4 * points[:, 0]) - np.array([0.0, 2.0, -1.0, 0.5])[at]).max() < 0.2
+
+
+def test_the_slope_along_numbers_is_the_difference_and_along_names_nothing():
+    generator = np.random.default_rng(2)
+    x = np.column_stack([generator.random((20, 2)), generator.integers(0, 3, 20) / 2])
+    process = Surrogate(x, np.cos(3 * x[:, 0]) * x[:, 1] + x[:, 2], categories=(0, 0, 3))
+    point, step = x[:1] + np.array([[0.01, 0.02, 0.0]]), np.array([[1e-6, 0.0, 0.0]])
+    slope = process.slope(point)
+    difference = (process.predict(point + step)[0] - process.predict(point - step)[0]) / 2e-6
+    assert slope[0, 0] == pytest.approx(difference[0], rel=1e-4)
+    assert slope[0, 2] == 0.0
+
+
+@pytest.mark.parametrize(("method", "evaluations", "at_least"), [("bo", 60, 9.5), ("ga", 400, 9.0), ("ga+bo", 90, 9.5)])
+def test_methods_find_the_best_values_of_the_workshop(method, evaluations, at_least):
+    with local_pool(0) as pool:
+        result = run_study(Request(SHOP, Shop(), method=method, evaluations=evaluations), None, pool)
+    assert result.best.score > at_least
+    assert result.best.workshop["bought.battery"] == "lipo-1s-300"
+    assert abs(result.best.workshop["body.plate_mm"] - PLATE_MM) < 0.25
+    assert {trial.workshop["bought.battery"] for trial in result.trials} == set(HEIGHTS)
+
+
+def test_the_genetic_algorithm_keeps_trying_other_names(evaluator):
+    one = evaluator(model=Shop(), space=SHOP)
+    run_genetic(one, Task(200, 3))
+    late = [trial.workshop["bought.battery"] for trial in one.trials[-60:]]
+    assert set(late) == set(HEIGHTS)
+
+
+def test_a_search_goes_on_where_it_ended(tmp_path):
+    def rows(path, *lengths):
+        for evaluations in lengths:
+            with local_pool(0) as pool:
+                run_study(Request(SHOP, Shop(), method="bo", evaluations=evaluations), path, pool)
+        with StudyStore.read(path) as store:
+            return [(trial.position, trial.key, trial.score) for trial in store.trials() if trial.phase == "bo"]
+
+    assert rows(tmp_path / "parts.db", 40, 52) == rows(tmp_path / "whole.db", 52)[: 39 + 20]
+
+
+def test_study_pictures_and_tables_know_the_workshop(tmp_path):
+    path = tmp_path / "s.db"
+    space = Space.parse(
+        fix=[*FIXED, "rest_angle_deg=55", "compression_ratio=0.6", "stiffness_nmm_per_deg=20"],
+        bound=["body.plate_mm=1.2:2.4"], choose=["bought.battery=lipo-2s-180,lipo-1s-300"], workshop=WORKSHOP,
+    )  # fmt: skip
+    with local_pool(0) as pool:
+        run_study(Request(space, Shop(), method="bo", evaluations=20), path, pool)
+    with StudyStore.read(path) as store:
+        names = {picture.stem for picture in plot_study(store, tmp_path / "plots")}
+        write_table(store.trials(), tmp_path / "t.csv")
+    assert {"history", "slices", "parallel", "acquisition"} <= names
+    assert "lipo-1s-300" in (tmp_path / "plots" / "slices.svg").read_text() or names
+    heading, first = (tmp_path / "t.csv").read_text().splitlines()[:2]
+    assert "body.plate_mm,bought.battery" in heading
+    assert "lipo-" in first
+
+
+def test_sweeps_start_from_the_model_s_workshop(evaluator):
+    one = evaluator(model=Shop(), space=SHOP)
+    sweeps = {found.parameter: found for found in sweep(one, SHOP.to_design(np.full(5, 0.5)), 5)}
+    assert [trial.workshop["bought.battery"] for trial in sweeps["bought.battery"].trials] == list(HEIGHTS)
+    assert {t.workshop["body.plate_mm"] for t in sweeps["bought.battery"].trials} == {WORKSHOP.body.plate_mm}
+    assert {t.workshop["bought.battery"] for t in sweeps["body.plate_mm"].trials} == {WORKSHOP.bought.battery}
+    assert plots.sweeps(list(sweeps.values()), find_objective("fitness"))
+    grid = feasibility_map(one, SHOP.to_design(np.full(5, 0.5)), "bought.battery", "body.plate_mm", 3)
+    assert len(grid.trials) == 3
+    assert plots.feasibility(grid)
+
+
+def test_values_that_do_not_go_together_are_a_verdict():
+    design = load_design("best-printable")
+    found = RobotModel("printed", WORKSHOP)(design, {"process.layer_height_mm": 0.3, "printer.nozzle_mm": 0.25})
+    assert (found.verdict, found.feasible) == ("workshop", False)
+    assert "nozzle" in found.detail
+
+
+def test_the_winner_s_files_make_the_robot_that_was_searched(tmp_path):
+    design = load_design("best-printable")
+    space = Space.make(fixed=design.model_dump(), choices={"body.plate_mm": [1.6, 2.0]}, workshop=WORKSHOP)
+    with local_pool(0) as pool:
+        result = run_study(Request.make(space, robot_model(), "ga", evaluations=2), None, pool)
+    result.save(tmp_path / "best.toml")
+    again = evaluate(load_design(tmp_path / "best.toml"), load_workshop(tmp_path / "best-workshop.toml"))
+    assert again.body_lengths == pytest.approx(result.score, rel=1e-12)
+    assert load_workshop(tmp_path / "best-workshop.toml") == result.workshop
+
+
+def test_a_search_without_the_workshop_writes_none(tmp_path):
+    with local_pool(0) as pool:
+        result = run_study(Request(Space.parse(fix=FIXED), Hill(), method="ga", evaluations=30), None, pool)
+    result.save(tmp_path / "best.toml")
+    assert result.workshop is None
+    assert [path.name for path in tmp_path.iterdir()] == ["best.toml"]
+
+
+def test_a_variant_is_a_design_s_values_and_the_workshop_s():
+    variant = SHOP.to_variant(np.full(5, 0.25))
+    changed = variant.changed({"body.plate_mm": 2.0, "rest_angle_deg": 30.0})
+    assert (changed.value("body.plate_mm"), changed.value("rest_angle_deg")) == (2.0, 30.0)
+    assert Variant.of(variant.design).key == tuple(variant.design.to_vector())

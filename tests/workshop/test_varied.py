@@ -1,0 +1,58 @@
+"""Workshops with some values changed."""
+
+import pytest
+
+from jumpcad.catalogue import load_catalogue
+from jumpcad.errors import JumpcadError
+from jumpcad.workshop import load_workshop, varied, workshop_value
+
+DEFAULT = load_workshop()
+
+
+def test_values_change_and_nothing_else_does():
+    changed = varied(DEFAULT, {"body.plate_mm": 1.6, "process.perimeters": 2.0, "bought.spring": "9271K619"})
+    assert (changed.body.plate_mm, changed.process.perimeters) == (1.6, 2)
+    assert changed.stock_spring.name == "9271K619"
+    assert varied(changed, {"body.plate_mm": 2.4, "process.perimeters": 3.0, "bought.spring": ""}) == DEFAULT
+
+
+def test_a_varied_workshop_is_read_back_from_its_file(tmp_path):
+    changed = varied(
+        DEFAULT, {"roles.links": "PLA", "roles.gears": "PLA", "bought.kit": "strong-2s", "process.infill": 0.15}
+    )
+    path = tmp_path / "w.toml"
+    path.write_text(changed.to_toml())
+    assert load_workshop(path) == changed
+    assert sorted(changed.materials) == ["PLA"]
+
+
+def test_a_kit_brings_its_parts_and_other_choices_override_them():
+    kit = load_catalogue().kits["strong-2s"]
+    changed = varied(DEFAULT, {"bought.battery": "lipo-1s-300", "bought.kit": "strong-2s"}).bought
+    assert (changed.regulator, changed.diode, changed.battery) == (kit.regulator, kit.diode, "lipo-1s-300")
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"body.plate": 2.0}, r"did you mean body.plate_mm\?"),
+        ({"nonsense": 2.0}, "TABLE.NAME"),
+        ({"bought.motors": "n20-298"}, "cannot vary: in the workshop it is a list"),
+        ({"body": 2.0}, "no single number or name"),
+        ({"printer.name": "mine"}, "cannot vary"),
+        ({"body.plate_mm": 0.1}, "body.plate_mm = 0.1: must be at least 1"),
+        ({"body.plate_mm": "thick"}, "body.plate_mm"),
+        ({"bought.battery": "lipo-1s-30"}, r"did you mean lipo-1s-300\?"),
+        ({"roles.links": "wood"}, "'wood' is no material of this workshop, nor one of"),
+        ({"process.layer_height_mm": 0.5}, "0.8 of the nozzle"),
+    ],
+)
+def test_what_cannot_vary_is_said_in_one_line(values, message):
+    with pytest.raises(JumpcadError, match=message) as refused:
+        varied(DEFAULT, values)
+    assert "\n" not in str(refused.value)
+
+
+def test_the_present_value_of_a_key():
+    assert workshop_value(DEFAULT, "body.plate_mm") == DEFAULT.body.plate_mm
+    assert workshop_value(DEFAULT, "materials.PETG.density_g_cm3") == DEFAULT.materials["PETG"].density_g_cm3
