@@ -22,6 +22,7 @@ from jumpcad.search.robust import (
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial, best_trial, searched
+from jumpcad.search.variant import Variant
 
 
 class Replay(Evaluator):
@@ -45,14 +46,14 @@ class Replay(Evaluator):
 
     def evaluate(
         self,
-        designs: Sequence[Design],
+        designs: Sequence[Design | Variant],
         phase: str,
         step: int,
         limit: int | None = None,
         proposals: Sequence[Mapping[str, Any]] | None = None,
     ) -> list[Trial | None]:
         """Return the trials of designs, None for those that the study does not hold."""
-        found = [self._finished.get(tuple(design.to_vector())) for design in designs]
+        found = [self._finished.get(Variant.of(design).key) for design in designs]
         for trial in found:
             if trial is not None:
                 self._add(trial, computed=False)

@@ -23,6 +23,7 @@ from jumpcad.search.study_chart import chart
 from jumpcad.search.study_lessons import active, matters, refused
 from jumpcad.search.study_plots import study_figures
 from jumpcad.search.trial import Trial, feasible_trials
+from jumpcad.workshop.varied import Value
 
 SHOWN = 10
 """Best designs that are shown where no neighbours were examined and no front was searched."""
@@ -178,12 +179,17 @@ def _designs(found: Known, space: Space, shown: Sequence[Trial]) -> Iterator[str
             f"{trial.score:.4g}",
             *cells,
             f"{energy_j(trial.design):.4f}",
-            *(f"{getattr(trial.design, parameter.name):.4g}" for parameter in space.free),
+            *(_shown(trial.variant.value(parameter.name)) for parameter in space.free),
         ]
         for number, (trial, cells) in enumerate(zip(shown, neighbours, strict=True), start=1)
     ]
     titles = ("design", "score", *head, "spring J", *(parameter.name for parameter in space.free))
     yield from table(titles, rows, numbers=range(1, len(titles)))
+
+
+def _shown(value: Value) -> str:
+    """Return a parameter's value: a number with four digits, or a name."""
+    return f"{value:.4g}" if isinstance(value, float) else escape(str(value))
 
 
 def _pictures(store: StudyStore) -> Iterator[str]:
