@@ -5,6 +5,7 @@ HTML that is well-formed XML too. The same study file gives the same bytes.
 
 import base64
 from collections.abc import Iterator, Mapping, Sequence
+from html import escape
 from typing import Any
 
 from jumpcad.arguments import typed
@@ -110,7 +111,7 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
     rows = []
     for parameter in Space.from_record(identity["space"]).parameters:
         described = fields[parameter.name].description if parameter.name in fields else ""
-        value = "" if found.winner is None else f"{getattr(found.winner.design, parameter.name):.5g}"
+        value = "" if found.winner is None else _value(found.winner.variant.value(parameter.name))
         rows.append([written(parameter.name), written(described or ""), written(_range(parameter.describe())), value])
     yield from table(
         ("parameter", "meaning", "searched", "highest" if identity["method"] in FRONTS else "winner"),
@@ -179,7 +180,7 @@ def _designs(found: Known, space: Space, shown: Sequence[Trial]) -> Iterator[str
             f"{trial.score:.4g}",
             *cells,
             f"{energy_j(trial.design):.4f}",
-            *(_shown(trial.variant.value(parameter.name)) for parameter in space.free),
+            *(_value(trial.variant.value(parameter.name)) for parameter in space.free),
         ]
         for number, (trial, cells) in enumerate(zip(shown, neighbours, strict=True), start=1)
     ]
@@ -187,9 +188,9 @@ def _designs(found: Known, space: Space, shown: Sequence[Trial]) -> Iterator[str
     yield from table(titles, rows, numbers=range(1, len(titles)))
 
 
-def _shown(value: Value) -> str:
+def _value(value: Value) -> str:
     """Return a parameter's value: a number with four digits, or a name."""
-    return f"{value:.4g}" if isinstance(value, float) else escape(str(value))
+    return f"{value:.4g}" if isinstance(value, float) else escape(value)
 
 
 def _pictures(store: StudyStore) -> Iterator[str]:
