@@ -33,7 +33,7 @@ class Replay(Evaluator):
         held = store.trials()
         self.space, self.objective = Space.from_record(identity["space"]), described_objective(identity)
         self.store = store
-        self._watch = ignore
+        self._watch, self._spent = ignore, 0
         self._finished = {trial.key: trial for trial in held}
         self._seen = {trial.key: trial for trial in searched(held)}
 
