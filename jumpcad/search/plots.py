@@ -26,6 +26,8 @@ BEST: dict[str, Any] = {"marker": "*", "ms": 10, "mfc": RED, "mec": "white", "me
 CENTRE: dict[str, Any] = {
     "marker": "o", "ms": 9, "mfc": "none", "mec": "black", "mew": 1.2, "ls": "", "label": "centre design",
 }  # fmt: skip
+MOST_VECTORS = 1000
+"""Beyond so many designs, dots and lines are pixels in SVG files too: each of them is 100 bytes otherwise."""
 DECADES = 6.0
 """The acquisition is drawn down to this many decades below its maximum."""
 
@@ -35,12 +37,19 @@ def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score of every evaluation, and the best so far."""
     figure, (axes,) = panels(1, 6.4, 3.6)
     scores = _scores(trials)
-    number = np.arange(1, len(trials) + 1)
+    number, many = np.arange(1, len(trials) + 1), len(trials) > MOST_VECTORS
     for colour, phase in zip(COLOURS, dict.fromkeys(trial.phase for trial in trials), strict=False):
         of_phase = np.array([trial.phase == phase for trial in trials])
-        axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase)
+        axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase, rasterized=many)
     axes.plot(number, np.fmax.accumulate(scores), "-", lw=1.2, color="black", label="best so far")
-    axes.plot(number[np.isnan(scores)], np.zeros(int(np.isnan(scores).sum())), "|", color=GREY, label="rejected")
+    axes.plot(
+        number[np.isnan(scores)],
+        np.zeros(int(np.isnan(scores).sum())),
+        "|",
+        color=GREY,
+        label="rejected",
+        rasterized=many,
+    )
     labels(axes, "evaluation", f"{objective.meaning} ({objective.unit})")
     axes.legend()
     return figure
@@ -51,10 +60,10 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
     """Draw the score over each free parameter."""
     figure, all_axes = panels(space.dimension)
     feasible = [trial for trial in trials if trial.score is not None]
-    order = np.arange(len(feasible))
+    order, many = np.arange(len(feasible)), len(feasible) > MOST_VECTORS
     for axes, parameter in zip(all_axes, space.free, strict=True):
         values = [getattr(trial.design, parameter.name) for trial in feasible]
-        dots = axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8)
+        dots = axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8, rasterized=many)
         if best := best_trial(feasible):
             axes.plot(getattr(best.design, parameter.name), best.score or 0.0, **BEST)
         labels(axes, parameter.name, objective.unit)
@@ -68,10 +77,10 @@ def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     """Draw every feasible design as a line over the free parameters, the better the darker."""
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
     feasible = sorted((trial for trial in trials if trial.score is not None), key=lambda trial: trial.score or 0.0)
-    ranks = np.linspace(0.0, 1.0, len(feasible))
+    ranks, many = np.linspace(0.0, 1.0, len(feasible)), len(feasible) > MOST_VECTORS
     for rank, trial in zip(ranks, feasible, strict=True):
         colour = (BLUE if rank < 0.95 else RED, 0.05 + 0.9 * rank**4)
-        axes.plot(range(space.dimension), space.to_unit(trial.design), "-", lw=0.8, color=colour)
+        axes.plot(range(space.dimension), space.to_unit(trial.design), "-", lw=0.8, color=colour, rasterized=many)
     ticks = [f"{p.name}\n{p.lower:g} … {p.upper:g}" for p in space.free]
     axes.set_xticks(range(space.dimension), ticks, rotation=30, ha="right", fontsize=7)
     colours = {"best twentieth": RED, "the others, the better the darker": BLUE}
