@@ -88,7 +88,7 @@ def svg_text(figure: Figure) -> str:
     """Return a figure as the text of an SVG file."""
     drawn = io.StringIO()
     with matplotlib.rc_context(STYLE):
-        figure.savefig(drawn, format="svg", metadata={"Date": None})
+        figure.savefig(drawn, format="svg", dpi=PNG_DPI, metadata={"Date": None})
     return drawn.getvalue()
 
 

@@ -10,15 +10,8 @@ from typing import Any
 
 from jumpcad.design import Design
 from jumpcad.search.evaluator import Evaluator, ignore
-from jumpcad.search.objective import described_objective
-from jumpcad.search.robust import (
-    MOST_PICK,
-    ROUNDS,
-    ActiveBound,
-    Candidate,
-    active_bounds,
-    rank_candidates,
-)
+from jumpcad.search.objective import Objective, described_objective
+from jumpcad.search.robust import MOST_PICK, ROUNDS, ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial, best_trial, searched
@@ -66,6 +59,8 @@ class Known:
 
     Parameters
     ----------
+    space, objective
+        What was searched for, and where.
     trials
         All designs that the search proposed, in order.
     winner
@@ -76,6 +71,8 @@ class Known:
         The bounds of the search on which the winner lies.
     """
 
+    space: Space
+    objective: Objective
     trials: list[Trial]
     winner: Trial | None
     candidates: list[Candidate]
@@ -94,7 +91,7 @@ def known(store: StudyStore) -> Known:
         candidates = rank_candidates(replay, trials, identity["seed"], tolerance_mm, share)
     winner = candidates[0].trial if candidates else best
     bounds = [] if winner is None else active_bounds(replay, winner, 0)
-    return Known(trials, winner, candidates, bounds)
+    return Known(replay.space, replay.objective, trials, winner, candidates, bounds)
 
 
 def _share(trials: Sequence[Trial], proposed: int) -> int:

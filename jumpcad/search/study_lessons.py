@@ -17,13 +17,12 @@ MOST_LEARNED = 200
 
 def matters(store: StudyStore, found: Known) -> Iterator[str]:
     """Yield how much each free parameter matters for the score of the designs that the search saw."""
-    replay = Replay(store)
     feasible = [trial for trial in found.trials if trial.score is not None]
     if len({trial.score for trial in feasible}) < 2:
         return
     yield "<h2>Importance</h2>"
     try:
-        learned = importance(replay, feasible[:: -(-len(feasible) // MOST_LEARNED)], store.identity["seed"])
+        learned = importance(Replay(store), feasible[:: -(-len(feasible) // MOST_LEARNED)], store.identity["seed"])
     except JumpcadError:
         yield f"<p>{len(feasible)} designs that jump are too few to say what is important.</p>"
         return
@@ -44,7 +43,7 @@ def matters(store: StudyStore, found: Known) -> Iterator[str]:
     yield from table(("parameter", "", "fall of R²"), rows, numbers=(2,), bars=1)
 
 
-def active(store: StudyStore, found: Known) -> Iterator[str]:
+def active(found: Known) -> Iterator[str]:
     """Yield the bounds on which the winner lies, and what each costs."""
     if found.winner is None:
         return
@@ -52,11 +51,10 @@ def active(store: StudyStore, found: Known) -> Iterator[str]:
     if not found.bounds:
         yield "<p>The winner lies on no bound of the search that could be widened.</p>"
         return
-    unit = Replay(store).objective.unit
     yield "<p>The winner lies on these bounds of the search. The last column says how the score changes a twentieth of "
     yield "the range beyond the bound, the other parameters unchanged.</p>"
     rows = [
-        [written(one.name), one.side, f"{one.value:g}", f"{one.beyond:g}", written(_cost(one, unit))]
+        [written(one.name), one.side, f"{one.value:g}", f"{one.beyond:g}", written(_cost(one, found.objective.unit))]
         for one in found.bounds
     ]
     yield from table(("parameter", "bound", "at", "examined", "beyond it"), rows, numbers=(2, 3))

@@ -8,6 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from typing import Any
 
+import numpy as np
+
 from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.files.templates import templates_folder
@@ -15,10 +17,9 @@ from jumpcad.search.figures import MEANINGS, svg_text
 from jumpcad.search.fronts import REFERENCE_ENERGY_J, energy_j, front, hypervolume
 from jumpcad.search.methods import FRONTS
 from jumpcad.search.page_text import table, written
-from jumpcad.search.replay import Known, Replay, known
+from jumpcad.search.replay import Known, known
 from jumpcad.search.robust import best_apart
 from jumpcad.search.shown_design import shown_designs
-from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study_chart import chart
 from jumpcad.search.study_lessons import active, matters, refused
@@ -28,6 +29,8 @@ from jumpcad.workshop.varied import Value
 
 SHOWN = 10
 """Best designs that are shown where no neighbours were examined and no front was searched."""
+MOST_SHOWN = 100
+"""Designs of a front that are shown, at most, evenly chosen along it with both ends: each is 5 kB of the page."""
 CHOSEN = ("pareto",)
 """Pictures that the page replaces by its own chart."""
 CANDIDATE_HEAD = ("±1 %", "lengths", "rejected")
@@ -59,7 +62,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
             *_best(store, found),
             *_pictures(store),
             *matters(store, found),
-            *active(store, found),
+            *active(found),
             *refused(found),
             *_notes(store),
             f"<script>//<![CDATA[\n{program}\n//]]></script>",
@@ -73,7 +76,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
 def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
     """Yield the best score in a sentence, and what the study is, as cards."""
     identity, trials = store.identity, store.trials()
-    objective = Replay(store).objective
+    objective = found.objective
     jumped = len(feasible_trials(found.trials))
     if found.winner is None:
         yield f'<p class="error">None of {len(found.trials)} designs jumps.</p>'
@@ -99,7 +102,7 @@ def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
 
 def _asked(store: StudyStore, found: Known) -> Iterator[str]:
     """Yield the objective, the stages and the space, with the winner in it."""
-    identity, objective = store.identity, Replay(store).objective
+    identity, objective = store.identity, found.objective
     stages = [f"{stage['method']}, {stage['evaluations']} designs" for stage in store.recall("stages", [])]
     yield "<h2>What was asked</h2>"
     yield (
@@ -109,7 +112,7 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
     )
     fields = Design.model_fields
     rows = []
-    for parameter in Space.from_record(identity["space"]).parameters:
+    for parameter in found.space.parameters:
         described = fields[parameter.name].description if parameter.name in fields else ""
         value = "" if found.winner is None else _value(found.winner.variant.value(parameter.name))
         rows.append([written(parameter.name), written(described or ""), written(_range(parameter.describe())), value])
@@ -130,9 +133,8 @@ def _range(record: Mapping[str, Any]) -> str:
 
 def _best(store: StudyStore, found: Known) -> Iterator[str]:
     """Yield the best designs: chart, their robots, table."""
-    identity, space = store.identity, Space.from_record(store.identity["space"])
-    objective, is_front = Replay(store).objective, identity["method"] in FRONTS
-    shown = _shown(found, space, is_front)
+    objective, is_front = found.objective, store.identity["method"] in FRONTS
+    shown = _shown(found, is_front)
     if not shown:
         return
     yield f"<h2>{'The front' if is_front else 'The best designs'}</h2>"
@@ -140,6 +142,8 @@ def _best(store: StudyStore, found: Known) -> Iterator[str]:
         area = hypervolume(found.trials)
         yield f"<p>{MEANINGS['pareto']} It dominates {area:.4g} {written(objective.unit)}·J, seen from score 0 and "
         yield f"{REFERENCE_ENERGY_J:g} J (hypervolume).</p>"
+        if len(shown) < (whole := len(front(found.trials))):
+            yield f"<p>{len(shown)} of its {whole} designs are shown, evenly chosen along it.</p>"
     else:
         yield "<p>Score against the energy in the springs: the large points are the designs of the table below.</p>"
     yield "<p>Click a point, or go to it with Tab and the arrow keys, to see its robot.</p>"
@@ -148,16 +152,18 @@ def _best(store: StudyStore, found: Known) -> Iterator[str]:
     yield '<div id="robots" aria-live="polite">'
     yield from shown_designs(shown, objective)
     yield "</div></div>"
-    yield from _designs(found, space, shown)
+    yield from _designs(found, shown)
 
 
-def _shown(found: Known, space: Space, is_front: bool) -> list[Trial]:
+def _shown(found: Known, is_front: bool) -> list[Trial]:
     if is_front:
-        return front(found.trials)
-    return [candidate.trial for candidate in found.candidates] or best_apart(space, found.trials, SHOWN)
+        best = front(found.trials)
+        places = np.linspace(0, len(best) - 1, min(len(best), MOST_SHOWN))
+        return [best[round(place)] for place in places.tolist()]
+    return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
 
 
-def _designs(found: Known, space: Space, shown: Sequence[Trial]) -> Iterator[str]:
+def _designs(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
     """Yield the table of the shown designs; with what their neighbours reach, where that is known."""
     if found.candidates and shown[0] is found.candidates[0].trial:
         neighbours = [
@@ -180,11 +186,11 @@ def _designs(found: Known, space: Space, shown: Sequence[Trial]) -> Iterator[str
             f"{trial.score:.4g}",
             *cells,
             f"{energy_j(trial.design):.4f}",
-            *(_value(trial.variant.value(parameter.name)) for parameter in space.free),
+            *(_value(trial.variant.value(parameter.name)) for parameter in found.space.free),
         ]
         for number, (trial, cells) in enumerate(zip(shown, neighbours, strict=True), start=1)
     ]
-    titles = ("design", "score", *head, "spring J", *(parameter.name for parameter in space.free))
+    titles = ("design", "score", *head, "spring J", *(parameter.name for parameter in found.space.free))
     yield from table(titles, rows, numbers=range(1, len(titles)))
 
 

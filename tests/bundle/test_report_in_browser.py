@@ -12,6 +12,7 @@ from support.browsers import PHONE, browser, needs_browser, require_quiet, wait,
 from jumpcad.building import build
 from jumpcad.bundle.export import export
 from jumpcad.design import load_design
+from jumpcad.notebook import ShownPage
 
 pytestmark = needs_browser
 THREE_D = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1400,1200")
@@ -110,3 +111,17 @@ def test_without_webgl_a_sentence_stands_in_its_place(page: Path) -> None:
         assert not made.find_element("id", "viewer-controls").is_displayed()
     finally:
         made.quit()
+
+
+def test_in_the_frame_of_a_notebook_it_plays_too(driver: Any, page: Path, tmp_path: Path) -> None:
+    cell = tmp_path / "cell.html"
+    frame = ShownPage(page.read_text(encoding="utf-8"))._repr_html_()
+    cell.write_text(f"<!DOCTYPE html><html><body>{frame}</body></html>", encoding="utf-8")
+    driver.get(cell.as_uri())
+    driver.switch_to.frame(0)
+    try:
+        box = driver.find_element("id", "viewer")
+        wait(driver, lambda _: box.get_attribute("data-state"))
+        assert box.get_attribute("data-state") == "ready"
+    finally:
+        driver.switch_to.default_content()
