@@ -18,8 +18,8 @@ from jumpcad.workshop import Workshop
 class EvaluationResult:
     """A design built, simulated and checked.
 
-        `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg),
-        energy and time of winding, `size_m` (the longest link, or the standing robot's extent where that is larger) and
+    `findings` are those of gate, audit and checks. `metrics` are figures that the jump does not have: masses (kg),
+    energy and time of winding, `size_m` (the longest link, or the standing robot's extent where that is larger) and
     `body_lengths`, by name with unit; `electrical_energy_j` is that of motor and of boards while the motor winds.
     """
 

@@ -24,7 +24,7 @@ class Robot(Mechanism):
     """One printed robot; its bodies have the mass and inertia of its parts.
 
     `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with;
-    `release` is what the springs keep when the roller leaves the cam, `stop_blow` what the rest stop takes.
+    `release` is the release of its springs by the cam, `stop_blow` the impact of its leg on the rest stop.
     """
 
     parts: tuple[Part, ...]
@@ -36,7 +36,7 @@ class Robot(Mechanism):
 
 
 def require_name(name: str) -> None:
-    """Refuse a robot's name that cannot be part of file names.
+    """Reject a robot's name that cannot be part of file names.
 
     Raises
     ------

@@ -23,8 +23,8 @@ from jumpcad.workshop import OWN_PARTS, load_workshop
 
 Write = Callable[[str], Path]
 KENAN = load_design("kenan-2.0")
-README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
-(EXAMPLE,) = re.findall(r"```toml\n(.*?)```", README, re.S)
+CHAPTER = (Path(__file__).parents[1] / "docs" / "workshop.md").read_text(encoding="utf-8")
+(EXAMPLE,) = re.findall(r"```toml\n(\[bought\].*?)```", CHAPTER, re.S)
 
 SPRING = """
 [springs.stock]
@@ -192,13 +192,13 @@ def test_a_heavy_motor_is_not_taken_where_a_light_one_turns_the_cam(written: Wri
 
 @pytest.fixture(scope="module")
 def example(tmp_path_factory: pytest.TempPathFactory) -> Robot:
-    """The README's own parts in Kenan 2.0."""
+    """The documentation's own parts in Kenan 2.0."""
     path = tmp_path_factory.mktemp("example") / "my.toml"
     path.write_text(EXAMPLE, encoding="utf-8")
     return build(KENAN, load_workshop(path))
 
 
-def test_the_example_of_the_readme_passes_every_check_and_its_parts_are_listed(example: Robot) -> None:
+def test_the_example_of_the_documentation_passes_every_check_and_its_parts_are_listed(example: Robot) -> None:
     assert not errors(check(example))
     lines = {line.name: line for line in bill_of_materials(example).items}
     assert lines["gear motor square-16"].mass_kg == pytest.approx(0.032)

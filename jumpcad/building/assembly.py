@@ -46,7 +46,7 @@ NOT_IN_EVERY_ROBOT = (
 )
 """Parts that only some designs have: a workshop with their weights serves the other designs too."""
 PIN_ROUNDS = 5
-"""In which springs for another direction of their pin are tried."""
+"""Attempts with springs for other directions of their pin."""
 
 
 def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> Robot:
@@ -90,7 +90,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth) -> 
 
 
 def _friction(layout: Layout, workshop: Workshop) -> Friction:
-    """Return what rubs: feet and body on the workshop's ground, pins of its axles' diameter."""
+    """Return the friction of feet and body on the workshop's ground, and of pins with its axles' diameter."""
     ground, radius_m = workshop.ground, layout.axle_mm / 2000.0
     hub_m = 0.0 if layout.hub_bearing else radius_m
     pins = (hub_m, radius_m, radius_m, radius_m)
@@ -100,7 +100,7 @@ def _friction(layout: Layout, workshop: Workshop) -> Friction:
 def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth()) -> tuple[Layout, HoleSizes]:
     """Return the layout of a design in a workshop, and the hole sizes of its parts.
 
-    Where something stands in the way of the springs' pin, springs for a free direction take their place.
+    If there is no room for the springs' pin, springs for a free direction of the pin are found instead.
     """
     small.require_axle(workshop)
     directions = PLATE_PINS_RAD
@@ -168,7 +168,7 @@ def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNee
 
 
 def _held(layout: Layout, blow: Blow) -> StopBlow:
-    """Return the leg's blow on its stop, rounded: what small steps of time add up to differs between processors."""
+    """Return the leg's impact on its stop, rounded: last digits of an integration in time differ between processors."""
     stop = layout.stop
     held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
     return StopBlow(

@@ -38,7 +38,7 @@ from jumpcad.workshop import Workshop
 
 @dataclass(frozen=True)
 class Settled:
-    """What depends on each other in a robot; `holes` has the hub's bearing."""
+    """The quantities of a robot that depend on each other; `holes` has the hub's bearing."""
 
     linkage: Linkage
     sections: Sections
@@ -50,7 +50,7 @@ class Settled:
 def settle(
     design: Design, workshop: Workshop, growth: Growth, plate_pins_rad: tuple[float, ...] = PLATE_PINS_RAD
 ) -> Settled:
-    """Return linkage, sections, holes and drive with the lightest hub bearing that bears its load.
+    """Return linkage, sections, holes and drive with the lightest hub bearing that carries its load.
 
     Where none does, it is the strongest one, of which `jumpcad.checks` then warns. `plate_pins_rad` are the directions
     of the plates' pin that the springs may have, the preferred one first.
@@ -58,7 +58,7 @@ def settle(
     Raises
     ------
     CannotBuildError
-        If no drive meets its limits, or the hub bearing finds no room; the message says which and what to change.
+        If no drive meets its limits, or there is no room for the hub bearing; the message says what to change.
     """
     linkage, roller = Linkage(design), roller_bearing(workshop)
     bearings = hub_bearings(workshop)
@@ -80,7 +80,7 @@ def settle(
     while True:
         settled = with_bearing(bearings[number])
         stronger = next(
-            (index for index in range(number, len(bearings)) if _bears(bearings[index], settled, workshop)),
+            (index for index in range(number, len(bearings)) if _carries(bearings[index], settled, workshop)),
             len(bearings) - 1,
         )
         if stronger == number:
@@ -90,7 +90,7 @@ def settle(
 
 
 def fall_s(linkage: Linkage, spring: Spring, past_rad: float) -> float:
-    """Return how long the leg falls, to an angle past rest, with the body's usual mass and a reserve (s)."""
+    """Return the time from release to an angle past rest, with a typical mass of the body and a reserve (s)."""
     body, still = TYPICAL_BODY, np.zeros((3, 3))
     inertia = still.copy()
     inertia[1, 1] = body.mass_kg * (body.gyration_mm / 1000.0) ** 2
@@ -100,7 +100,7 @@ def fall_s(linkage: Linkage, spring: Spring, past_rad: float) -> float:
     return RESERVE * reflected_mass(bodies, linkage).push_off_s(spring, past_rad)
 
 
-def _bears(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:
+def _carries(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> bool:
     """Tell whether a hub bearing carries the forces of springs and cam; a plain hub is not checked."""
     if bearing is None:
         return True

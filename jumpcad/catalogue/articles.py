@@ -46,13 +46,13 @@ def _ascending(volts: tuple[float, float]) -> tuple[float, float]:
 
 
 Volts = Annotated[tuple[Positive, Positive], Field(strict=False), AfterValidator(_ascending)]
-"""The lowest and the highest voltage that something bears."""
+"""The lowest and the highest permitted voltage."""
 CELL_V = (3.3, 3.7, 4.2)
 """One lithium polymer cell: empty under light load, nominal, full; the usual figures of makers."""
 CELL_OHM = 0.15
 """Internal resistance of a small cell where none is given; judgement: 0.05 to 0.3 are usual."""
 RATED_SHARES = (0.25, 1.0)
-"""Lowest and highest voltage of a motor over its rated one where none is given; judgement: at less it may not start."""
+"""Lowest and highest voltage of a motor over its rated one where none is given; judgement: below, it may not start."""
 
 
 class Article(TomlTable):
@@ -99,7 +99,7 @@ class Motor(Article):
         return self.bears_v or (low * self.voltage_v, high * self.voltage_v)
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield shafts and bosses that no motor has, and figures that break the conservation of energy."""
+        """Yield impossible shafts and bosses, and figures that violate the conservation of energy."""
         shaft, narrow = self.shaft_mm, min(self.width_mm, self.height_mm)
         if not shaft / 2.0 < self.shaft_flat_mm < shaft:
             reason = f"must be more than {shaft / 2.0:g} and less than shaft_mm = {shaft:g}: a flat turns the pinion"
@@ -184,15 +184,13 @@ class Battery(Article):
 class Board(Article):
     """A circuit board with its components.
 
-    `supply_v` holds the voltages that each supply input bears, by the name printed beside it. `pins` holds what the
+    `supply_v` holds the permitted voltages of each supply input, by the name printed beside it. `pins` holds what the
     other pins do, by their printed names: `ground` (and `battery`: of pads for a cell alone), `out`; of a controller
-    `gpio6` with its number, `adc`, `pwm`,
-    `strapping` (its level at start chooses how the chip boots), `boot_log` (the chip writes on it at start); of a
-    driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs that need a diode before them,
-    `button` the pin of a push button on the board. `usb_mm` is the opening (width, height) that the plug of its USB
-    socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its length.
-    Currents are those of the board alone (`quiescent_a`, radio off)
-    and what it can give (`output_a`).
+    `gpio6` with its number, `adc`, `pwm`, `strapping` (its level at start chooses how the chip boots), `boot_log` (the
+    chip writes on it at start); of a driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs
+    that need a series diode, `button` the pin of a push button on the board. `usb_mm` is the opening (width, height)
+    that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
+    length. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current.
     """
 
     description: Source
@@ -240,8 +238,8 @@ class Travel(TomlTable):
 class Component(Article):
     """A small electrical part: sensor, switch, plug, capacitor, diode or wire; `terminals` as its maker names them.
 
-    `rated_a` and `rated_v` are the most that it bears, `drop_v` is lost in it. Length, width and height are those of
-    its case without terminals; `travel` is that of a sensor's plunger, in the middle of the case, along its height.
+    `rated_a` and `rated_v` are its ratings, `drop_v` its voltage drop. Length, width and height are those of its case
+    without terminals; `travel` is that of a sensor's plunger, in the middle of the case, along its height.
     """
 
     description: Source
@@ -257,12 +255,9 @@ class Component(Article):
     confidence: Confidence
 
 
-class Kit(TomlTable):
-    """Electrical parts that fit together, by their names in the catalogue; `source` says why they do."""
+class ElectricalParts(TomlTable):
+    """Names of electrical parts in the catalogue; an empty name leaves a part out."""
 
-    name: Annotated[Name, Field(exclude=True)]
-    source: Annotated[Source, Field(exclude=True)]
-    confidence: Annotated[Confidence, Field(exclude=True)]
     motors: Annotated[tuple[Name, ...], Field(strict=False)]
     battery: Name
     controller: Name
@@ -276,11 +271,19 @@ class Kit(TomlTable):
     wire: OptionalName
 
 
+class Kit(ElectricalParts):
+    """Electrical parts that fit together; `source` says why they do."""
+
+    name: Annotated[Name, Field(exclude=True)]
+    source: Annotated[Source, Field(exclude=True)]
+    confidence: Annotated[Confidence, Field(exclude=True)]
+
+
 class StockSpring(Article):
     """A torsion spring from stock, of which shops keep both hands: its arms are tangents of the coil.
 
     `arm_angle_deg` is the angle between the relaxed arms, 180 where they point in opposite directions; loading in the
-    closing direction lowers it. `rate_nmm_per_deg` is the torque a degree.
+    closing direction lowers it. `rate_nmm_per_deg` is the torque per degree.
     """
 
     wire_mm: Annotated[Length, Field(le=10)]
@@ -302,7 +305,7 @@ class StockSpring(Article):
 
     @property
     def wound_turns(self) -> float:
-        """Turns of the relaxed body with which tangent arms have their angle: those nearest to `turns`."""
+        """Turns of the relaxed body at which tangent arms have `arm_angle_deg`: those nearest to `turns`."""
         fraction = (0.5 - self.arm_angle_deg / 360.0) % 1.0
         return fraction + round(self.turns - fraction)
 
@@ -311,7 +314,7 @@ class Pad(Article):
     """A soft strip, glued under nose and toes or on the rest stop: `description` is what to order.
 
     `modulus_mpa` is Young's modulus for small strains, as hardness gives it; `friction_min` and `friction_max` are
-    coefficients of dry friction that are found on a clean floor. One that is `printed` has STL files instead of a size
+    the range of coefficients of dry friction on a clean floor. One that is `printed` has STL files instead of a size
     to cut.
     """
 
@@ -324,7 +327,7 @@ class Pad(Article):
     friction_max: Annotated[float, Field(ge=1e-3, le=2)]
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield a range of friction that is upside down."""
+        """Yield a range of friction whose limits are exchanged."""
         if self.friction_max < self.friction_min:
             yield ("friction_max",), self.friction_max, f"must be at least friction_min = {self.friction_min:g}"
 

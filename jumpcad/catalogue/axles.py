@@ -10,7 +10,7 @@ from jumpcad.files import Contradiction
 
 
 class Rod(Article):
-    """What axles are cut from, of any diameter: `description` is what to order, `bore_share` its bore over its outside.
+    """Rod of any diameter for axles: `description` is what to order, `bore_share` its bore over its outside.
 
     `grooves` says whether grooves can be turned or filed in it at home.
     """
@@ -23,7 +23,7 @@ class Rod(Article):
 
 
 class Clip(Article):
-    """A retaining ring for a groove at a shaft's end; `load_n` is what the groove bears, `end_mm` what is behind it."""
+    """A retaining ring for a groove at a shaft's end; `load_n` is its load capacity, `end_mm` the shaft beyond it."""
 
     shaft_mm: Length
     groove_mm: Length
@@ -35,7 +35,7 @@ class Clip(Article):
     mass_g: Mass
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield a groove that is no groove."""
+        """Yield a groove that is not smaller than its shaft."""
         if not self.groove_mm < self.shaft_mm < self.outer_mm:
             reason = f"must be less than shaft_mm = {self.shaft_mm:g}, and that less than outer_mm = {self.outer_mm:g}"
             yield ("groove_mm",), self.groove_mm, reason

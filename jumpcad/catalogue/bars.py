@@ -11,7 +11,7 @@ from jumpcad.catalogue.articles import Article, Length, Positive, Source
 from jumpcad.files import Contradiction
 
 STEPS = 16
-"""Flat steps that a round bar and its socket are drawn with; judgement: 0.25 mm for 4 mm, a layer's height."""
+"""Flat steps with which a round bar and its socket are drawn; judgement: 0.25 mm for 4 mm, a layer's height."""
 
 
 class LegBar(Article):
@@ -32,7 +32,7 @@ class LegBar(Article):
     bond_mpa: Positive
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield a round bar that is not, and a bore without a wall."""
+        """Yield a round bar whose width is not its height, and a bore that leaves no wall."""
         if self.round and self.width_mm != self.height_mm:
             yield ("height_mm",), self.height_mm, f"must be width_mm = {self.width_mm:g}: the bar is round"
         if self.bore_mm >= min(self.width_mm, self.height_mm):
@@ -47,7 +47,7 @@ class LegBar(Article):
 
     @property
     def around_mm(self) -> float:
-        """Length of its section's outline, which is glued."""
+        """Perimeter of its section, which is glued."""
         return math.pi * self.width_mm if self.round else 2.0 * (self.width_mm + self.height_mm)
 
     @property

@@ -74,7 +74,7 @@ class Wire(Record):
     tensile_strength_mpa: list[PositiveFloat]
 
     def tensile_mpa(self, diameter_mm: float) -> float:
-        """Return the least tensile strength at a diameter (MPa): straight lines between those kept, and beyond them."""
+        """Return the least tensile strength at a diameter (MPa): linear between the listed ones, and beyond them."""
         known = list(zip(self.diameters_mm, self.tensile_strength_mpa, strict=True))
         above = next((index for index, (d, _) in enumerate(known) if d >= diameter_mm), len(known) - 1)
         (d0, s0), (d1, s1) = known[max(above, 1) - 1], known[max(above, 1)]

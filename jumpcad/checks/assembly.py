@@ -1,7 +1,8 @@
-"""Assembly: every part reaches its place on a free path, and every fastener's tool reaches it (mm).
+"""Assembly: every part has a free path to its place, and every fastener is reached by its tool (mm).
 
-A path is straight. What a stack covers on its way along its axis, or square to it, is again a stack, so that nothing
-between two positions is missed; for other shapes the thing in the way is moved instead, the other way round.
+Paths are straight. The volume that a stack sweeps along its axis, or square to it, is again a stack and is computed
+exactly. For other shapes the obstacle is swept in the opposite direction; where this is not possible either, positions
+along the path are sampled.
 """
 
 import re
@@ -29,14 +30,14 @@ from jumpcad.transforms import Array, chained
 TOLERANCE_MM2 = 0.05
 """Section that may be shared along a path: facets of circles that touch, as of an axle in its bore."""
 BEYOND_MM = 5.0
-"""Paths begin this far away from everything that is there."""
+"""Distance from all present parts at which paths begin."""
 SAMPLES_MM = 0.5
-"""Between positions where no shape can be swept."""
+"""Distance of sampled positions."""
 
 
 @dataclass(frozen=True)
 class Blocked:
-    """A path or a tool that something is in the way of, and how much of its section that covers (mm²)."""
+    """A path or a tool with an obstacle, and the area of its cross section that the obstacle covers (mm²)."""
 
     step: Step
     name: str
@@ -45,7 +46,7 @@ class Blocked:
 
 
 def paths(ways: Iterable["Way"]) -> Iterator[tuple["Way", Blocked | None]]:
-    """Yield every move that has a path, with what is most in its way, if anything is."""
+    """Yield every move along a path, with its largest obstacle, or None."""
     for way in ways:
         if way.placed.move.way != "laid":
             found = [_in_the_way(way, mover, path) for mover, path in zip(way.movers, way.paths_mm, strict=True)]
@@ -53,7 +54,7 @@ def paths(ways: Iterable["Way"]) -> Iterator[tuple["Way", Blocked | None]]:
 
 
 def tools(ways: Iterable["Way"]) -> Iterator[tuple[Tool, str, Blocked | None]]:
-    """Yield every fastener's tool, its name, and what is most in the tool's way, if anything is."""
+    """Yield every fastener's tool, the fastener's name, and the tool's largest obstacle, or None."""
     for way in ways:
         if (tool := way.placed.move.tool) is not None:
             for mover, path in zip(way.movers, way.paths_mm, strict=True):
@@ -75,7 +76,7 @@ def assembly_findings(robot: Robot) -> list[Finding]:
 def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]:
     for one in blocked:
         what = "path" if name == "assembly_paths" else "tool"
-        message = f"{one.by} is in the way of the {what} of {one.name} in step {one.step.title}"
+        message = f"{one.by} blocks the {what} of {one.name} in step {one.step.title}"
         remedy = "raise carrying_link_mm or d_coef (a longer body), or choose another bought.retention"
         yield Finding(name, "error", -one.share_mm2, "mm²", message, remedy, value=one.share_mm2, limit=0.0)
     if not blocked:
@@ -84,7 +85,7 @@ def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]
 
 @dataclass(frozen=True)
 class Way:
-    """One move: what moves, each with its path (3,), and what is there already, in the world (mm)."""
+    """One move: the moving parts, the path (3,) of each, and the parts that are already there, in the world (mm)."""
 
     step: Step
     placed: Placed
@@ -122,7 +123,7 @@ def assembly_ways(robot: Robot) -> list[Way]:
 
 @dataclass(frozen=True)
 class _Piece(Component):
-    """A thing on the robot, whose solid others may have made already."""
+    """A part on the robot, which shares the solid of its source."""
 
     source: Drawing | BoughtPart
 
@@ -133,7 +134,7 @@ class _Piece(Component):
 
 
 def _piece(thing: Visual, T_world_body: Array) -> Component:
-    """Return a thing at its place in the world (mm)."""
+    """Return a part at its place in the world (mm)."""
     source = thing.source.drawing if isinstance(thing.source, Part) else thing.source
     pose = chained(T_world_body, thing.T_body_mesh)
     pose[:3, 3] *= 1000.0
@@ -141,7 +142,7 @@ def _piece(thing: Visual, T_world_body: Array) -> Component:
 
 
 def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
-    """Return what is most in the way of a thing on its path."""
+    """Return the largest obstacle of a part on its path."""
     length = float(np.linalg.norm(path_mm))
     if length == 0.0:
         return None
@@ -160,7 +161,7 @@ def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
 
 
 def _tool_blocked(way: Way, tool: Tool, fastener: Component, path_mm: Array) -> Blocked | None:
-    """Return what is most in the way of a fastener's tool."""
+    """Return the largest obstacle of a fastener's tool."""
     shaft = _tool(tool, fastener, _side(way.placed, path_mm))
     blocked = []
     for other in (*way.there, *way.movers):
@@ -177,7 +178,7 @@ def _share(blocked: Blocked) -> float:
 
 
 def _covered(mover: Component, other: Component, path_mm: Array) -> float:
-    """Return the volume of a thing that another one covers on its way, a little more where it can only be sampled."""
+    """Return the volume that a part shares with another on its path (mm³); an upper estimate where it is sampled."""
     if (room := _swept(mover, path_mm)) is not None:
         return _shared(room, other)
     if (room := _swept(other, -path_mm)) is not None:
@@ -217,7 +218,7 @@ def _depth(thing: Component, along: Array) -> float:
 
 
 def _reach(mover: Component, there: list[Component], along: Array) -> float:
-    """Return how far back a thing must be to be clear of everything that is there."""
+    """Return how far back a part must be to be clear of all present parts."""
     if not there:
         return 0.0
     front = float((np.stack(_extent(mover)) * along).max(axis=0).sum())
@@ -233,7 +234,7 @@ def _side(placed: Placed, path_mm: Array) -> Array:
 
 
 def _tool(tool: Tool, fastener: Component, side: Array) -> Component:
-    """Return the room of a tool that stands on a fastener, from its face towards a side."""
+    """Return the room of a tool on a fastener, from its face towards a side."""
     low, high = fastener.shape.bounds_mm
     middle = fastener.T_body_part @ np.array([*(low + high) / 2.0, 1.0])
     corners = np.einsum("ij,nj->ni", fastener.T_body_part, fastener.corners)[:, :3]

@@ -48,10 +48,10 @@ def foot_findings(robot: Robot) -> list[Finding]:
     """Return `foot_clearance`: the gap between the foot and what the body carries, springs loaded (exact)."""
     layout = robot.layout
     linkage = robot.linkage
-    wound = Moment("wound", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
+    loaded = Moment("springs loaded", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
 
     def placed(piece: Component) -> Manifold:
-        return piece.solid.transform(pose_of(piece, layout, linkage, wound)[:3])
+        return piece.solid.transform(pose_of(piece, layout, linkage, loaded)[:3])
 
     pieces = {body: [p for p in components(robot) if p.body == body] for body in (BODY, FOOT)}
     foot = [placed(piece) for piece in pieces[FOOT]]
@@ -78,7 +78,7 @@ def _along(vector: Array, unit: Array) -> Array:
 
 
 def _body_discs(robot: Robot) -> tuple[Array, Array]:
-    """Return what hangs lowest on the body as discs: middles (n, 2) in its frame and radii (n,)."""
+    """Return the lowest parts of the body as discs: middles (n, 2) in its frame and radii (n,)."""
     layout = robot.layout
     pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, AXLE_END_RADIUS_MM)
     discs = [(place, pad) for place in layout.axles.values()]

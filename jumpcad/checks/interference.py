@@ -26,7 +26,8 @@ WINDING_POSITIONS = 13
 DROP_POSITIONS = 13
 PAST_POSITIONS = 3
 AHEAD_SHARES = (0.0, 0.5, 1.0)
-"""Leg positions from rest to the end of the stop's give, each with the cam ahead of its gear by shares of its play."""
+"""Leg positions from rest to the end of the pad's deflection, each with the cam ahead of its gear by shares of the
+play."""
 TOLERANCE_MM3 = 0.05
 """Facets of two circles that touch share less than this."""
 TURNING = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
@@ -38,7 +39,7 @@ INTENDED = (
     ("toe", "foot", "thread"),
     ("motor_pinion", "motor_shaft", "crush ribs"),
     ("spring", "spring", "coil and arm are one wire"),
-    ("stop_pad", "main_leg", "the pad gives"),
+    ("stop_pad", "main_leg", "the pad is compressed"),
 )
 """Pairs of name prefixes that may share volume, and why."""
 
@@ -89,13 +90,13 @@ def components(robot: Robot) -> list[Component]:
 
 def moments(robot: Robot) -> list[Moment]:
     """Return the positions that are checked: the cam's lift, the roller's drop, the cam run ahead, and past rest."""
-    cam, wound = robot.layout.drive.cam, robot.design.compression_rad
+    cam, loaded = robot.layout.drive.cam, robot.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [
         Moment(f"loaded by {math.degrees(wind):.1f}°", -float(wind), float(turn))
         for turn, wind in zip(lift, cam.wind_rad(lift), strict=True)
     ]
-    falls = np.linspace(wound, 0.0, DROP_POSITIONS)
+    falls = np.linspace(loaded, 0.0, DROP_POSITIONS)
     free = float(cam.wind_rad(cam.free_rad - 1e-6))
     drop = [Moment(f"dropping, at {math.degrees(w):.1f}°", -float(w), cam.free_rad) for w in falls if w <= free]
     play = robot.layout.drive.dog.play_rad
@@ -153,7 +154,7 @@ def interference_findings(robot: Robot) -> list[Finding]:
             "info",
             TOLERANCE_MM3,
             "mm³",
-            f"no two pieces meet in {positions}",
+            f"no two pieces overlap in {positions}",
             "nothing to do",
             limit=TOLERANCE_MM3,
         )

@@ -38,7 +38,7 @@ def leg_bar_findings(case: LoadCase) -> Iterator[Finding]:
     aside, angle = case.toe_blow_n * case.layout.toe_half_width_mm, math.radians(design.rest_angle_deg)
     bending = max(bar_bending_mpa(bar, at_mouth, axial), bar_sideways_mpa(bar, aside * math.sin(angle)))
     shear = bar_shear_mpa(bar, across + 1.5 * at_mouth / first.length_mm, aside * math.cos(angle))
-    # the one that is nearer to its limit, as a bending stress
+    # the one nearer to its limit, expressed as a bending stress
     worst = max(bending, shear * bar.strength_mpa / bar.shear_mpa)
     yield stress_finding(
         "leg_bar_strength", f"{bar.name} of the main leg at its socket", worst, bar.strength_mpa / factor, OTHER

@@ -124,7 +124,7 @@ class LoadCase:
 
     @cached_property
     def axial_n(self) -> float:
-        """Largest force along an axle or pin (N): all of a landing's friction, sideways, on one of them."""
+        """Largest axial force on an axle or pin (N): the friction of a sideways landing, all on one of them."""
         return self.robot.workshop.ground.foot_friction * self.landing_n
 
     @cached_property
@@ -140,7 +140,7 @@ class LoadCase:
 
 
 def stress_finding(name: str, what: str, stress: float, allowable: float, remedy: str, grows: str = "") -> Finding:
-    """Return the finding of a stress against its limit (MPa); `grows` is the part that a failure makes stronger."""
+    """Return the finding of a stress against its limit (MPa); `grows` is the section that grows where it fails."""
     message = f"{what}: {stress:.1f} of {allowable:.1f} MPa"
     return at_most(name, stress, allowable, "MPa", message, remedy, grows=grows)
 

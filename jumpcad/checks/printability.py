@@ -95,7 +95,7 @@ def _narrowest(
         worst, where = high, part
     found = f"the narrowest {what} is {worst:.2f} mm, in {where}" if where else f"no {what} is under {worst:.2f} mm"
     message = f"{found}; {least_mm:g} mm are needed"
-    if not where:  # only known: wider than the range of the search
+    if not where:  # known only to be wider than the range of the search
         return limit(name, worst - least_mm, "mm", message, remedy, allowed=least_mm)
     return at_least(name, worst, least_mm, "mm", message, remedy)
 
@@ -167,7 +167,7 @@ def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tupl
             inside = (ledge - union(_contours(below.region, 1.0))).is_empty()
             between = (
                 ledge - grown(hull(held), TOUCH_MM)
-            ).is_empty()  # as the roof of a socket that is open at one end
+            ).is_empty()  # such as the roof of a socket that is open at one end
             if len(held) > 1 or (ring and inside) or between:
                 yield True, _least(partial(_vanishes, ledge), _longest_mm(ledge))
             else:

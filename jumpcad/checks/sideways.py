@@ -1,6 +1,6 @@
-"""Does the robot tip over sideways? Its toes' and nose's width against its height, its joints' play, and its own lean.
+"""Sideways tipping: width of toes and nose, height and lateral offset of the centre of mass, play of the joints.
 
-On the ground the body hangs on the foot by two chains of joints, leg and front link; the tighter one sets its play. An
+On the ground two chains of joints connect body and foot, leg and front link; the one with less play counts. An
 eye of length l whose bore is c wider than its pin tilts by c/l to either side.
 """
 
@@ -19,16 +19,16 @@ from jumpcad.transforms import Array
 
 POSITIONS = 9
 WIDEST_MM, HALVINGS = 200, 12
-"""Up to which half width of the toes one that holds is looked for, as wide as a workshop may say."""
+"""Largest half width of the toes that is tried, the limit of the workshop's key; and bisection steps."""
 WIDER_MM = 1.0
-"""By how much more than that is advised; judgement: wider bars are heavier."""
+"""Added to the half width that the remedy names; judgement: wider bars are heavier."""
 LANDING_PLAYS = 2.0
-"""How often the play counts at landing: the body comes down tilted to one side of it and swings to the other one."""
+"""Factor on the play at landing: the body lands tilted to one end of it and swings to the other."""
 
 
 @dataclass(frozen=True)
 class Roll:
-    """How far the robot may roll in a state, to its worse side (°): what its stance allows, what its joints take."""
+    """Roll angles in a state, to the worse side (°): the one at which the robot tips, and the play of its joints."""
 
     state: str
     stance_deg: float
@@ -41,17 +41,19 @@ class Roll:
 
 
 def sideways_findings(robot: Robot) -> list[Finding]:
-    """Return `sideways_tipping`: the least roll that is left of standing at rest, wound, and at landing."""
+    """Return `sideways_tipping`: the least margin of standing at rest, with loaded springs, and at landing."""
     worst = min(rolls(robot), key=lambda roll: roll.margin_deg)
     reserve = robot.workshop.safety.roll_reserve_deg
     wider = "raise body.toe_half_width_mm"
     if worst.margin_deg < reserve:
         width = _width_mm(robot, reserve)
-        wider = f"body.toe_half_width_mm = {width:.0f}" if width else "no body.toe_half_width_mm holds it: less play"
+        wider = (
+            f"body.toe_half_width_mm = {width:.0f}" if width else "no body.toe_half_width_mm is enough: reduce the play"
+        )
     return [
         at_least(
             "sideways_tipping", worst.margin_deg, reserve, "°",
-            f"{worst.state}, the robot stands {worst.stance_deg:.1f}° from tipping sideways, of which its joints' play "
+            f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
             f"takes {worst.play_deg:.1f}°; {reserve:g}° must be left",
             f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm",
         )
@@ -75,7 +77,7 @@ def _width_mm(robot: Robot, reserve_deg: float) -> float | None:
 
 
 def rolls(robot: Robot, layout: Layout | None = None) -> tuple[Roll, ...]:
-    """Return how far the robot may roll standing at rest, standing wound, and in any pose between them at landing.
+    """Return how far the robot may roll standing at rest, with loaded springs, and in any pose between at landing.
 
     Another `layout` takes the place of the robot's, with its masses.
     """
@@ -87,7 +89,7 @@ def rolls(robot: Robot, layout: Layout | None = None) -> tuple[Roll, ...]:
     play = math.degrees(play_rad(layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)))
     return (
         Roll("at rest", float(stance[-1]), play),
-        Roll("wound", float(stance[0]), play),
+        Roll("springs loaded", float(stance[0]), play),
         Roll("landing", float(stance.min()), LANDING_PLAYS * play),
     )
 
@@ -107,9 +109,9 @@ def stance_deg(layout: Layout, com_mm: Array, aside_mm: float) -> Array:
 
 
 def play_rad(layout: Layout, holes: HoleSizes) -> float:
-    """Return by how much the body may roll on its foot to either side, as drawn: that of the tighter chain.
+    """Return by how much the body may roll on its foot to either side (rad), as drawn: the chain with less play counts.
 
-    Ball bearings' own tilt is neglected, and so is the bending of pins and links.
+    Tilt of the ball bearings themselves and bending of pins and links are neglected.
     """
     pin, width = layout.axle_mm, layout.sections.thickness_mm
     eye, loose, lug = (size(pin) - pin for size in (holes.eye, holes.running, holes.lying))

@@ -12,7 +12,7 @@ from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, s
 from jumpcad.strength.stress import pin_stress_mpa
 
 PINS = ("foot_pin", "leg_pin")
-"""Clevis pins, or rods of their own: another bought.axle changes them with clips alone."""
+"""Clevis pins or rods; another bought.axle changes them only with clips."""
 ROLLER_SCREW_CORE_MM = 2.39
 """M3, ISO 724."""
 ROLLER_SCREW_YIELD_MPA = 640.0
@@ -46,17 +46,17 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
 
 
 def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) -> str:
-    """Return what to change for an axle or pin; where it is too weak, with the figures that would hold.
+    """Return what to change for an axle or pin; where it is too weak, with sufficient figures.
 
-    The stress falls with the cube of the diameter; the spring's rate that is named is on the safe side.
+    The stress falls with the cube of the diameter; the rate of the spring that is named is on the safe side.
     """
     bar, spring = case.bars[name], case.workshop.stock_spring
     share = max(stress_mpa / allowed_mpa, 1.0)
     needed = bar.yield_mpa * share
     softer = "lower stiffness_nmm_per_deg or compression_ratio"
     if spring is not None:  # the design's stiffness counts for springs made to order alone
-        rate = spring.rate_nmm_per_deg / share**2  # cam and gears follow a softer spring, so that less is gained
-        softer = f'a bought.spring of {rate:.1f} N·mm/° at most, or "", which has softer ones made to order'
+        rate = spring.rate_nmm_per_deg / share**2  # a softer spring changes cam and gears too, so that less is gained
+        softer = f'a bought.spring of {rate:.1f} N·mm/° at most, or "" for softer ones made to order'
     if share == 1.0:
         return f"a stronger bought.axle or larger bought.axle_mm, or {softer}"
     thick = math.ceil(10.0 * bar.diameter_mm * share ** (1.0 / 3.0)) / 10.0
@@ -70,14 +70,14 @@ def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) 
         else "no shipped rod"
     )
     return (
-        f"{needed:.0f} MPa of yield stress ({kind}), bought.axle_mm of {thick:.1f} or "
-        f"more with its bearings, plates closer by {100.0 * (1.0 - 1.0 / share):.0f} % (a shorter motor, a narrower "
-        f"battery or board), or {softer}"
+        f"{needed:.0f} MPa yield stress ({kind}), bought.axle_mm of {thick:.1f} or "
+        f"more with its bearings, a span between the plates shorter by {100.0 * (1.0 - 1.0 / share):.0f} % (a shorter "
+        f"motor, a narrower battery or board), or {softer}"
     )
 
 
 def _retention(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of what keeps axles and pins in place, against the friction of a landing sideways."""
+    """Yield the findings of the retention of axles and pins, loaded by the friction of a landing sideways."""
     kept = {"plates": "the plates over its ends", "clips": "its clips", "nuts": "its nut"}[case.layout.retention]
     clipped = clipped_pins(case.workshop.catalogue, case.workshop.bought)
     pins = "its clips" if clipped else "its split pin"
@@ -85,13 +85,13 @@ def _retention(case: LoadCase) -> Iterator[Finding]:
         allowed = case.bars["leg_axle" if name == "axle_retention" else "foot_pin"].axial_n
         yield at_most(
             name, case.axial_n, allowed, "N",
-            f"a landing sideways pushes {what} along with {case.axial_n:.0f} N; {by} may bear {allowed:.0f} N",
+            f"a landing sideways loads {what} along its axis with {case.axial_n:.0f} N; {by} may carry {allowed:.0f} N",
             'another bought.retention ("plates", "clips", "nuts"), or a stronger material for the body',
         )  # fmt: skip
 
 
 def _fatigue(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of fatigue after a number of jumps: warnings, since nothing of it breaks at the first jump."""
+    """Yield the findings of fatigue after a number of jumps: warnings, since nothing breaks at the first jump."""
     safety, spring = case.workshop.safety, case.layout.drive.spring
     lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
     allowed = spring_share(safety.jumps) * spring.tensile_mpa

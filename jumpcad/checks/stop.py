@@ -1,9 +1,9 @@
-"""The rest stop: do bar, plates and leg bear the blow, does the pad, and does it give no more than there is room for?
+"""The rest stop: strength of bar, plates and leg under the impact, and strain and deflection of the pad.
 
 The bar is taken as a beam on both plates with the pad's force in its middle, each plate's ear as a cantilever from the
 pivots' line, and the leg as a beam on hub and pad whose inertia acts at the ankle, the farthest that it can. All three
-print lying, so that the blow bends them along their layers. The seats of axles and pins that pass the blow on are not
-checked.
+print lying, so that the impact bends them along their layers. The seats of axles and pins that transmit the impact are
+not checked.
 """
 
 import math
@@ -18,7 +18,7 @@ from jumpcad.strength.stop import BLOW_FACTOR
 from jumpcad.strength.stress import Beam
 
 PAD_STRAIN = 0.5
-"""Largest give of a pad over its thickness; judgement: rubber bumpers are pressed to half."""
+"""Largest deflection of a pad over its thickness; judgement: rubber bumpers are compressed to half."""
 SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
 
 
@@ -31,23 +31,25 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
     stress = float(Beam(STOP_PAD_MM, stop.depth_mm - STOP_SEAT_MM, case.shell).stress_mpa(moment))
     strength = robot.workshop.material("links").strength_in_plane_mpa
     remedy = f"choose a softer body.stop_pad, or {SOFTER.partition(', or ')[2]}"
-    yield stress_finding("stop_strength", "the rest stop's bar at twice the blow", stress, strength, remedy, "stop")
+    yield stress_finding(
+        "stop_strength", "the rest stop's bar at twice the impact force", stress, strength, remedy, "stop"
+    )
     plate = robot.layout.lateral.left_plate
     moment = BLOW_FACTOR * blow.force_n / 2.0 * stop.radius_mm
     stress = float(Beam(plate[1] - plate[0], EAR_MM).stress_mpa(moment))
     strength = robot.workshop.material("body").strength_in_plane_mpa
-    yield stress_finding("stop_plates", "plates' ears at twice the blow", stress, strength, remedy, "plate")
+    yield stress_finding("stop_plates", "plates' ears at twice the impact force", stress, strength, remedy, "plate")
     sections, share = robot.layout.sections, stop.radius_mm / robot.design.l2_mm
     height = sections.leg_root_mm + share * (sections.leg_tip_mm - sections.leg_root_mm)
     leg = Beam(sections.thickness_mm, height, case.shell)
     moment = BLOW_FACTOR * 1000.0 * blow.torque_nm * (1.0 - share)
     stress = float(leg.stress_mpa(moment))
     strength = robot.workshop.material("links").strength_in_plane_mpa
-    yield stress_finding("stop_leg", "main leg at its heel at twice the blow", stress, strength, remedy, "leg")
+    yield stress_finding("stop_leg", "main leg at its heel, at twice the impact force", stress, strength, remedy, "leg")
     give, most = blow.give_mm, PAD_STRAIN * stop.pad.thickness_mm
     yield at_most(
         "stop_pad", give, most, "mm",
-        f"the rest stop's pad gives {give:.2f} mm at {1000.0 * blow.energy_j:.0f} mJ; {most:.2f} mm, "
+        f"the rest stop's pad is compressed by {give:.2f} mm at {1000.0 * blow.energy_j:.0f} mJ; {most:.2f} mm, "
         f"half of its thickness, are allowed",
         SOFTER,
     )  # fmt: skip
@@ -56,7 +58,7 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
     degrees, room = math.degrees(blow.give_rad), math.degrees(free)
     yield at_most(
         "stop_clearance", degrees, room, "°",
-        f"the leg goes {degrees:.1f}° beyond its stop at {math.degrees(stop.angle_rad):.1f}° past rest; the cam "
-        f"leaves the roller {room:.1f}°",
+        f"the leg turns {degrees:.1f}° beyond its stop at {math.degrees(stop.angle_rad):.1f}° past rest; the cam "
+        f"leaves room for {room:.1f}°",
         "choose a stiffer body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio",
     )  # fmt: skip

@@ -76,7 +76,7 @@ def _leg(case: LoadCase) -> Iterator[Finding]:
         "lever_strength", "lever in bending, springs loaded", stress, case.allowable_mpa, WEAKER, "lever"
     )
     if layout.leg_bar is not None:
-        return  # what bends is the bar: `leg_bar_flex`
+        return  # see `leg_bar_flex`
     share = leg_flex_share(layout.design, leg, case.workshop.material("links").modulus_mpa, case.robot.spring)
     allowed = case.workshop.safety.leg_flex_share
     yield limit(
@@ -96,7 +96,7 @@ def _front_link(case: LoadCase) -> Iterator[Finding]:
     load = buckling_load_n(bar, case.layout.design.l3_mm, case.workshop.material("links").modulus_mpa)
     allowed = load / case.workshop.safety.printed_factor
     if case.layout.leg_bar is not None:
-        return  # `front_bar_buckling`
+        return  # see `front_bar_buckling`
     yield at_most(
         "front_link_buckling", case.landing_n, allowed, "N",
         f"front link under the whole landing force: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
@@ -187,7 +187,7 @@ def _sideways(case: LoadCase) -> Iterator[Finding]:
 
 
 def _seats(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of the plates around axles and pins, and of the cam's dog: loaded, and hit by its far end."""
+    """Yield the findings of the plates around axles and pins, and of the cam's dog, loaded and at the impact."""
     safety, body = case.workshop.safety, case.workshop.material("body")
     arms, cam = case.wound_forces_n
     seat = case.layout.lateral.left_plate[1] - case.layout.lateral.left_plate[0] - case.layout.floor_mm

@@ -31,7 +31,7 @@ class CamLimits:
         Least distance from the circle of the lever's end to the cam's axis, for the axle that crosses the lever's
         plane.
     core_radius_mm
-        Material around the cam's axis that nothing may cut into: the dog's boss stands on it.
+        Radius around the cam's axis that must stay solid: it carries the dog's boss.
     modulus_mpa, poisson, pressure_mpa
         Of the cam's material, against a steel roller. Rolling line contact shakes down to an elastic state up to 4k, k
         the yield strength in shear (Johnson, Contact Mechanics, 9.2): 104 MPa for a printed PETG that yields at 45 MPa
@@ -48,19 +48,19 @@ class CamLimits:
     overshoot_rad
         How far the leg may swing past rest before the roller meets the cam; judgement.
     reserve_rad
-        How far the cam may turn on with the motor while the leg falls and that room stays free; judgement.
+        Cam angle that the motor may turn while the leg swings back, with that room still free; judgement.
     play_rad
         Free play of the cam's dog where it is given, instead of the rule in `dog`.
     axis_max_rad, axis_min_rad
         Direction of the cam's axis from the hub, counter-clockwise from forward: farthest back, and
-        farthest forward; judgement: above the hub, where links sweep least.
+        farthest forward; judgement: above the hub, away from the moving links.
     lever_loaded_max_rad
         Largest direction of the lever with the springs loaded (pi: level with the pivots).
     lowest_mm
         The cam stays above this height over the hub.
     lever_max_mm, gap_max_mm, lead_max_rad
         Upper bounds of the search: lever, distance from its circle to the cam's axis, lead of the lever over it.
-        Judgement: larger ones find no room in a body.
+        Judgement: there is no room for larger ones in a body.
     """
 
     roller_radius_mm: float
@@ -111,12 +111,12 @@ LIMITS = (
     Limit("cam_core", "mm", 1.0, "material left around the cam's axis, beyond the dog's boss (no gap)", _WIND_LESS),
     Limit("cam_hub", "mm", 1.0, "gap between cam and hub, beyond the clearance and its reserve",
            f"{_WIND_LESS}, or a smaller bought.leg_bearing"),
-    Limit("cam_drop", "rad", 0.1, "cam angle left between the roller's fall, with the dog's play, and the next lift",
+    Limit("cam_drop", "rad", 0.1, "cam angle left between the roller's drop, with the dog's play, and the next lift",
            "a smaller bought.roller, or less release.play_deg"),
     Limit("cam_next_lift", "mm", 1.0, "gap of the leg past rest to the next lift, beyond the clearance and its reserve",
            "a smaller bought.roller, or less release.play_deg"),
-    Limit("cam_overshoot", "rad", 0.1, "room for the leg past rest, beyond the overshoot", "a smaller overshoot_rad"),
-    Limit("cam_place", "rad", 0.1, "range of directions in which the cam finds room around the hub", _WIND_LESS),
+    Limit("cam_overshoot", "rad", 0.1, "room for the leg past rest, beyond the overshoot", "a smaller body.stop_deg"),
+    Limit("cam_place", "rad", 0.1, "range of directions around the hub in which there is room for the cam", _WIND_LESS),
 )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""The dog between cam gear and cam: two jaws that push one way and let the cam run ahead the other way.
+"""The dog clutch between cam gear and cam: two jaws that transmit torque one way and have play the other way.
 
 While the motor winds, the gear's jaws push the cam's. At release the springs throw the cam forward faster than the
 gear turns; with free play ahead of it, the cam swings clear of the roller without turning gears and motor.
@@ -16,7 +16,7 @@ from jumpcad.dimensions import DOG_PLAY_MIN_DEG
 from jumpcad.transforms import Array
 
 PLAY_MORE_RAD = math.radians(3.0)
-"""Play beyond the roll-over, and window beyond what the play needs: what printing and wear may take; judgement."""
+"""Play beyond the roll-over, and window beyond what the play needs: for printing tolerances and wear; judgement."""
 JAWS = 2
 
 
@@ -45,7 +45,7 @@ class Dog:
 
     @property
     def jaw_rad(self) -> float:
-        """Width of a jaw; those of cam and gear are equal, since both bear the same torque."""
+        """Width of a jaw; those of cam and gear are equal, since both carry the same torque."""
         return (2.0 * math.pi / JAWS - self.play_rad) / 2.0
 
     @property

@@ -15,7 +15,7 @@ POSITIONS = 201
 EMPTY_SHARE = 0.6
 """Largest share of the stall torque on an empty battery; judgement: beyond half of it a motor gives less power."""
 LEAST_NM = 1e-9
-"""What is left of a motor that an empty battery does not turn: no gears make do with it."""
+"""Torque of a motor that does not turn on an empty battery: too small for any gears."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ def allowed_nm(motor: Motor, limits: TrainLimits) -> float:
     """Return the largest torque that a motor may give on its output.
 
     It is a share of the stall torque at the rated voltage, whatever the battery's is, since current heats the winding;
-    and a share of what it stalls with on an empty battery, so that it always winds.
+    and a share of the stall torque on an empty battery, so that it can always load the springs.
     """
     allowed = min(limits.stall_share * motor.stall_torque_nm, limits.torque_max_nm)
     return max(LEAST_NM, min(allowed, EMPTY_SHARE * limits.weakest(motor).stall_torque_nm))
@@ -44,7 +44,7 @@ def free_speed_rad_s(motor: Motor) -> float:
 
 
 def least_ratio(law: CamLaw, motor: Motor, limits: TrainLimits, pairs: int) -> float:
-    """Return the motor turns per cam turn that torque and speed need with a number of gear pairs."""
+    """Return the least motor turns per cam turn for torque and speed, with a number of gear pairs."""
     for_torque = law.peak_torque_nm / limits.efficiency(pairs) / allowed_nm(motor, limits)
     return max(for_torque, free_speed_rad_s(limits.fastest(motor)) / limits.cam_speed_max_rad_s)
 

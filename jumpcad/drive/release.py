@@ -1,7 +1,8 @@
-"""What a robot's release keeps of the springs' energy, and how hard it hits the gear motor, in a workshop's ranges.
+"""The release of a robot: the energy that is left in the springs, and the torque peak at the gear motor.
 
-The dog's far end stops the cam; the gear then takes up the gearhead's backlash and hits the motor. `rolling` has the
-model, `corner` the roller's path. Checked against a contact simulation of the exported meshes (`tests/clients`).
+The end of the dog's play stops the cam; the gear then takes up the gearhead's backlash and strikes the rotor. `rolling`
+has the model, `corner` the roller's path, `blows` the impacts.
+Checked against a contact simulation of the exported meshes (`tests/clients`).
 """
 
 import math
@@ -25,15 +26,15 @@ class ReleaseLimits:
     Attributes
     ----------
     energy_ratio_min
-        Least share of the springs' energy that they keep, the lever's bending aside.
+        Least share of the springs' energy that must be left, the energy of the lever's bending not counted.
     motor_nm, teeth_mpa
         Largest torque on the gear motor's output, and largest bending stress of teeth.
     rounding_mm
-        Of the corner, with which the limits must hold as well as with a sharp one.
+        Radius of a rounded corner, with which the limits must hold as well as with a sharp one.
     friction
         Coefficient between the cam's bore and its axle.
     rotor_kg_m2, backlash_rad
-        Of the motor's rotor, and of the gearhead at its output.
+        Moment of inertia of the motor's rotor, and backlash of the gearhead at its output.
     rebound
         Coefficient of restitution between the jaws.
     train_nm_per_rad
@@ -41,7 +42,7 @@ class ReleaseLimits:
     contact_n_per_m
         Stiffness of the roller on the cam.
     kick_reserve
-        Share by which the gear motor may be hit harder than computed.
+        Share by which the torque peak at the gear motor may exceed the computed one.
     """
 
     energy_ratio_min: float
@@ -84,16 +85,16 @@ class Release:
     off
         Where the jump starts: the roller has left the corner as printed.
     energy_ratio, rounded_ratio
-        What the springs keep, with the leg's motion, over what they held while the lever was bent: corner as printed,
-        and rounded.
+        Energy left in the springs plus the leg's kinetic energy, over the energy stored while the lever was bent: with
+        the corner as printed, and rounded.
     bending_ratio
-        What they held while the lever was bent, over what they would have held otherwise.
+        Energy stored while the lever was bent, over the energy stored with a rigid lever.
     blow_nm, kick_nm, kick_limit_nm
-        Largest torque in the dog, at the cam; largest one on the gear motor's output, and what it may be.
+        Largest torque in the dog, at the cam; torque peak on the gear motor's output, and its limit.
     gear_ratio, push_off_s
-        Motor turns a cam turn; from release until the leg is as far past rest as it may swing.
+        Motor turns per cam turn; time from release until the leg is as far past rest as it may swing.
     free_play_rad, roll_over_rad, window_rad
-        Of the dog; cam angle from the end of the lift until the roller can fall freely; between which it can.
+        Play of the dog; cam angle from the end of the lift until the roller can fall freely; range in which it can.
     """
 
     off: RollerOff
@@ -113,10 +114,11 @@ class Release:
 
 
 def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release:
-    """Return the release of a drive with its finished parts: the worst of sharp and rounded corner and of both motors.
+    """Return the release of a drive with its finished parts: the worst of four cases.
 
-    Heavy rotors come with much backlash and light ones with little, which are the extremes where the play is too
-    small; with enough of it, both give the same.
+    They are a sharp and a rounded corner, each with the heaviest rotor and the largest backlash, and with the lightest
+    and the smallest. These are the extremes where the dog's play is too small; with enough play the motor has no
+    influence.
     """
     geometry, law, train = drive.cam.geometry, drive.cam.law, drive.train
     sharp = roll_over(geometry)
@@ -160,7 +162,7 @@ def _parts(
     rotor_kg_m2: float,
     backlash_rad: float,
 ) -> ReleaseParts:
-    """Return what takes part in a release with one motor, at the cam; roller on cam gives way as at the lift's end."""
+    """Return the parts of a release with one motor, reflected to the cam; contact stiffness as at the lift's end."""
     train, lever_m = drive.train, drive.cam.lever_length_mm / 1000.0
     return ReleaseParts(
         spring=moving.spring,
@@ -187,7 +189,7 @@ def _roller_off(rolled: Rolled, spring: Spring) -> RollerOff:
 
 
 def _kick_limit_nm(drive: Drive, limits: ReleaseLimits) -> float:
-    """Return the largest torque on the gear motor's output: what its gearhead and every printed pinion bear."""
+    """Return the largest torque on the gear motor's output: what its gearhead and every printed pinion withstand."""
     allowed, geared = limits.motor_nm, 1.0
     for pair in drive.train.stages:
         allowed = min(allowed, limits.teeth_mpa / pair.pinion.lewis_stress_mpa(geared))
@@ -205,26 +207,26 @@ def _findings(
     push_off_s: float,
 ) -> tuple[Finding, ...]:
     play, over = math.degrees(drive.dog.play_rad), math.degrees(drive.cam.roll_over_rad)
-    turned, hard = drive.train.cam_speed_rad_s * push_off_s, (1.0 + limits.kick_reserve) * kick_nm
+    turned, reserved = drive.train.cam_speed_rad_s * push_off_s, (1.0 + limits.kick_reserve) * kick_nm
     needed, window = play + math.degrees(turned + PLAY_MORE_RAD), math.degrees(np.nan_to_num(window_rad))
     more_play = f'release.play_deg = "auto" or more than {over + 3.0:.0f}, or a smaller bought.roller'
     return (
         at_least(
             "release_energy", 100.0 * ratio, 100.0 * limits.energy_ratio_min, "%",
-            f"the springs keep {100.0 * ratio:.1f} % of their energy while the roller leaves the cam; "
-            f"{100.0 * limits.energy_ratio_min:g} % are needed (play {play:.0f}°, roll-over {over:.0f}°)",
+            f"{100.0 * ratio:.1f} % of the springs' energy is left after the release; "
+            f"{100.0 * limits.energy_ratio_min:g} % are needed (dog's play {play:.0f}°, roll-over {over:.0f}°)",
             more_play,
         ),
         at_most(
-            "release_kick", 1000.0 * hard, 1000.0 * allowed_nm, "mN·m",
-            f"the released cam hits the gear motor with {1000.0 * kick_nm:.0f} mN·m, {1000.0 * hard:.0f} mN·m with the "
-            f"reserve; {1000.0 * allowed_nm:.0f} mN·m are allowed",
+            "release_kick", 1000.0 * reserved, 1000.0 * allowed_nm, "mN·m",
+            f"torque peak at the gear motor when the released cam strikes: {1000.0 * kick_nm:.0f} mN·m, "
+            f"{1000.0 * reserved:.0f} mN·m with the reserve; {1000.0 * allowed_nm:.0f} mN·m are allowed",
             f"a stiffer lever, or {more_play}", grows="lever",
         ),
         at_most(
             "release_window", needed, window, "°",
-            f"the cam may run {needed:.0f}° past the end of its lift while the leg falls; the roller's way is free up "
-            f"to {window:.0f}°",
+            f"the cam may turn {needed:.0f}° past the end of its lift while the leg swings back; the roller's path is "
+            f"free up to {window:.0f}°",
             "a slower or lighter motor, less release.play_deg, or a smaller bought.roller",
         ),
     )  # fmt: skip

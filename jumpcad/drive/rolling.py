@@ -1,14 +1,14 @@
 """The release: the roller rolls over the cam's corner, the cam runs ahead through the dog's play to its end (SI).
 
-Three things move: cam (inertia J, angle phi), leg (inertia I reflected to its joint, wind angle theta), and between
-them the lever, an elastic link with the roller's mass at its end. While roller and corner touch, the corner gives the
-roller's wind angle w(phi); the lever's torque Q = k·(w - theta) turns cam and roller, less friction, and holds the leg
-against springs and weight. The roller leaves where the corner would have to pull it. What bends the lever goes to the
-cam, the lightest of the three.
+The model has a cam (inertia J, angle phi), a leg (inertia I reflected to its joint, wind angle theta), and between
+them the lever, an elastic link with the roller's mass at its end. During contact the corner sets the roller's wind
+angle w(phi); the lever's torque Q = k·(w - theta) accelerates cam and roller, less friction, and holds the leg against
+springs and weight. Contact ends where its force would be tension. The energy that bends the lever goes to the cam, the
+lightest of the three. The compliance of the contact itself is in series with the lever.
 
-The gear joins the cam at the end of the dog's play, the motor's rotor at that of the gearhead's backlash. If the corner
-then still stands below the falling roller, it catches it. How hard they hit each other, with rebounds, is in `blows`;
-friction in gears and gearhead is left out. Where roller and cam touch both give way, in series with the lever.
+The gear joins the cam at the end of the dog's play, the motor's rotor at the end of the gearhead's backlash. If the
+corner is then still below the falling roller, the roller lands on it again. `blows` has the torque peaks of these
+impacts, with rebound. Friction in gears and gearhead is not modelled.
 """
 
 import math
@@ -22,21 +22,21 @@ from jumpcad.mechanism.model import Spring
 from jumpcad.mechanism.reflected import ReflectedMass
 
 LONGEST_S = 1e-4
-"""Longest step in time, while the motor pushes the cam slowly: a hundredth of a swing of leg and lever."""
+"""Longest time step, used while the motor turns the cam slowly: a hundredth of an oscillation of leg and lever."""
 
 
 @dataclass(frozen=True)
 class ReleaseParts:
-    """What takes part in a release; inertias, angles and torques of the drive are those at the cam.
+    """The parts of a release; inertias, angles and torques of the drive are reflected to the cam.
 
     Attributes
     ----------
     spring, leg
-        Springs, and the robot as its leg joint feels it.
+        Springs, and the robot's mass and weight reflected to its leg joint.
     cam_kg_m2, gear_kg_m2, rotor_kg_m2
         Cam, cam gear with what turns with it, and the motor's rotor times the square of the whole ratio.
     play_rad, backlash_rad
-        Of the dog, and of gearhead and teeth.
+        The dog's play, and the backlash of gearhead and teeth.
     cam_rad_s
         Speed at which the gear pushes the cam over the end of the lift.
     rebound
@@ -71,7 +71,7 @@ class ReleaseParts:
         return 1.0 / (1.0 / self.lever_nm_per_rad + 1.0 / self.contact_nm_per_rad)
 
     def held_rad(self, roller_rad: float) -> float:
-        """Return the leg's wind angle that the bent lever holds with the roller wound to an angle."""
+        """Return the leg's wind angle in equilibrium, the lever bent and the roller at a wind angle."""
         weight = float(self.leg.at(np.array(roller_rad))[2])
         spring, lever = self.spring, self.held_nm_per_rad
         wind = lever * roller_rad - spring.stiffness_nm_per_rad * spring.preload_rad - weight
@@ -85,10 +85,9 @@ class Rolled:
     Attributes
     ----------
     wind_rad, wind_rad_s
-        The leg when the roller has left for good.
+        Angle and rate of the leg when the roller has left the cam for the last time.
     kept_j, held_j
-        What the springs still hold then, with the leg's motion; and what they held with the roller wound, the lever
-        bent.
+        Energy left in the springs then, plus the leg's kinetic energy; and the energy stored before, the lever bent.
     blow_nm, kick_nm
         Largest torque in the dog, and in the gear train behind its backlash, both at the cam.
     """
@@ -102,7 +101,7 @@ class Rolled:
 
 
 def roll(corner: Corner, parts: ReleaseParts, wound_rad: float) -> Rolled:
-    """Return the release over a corner of a leg whose roller was wound to an angle."""
+    """Return the release over a corner, the roller at first at a wind angle."""
     release = _Release(corner, parts)
     release.run()
     spring, inertia = parts.spring, float(parts.leg.at(np.array(release.wind))[0])
@@ -117,13 +116,13 @@ def roll(corner: Corner, parts: ReleaseParts, wound_rad: float) -> Rolled:
 
 
 class _Release:
-    """The state of one release: place on the corner (index), cam's speed and inertia, leg's wind angle and rate."""
+    """The state of one release: position on the corner (index), cam's speed and inertia, leg's wind angle and rate."""
 
     def __init__(self, corner: Corner, parts: ReleaseParts) -> None:
         self.corner, self.parts = corner, parts
         self.step = float(corner.cam_rad[1] - corner.cam_rad[0])
         self.leg_inertia, _, self.weight = parts.leg.at(corner.wind_rad)
-        # friction turns the contact force, so that the cam is driven as if the corner fell less steeply
+        # friction tilts the contact force: the cam is driven as by a corner of smaller slope
         self.drive = -(corner.slope + parts.friction_mm / corner.arm_mm)
         self.last = len(self.drive) - 1
         self.at = self.first = int(np.argmax(self.drive > 0.0)) if (self.drive > 0.0).any() else self.last
@@ -133,7 +132,7 @@ class _Release:
         self.blow_nm = self.kick_nm = 0.0
 
     def run(self) -> None:
-        """Go through the release: the cam alone, with the gear, with the motor too."""
+        """Compute the release: the cam alone, then with the gear, then with the motor too."""
         parts = self.parts
         if parts.play_rad > 0.0:
             self._push_to(self._index(parts.play_rad))
@@ -147,12 +146,12 @@ class _Release:
         end = self._index(parts.play_rad + parts.backlash_rad)
         self._push_to(end)
         met_nm = self._join(parts.rotor_kg_m2)
-        if parts.play_rad == 0.0 or end < self.last:  # the corner still stands below the roller
+        if parts.play_rad == 0.0 or end < self.last:  # the corner is still below the roller
             self.kick_nm = max(self.kick_nm, met_nm)
             self._push_off(end)
 
     def _push_off(self, end: int) -> None:
-        """Let the leg push the cam with the motor off the rest of the corner; what a hop gives the leg is lost."""
+        """Follow the rest of the corner, the leg driving cam and motor; the leg's energy in a rebound is lost."""
         self.at = max(self.at, end) if not self.touches else self.at
         while self.at < self.last:
             begin = self.at
@@ -164,11 +163,11 @@ class _Release:
                 self.at = max(self.at, begin + 1)
 
     def _index(self, angle_rad: float) -> int:
-        """Return the place at which the cam has run ahead by an angle; the last one where that is beyond the corner."""
+        """Return the index at which the cam has run ahead by an angle; the last one if that is beyond the corner."""
         return min(self.first + math.ceil(angle_rad / self.step), self.last)
 
     def _join(self, inertia: float) -> float:
-        """Meet another mass at rest; return the blow's largest torque: speed times the root of k, both in series."""
+        """Join another mass at rest without rebound; return the torque peak, speed·√(k·J1·J2/(J1 + J2))."""
         together = self.inertia + inertia
         blow = self.speed * math.sqrt(self.parts.train_nm_per_rad * self.inertia * inertia / together)
         self.speed *= self.inertia / together
@@ -176,14 +175,14 @@ class _Release:
         return blow
 
     def _fall_to(self, at: int) -> None:
-        """Let the leg fall until the roller meets the corner where the cam stands."""
+        """Move the leg towards rest until the roller touches the corner, at the cam's present angle."""
         here, spring = float(self.corner.wind_rad[at]), self.parts.spring
         lost = spring.stored_j(-self.wind) - spring.stored_j(-here)
         self.rate = -math.sqrt(max(self.rate**2 + 2.0 * lost / float(self.leg_inertia[at]), 0.0))
         self.wind, self.at, self.touches = min(self.wind, here), at, True
 
     def _push_to(self, stop: int) -> None:
-        """Let the leg push the cam until the roller leaves it or the cam gets to a place (semi-implicit Euler)."""
+        """Integrate the contact until the roller leaves the cam or the cam reaches an index (semi-implicit Euler)."""
         if not self.touches or stop <= self.at:
             return
         parts, part, step = self.parts, slice(self.at, stop + 1), self.step
@@ -205,7 +204,7 @@ class _Release:
                 break
             if with_motor:
                 self.kick_nm = max(self.kick_nm, parts.rotor_kg_m2 * gain)
-            square = max(grown, least)  # the motor goes on pushing
+            square = max(grown, least)  # the motor keeps turning the cam
             parts_of_it = math.ceil(step / math.sqrt(square) / LONGEST_S)
             time = step / math.sqrt(square) / parts_of_it
             for _ in range(parts_of_it):

@@ -3,7 +3,7 @@
 Formulas: EN 13906-3 (cold coiled torsion springs of round wire, 3 turns at least, 4 <= D/d <= 20). Rate
 k = E·d⁴/(64·D·n) per radian; n counts the arms, which bend as beams held at the coil, as a third of their length of
 wire. Stress q·32·M/(pi·d³) with q = (w + 0.07)/(w - 0.75), w = D/d, at the coil's inner fibre, where fatigue begins;
-0.7 of the tensile strength at most. Loading in the closing direction leaves D·n/(n + turns loaded) of the diameter.
+0.7 of the tensile strength at most. Loading in the closing direction reduces the diameter to D·n/(n + turns loaded).
 """
 
 import math
@@ -27,7 +27,7 @@ class SpringLimits:
     pin_radius_min_mm
         From the axle to the pins that hold the arms, at least: the body's pin crosses the plane of the main leg.
     pin_mm
-        Diameter of these pins.
+        Diameter of the pins.
     stress_share
         Allowable bending stress over tensile strength.
     plate_pins_rad
@@ -71,11 +71,11 @@ class TorsionSpring:
     arms
         Coil, wire and pins where the arms touch them, at rest.
     turns
-        Turns of the body when relaxed, which its maker winds; real-valued, so that rate and pins are met exactly.
+        Turns of the relaxed body; not a whole number, so that rate and pins are exact.
     stiffness_nm_per_rad
         Of this one spring.
     preload_rad, wound_rad
-        How far it is loaded in the rest pose, and when wound.
+        Loading angle in the rest pose, and at the end of the lift.
     plate_pin_rad, leg_pin_rad
         Directions of the pins from the hub, in the rest pose.
     body_length_mm
@@ -143,20 +143,20 @@ class TorsionSpring:
 
     @property
     def torque_nmm(self) -> float:
-        """Of this one spring when wound (N·mm)."""
+        """Of this one spring when loaded (N·mm)."""
         return 1000.0 * self.stiffness_nm_per_rad * self.wound_rad
 
     @property
     def pin_force_n(self) -> float:
-        """Of one arm on its pin when wound, square to the arm (N).
+        """Of one arm on its pin when loaded, square to the arm (N).
 
-        With the lever at rest: that of the wound, narrower coil is a little longer and the force smaller.
+        With the lever at rest: that of the loaded, narrower coil is a little longer and the force smaller.
         """
         return self.torque_nmm / self.arms.lever_mm
 
     @property
     def hands(self) -> tuple[Literal["right"], Literal["left"]]:
-        """Hands of the left and the right spring: from plate to leg the left one's wire nears a viewer on the right."""
+        """Hands of the left and the right spring: from plate to leg the left one's wire runs to the right."""
         return ("right", "left")
 
 
@@ -170,7 +170,7 @@ def torsion_spring(
     pins_rad: tuple[float, float],
     stock: str = "",
 ) -> TorsionSpring:
-    """Return one spring with what its loading does to it; `pins_rad` are the plate's and the leg's."""
+    """Return one spring with its loaded dimensions and stress; `pins_rad` are the plate's and the leg's."""
     d, wound = arms.wire_mm, on_leg.wind_rad + on_leg.preload_rad
     loaded_turns = turns + wound / FULL_TURN_RAD
     stress = inner_fibre(arms.mean_mm / d) * plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d)

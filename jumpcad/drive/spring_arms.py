@@ -1,4 +1,4 @@
-"""Where a torsion spring's arms touch their pins: tangents of the coil, each on its own side (mm, rad).
+"""Where a torsion spring's arms, which are tangents of the coil, touch their pins (mm, rad).
 
 Seen from the robot's right, angles counter-clockwise from forward, as everywhere in x-z. From its body arm to its leg
 arm the wire turns counter-clockwise around the hub. The body arm comes in from the plate's pin and the leg arm leaves

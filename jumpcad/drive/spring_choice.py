@@ -1,8 +1,8 @@
-"""Springs made to order: the smallest coil of the catalogue's wires whose arms meet their pins (mm, rad).
+"""Springs made to order: the smallest coil of the catalogue's wires whose arms touch their pins (mm, rad).
 
-The product D·n follows from the stiffness, the fraction of a turn from the pins: the arms' tangents meet them at rest
-(`jumpcad.drive.spring_arms`), so that n is the largest number that the limits allow of those one turn apart. A
-stock spring's turns are given: there the arms' length is what makes them meet the pins.
+The stiffness sets the product D·n. The pins set the fraction of a turn in n, since the arms touch them at rest
+(`jumpcad.drive.spring_arms`); the whole turns are as many as the limits allow. A stock spring's turns are given: there
+the arms' length is chosen so that they touch the pins.
 """
 
 import math
@@ -14,15 +14,15 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import Spring
 
 TURNS_MIN, INDEX_MIN, INDEX_MAX = 3.0, 4.0, 16.0
-"""Least turns and index D/d (scope of EN 13906-3), and the largest index; judgement: what makers of springs offer."""
+"""Least turns and index D/d (scope of EN 13906-3), and the largest index; judgement: what spring makers offer."""
 ROUNDS = 20
-"""Of the fixed points below, which gain a digit or more a round."""
+"""Iterations of the fixed points below; each gains a digit or more."""
 DIAMETER_DIGITS = 6
 """Diameters are found to a nanometre: arctangents differ between processors."""
 
 
 def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: SpringLimits) -> TorsionSpring:
-    """Find the pair of springs with the smallest outer diameter whose arms meet their pins.
+    """Find the pair of springs with the smallest outer diameter whose arms touch their pins.
 
     Parameters
     ----------
@@ -51,10 +51,10 @@ def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: Sp
             ]
             if springs:
                 return min(springs, key=lambda spring: (spring.outer_diameter_mm, spring.mass_g))
-    torque_nmm, wound = 500.0 * on_leg.peak_torque_nm, math.degrees(on_leg.wind_rad + on_leg.preload_rad)
+    torque_nmm, loaded = 500.0 * on_leg.peak_torque_nm, math.degrees(on_leg.wind_rad + on_leg.preload_rad)
     raise CannotBuildError(
         f"no wire of {wire.diameters_mm[0]:g} to {wire.diameters_mm[-1]:g} mm makes a torsion spring for "
-        f"{torque_nmm:.0f} N·mm at {wound:.1f}° in {limits.outer_max_mm:g} mm diameter and "
+        f"{torque_nmm:.0f} N·mm at {loaded:.1f}° in {limits.outer_max_mm:g} mm diameter and "
         f"{max(limits.body_lengths_max_mm):g} mm length: lower stiffness_nmm_per_deg or compression_ratio, or give the "
         "springs more room"
     )
@@ -63,7 +63,7 @@ def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: Sp
 def _smallest_arms(
     d: float, tensile_mpa: float, on_leg: Spring, wire: Wire, limits: SpringLimits, length_max_mm: float
 ) -> Arms | None:
-    """Return the smallest coil of one wire that strength, length and bushing allow, or nothing where none does."""
+    """Return the smallest coil of one wire that strength, length and bushing allow; None if there is none."""
     loaded = (on_leg.wind_rad + on_leg.preload_rad) / FULL_TURN_RAD
     index = _least_index(limits.stress_share * tensile_mpa / plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d))
     product = _product_mm(d, on_leg, wire)
@@ -83,9 +83,10 @@ def _smallest_arms(
 
 
 def _arms_between(least: Arms, on_leg: Spring, between_rad: float, wire: Wire, limits: SpringLimits) -> Arms | None:
-    """Return the smallest coil, of the least one's wire, whose arms meet pins an angle apart, or nothing.
+    """Return the smallest coil of a wire whose arms touch pins an angle apart; None if there is none.
 
-    What the pins ask for is left when whole turns are taken away; fewer turns make the coil wider.
+    `least` is the smallest coil that the limits allow. The pins set the fraction of a turn; the whole turns are reduced
+    where needed, and fewer turns make the coil wider.
     """
     arms, d = least, least.wire_mm
     product = _product_mm(d, on_leg, wire)

@@ -1,4 +1,4 @@
-"""Springs from stock: what they make of a design's stiffness, and where pins stand that fit their arms (mm, rad)."""
+"""Springs from stock: the stiffness that they have, and the positions of pins that fit their arms (mm, rad)."""
 
 import math
 
@@ -20,7 +20,7 @@ def springs_on_leg(design: Design, stock: StockSpring | None = None, preload_rad
 
 
 def rate_finding(design: Design, stock: StockSpring) -> Finding:
-    """Return `spring_rate`: the stiffness that a design asks for and the one that two springs from stock have."""
+    """Return `spring_rate`: the stiffness of a design compared with that of two springs from stock."""
     asked, have = design.stiffness_nmm_per_deg, 2.0 * stock.rate_nmm_per_deg
     return Finding(
         "spring_rate", "info", have - asked, "N·mm/°",
@@ -33,13 +33,13 @@ def rate_finding(design: Design, stock: StockSpring) -> Finding:
 def fitted_spring(
     stock: StockSpring, on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: SpringLimits
 ) -> TorsionSpring:
-    """Return a stock spring with arms of such a length that their tangents meet the pins at rest.
+    """Return a stock spring with arms of such a length that they touch the pins at rest.
 
     Raises
     ------
     CannotBuildError
-        If the arms reach no pin in any direction that is tried, or if the loaded coil grips its bushing; with the
-        number that misses.
+        If the arms reach no pin in any direction that is tried, or if the loaded coil binds on its bushing; the message
+        says by how much.
     """
     d, mean, turns = stock.wire_mm, stock.inside_diameter_mm + stock.wire_mm, stock.wound_turns
     beside, (shortest, longest) = beside_mm(mean, d, limits.pin_mm), _arm_turns_rad(stock, limits)
@@ -56,9 +56,9 @@ def fitted_spring(
     spring = torsion_spring(arms, turns, on_leg, tensile, wire, limits, (plate_pin, leg_pin_rad), stock.name)
     if spring.mandrel_mm < limits.mandrel_min_mm:
         raise CannotBuildError(
-            f"bought.spring = {stock.name!r}: wound, its coil leaves a bushing of {spring.mandrel_mm:.2f} mm; "
-            f"{limits.mandrel_min_mm:.2f} mm go around the axle: choose one with a larger inside diameter, or lower "
-            "compression_ratio"
+            f"bought.spring = {stock.name!r}: when loaded, its coil leaves room for a bushing of "
+            f"{spring.mandrel_mm:.2f} mm; the axle needs one of {limits.mandrel_min_mm:.2f} mm: choose one with "
+            "a larger inside diameter, or lower compression_ratio"
         )
     return spring
 
@@ -72,24 +72,24 @@ def _arm_turns_rad(stock: StockSpring, limits: SpringLimits) -> tuple[float, flo
 
 
 def _no_pins(stock: StockSpring, on_leg: Spring, leg_pin_rad: float, limits: SpringLimits) -> str:
-    """Say which directions of the plate's pin a stock spring's arms reach, and which there are."""
+    """Return a message: directions of the plate's pin that a stock spring needs, and those that are free."""
     shortest, longest = _arm_turns_rad(stock, limits)
     if longest < shortest:
         needed = math.tan(shortest) * beside_mm(stock.inside_diameter_mm + stock.wire_mm, stock.wire_mm, limits.pin_mm)
         return (
             f"bought.spring = {stock.name!r}: its arms of {stock.arm_length_mm:g} mm do not reach the pins; "
-            f"{needed + ARM_BEYOND_MM:.1f} mm do: choose one with longer arms"
+            f"{needed + ARM_BEYOND_MM:.1f} mm are needed: choose one with longer arms"
         )
     first, last = min(limits.plate_pins_rad), max(limits.plate_pins_rad)
     ends = [
         math.degrees(leg_pin_rad - on_leg.preload_rad - FULL_TURN_RAD * stock.wound_turns - 2.0 * turn) % 360.0
         for turn in (longest, shortest)
     ]
-    # a larger angle of the arms moves the plate's pin on by as much
+    # a larger angle between the arms turns the plate's pin by as much
     less, more = (ends[0] - math.degrees(last)) % 360.0, (math.degrees(first) - ends[1]) % 360.0
     fits = (stock.arm_angle_deg + (more + 1.0 if more < less else -less - 1.0)) % 360.0
     return (
-        f"bought.spring = {stock.name!r}: arms {stock.arm_angle_deg:g}° apart want the plate's pin between "
+        f"bought.spring = {stock.name!r}: with arms {stock.arm_angle_deg:g}° apart, the plate's pin must be between "
         f"{ends[0]:.0f}° and {ends[1]:.0f}° from forward; there is room from {math.degrees(first):.0f}° to "
         f"{math.degrees(last):.0f}°, {min(less, more):.0f}° away: choose a spring with arms about {fits:.0f}° "
         "apart, or change rest_angle_deg"

@@ -23,7 +23,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 
 LEAST_TURN_RAD = math.radians(1.0)
-"""That the motor may turn the cam on while the leg falls, at least: a window without room is told by its finding."""
+"""Least cam angle that the motor may turn while the leg swings back; `release_window` reports where there is less."""
 LEAST_COMPRESSION_RAD = math.radians(0.5)
 """Below it the cam's lift is less than a printer can resolve; judgement."""
 LEG_SHARE = 0.5
@@ -40,19 +40,19 @@ class DriveLimits:
     Attributes
     ----------
     motors
-        Names in the catalogue; none stands for every one.
+        Names in the catalogue; an empty tuple allows all.
     dog_mm
         Diameter of the dog between cam and cam gear.
     stock_spring, preload_rad
         The springs from stock, None where they are made to order; how far they are loaded at rest.
     gap_mm
-        Gap between things that pass each other.
+        Gap between parts that move past each other.
     axle_radius_mm
         Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
         spring, and of an idler's axle beside the cam.
     fall_s
-        Time from release to the leg's swing past rest, during which the motor may turn on the cam; the default is that
-        of robots of 0.1 kg with strong springs.
+        Time from release to the leg's swing past rest, during which the motor may turn the cam; the default is that of
+        robots of 0.1 kg with strong springs.
     face_widths_mm
         Face widths of gears, in the order tried: the next one where no gears are strong enough and also fit.
     more_gap_mm
@@ -132,8 +132,8 @@ def _spring(design: Design, limits: DriveLimits, catalogue: Catalogue) -> Torsio
     reach = LEG_SHARE * design.l2_mm
     if spring.pin_radius_mm > reach:
         raise CannotBuildError(
-            f"bought.spring = {stock.name!r}: its arms want the leg's pin {spring.pin_radius_mm:.1f} mm from the axle; "
-            f"a leg of {design.l2_mm:.1f} mm has room up to {reach:.1f} mm: choose a smaller spring, or raise "
+            f"bought.spring = {stock.name!r}: its arms need the leg's pin {spring.pin_radius_mm:.1f} mm from the axle; "
+            f"in a leg of {design.l2_mm:.1f} mm at most {reach:.1f} mm is possible: choose a smaller spring, or raise "
             "carrying_link_mm"
         )
     return replace(spring, findings=(*spring.findings, rate_finding(design, stock)))

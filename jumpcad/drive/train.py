@@ -57,7 +57,7 @@ class GearTrain:
 
     @property
     def electrical_j(self) -> float:
-        """What the battery gives for one jump: to the motor, and to the boards while it winds."""
+        """Energy from the battery for one jump: of the motor, and of the boards while it winds."""
         return self.motor_j + self.boards_j
 
 

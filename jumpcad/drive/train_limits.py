@@ -54,8 +54,8 @@ class TrainLimits:
     axle_mm
         Radius around the cam's axle that an idler's large gear must leave free: that of its spacer, and the gap.
     cam_speed_max_rad_s
-        Of the unloaded cam; judgement. `synthesis` allows less, so that while the leg falls it does not bring the next
-        lift under the roller.
+        Of the unloaded cam; judgement. `synthesis` allows less, so that the next lift does not reach the roller
+        while the leg swings back.
     seconds_per_gram
         Seconds of winding accepted per gram saved; judgement.
     """

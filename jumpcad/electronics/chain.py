@@ -1,4 +1,4 @@
-"""The chain of voltages from the battery to the motor's winding: what reaches each link, and what it bears (V)."""
+"""The chain of voltages from the battery to the motor's winding: the voltage at each link and its rated range (V)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ Range = tuple[float, float]
 
 @dataclass(frozen=True)
 class Link:
-    """One part of the chain: at its input `pin` it gets `gets_v`, and bears `bears_v` (None: its maker's is unknown).
+    """One part of the chain: `gets_v` is the voltage at its input `pin`, `bears_v` its rated range (None if unknown).
 
     `role` is `controller`, `driver`, `regulator`, `motor` or a small part's; `remedy` says what to change.
     """
@@ -26,7 +26,7 @@ class Link:
 
 
 def supply_pin(board: Board, volts: Range) -> str:
-    """Return the input that bears a range of volts, else the first; empty where none is known."""
+    """Return the input rated for a range of volts, else the first; empty where none is known."""
     bears = (pin for pin, (low, high) in board.supply_v.items() if low <= volts[0] and volts[1] <= high)
     return next(bears, next(iter(board.supply_v), ""))
 

@@ -1,4 +1,4 @@
-"""The net list: which terminals are joined, by what wire, and what is wrong with it.
+"""The net list: which terminals are connected, by what wire, and its errors.
 
 Terminals have the names printed on the boards. Pins of the controller are chosen by what they can do, or named by the
 workshop (`[bought.pins]`).
@@ -22,7 +22,7 @@ UPPER_OHMS = (200_000, 470_000, 680_000, 1_000_000)
 SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": ""}
 """Signals of the controller in the order in which they get their pins, and what a pin must be able to do."""
 AVOIDED = ("strapping", "boot_log")
-"""What makes a pin unfit: its level at start chooses how the chip boots, or the chip writes on it."""
+"""Functions that make a pin unsuitable: its level at start chooses how the chip boots, or the chip writes on it."""
 GPIO = re.compile("gpio([0-9]{1,3})")
 COLOURS = {"supply": "red", "logic": "orange", "ground": "black", "motor": "blue", "signal": "yellow"}
 
@@ -40,7 +40,7 @@ class Terminal:
 
 @dataclass(frozen=True)
 class Net:
-    """Terminals that are joined; the first is where they get their voltage or signal from. `kind` gives the colour."""
+    """Terminals that are connected; the first is the source of their voltage or signal. `kind` gives the colour."""
 
     name: str
     kind: str
@@ -62,7 +62,7 @@ class Net:
 
 @dataclass(frozen=True)
 class Wiring:
-    """All nets; `pins` are the controller's by signal (absent where it has none left), `upper_ohm` of the divider."""
+    """All nets; `pins` are the controller's by signal (absent where none is left), `upper_ohm` is of the divider."""
 
     nets: tuple[Net, ...]
     pins: dict[str, str]
@@ -107,13 +107,13 @@ def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
     lacking = [role for role in ("battery", *chosen.boards) if role not in grounded]
     yield _yes_or_no(
         "wiring_ground", not lacking, "error",
-        "every board is joined to the battery's minus" if not lacking else f"no ground at {', '.join(lacking)}",
+        "every board is connected to the battery's minus" if not lacking else f"no ground at {', '.join(lacking)}",
         'give the board a pin with "ground"',
     )  # fmt: skip
     yield _yes_or_no(
         "wiring_capacitor", "capacitor" in chosen.components, "warning",
-        f"{'a' if 'capacitor' in chosen.components else 'no'} capacitor stands beside the driver",
-        "name one in bought.capacitor: the motor's start would lower the controller's voltage",
+        f"{'a' if 'capacitor' in chosen.components else 'no'} capacitor is connected to the driver's supply",
+        "name one in bought.capacitor: without it the starting motor lowers the controller's voltage",
     )  # fmt: skip
     if chosen.regulator is not None:
         pin = supply_pin(chosen.controller, _logic_range(chosen))
@@ -121,7 +121,7 @@ def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
         yield _yes_or_no(
             "wiring_diode", not needed or chosen.diode is not None, "error",
             f"{chosen.controller.name} {'has its' if chosen.diode else 'needs a'} diode at {pin}",
-            "name one in bought.diode: USB would feed the regulator",
+            "name one in bought.diode: without it USB feeds current into the regulator's output",
         )  # fmt: skip
 
 
@@ -130,7 +130,7 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
     have = [signal for signal in SIGNALS if signal in wiring.pins]
     missing = [s for s in ("motor", "ready") if s not in wiring.pins]
     if "sensor" not in chosen.components:
-        return _yes_or_no("wiring_pins", False, "error", "no sensor says when the robot is wound",
+        return _yes_or_no("wiring_pins", False, "error", "no sensor reports that the springs are loaded",
                           "name one in bought.sensor")  # fmt: skip
     lost = [f for f in ("forward", "motor+", "motor-") if not chosen.driver.with_function(f)]
     twice = [pin for pin, count in Counter(wiring.pins.values()).items() if count > 1]
@@ -151,7 +151,7 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
 
 
 def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:
-    """Return whether the pins can do what their signals need, and none decides how the chip boots."""
+    """Return whether the pins can do what their signals need, and that no strapping pin is among them."""
     wrong = []
     for signal, pin in wiring.pins.items():
         functions = chosen.controller.pins.get(pin, ())
@@ -169,7 +169,7 @@ def _yes_or_no(name: str, good: bool, severity: str, message: str, remedy: str) 
 
 
 def _pins(controller: Board, wanted: list[str], named: Mapping[Any, str]) -> dict[str, str]:
-    """Return a pin for each signal, as long as there are any: those named, then the least capable that will do."""
+    """Return a pin for each signal while there are any: those named, then the least capable suitable one."""
     pins = {signal: named[signal] for signal in wanted if signal in named}
     for signal in wanted:
         if signal in pins:
@@ -229,7 +229,7 @@ def _power_nets(chosen: Chosen, pins: dict[str, str], upper: int | None) -> Iter
 
 
 def _ground_net(chosen: Chosen, pins: dict[str, str]) -> Net:
-    """Return what is joined to the battery's minus; the driver's reverse input too: the cam must not turn back."""
+    """Return what is connected to the battery's minus, the driver's reverse input too: the cam must not turn back."""
     components = chosen.components
     ends = [Terminal("battery", "-")]
     ends += [Terminal("plug", "-")] if "plug" in components else []

@@ -1,7 +1,7 @@
-"""What drives the motor: battery, driver and PWM, and what the boards take beside it (V, A, ohm, N·m, W).
+"""Supply of the motor: battery, driver and PWM, and the power of the boards (V, A, ohm, N·m, W).
 
 A brushed motor is linear: with the resistance R = V/I_stall and the constants k of torque and voltage, a source of U
-behind a resistance r turns the unloaded shaft with (U - I_0·(R + r))/k and stalls it with U/(R + r).
+in series with a resistance r turns the unloaded shaft with (U - I_0·(R + r))/k and stalls it with U/(R + r).
 """
 
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ class Supply:
     def duty(self, motor: Motor, torque_max_nm: float) -> float:
         """Return the largest share of PWM at which a full battery overloads neither gearbox nor winding: at most 1.
 
-        The resistance before the motor, which is not known well, is not counted on.
+        The series resistance, which is not known well, is neglected: this is on the safe side.
         """
         rise = (motor.stall_current_a - motor.no_load_current_a) / motor.stall_torque_nm
         stall_v = _ohm(motor) * (motor.no_load_current_a + rise * torque_max_nm)

@@ -6,12 +6,12 @@ from jumpcad.catalogue import LegBar
 from jumpcad.errors import CannotBuildError
 
 SOCKET_HEIGHTS = 5.0
-"""Length of the socket that bears the leg's bending, in heights of the bar; judgement: pultruded carbon bears little
-shear, and the shorter the socket the larger the forces with which it turns the bar."""
+"""Length of the socket that carries the leg's bending moment, in heights of the bar; judgement: pultruded carbon has
+little shear strength, and the shorter the socket, the larger the forces by which it transmits the moment."""
 END_SOCKET_MM = 8.0
 """Length of the other sockets, at eyes without a moment; judgement: twice the bar's height or more."""
 END_PLAY_MM = 0.2
-"""Between the bar's ends and the sockets' floors; judgement: bars cut by hand, and the glue that they push ahead."""
+"""Gap between the bar's ends and the sockets' floors; judgement: bars cut by hand, and room for displaced glue."""
 FREE_MM = 5.0
 """Least length between the sockets; judgement: less is not worth a bar."""
 
@@ -38,9 +38,9 @@ class BarPlace:
 
 
 def bar_place(what: str, bar: LegBar, first_mm: float, least_mouth_mm: float, last_mm: float, bends: bool) -> BarPlace:
-    """Return the place of a bar from `first_mm` to `last_mm` along a leg, its first socket at least to a mouth.
+    """Return the place of a bar from `first_mm` to `last_mm` along a leg, the first socket's mouth not before a limit.
 
-    `bends` tells whether the first socket bears a moment.
+    `bends` tells whether the first socket carries a bending moment.
 
     Raises
     ------

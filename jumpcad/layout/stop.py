@@ -1,6 +1,6 @@
-"""The rest stop: a bar between the plates behind the main leg, with a pad that the leg's heel meets (mm).
+"""The rest stop: a bar between the plates behind the main leg, with a pad that the leg's heel touches (mm).
 
-Until then nothing else may meet: the room that the links sweep reaches as far past rest as stop and pad let them go.
+Nothing else may touch before: the links' room extends as far past rest as stop and pad let them turn.
 """
 
 import math
@@ -21,17 +21,17 @@ from jumpcad.transforms import Array, direction
 from jumpcad.workshop.workshop import STOP_PAD_MIN_MM
 
 LEAST_DEG, STEP_DEG = 3.0, 0.5
-"""Least angle past rest, and between those tried below the one asked for; judgement: less is within play and bending.
-"""
+"""Least angle past rest, and step to the angles tried below the required one; judgement: less is within play and
+bending."""
 GIVE_ROOM_RAD = math.radians(3.0)
-"""Kept free, with the usual clearances, beyond the stop for the pad's give; judgement, checked by `stop_clearance`."""
+"""Room beyond the stop for the pad's deflection, with the usual clearances; judgement, checked by `stop_clearance`."""
 HEEL_MM = 0.2
-"""By how much the leg's heel stands out beyond its boss, so that a flat face meets the pad; one layer."""
+"""By how much the leg's heel stands out beyond its boss, so that a flat face touches the pad; one layer."""
 TAB_MM = (5.0, 4.0)
-"""Size of the bar's tabs in the plates, along the leg and in the direction of the blow; judgement. They lie at the
+"""Size of the bar's tabs in the plates, along the leg and in the direction of the impact; judgement. They lie at the
 bar's edge nearest to the hub, so that the plates reach down no further than the bar."""
 EAR_MM = 16.0
-"""Width of the plates' ears at the pivots' line, from the leg's axle forwards; judgement: the blow bends them there."""
+"""Width of the plates' ears at the pivots' line, from the leg's axle forwards; judgement: the impact bends them."""
 NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.25
 """Distances of the pad's middle from the hub, along the leg; judgement: a pad near the hub lets the leg turn far."""
 
@@ -43,7 +43,7 @@ class StopPlace:
     Attributes
     ----------
     angle_rad
-        Of the leg past rest when its heel meets the pad.
+        Of the leg past rest when its heel touches the pad.
     direction_rad
         Direction of the leg then, below the x axis: the pad's face is parallel to it.
     radius_mm, heel_mm
@@ -51,9 +51,9 @@ class StopPlace:
     face_mm
         Middle (2,) of the pad's free face.
     depth_mm
-        Of the bar, in the direction of the blow.
+        Of the bar, in the direction of the impact.
     pad
-        What is glued on.
+        The pad that is glued on.
     """
 
     angle_rad: float
@@ -66,12 +66,12 @@ class StopPlace:
 
     @property
     def reach_rad(self) -> float:
-        """How far past rest the links have room: stop and give of the pad."""
+        """How far past rest the links have room: angle of the stop plus deflection of the pad."""
         return self.angle_rad + GIVE_ROOM_RAD
 
     @property
     def behind(self) -> Array:
-        """Unit vector (2,) of the blow, from the pad's face into the bar."""
+        """Unit vector (2,) of the impact, from the pad's face into the bar."""
         return np.round(direction(self.direction_rad + math.pi / 2.0), 9)
 
     @property
@@ -110,12 +110,12 @@ def tab_offset_mm(along: Array, behind: Array) -> Array:
 
 
 def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> float:
-    """Return the angle past rest of the stop: the one asked for, or the largest below it that the links can reach.
+    """Return the angle past rest of the stop: the required one, or the largest below it that the links can reach.
 
     Raises
     ------
     CannotBuildError
-        If the loop does not close, or leg and front link meet, before the least angle with the pad's give.
+        If the loop does not close, or leg and front link collide, at the least angle with the pad's deflection.
     """
     least = math.radians(LEAST_DEG)
     angle = wanted_rad
@@ -125,19 +125,19 @@ def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> f
             return angle
         if angle <= least:
             raise CannotBuildError(
-                f"no rest stop: {missing} with the leg {math.degrees(angle + GIVE_ROOM_RAD):.1f}° past rest, as far as "
-                f"a stop at {LEAST_DEG:g}° and its pad let it go: lower rest_angle_deg, or raise d_coef or c_coef"
+                f"no rest stop: {missing} with the leg {math.degrees(angle + GIVE_ROOM_RAD):.1f}° past rest, which a "
+                f"stop at {LEAST_DEG:g}° and its pad's deflection need: lower rest_angle_deg, or raise d_coef or c_coef"
             )
         angle = max(angle - math.radians(STEP_DEG), least)
 
 
 def _missing(linkage: Linkage, sections: Sections, reach_rad: float) -> str:
-    """Return what keeps the links from turning that far past rest, or nothing."""
+    """Return what prevents the links from turning that far past rest; empty if nothing does."""
     short = float(linkage.diagonal_mm(reach_rad)) - linkage.l3 - linkage.l4
     if short > 0.0:
         return f"foot and front link are {short:.1f} mm too short to close the loop"
     room = legs_apart_mm(linkage, sections, reach_rad) - GAP_MM
-    return f"main leg and front link come {-room:.1f} mm nearer than {GAP_MM:g} mm" if room < 0.0 else ""
+    return f"the gap of main leg and front link is {-room:.1f} mm less than {GAP_MM:g} mm" if room < 0.0 else ""
 
 
 def stop_place(

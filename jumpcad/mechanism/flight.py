@@ -1,8 +1,8 @@
-"""The leg from release to its rest stop: what the stop must take (numpy only; kg, m, s, rad, J).
+"""The leg from release to its rest stop, and its impact there (numpy only; kg, m, s, rad, J).
 
-The foot stands flat, rolls on its toes' tips or on its nose without slipping, and leaves the ground where this no
-longer pushes; then the links move about the common centre of mass, whose momenta stay. There is no friction and no
-damping, so that the blow is not underestimated. Points in x-z are complex numbers x + iz; angles are below x.
+The foot stands flat, or rolls on its toes' tips or its nose without slipping, and takes off when the ground force
+becomes zero. In flight momentum and angular momentum of the links are conserved. There is no friction and no damping,
+so that the impact is not underestimated. Points in x-z are complex numbers x + iz; angles are below x.
 """
 
 from collections.abc import Mapping
@@ -17,19 +17,19 @@ from jumpcad.mechanism.planar import about_common_centre, dot, seen_from_foot
 from jumpcad.transforms import Array
 
 POSITIONS = 241
-"""Leg angles at which the bodies' places are known; straight lines lie between them."""
+"""Leg angles at which the bodies' positions are computed; linear interpolation between them."""
 STEP_S = 1e-3
-"""Time step of the push-off; with half of it, blows of the template designs change by 0.5 % at most."""
+"""Time step of the push-off; with half of it, impact energies of the template designs change by 0.5 % at most."""
 GIVEN_UP_S = 0.4
 """A robot that stands on the ground this long after release does not jump."""
 
 
 @dataclass(frozen=True)
 class Blow:
-    """What the stop takes: leg angle at take-off, leg rate at the stop, inertia there about the leg's joint.
+    """The leg's impact on its stop: leg angle at take-off, leg rate at the stop, effective inertia there.
 
-    `inertia_kg_m2` is that of the links in free flight, with which the leg's rate alone makes up their motion about
-    the common centre of mass: ½·I·ω² is lost when the leg comes to a stand.
+    `inertia_kg_m2` is the effective inertia about the leg's joint in free flight: ½·I·ω² is the energy that is lost
+    when the leg stops relative to the body.
     """
 
     takeoff_rad: float
@@ -38,15 +38,15 @@ class Blow:
 
     @property
     def energy_j(self) -> float:
-        """Energy of the blow (J)."""
+        """Energy of the impact (J)."""
         return 0.5 * self.inertia_kg_m2 * self.stop_rad_s**2
 
 
 def leg_blow(bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_rad: float) -> Blow:
-    """Return the blow of the leg at a stop past rest, after a push-off from loaded springs.
+    """Return the impact of the leg on a stop past rest, after a push-off from loaded springs.
 
-    In flight ½·I·q̇² + ½·H²/J + V stays, with the angular momentum H and the inertia J of all about their centre, and
-    the springs' energy V.
+    In flight ½·I·q̇² + ½·H²/J + V is constant, with the angular momentum H and the inertia J of all about their centre,
+    and the springs' energy V.
 
     Raises
     ------
@@ -102,7 +102,7 @@ class _Chain:
         return here(self.place), here(self.place1), here(self.place2), turns.real, turns.imag
 
     def equations(self, state: _State) -> tuple[Array, Array, tuple[Complex, Complex, Complex]]:
-        """Return inertia (2, 2) and force (2,) for leg and foot, and what gives accelerations: by each, rest."""
+        """Return inertia (2, 2) and force (2,) for leg and foot, and the terms of the accelerations: by each, rest."""
         place, place1, place2, turn1, turn2 = self.at(state.leg_rad)
         spin = np.exp(-1j * state.foot_rad)
         centre = state.pivot.centre_m
@@ -138,7 +138,7 @@ class _Chain:
         return momentum, 0.5 * double
 
     def in_flight(self, leg_rad: float) -> tuple[float, float]:
-        """Return the inertia that the leg meets in free flight, and that of all bodies about their common centre."""
+        """Return the effective inertia of the leg in free flight, and that of all bodies about their common centre."""
         place, place1, _, turn1, _ = self.at(leg_rad)
         momentum, double, whole = about_common_centre(self.mass, self.inertia, place, place1, turn1)
         return double - momentum**2 / whole, whole
@@ -170,13 +170,13 @@ def _on_the_sole(chain: _Chain, state: _State, nose: ContactSphere, toe: Contact
     for pivot, sign in ((toe, 1.0), (nose, -1.0)):
         tried = _State(state.leg_rad, 0.0, state.leg_rad_s, 0.0, pivot)
         matrix, force, _ = chain.equations(tried)
-        if sign * (matrix[0, 1] * force[0] / matrix[0, 0] - force[1]) > 0.0:  # the ground would have to pull
+        if sign * (matrix[0, 1] * force[0] / matrix[0, 0] - force[1]) > 0.0:  # the other end would need tension
             return tried, False
     return state, True
 
 
 def _accelerations(chain: _Chain, state: _State, flat: bool) -> tuple[tuple[float, float], float]:
-    """Return leg's and foot's acceleration, and the ground's push."""
+    """Return leg's and foot's acceleration, and the ground's normal force."""
     matrix, force, (by_leg, by_foot, rest) = chain.equations(state)
     if flat:
         leg, foot = float(force[0] / matrix[0, 0]), 0.0

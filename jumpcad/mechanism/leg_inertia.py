@@ -1,4 +1,4 @@
-"""What a torque on the leg joint has to turn while the robot is in the air."""
+"""Effective inertia of the leg joint while the robot is in the air."""
 
 import cmath
 
@@ -9,17 +9,17 @@ from jumpcad.mechanism.planar import about_common_centre, points
 
 
 def leg_inertia_kg_m2(mechanism: Mechanism, leg_rad: float) -> float:
-    """Return the inertia of the leg joint of a flying robot, at a coordinate of it.
+    """Return the effective inertia of the leg joint of a flying robot, at a joint coordinate (kg·m²).
 
-    Twice the kinetic energy of the links that turn with the leg at 1 rad/s, less what the whole robot takes over by
-    moving and turning against them: in flight its momenta are zero (König's theorem, twice).
+    Twice the kinetic energy of the links at a leg rate of 1 rad/s with the body held, less that of the common
+    translation and rotation: in flight momentum and angular momentum are zero (König's theorem, twice).
     """
     linkage = mechanism.linkage
     l1, l2, rest = linkage.l1 / 1000.0, linkage.l2 / 1000.0, linkage.rest_rad
     pose = linkage.pose([leg_rad])
     foot, front, _ = linkage.rates(leg_rad)
     ankle = -l1 / 2.0 + l2 * cmath.exp(-1j * (rest + leg_rad))
-    motions = (  # of each frame, with the body held: origin, its velocity, angle, rate
+    motions = (  # of each frame, the body held: origin, its velocity, angle, rate
         (0j, 0j, 0.0, 0.0),
         (complex(-l1 / 2.0), 0j, rest + leg_rad, 1.0),
         (complex(l1 / 2.0), 0j, rest + float(pose.front_rad[0]), front),

@@ -26,7 +26,7 @@ BODY, MAIN_LEG, FRONT_LINK, FOOT = BODY_NAMES = ("body", "main_leg", "front_link
 JOINT_SPEED_RAD_S = 100.0
 """Joint speed at which PyBullet limits joints; releases of light designs reach it (measured)."""
 RANGE_POINTS = 33
-"""Leg angles at which the ranges of the other joints are looked for."""
+"""Leg angles at which the ranges of the other joints are computed."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ class Spring:
 
 @dataclass(frozen=True)
 class Stop:
-    """What holds a joint at q = angle_rad beyond rest: a pad, elastic until the joint stands still, without rebound."""
+    """What stops a joint at q = angle_rad beyond rest: a pad, elastic until the joint stands still, without rebound."""
 
     joint: str
     angle_rad: float
@@ -144,7 +144,7 @@ class Stop:
 class RollerOff:
     """The state in which the roller has left the cam, where the jump begins: coordinate and rate of the leg joint.
 
-    `energy_ratio` is what the springs still hold there, with the leg's motion, over the energy that was loaded.
+    `energy_ratio` is the energy left in the springs there, plus the leg's kinetic energy, over the loaded energy.
     """
 
     leg_rad: float
@@ -171,8 +171,8 @@ class Mechanism:
     """The planar five-bar of one jumping robot: four rigid bodies, three joints, one loop, the springs.
 
     `foot_depth_m` is the distance from the line through ankle and front eye down to the ground on a flat foot.
-    A printed robot has a `stop`, starts with `roller_off`, and rubs with its own `friction`; the capsules of the study
-    have none of them: the study's settings say what rubs.
+    A printed robot has a `stop`, starts with `roller_off`, and has its own `friction`; the capsules of the study have
+    none of them, and take friction from the study's settings.
     """
 
     name: str

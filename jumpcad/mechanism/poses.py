@@ -1,4 +1,4 @@
-"""Where the bodies of a standing robot are, at any load of its springs, and how they move when the roller is off."""
+"""Where the bodies of a standing robot are, at any load of its springs, and their rates once the cam has released."""
 
 import cmath
 import math
@@ -16,7 +16,7 @@ class Release:
 
     `joint_rad` holds the coordinate of every joint by name; the frame of `body` lies at `body_position_m` (3,), turned
     about the world's y axis by `body_pitch_rad`. `joint_rad_s`, `body_m_s` (3,) and `body_rad_s`, about y, are the
-    rates of these, zero where the springs let go at once.
+    rates of these, zero where the springs are released instantly.
     """
 
     joint_rad: dict[str, float]

@@ -1,4 +1,4 @@
-"""The robot as its leg joint feels it while the foot stands flat on the ground without slipping (SI units)."""
+"""Mass and weight of the robot reflected to its leg joint, the foot flat on the ground without slipping (SI units)."""
 
 import math
 from collections.abc import Mapping
@@ -16,12 +16,12 @@ POSITIONS = 33
 """Leg angles of the table; with four times as many, inertia and slopes change by less than 0.3 %."""
 
 WEAKEST = 0.2
-"""Share of the springs' energy that is left for motion, at least: a leg too weak for its body is refused elsewhere."""
+"""Least share of the springs' energy that becomes kinetic; a leg too weak for its body is rejected elsewhere."""
 
 
 @dataclass(frozen=True)
 class ReflectedMass:
-    """What moves with the leg, at wind angles (n,) that grow from rest to the loaded springs.
+    """Reflected mass and weight at wind angles (n,) that grow from rest to the loaded springs.
 
     Attributes
     ----------
@@ -48,29 +48,29 @@ class ReflectedMass:
     def push_off_s(self, spring: Spring, past_rad: float) -> float:
         """Return the time from rest with loaded springs until the leg is an angle past rest, foot on the ground.
 
-        From the energy, dt = dw/sqrt(2·(E(wound) - E(w))/I); with w = wound·cos(s) the integrand is finite.
+        From the energy, dt = dw/sqrt(2·(E(w0) - E(w))/I); with w = w0·cos(s) the integrand is finite.
         """
-        wound = spring.wind_rad
+        loaded = spring.wind_rad
         phase = (np.arange(POSITIONS) + 0.5) * (math.pi / 2.0 / POSITIONS)
-        wind = wound * np.cos(phase)
+        wind = loaded * np.cos(phase)
         inertia, _, _ = self.at(wind)
         weight = np.interp(wind, self.wind_rad, self._weight_j())
         stored = 0.5 * spring.stiffness_nm_per_rad * (wind + 2.0 * spring.preload_rad) * wind
         free = spring.energy_j + self._weight_j()[-1] - stored - weight
         free = np.maximum(free, WEAKEST * spring.energy_j * np.sin(phase) ** 2)
         rate = np.sqrt(2.0 * free / inertia)
-        to_rest = float(np.sum(wound * np.sin(phase) / rate)) * math.pi / 2.0 / POSITIONS
+        to_rest = float(np.sum(loaded * np.sin(phase) / rate)) * math.pi / 2.0 / POSITIONS
         return to_rest + past_rad / float(rate[-1])
 
     def _weight_j(self) -> Array:
-        """Return the potential energy of weight (n,), that at rest 0."""
+        """Return the potential energy of weight (n,), 0 at rest."""
         step = self.wind_rad[1] - self.wind_rad[0]
         mean = 0.5 * step * (self.weight_nm[1:] + self.weight_nm[:-1])
         return np.concatenate([[0.0], np.add.accumulate(mean)])
 
 
 def reflected_mass(bodies: Mapping[str, Body], linkage: Linkage) -> ReflectedMass:
-    """Return what body, main leg and front link are to the leg joint; the foot stands still.
+    """Return mass and weight of body, main leg and front link reflected to the leg joint; the foot stands still.
 
     I = sum of m·|dc/dw|² + I_y·(dt/dw)² over the bodies, c and t their centres of mass and turns seen from the foot
     (e.g. Norton, Design of Machinery, 10.12: equivalent inertia from equal kinetic energy).

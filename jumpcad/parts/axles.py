@@ -1,4 +1,4 @@
-"""Bought axles and pins, each with what keeps it in place (mm, g; drawn like every bought part).
+"""Bought axles and pins, each with its retention (mm, g; drawn like every bought part).
 
 Axles and the springs' pin cross both plates. By the workshop's `bought.retention` they end in blind bores of the plates
 (`plates`), carry a clip in a groove at either end (`clips`), or are screws with lock nuts (`nuts`). The pins of foot
@@ -55,7 +55,7 @@ def axles(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator
 
 
 def pins(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
-    """Yield the pins of ankle, front eye and springs' inner arms, with what keeps them."""
+    """Yield the pins of ankle, front eye and springs' inner arms, with their retention."""
     ankle, lug = layout.ankle_face_mm, layout.lateral.lug_left[1]
     arm = layout.lateral.leg[1] + GAP_MM + 2.0 * layout.drive.spring.wire_mm
     places = (
@@ -71,7 +71,7 @@ def pins(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[
 
 
 def require_retention(catalogue: Catalogue, chosen: BoughtParts) -> None:
-    """Reject axles that cannot be kept as the workshop wants.
+    """Reject axles for which the workshop's retention is not possible.
 
     Raises
     ------

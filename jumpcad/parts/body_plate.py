@@ -184,7 +184,7 @@ def _bores(layout: Layout, holes: HoleSizes) -> Region:
 
 
 def _floor(y0: float, y1: float, region: Region) -> list[tuple[float, float, Region]]:
-    """Return what closes the bores outside, if anything does."""
+    """Return the layers that close the bores on the outside, if there are any."""
     return [(y0, y1, region)] if y1 > y0 else []
 
 

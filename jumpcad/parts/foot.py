@@ -30,7 +30,7 @@ LOW_WEB_MIN_MM = 2.0
 LOW_WEB_AT = 0.6
 """Where the height of the rails is taken beside that web, as a share of their length; judgement: near its end."""
 WEB_BELOW_RAIL_MM = 0.2
-"""By how much that web is lower than the rails beside it: surfaces that only meet in a line leave slivers."""
+"""By how much that web is lower than the rails beside it: surfaces that only touch in a line leave slivers."""
 LINK_GAP_MM = 1.0
 """Gap below the folded front link; judgement: the usual gap, and the flexing of the link."""
 SOLE_LENGTH, NOSE_AHEAD = 1.6, 0.42
@@ -119,7 +119,7 @@ def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:
 
 
 def _ankle_boss(layout: Layout, holes: HoleSizes) -> Region:
-    """Return what carries the ankle's pin out to the toes' outer sides, down to the ground, so that it prints."""
+    """Return the boss of the ankle's pin, out to the toes' outer sides, and down to the bed to be printable."""
     depth = layout.sections.foot_depth_mm
     outer = max(PIN_END_MM + 1.0, holes.lying(layout.axle_mm) + 4.0 * holes.fits.wall_mm)
     return hull([disc(outer), rectangle((outer, SOLE_HEIGHT_MM), (0.0, SOLE_HEIGHT_MM / 2.0 - depth))])

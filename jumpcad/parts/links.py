@@ -19,7 +19,7 @@ from jumpcad.solids.outline import Region, disc, filleted, hole, rectangle, stad
 from jumpcad.solids.stack import Stack
 
 HEEL_MORE_MM = 0.5
-"""By how much the heel that meets the stop is longer than its pad, at either end; judgement: the bar's play."""
+"""By how much the heel that touches the stop is longer than its pad, at each end; judgement: the bar's play."""
 FAR_MM = 1000.0
 """Farther than any leg reaches."""
 FILLET_MM = 3.0
@@ -29,8 +29,8 @@ FILLET_MM = 3.0
 def main_leg(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     """Return the main leg: hub on the leg axle, beam to the ankle, lever with the roller's screw, springs' pin, heel.
 
-    The heel is a flat behind the beam that meets the rest stop's pad. With a bar it ends in a socket, and the end with
-    the ankle's eye is a part of its own.
+    The heel is a flat face behind the beam that touches the rest stop's pad. With a bar the leg ends in a socket, and
+    the end with the ankle's eye is a separate part.
     """
     sections, cam = layout.sections, layout.drive.cam
     half = sections.thickness_mm / 2.0
@@ -71,7 +71,7 @@ def main_leg(layout: Layout, holes: HoleSizes) -> list[Drawing]:
 
 
 def front_link(layout: Layout, holes: HoleSizes) -> Drawing:
-    """Return the front link: two eyes and a beam; with a bar, two ends of it that are equal."""
+    """Return the front link: two eyes and a beam; with a bar, two equal ends."""
     sections = layout.sections
     half, length = sections.thickness_mm / 2.0, layout.design.l3_mm
     eye = (length, 0.0)
@@ -135,7 +135,7 @@ def _before(x_mm: float) -> Region:
 
 
 def _socketed(stack: Stack, place: BarPlace, holes: HoleSizes, half_mm: float) -> Stack:
-    """Return a leg's end, as it lies on the bed, without the room of the bar."""
+    """Return a leg's end, as it lies on the bed, with the socket of the bar cut out."""
     length, middle = place.far_floor_mm - place.floor_mm, place.middle_mm
     return stack.minus(
         (half_mm + y0, half_mm + y1, rectangle((length, height), (middle, 0.0)))

@@ -16,7 +16,7 @@ from jumpcad.solids.outline import Region, grown, rectangle
 
 NOSE_BEHIND_SHARE, NOSE_UP_SHARE = 0.9, 0.7
 """How far the nose's pad reaches behind the front eye and, around the nose, up to below it, in depths of the foot;
-judgement: the robot leaves the ground and lands over the nose, which rolls."""
+judgement: the robot leaves the ground and lands over the nose, which rolls on the ground."""
 TOE_BACK_MM, TOE_AHEAD_MM = 8.0, 1.5
 """How far a toe's pad reaches from the tip's middle towards the root, and beyond; judgement."""
 

@@ -26,7 +26,7 @@ Shape: TypeAlias = Stack | Blocks
 Face = Literal["left", "right"]
 
 UNSEEN_MM = 0.05
-"""Detail that is left out of a mesh for pictures; judgement: less than a line of a picture."""
+"""Size of detail that is left out of meshes for pictures; judgement: less than a pixel."""
 
 
 @dataclass(frozen=True)

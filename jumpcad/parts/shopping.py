@@ -79,7 +79,7 @@ def _d_shaft(diameter_mm: float, across_flat_mm: float) -> Region:
 
 
 def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
-    """Yield what the main leg carries: hub bearings, the roller with its screw."""
+    """Yield the bought parts on the main leg: hub bearings, the roller with its screw."""
     lateral, cam = layout.lateral, layout.drive.cam
     low, high = lateral.leg
     if holes.bearing is not None:

@@ -11,13 +11,13 @@ from jumpcad.solids.tube import Wire
 from jumpcad.transforms import Array
 
 STEPS_A_TURN = 24
-"""Of a drawn coil; judgement: chords 0.9 % of the radius inside the circle."""
+"""Chords per turn of a drawn coil; judgement: at most 0.9 % of the radius inside the circle."""
 STEPS_MAX = 400
-"""Of a whole coil, so that its mesh stays light."""
+"""Chords of a whole coil at most, so that its mesh stays small."""
 
 
 def spring_article(spring: TorsionSpring, hand: str) -> str:
-    """Return what to order: a name from stock, or the figures that a maker of springs asks for."""
+    """Return what to order: a name from stock, or the figures that a spring maker needs."""
     if spring.stock:
         return f"torsion spring {spring.stock}, {hand} hand, arms cut to {spring.arm_length_mm:.1f} mm"
     return (
@@ -29,8 +29,8 @@ def spring_article(spring: TorsionSpring, hand: str) -> str:
 def coil_with_arm(hub_mm: Array, spring: TorsionSpring, y_mm: tuple[float, float]) -> Wire:
     """Return body arm and coil in the body's frame at rest, the wire's middle from the outer y to the inner one.
 
-    Seen from the robot's right the wire turns counter-clockwise from the body's arm to the leg's; with a preload the
-    coil at rest is closed by it.
+    Seen from the robot's right the wire turns counter-clockwise from the body's arm to the leg's; a preload closes
+    the coil further.
     """
     turn = FULL_TURN_RAD * spring.turns + spring.preload_rad
     steps = min(STEPS_MAX, math.ceil(STEPS_A_TURN * turn / FULL_TURN_RAD))
@@ -45,7 +45,7 @@ def coil_with_arm(hub_mm: Array, spring: TorsionSpring, y_mm: tuple[float, float
 
 
 def leg_arm_wire(spring: TorsionSpring, y_mm: tuple[float, float]) -> Wire:
-    """Return the leg's arm in the leg's frame, with the coil's end that winding adds to the coil.
+    """Return the leg's arm in the leg's frame, with the end of the coil that loading adds to it.
 
     At rest that end lies in the coil; `y_mm` are those of `coil_with_arm`.
     """

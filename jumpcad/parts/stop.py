@@ -1,4 +1,4 @@
-"""The rest stop's bar between the plates: it prints lying, so that the blow bends it along its layers (mm)."""
+"""The rest stop's bar between the plates: it prints lying, so that the impact bends it along its layers (mm)."""
 
 import numpy as np
 
@@ -13,15 +13,15 @@ from jumpcad.solids.stack import Stack
 from jumpcad.transforms import Array
 
 END_SHARE = 0.6
-"""Depth of the bar at the plates over that in its middle, where the blow bends it most; judgement."""
+"""Depth of the bar at the plates over that in its middle, where the impact bends it most; judgement."""
 SEAT_PLAY_MM = 0.2
 """Play of the pad in its seat, either side; judgement."""
 GLUE_MM = 0.02
-"""Between pad and seat."""
+"""Gap between pad and seat."""
 
 
 def stop_bar(layout: Layout, holes: HoleSizes) -> Drawing:
-    """Return the bar: its face towards the leg with the pad's seat, deepest in the middle, a tab through either plate.
+    """Return the bar: its face towards the leg with the pad's seat, deepest in the middle, a tab through each plate.
 
     In its printing frame x is the robot's left, y points towards the leg, z along the leg.
     """

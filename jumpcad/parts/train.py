@@ -154,7 +154,7 @@ def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Reg
 
 @lru_cache(maxsize=64)
 def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes) -> Stack:
-    """Return a pinion whose bore has crush ribs: they are narrower than the shaft, which it cuts, so it cannot rock."""
+    """Return a pinion whose bore has crush ribs: the shaft cuts into them, so that the pinion has no play."""
     region = _webbed(gear, ribbed_d_bore(shaft_mm, flat_mm, holes), 0.0)
     return holes.chamfered(Stack.of([(0.0, gear.face_width_mm, region)]))
 
@@ -162,7 +162,7 @@ def _motor_pinion(gear: Gear, shaft_mm: float, flat_mm: float, holes: HoleSizes)
 def ribbed_d_bore(shaft_mm: float, flat_mm: float, holes: HoleSizes, rib_mm: float | None = None) -> Region:
     """Return the hole for a D-shaft with a press fit around it and five crush ribs, `rib_mm` or `fits.rib_mm` into it.
 
-    Two ribs bear on the flat, which faces +x and takes the torque, and three on the round side.
+    Two ribs press on the flat, which faces +x and transmits the torque, and three on the round side.
     """
     press, rib = holes.fits.press_mm, holes.fits.rib_mm if rib_mm is None else rib_mm
     bore = d_bore(shaft_mm + 2.0 * press, flat_mm + 2.0 * press)

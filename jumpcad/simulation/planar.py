@@ -1,7 +1,7 @@
 """The planar engine: the push-off in x-z by a compiled loop, about fifty times as fast as in a general engine.
 
-It holds the mechanism without its left and right, and neglects what the body's spheres touch before take-off (and says
-so where they do). What a run decides is decided in `Run`; the take-off, by the same rule, in the compiled loop.
+It models the x-z plane only. Contact of the body with the ground before take-off is not modelled; the finding
+`body_contact` reports it. The compiled loop finds the take-off by the rule of `Run`, which does everything else.
 """
 
 import math
@@ -24,7 +24,7 @@ from jumpcad.simulation.run import AIRBORNE_S, AUDIT_EVERY_S, TAKEOFF_WITHIN_S, 
 from jumpcad.transforms import Array
 
 LACKING = ("restitution", "rolling_friction_m", "drag_per_s", "published_quantities")
-"""Settings that the plane, or a run that ends at touchdown, does not have."""
+"""Settings that a planar engine, or a run that ends at touchdown, does not support."""
 
 
 class PlanarWorld:
@@ -67,13 +67,14 @@ class PlanarWorld:
         self.go_to(kernel.advance(self.model, before, self.settings.dt_s, 1))
         if not self.moment.closed:
             raise JumpcadError(
-                "foot and front link come into line in flight, where the planar engine ends: use --engine pybullet or "
+                "foot and front link come into line in flight, a dead point that the planar engine cannot pass: use "
+                "--engine pybullet or "
                 'flight = "ballistic"'
             )
         return before.leg_rad
 
     def loaded(self) -> bool:
-        """Tell whether the ground carries the foot, or the body has come down to it."""
+        """Tell whether the ground carries the foot, or the body touches it."""
         contact = self.moment.contact
         return contact.first_ns + contact.second_ns > 0.0 or self.moment.belly_gap_m <= 0.0
 
@@ -104,12 +105,12 @@ class PlanarRun(Run):
     """Least distance of the body from the ground during the push-off."""
 
     def findings(self) -> tuple[Finding, ...]:
-        """Return the audit's findings, and `body_contact` where the body has come down to the ground."""
+        """Return the audit's findings, and `body_contact` where the body has touched the ground."""
         if self.body_gap_m > 0.0:
             return super().findings()
         touching = limit(
-            "body_contact", 1000.0 * self.body_gap_m, "mm", "the body comes down to the ground during the push-off",
-            "use --engine pybullet: the planar engine ends where the body touches the ground", violated="warning",
+            "body_contact", 1000.0 * self.body_gap_m, "mm", "the body touches the ground during the push-off",
+            "use --engine pybullet: the planar engine stops when the body touches the ground", violated="warning",
         )  # fmt: skip
         return (*super().findings(), touching)
 
@@ -147,7 +148,7 @@ class PlanarEngine:
         for key in LACKING:
             if value := getattr(settings, key):
                 raise JumpcadError(
-                    f"{key} = {value}: the planar engine has none; leave it out or use --engine pybullet"
+                    f"{key} = {value}: the planar engine does not support it: leave it out or use --engine pybullet"
                 )
         yield PlanarWorld(mechanism, settings)
 

@@ -18,7 +18,7 @@ from jumpcad.simulation.planar_state import Contact, Gains, Ground, Inertia, Lin
 OPEN_SHARE = 1e-6
 """(sine of the angle between diagonal and foot)² below which the loop counts as open: foot and front link in line."""
 TOLERANCE = 1e-12
-"""Of impulses and velocities, over those of the step: what rounding may do to a contact law."""
+"""Of impulses and velocities, over those of the step: error of a contact law by rounding."""
 SEPARATE, STICK, FORWARD, BACKWARD = 0, 1, 2, 3
 
 
@@ -467,8 +467,8 @@ def push_off(
 ) -> PushOff:
     """Advance from release to the last contact with the ground before the robot flies.
 
-    It flies once it has been in the air for `airborne_s`, its centre of mass rising, and the springs are spent: the leg
-    joint has come to rest, or opens no more. A hop before that is a part of the push-off. A robot on the ground
+    It flies once it has been in the air for `airborne_s`, its centre of mass rising, and the springs are unloaded: the
+    leg joint is past rest, or extends no further. A hop before that is a part of the push-off. A robot on the ground
     `within_s` after the springs have passed rest, or at `max_time_s`, or one whose body comes down to the ground, does
     not fly.
     """

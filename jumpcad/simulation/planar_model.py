@@ -49,7 +49,7 @@ class Model(NamedTuple):
 
 
 def planar_model(mechanism: Mechanism, settings: Settings) -> Model:
-    """Return a robot's mechanism in the plane, left and right on top of each other.
+    """Return a robot's mechanism in the plane, left and right sides coinciding.
 
     Every number is a float or a complex: a tuple with integers would be another type, compiled anew.
     """

@@ -73,7 +73,7 @@ class Gains(NamedTuple):
 
 
 class Losses(NamedTuple):
-    """Energy taken so far (J): by viscous damping, dry friction of joints and pins, slip, normal impact, the stop."""
+    """Energy lost so far (J): by viscous damping, dry friction of joints and pins, slip, normal impact, the stop."""
 
     damping_j: float
     friction_j: float

@@ -1,4 +1,4 @@
-"""The room that a stack takes on a straight path to its place (mm)."""
+"""The volume that a stack sweeps on a straight path to its place (mm)."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ PARALLEL = 1e-6
 
 
 def swept(stack: Stack, path_mm: Array) -> Stack | None:
-    """Return what a stack covers on its way from `path_mm` before its place to its place, exactly.
+    """Return the exact volume that a stack sweeps from `path_mm` before its place to its place.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ def swept(stack: Stack, path_mm: Array) -> Stack | None:
 
     Returns
     -------
-    The covered room; None where the path is oblique to the axis.
+    The swept volume; None where the path is oblique to the axis.
     """
     length = float(np.linalg.norm(path_mm))
     flat, along = np.asarray(path_mm[:2], dtype=float), float(path_mm[2])
@@ -35,7 +35,7 @@ def swept(stack: Stack, path_mm: Array) -> Stack | None:
 
 
 def _dragged(region: Region, by_mm: Array) -> Region:
-    """Return what a region covers on its way: both ends, and a parallelogram under every edge of its outlines."""
+    """Return the area that a region sweeps: both ends, and a parallelogram under every edge of its outlines."""
     covered = [region, region.translate(tuple(by_mm))]
     for contour in region.to_polygons():
         for start, end in zip(contour, np.roll(contour, -1, axis=0), strict=True):

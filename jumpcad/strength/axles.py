@@ -1,4 +1,4 @@
-"""Axles and pins as the strength checks see them: section, yield stress, and what keeps them in place (mm, MPa, N)."""
+"""Axles and pins for the strength checks: section, yield stress, and strength of their retention (mm, MPa, N)."""
 
 import math
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from jumpcad.strength.stress import VON_MISES
 from jumpcad.workshop import BoughtParts, Workshop
 
 SOFT = "silver-steel"
-"""The rod that takes grooves and is sold in every diameter."""
+"""The rod in which grooves can be cut and which is sold in every diameter."""
 SCREW_SHANK_MM, SCREW_CORE_MM, SCREW_THREAD_MM = 2.86, 2.39, 20.5
 """M3 ISO 4762: least shank, core (ISO 724), and thread with its run-out, from the end, of lengths above 20 mm."""
 SCREW_YIELD_MPA = 1080.0
@@ -20,7 +20,7 @@ SCREW_AREA_MM2 = 5.03
 
 @dataclass(frozen=True)
 class RoundBar:
-    """A round axle or pin, perhaps with a bore, and the load along its axis at which it would come out."""
+    """A round axle or pin, perhaps with a bore, and the axial load at which its retention fails."""
 
     diameter_mm: float
     bore_mm: float
@@ -33,7 +33,7 @@ class RoundBar:
 
 
 def axle_bar(workshop: Workshop) -> RoundBar:
-    """Return an axle across the plates; a rod between them comes out where it shears its bore's floor off."""
+    """Return an axle across the plates; the retention of a rod in blind bores fails when a bore's floor shears off."""
     bought, safety, catalogue = workshop.bought, workshop.safety, workshop.catalogue
     if bought.retention == "nuts":
         return RoundBar(SCREW_SHANK_MM, 0.0, SCREW_YIELD_MPA, SCREW_AREA_MM2 * SCREW_YIELD_MPA / safety.metal_factor)

@@ -26,7 +26,7 @@ SHOULDER_MM = 0.8
 
 
 def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
-    """Return the bearings that a workshop allows in the hub, the lightest first; None where it wants none.
+    """Return the bearings that a workshop allows in the hub, the lightest first; None where it names none.
 
     Raises
     ------

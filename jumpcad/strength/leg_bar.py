@@ -13,7 +13,7 @@ from jumpcad.catalogue import LegBar
 from jumpcad.transforms import Array
 
 STATIONS = 65
-"""Places along a leg at which its bending energy is summed."""
+"""Sections along a leg at which its bending energy is summed."""
 
 
 @dataclass(frozen=True)
@@ -32,12 +32,12 @@ class Socket:
         return per_length / self.bar.width_mm
 
     def wall_mpa(self, moment_nmm: float, shear_n: float) -> float:
-        """Return the tension in the skins beside the bar that hold the pressed wall."""
+        """Return the tensile stress in the side walls, which hold the wall that the bar presses on."""
         skins = self.thickness_mm - self.bar.width_mm - 2.0 * self.gap_mm
         return self.pressure_mpa(moment_nmm, shear_n) * self.bar.width_mm / skins
 
     def bending_mpa(self, moment_nmm: float) -> float:
-        """Return the stress of the hollow section at the socket's floor, which bears the moment alone."""
+        """Return the stress of the hollow section at the socket's floor, which carries the whole moment."""
         gap = 2.0 * self.gap_mm
         hollow = (self.bar.width_mm + gap) * (self.bar.height_mm + gap) ** 3
         return moment_nmm * self.height_mm / 2.0 / ((self.thickness_mm * self.height_mm**3 - hollow) / 12.0)

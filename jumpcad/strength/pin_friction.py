@@ -1,4 +1,4 @@
-"""Dry friction of a robot's pins as one torque, for what knows joints and no pin forces: general engines, exporters."""
+"""Dry friction of all pins as one torque on the leg joint, for engines and file formats that have no pin forces."""
 
 import numpy as np
 
@@ -6,17 +6,17 @@ from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.strength.loads import MovingMass, push_off
 
 TILTING = 1.1
-"""Of the friction of pins under a foot that may tilt and links with mass over that of `push_off`: the planar engine's
-median of 45 printed robots; 0.95 to 1.43, which is at most 0.4 % of the springs' energy."""
+"""Friction losses with a tilting foot and links with mass over those from `push_off`: median of 45 printed robots in
+the planar engine; range 0.95 to 1.43, which is at most 0.4 % of the springs' energy."""
 
 
 def pin_torque_nm(mechanism: Mechanism, coefficient: float) -> float:
-    """Return the constant torque at the leg joint that takes as much as the friction of all pins in a push-off (N·m).
+    """Return the constant torque at the leg joint that dissipates as much as all pins in a push-off (N·m).
 
     Rounded to 1 µN·m: it is written into files, and the forces come from linear algebra.
 
-    The work of coefficient · radius · force along the turn of each pin, over the springs' travel. The forces are those
-    of `push_off`, for which legs and foot have no mass, times `TILTING`.
+    The work of coefficient · radius · force along the turn of each pin is divided by the springs' travel. The forces
+    are those of `push_off`, for which legs and foot have no mass, times `TILTING`.
     """
     friction = mechanism.friction
     if friction is None or coefficient == 0.0:

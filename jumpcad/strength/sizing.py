@@ -24,7 +24,7 @@ from jumpcad.workshop import Fits, Workshop
 TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
 """The body's mass properties before its parts are known; those of the template designs are within 10 %."""
 RESERVE = 1.15
-"""Factor on every load, since masses, axial forces and lever are not known yet; judgement."""
+"""Factor on every load, since masses, axial forces and the lever are not known yet; judgement."""
 THICKNESS_MM, THICK_MM, THICK_FROM_NMM = 6.0, 8.0, 900.0
 """Thickness of the links, and a larger one from a spring torque on; judgement: axial play tilts thin eyes."""
 HEIGHT_MIN_MM = 6.0
@@ -43,17 +43,17 @@ LEG_TAPER, TOE_TAPER, RAIL_TAPER = 0.6, 0.6, 0.5
 """Height at the tip over that at the root. With half or more, moment over section falls from the root on."""
 DOG_MM_PER_NMM = 1.45
 """Diameter of the cam's dog over the cube root of the springs' torque, as shafts are sized (Shigley 7-4); judgement:
-the jaws of all templates then bear the blow at the end of their play."""
+with it the jaws of all templates withstand the impact at the end of their play."""
 LEVER_MORE = 1.47
-"""Height of the lever's root over that which bears its bending; judgement: what bends the lever drives the released
-cam, and with this the gear motors of all templates bear its blow."""
+"""Height of the lever's root over that which bending needs; judgement: the energy that bends the lever drives the
+released cam, and with this height the gear motors of all templates withstand its impact."""
 STOP_SHARE, STOP_SPAN_MM = 0.12, 39.0
-"""Share of the springs' energy that the rest stop takes, and the length of its bar; judgement: in strong designs it is
+"""Share of the springs' energy that the rest stop absorbs, and length of its bar; judgement: in strong designs it is
 0.08 to 0.125 and at most 39 mm; where it is more, the bar grows."""
 STOP_MIN_MM = 6.0
-"""Least depth of the rest stop's bar in the direction of the blow; judgement."""
+"""Least depth of the rest stop's bar in the direction of the impact; judgement."""
 DOG_FACETS_MM = 0.05
-"""What the corners and sides of two circles take from a jaw between them."""
+"""Thickness that a jaw loses because its two circles are drawn as polygons."""
 GROWTH_STEP = 1.1
 """Factor by which a section grows at a time; judgement: few rounds, little mass more than needed."""
 STIFF_ROUNDS, STIFF_MORE = 12, 1.01
@@ -67,7 +67,7 @@ class Sections:
     `thickness_mm` is across the robot (y); heights are in the plane of motion. `foot_depth_mm` is the distance from
     the line of ankle and front eye down to the printed sole, under which a pad of `pad_mm` is glued (0 without one).
     `lug_thickness_mm` is that of lugs and rails, `dog_mm` the diameter of the dog that turns the cam, `stop_mm` the
-    depth of the rest stop's bar in the direction of the blow.
+    depth of the rest stop's bar in the direction of the impact.
     """
 
     thickness_mm: float
@@ -220,7 +220,7 @@ def _stiff_mm(
 
 
 def _stop_mm(workshop: Workshop, energy_j: float, width_mm: float, shell: Shell) -> float:
-    """Return the depth of the rest stop's bar, a beam on both plates with its pad's force on the leg's width."""
+    """Return the depth of the rest stop's bar, a beam on both plates with the pad's force over the leg's width."""
     pad_n_per_mm = workshop.stop_pad.rate_n_per_mm(width_mm, STOP_PAD_MM)
     force = PEAK_SHARE * math.sqrt(2.0 * STOP_SHARE * 1000.0 * energy_j * pad_n_per_mm)
     moment = BLOW_FACTOR * force * max(STOP_SPAN_MM - width_mm / 2.0, 0.0) / 4.0
@@ -234,7 +234,7 @@ def dog_inside_mm(fits: Fits, axle_mm: float) -> float:
 
 
 def _least_dog_mm(workshop: Workshop) -> float:
-    """Return the diameter at which the jaws are as thick as the thinnest column that prints."""
+    """Return the diameter at which the jaws are as thick as the thinnest column that can be printed."""
     jaw = workshop.fits.pin_min_mm + DOG_FACETS_MM
     return dog_inside_mm(workshop.fits, workshop.bought.axle_mm) + 2.0 * jaw
 

@@ -1,4 +1,4 @@
-"""What the rest stop's pad makes of the leg's blow (numpy only; SI, but for the pad in N and mm)."""
+"""Impact (blow) of the leg on the rest stop's pad: energy, peak force, deflection (SI, except the pad in N and mm)."""
 
 import math
 from dataclasses import dataclass
@@ -7,18 +7,18 @@ from jumpcad.mechanism.flight import Blow
 from jumpcad.mechanism.model import Stop
 
 BLOW_FACTOR = 2.0
-"""On the peak force, to the strength of the material; the peak is that without friction (bench review of the printed
-robot: plates for twice the peak)."""
+"""Safety factor on the peak force, against the material's strength; the peak is computed without friction (bench review
+of the printed robot: plates for twice the peak)."""
 PEAK_SHARE = 0.82
-"""Peak force of a pad without rebound over that of a spring without loss (bench review of the printed robot)."""
+"""Peak force of a pad without rebound over that of a lossless spring (bench review of the printed robot)."""
 
 
 @dataclass(frozen=True)
 class StopBlow:
-    """The leg's blow on its stop.
+    """The impact of the leg on its stop.
 
-    `energy_j` is what the pad takes, `torque_nm` its peak about the leg's joint, `force_n` the peak force on the pad,
-    `give_rad` and `give_mm` how far the pad gives: as much as a spring of its stiffness without loss.
+    `energy_j` is the energy that the pad absorbs, `torque_nm` the peak torque about the leg's joint, `force_n` the peak
+    force on the pad, `give_rad` and `give_mm` the pad's deflection, that of a lossless spring of its stiffness.
     """
 
     stop: Stop
@@ -30,7 +30,7 @@ class StopBlow:
 
 
 def stop_blow(blow: Blow, angle_rad: float, radius_mm: float, pad_n_per_mm: float) -> StopBlow:
-    """Return the blow on a pad of some stiffness at a radius from the leg's joint: F = 0.82·v·sqrt(k·I)/r."""
+    """Return the impact on a pad of some stiffness at a radius from the leg's joint: F = 0.82·v·sqrt(k·I)/r."""
     radius = radius_mm / 1000.0
     stiffness = 1000.0 * pad_n_per_mm * radius**2
     torque = PEAK_SHARE * blow.stop_rad_s * math.sqrt(stiffness * blow.inertia_kg_m2)

@@ -143,7 +143,7 @@ def tube_shear_mpa(torque_nmm: float, outer_mm: float, bore_mm: float) -> float:
 def jaw_stress_mpa(
     torque_nmm: float, jaw_rad: float, jaws: int, inner_mm: float, outer_mm: float, long_mm: float
 ) -> float:
-    """Return the stress at the root of a dog's jaws that share a torque, as the tension that it equals.
+    """Return the stress at the root of a dog's jaws that share a torque, as an equivalent tensile stress.
 
     A jaw is a short cantilever along the axle, pushed in the middle of its length at its mean radius: bending
     6·M/(b·h²) and shear 3·F/(2·b·h), b from inside to outside (diameters), h along the mean circle.

@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from jumpcad.catalogue import ElectricalParts
 from jumpcad.files import TomlTable
 from jumpcad.files.names import Name, OptionalName, Text
 
@@ -93,13 +94,13 @@ class Fits(TomlTable):
     bridge_mm: Annotated[float, Field(ge=0.01, le=200)]
 
 
-class BoughtParts(TomlTable):
+class BoughtParts(ElectricalParts):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.
 
     `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
     it names itself override the kit's. An empty name leaves a part out. `pins` are pins of the controller for `motor`,
     `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
-    `leg_bearing` may be "any", the lightest that bears its load, or empty, which means none. `spring` is empty where
+    `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
     `leg` is the bar that main leg and front link are made of between printed ends, empty where they are printed whole.
     `axle` is the rod that axles are cut from. `retention` keeps them in place: blind bores of the screwed plates, clips
@@ -107,19 +108,8 @@ class BoughtParts(TomlTable):
     """
 
     kit: OptionalName
-    motors: Annotated[tuple[Name, ...], Field(strict=False)]
     leg_bearing: OptionalName
     roller: Name
-    battery: Name
-    controller: Name
-    driver: Name
-    regulator: OptionalName
-    sensor: OptionalName
-    switch: OptionalName
-    plug: OptionalName
-    capacitor: OptionalName
-    diode: OptionalName
-    wire: OptionalName
     pins: dict[Literal["motor", "sleep", "ready", "battery"], Name] = Field(default_factory=dict)
     spring: OptionalName
     leg: OptionalName
@@ -131,8 +121,8 @@ class BoughtParts(TomlTable):
 class BodyPlates(TomlTable):
     """The two plates of the body, the stop between them, and how wide the robot stands.
 
-    The leg meets `stop_pad` at `stop_deg` past rest; the toes reach `toe_half_width_mm` from the middle at least (0: as
-    far as the design's).
+    The leg touches `stop_pad` at `stop_deg` past rest. `toe_half_width_mm` is the least distance of the toes' ends from
+    the middle (0: that of the design).
     """
 
     plate_mm: Annotated[float, Field(ge=1, le=10)]
@@ -183,17 +173,17 @@ class Pins(TomlTable):
 
 
 class SpringTable(TomlTable):
-    """How the springs sit: loaded by `preload_deg` already in the rest pose."""
+    """The springs: loaded by `preload_deg` already in the rest pose."""
 
     preload_deg: Annotated[float, Field(ge=0, le=45)]
 
 
 class Safety(TomlTable):
-    """Safety factors, what springs, motor and legs may be loaded with, and reserves for what differs from a drawing.
+    """Safety factors, limits of springs, motor and legs, and reserves for deviations from the computed robot.
 
     Loads are taken as those of the stiffest springs within `spring_rate_scatter`, and more by `stress_reserve`. Other
     reserves are kept below the motor's torque and the cam's pressure angle, and above gaps; `kick_reserve` is added to
-    the blow that the released cam gives the gear motor.
+    the torque peak at the gear motor when the released cam strikes.
     """
 
     strength_factor: Annotated[float, Field(ge=1, le=20)]
@@ -237,7 +227,7 @@ class Safety(TomlTable):
 
 
 class ReleaseTable(TomlTable):
-    """The dog between cam and cam gear, and what its release is judged with; ranges are (least, largest).
+    """The dog between cam and cam gear, and assumptions and limits of the release; ranges are (least, largest).
 
     `play_deg` is the dog's free play, "auto" by the rule in `drive.dog`, 0 a rigid key.
     """

@@ -179,10 +179,10 @@ def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Con
 
 
 def _release_contradictions(release: ReleaseTable) -> Iterator[Contradiction]:
-    """Yield a play that is worse than none, and ranges that end before they begin."""
+    """Yield a play that is worse than none, and ranges whose limits are exchanged."""
     play, least = release.play_deg, DOG_PLAY_MIN_DEG
     if play != "auto" and 0.0 < play < least:
-        reason = f'meets its end with the roller on the cam\'s corner: use at least {least:g}, 0 (rigid), or "auto"'
+        reason = f'ends while the roller is on the cam\'s corner: use at least {least:g}, 0 (rigid), or "auto"'
         yield ("release", "play_deg"), play, reason
     for key in ("rotor_kg_m2", "backlash_deg"):
         low, high = getattr(release, key)

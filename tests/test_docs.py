@@ -1,0 +1,131 @@
+"""The documentation is right: its site builds, its reference is the program's, its examples run (about 20 s)."""
+
+import importlib
+import re
+import shlex
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import typer
+from support.places import ROOT
+
+from jumpcad.cli.commands import app, run
+from jumpcad.design import PARAMETERS, load_design
+from jumpcad.files import template_names
+from jumpcad.scene.parameters import parameter_drawing
+
+DOCS = ROOT / "docs"
+CHAPTERS = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DOCS.glob("*.md"))}
+BLOCKS = {
+    name: found for name, text in CHAPTERS.items() if (found := re.findall(r"^```(\w+)\n(.*?)^```", text, re.S | re.M))
+}
+
+
+@pytest.fixture(scope="module")
+def reference() -> ModuleType:
+    """The program that writes the reference pages."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    try:
+        return importlib.import_module("reference")
+    finally:
+        sys.path.pop(0)
+
+
+@pytest.mark.parametrize("page", ["commands.md", "workshop.md"])
+def test_reference_is_what_the_program_gives(reference: ModuleType, page: str) -> None:
+    name = f"reference/{page}"
+    assert (DOCS / name).read_text(encoding="utf-8") == reference.PAGES[name]()
+
+
+@pytest.mark.parametrize("page", ["checks.md", "files.md"])
+def test_reference_is_what_the_program_gives_figures_aside(reference: ModuleType, page: str) -> None:
+    name = f"reference/{page}"
+    written, given = (DOCS / name).read_text(encoding="utf-8"), reference.PAGES[name]()
+    assert without_figures(written) == without_figures(given)
+
+
+def without_figures(text: str) -> str:
+    """Return a text in which every number is #; `poe docs` compares the numbers too."""
+    return re.sub(r"-?\d+(?:[.,]\d+)*", "#", text)
+
+
+@pytest.mark.parametrize("template", template_names("robots"))
+def test_the_drawing_names_the_eight_parameters(template: str) -> None:
+    drawing = parameter_drawing(load_design(template))
+    assert sorted(re.findall(r'class="parameter"[^>]*>(\w+)<', drawing)) == sorted(PARAMETERS)
+
+
+def test_the_drawing_of_the_chapter_is_the_example_s(reference: ModuleType) -> None:
+    drawing = (DOCS / reference.DRAWING).read_text(encoding="utf-8")
+    assert drawing == parameter_drawing(load_design(reference.EXAMPLE))
+
+
+def test_every_parameter_is_explained_with_its_ranges() -> None:
+    from jumpcad.design import SEARCH_BOUNDS, Design
+
+    rows = dict(re.findall(r"^\| `(\w+)` \|(.*)\|$", CHAPTERS["robot"], re.M))
+    assert list(rows) == list(PARAMETERS)
+    for name, row in rows.items():
+        limits = {type(one).__name__: next(iter(vars_of(one))) for one in Design.model_fields[name].metadata}
+        assert f" {limits['Ge']:g} to {limits['Le']:g} " in row
+        assert f" {SEARCH_BOUNDS[name].lower:g} to {SEARCH_BOUNDS[name].upper:g} " in row
+
+
+def vars_of(constraint: object) -> list[float]:
+    """Return the value of a constraint such as `Ge(ge=20)`."""
+    return [getattr(constraint, type(constraint).__name__.lower())]
+
+
+@pytest.mark.parametrize("chapter", BLOCKS)
+def test_examples_run(
+    chapter: str, bundle_of: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Run blocks of bash and Python in their order; of sh, whose commands cost minutes, check command and options."""
+    if any("import mujoco" in block for _, block in BLOCKS[chapter]):
+        pytest.importorskip("mujoco")
+    monkeypatch.chdir(tmp_path)
+    if "exports/kenan-2.0" in CHAPTERS[chapter]:
+        (tmp_path / "exports").mkdir()
+        (tmp_path / "exports" / "kenan-2.0").symlink_to(bundle_of("kenan-2.0"))
+    names: dict[str, object] = {}
+    for language, block in BLOCKS[chapter]:
+        if heading := re.match(r"# (\S+\.toml)\n", block):
+            (tmp_path / heading[1]).write_text(block, encoding="utf-8")
+        elif language == "python":
+            exec(block, names)
+        elif language in ("bash", "sh"):
+            for line in commands_of(block):
+                assert language == "sh" or run(line) == 0, line
+                require_known(line)
+
+
+def commands_of(block: str) -> list[list[str]]:
+    """Return the arguments of the lines that call jumpcad."""
+    lines = [shlex.split(line, comments=True) for line in block.splitlines()]
+    strange = [line for line in lines if line and line[0] != "jumpcad" and not {"pip", "python3.11"} & set(line)]
+    assert strange == []
+    return [line[1:] for line in lines if line and line[0] == "jumpcad"]
+
+
+def require_known(arguments: list[str]) -> None:
+    """Fail where a command or one of its options does not exist."""
+    command = typer.main.get_command(app).commands[arguments[0]]
+    options = {option for parameter in command.params for option in parameter.opts}
+    assert {word for word in arguments if word.startswith("-")} <= options
+
+
+def test_the_site_is_built_without_a_warning_and_loads_nothing_from_elsewhere(tmp_path: Path) -> None:
+    for package in ("sphinx", "furo", "myst_parser", "sphinx_copybutton"):
+        pytest.importorskip(package)
+    site = tmp_path / "site"
+    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html", str(DOCS), str(site)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    for page in site.rglob("*.html"):
+        loaded = re.findall(r"<(?:script|img|iframe)[^>]*\ssrc=\"(\w+:)?//", page.read_text(encoding="utf-8"))
+        styles = re.findall(r"<link[^>]*\shref=\"(?:https?:)?//", page.read_text(encoding="utf-8"))
+        assert (loaded, styles) == ([], []), page.name
