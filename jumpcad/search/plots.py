@@ -70,8 +70,8 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
         if best := best_trial(feasible):
             axes.plot(at(best), best.score or 0.0, **BEST)
         labels(axes, parameter.name, objective.unit)
-    bar = figure.colorbar(dots, ax=all_axes, shrink=0.6, ticks=[])
-    bar.set_label("order of the search, yellow last")
+    bar = figure.colorbar(dots, ax=all_axes, shrink=0.6)
+    bar.set_ticks([0, max(len(feasible) - 1, 0)], labels=["first", "last"])
     return figure
 
 

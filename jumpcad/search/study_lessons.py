@@ -26,10 +26,13 @@ def matters(store: StudyStore, found: Known) -> Iterator[str]:
     except JumpcadError:
         yield f"<p>{len(feasible)} designs that jump are too few to say what is important.</p>"
         return
+    if not learned.r_squared >= LEAST_R_SQUARED:  # nor is NaN
+        yield f"<p>From {learned.designs} designs the score of others cannot be predicted (R² {learned.r_squared:.2f}, "
+        yield f"at least {LEAST_R_SQUARED:g} is asked for): this study does not say what is important.</p>"
+        return
     yield f"<p>{written(MEANINGS['importance'])} Learned from {learned.designs} designs; R² on designs held out: "
-    yield f"{learned.r_squared:.2f}{'' if learned.r_squared >= LEAST_R_SQUARED else ', too low to say what matters'}. "
-    yield "The search looked mostly near its best designs: over the whole space, ask <code>jumpcad explore "
-    yield "importance</code>.</p>"
+    yield f"{learned.r_squared:.2f}. The search looked mostly near its best designs: over the whole space, ask "
+    yield "<code>jumpcad explore importance</code>.</p>"
     order = sorted(range(len(learned.names)), key=lambda index: (-round(float(learned.mean[index]), 2), index))
     most = max(float(learned.mean.max()), 0.01)
     rows = [

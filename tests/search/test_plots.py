@@ -1,10 +1,14 @@
 """Pictures of searches show the trials and the surrogate."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from support.bumps import REST, studied
 
 from jumpcad.search import plots
+from jumpcad.search.explore import Sweep
+from jumpcad.search.figures import MEANINGS, PICTURES, panels, save_figure
 from jumpcad.search.objective import find_objective
 from jumpcad.search.space import Space
 
@@ -36,3 +40,29 @@ def test_history_shows_every_row_and_the_best_so_far(tmp_path):
     assert np.isfinite(lines["ga"]).sum() == len(scores)
     assert len(lines["rejected"]) == len(trials) - len(scores)
     assert np.nanmax(lines["best so far"]) == max(scores)
+
+
+def test_slices_and_sweeps_mark_the_best_and_the_centre(tmp_path):
+    space = Space.parse(fix=REST)
+    with studied(tmp_path / "s.db", space, "ga", 40) as store:
+        trials = [trial for trial in store.trials() if trial.phase == "ga"]
+    best = max((trial for trial in trials if trial.score is not None), key=lambda trial: trial.score)
+    figure = plots.slices(space, trials, find_objective("fitness"))
+    for axes, parameter in zip(figure.axes, space.free, strict=False):
+        (star,) = axes.lines
+        assert (star.get_xdata()[0], star.get_ydata()[0]) == (getattr(best.design, parameter.name), best.score)
+    values = np.array([0.3, 0.5, 0.8])
+    swept = [replace(best, score=score) for score in (5.0, 9.0, None)]
+    centre = best.design.model_copy(update={"compression_ratio": 0.4})
+    figure = plots.sweeps([Sweep("compression_ratio", values, swept)], find_objective("fitness"), centre)
+    ring = next(line for line in figure.axes[0].lines if line.get_label() == "centre design")
+    assert (ring.get_xdata()[0], ring.get_ydata()[0]) == pytest.approx((0.4, 7.0))
+    assert {text.get_text() for text in figure.legends[0].get_texts()} == {"jumps", "rejected", "centre design"}
+
+
+def test_every_picture_says_what_it_means(tmp_path):
+    assert set(MEANINGS) == set(PICTURES)
+    figure, _ = panels(1)
+    save_figure(figure, tmp_path, "history")
+    said = " ".join(figure.get_supxlabel().split())
+    assert said == MEANINGS["history"]
