@@ -1,12 +1,20 @@
-"""Pictures and tables in a notebook, by the method `_repr_html_` of objects.
+"""Pictures and tables in a notebook, by the method `_repr_html_` of objects; a robot's page by its method `show`.
 
 A robot is drawn by packages that import it, so it cannot import them: `attach` gives the classes their method.
 """
 
 import base64
-from collections.abc import Iterable
+import importlib
+import sys
+import tempfile
+import webbrowser
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from html import escape
+from pathlib import Path
+from typing import Any
 
+from jumpcad.bundle.export import report_page
 from jumpcad.bundle.renders import rest_picture
 from jumpcad.evaluation import EvaluationResult
 from jumpcad.findings import Finding, errors
@@ -15,13 +23,58 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Jump
 
 PICTURE_SIZE = (420, 315)
+PAGE_PIXELS = 720
+"""Height of a page below a notebook's cell; judgement: viewer and controls are seen whole."""
 Line = tuple[str, str]
 
 
 def attach() -> None:
-    """Give robots, jumps and evaluations their `_repr_html_`."""
+    """Give robots, jumps and evaluations their `_repr_html_`, and printed robots `show`."""
     for kind, html in ((Mechanism, robot_html), (Jump, jump_html), (EvaluationResult, evaluation_html)):
         setattr(kind, "_repr_html_", html)  # noqa: B010  a class does not declare it
+    setattr(Robot, "show", show)  # noqa: B010  declared for type checkers only
+
+
+@dataclass(frozen=True)
+class ShownPage:
+    """A page that a notebook shows in a frame of its own, whose program runs there."""
+
+    html: str
+
+    def _repr_html_(self) -> str:
+        frame = f'width="100%" height="{PAGE_PIXELS}" style="border: 0" title="report"'
+        return f'<iframe {frame} srcdoc="{escape(self.html)}"></iframe>'
+
+
+def show(robot: Robot) -> Path | None:
+    """Show the robot's report page: in a notebook below the cell, elsewhere in the web browser.
+
+    Returns
+    -------
+    Path or None
+        The temporary file that the browser opens, which is kept; None in a notebook. A browser installed as a snap
+        cannot read the system's temporary folder: set TMPDIR to a folder in your home.
+    """
+    page = report_page(robot)
+    display = _notebook_display()
+    if display is not None:
+        display(ShownPage(page))
+        return None
+    with tempfile.NamedTemporaryFile("w", prefix="jumpcad-", suffix=".html", encoding="utf-8", delete=False) as stream:
+        stream.write(page)
+    path = Path(stream.name)
+    webbrowser.open(path.as_uri())
+    return path
+
+
+def _notebook_display() -> Callable[[Any], Any] | None:
+    """Return what shows an object below a notebook's cell; None outside, also in IPython's terminal."""
+    ipython = sys.modules.get("IPython")  # a notebook has loaded it
+    shell = None if ipython is None else ipython.get_ipython()
+    if getattr(shell, "kernel", None) is None:
+        return None
+    display: Callable[[Any], Any] = importlib.import_module("IPython.display").display
+    return display
 
 
 def robot_html(robot: Mechanism) -> str:
@@ -32,18 +85,18 @@ def robot_html(robot: Mechanism) -> str:
         ("longest link", f"{robot.design.l_max_mm:.1f} mm"),
     ]
     if not isinstance(robot, Robot):
-        return _table(robot.name, lines)
+        return figures_table(robot.name, lines)
     lines += [
         ("printed parts", str(sum(part.quantity for part in robot.parts))),
         ("bought parts", str(len(robot.hardware))),
         ("printer", robot.workshop.printer.name),
     ]
-    return _picture(rest_picture(robot, PICTURE_SIZE)) + _table(robot.name, lines)
+    return _picture(rest_picture(robot, PICTURE_SIZE)) + figures_table(robot.name, lines)
 
 
 def jump_html(jump: Jump) -> str:
     """Return the key figures of a jump, or why there is none."""
-    return _table("jump", [*_jump_lines(jump), *_error_lines(jump.findings)])
+    return figures_table("jump", [*_jump_lines(jump), *_error_lines(jump.findings)])
 
 
 def evaluation_html(result: EvaluationResult) -> str:
@@ -53,7 +106,7 @@ def evaluation_html(result: EvaluationResult) -> str:
         ("winding time", f"{result.metrics['winding_time_s']:.1f} s"),
         ("winding energy (electrical)", f"{result.metrics['electrical_energy_j']:.2f} J"),
     ]
-    return _table(result.robot.name or "evaluation", [*lines, *_error_lines(result.findings)])
+    return figures_table(result.robot.name or "evaluation", [*lines, *_error_lines(result.findings)])
 
 
 def _jump_lines(jump: Jump) -> list[Line]:
@@ -79,6 +132,7 @@ def _picture(png: bytes) -> str:
     return f'<img width="{width}" height="{height}" alt="the robot at rest" src="data:image/png;base64,{data}">'
 
 
-def _table(title: str, lines: Iterable[Line]) -> str:
+def figures_table(title: str, lines: Iterable[Line]) -> str:
+    """Return a table of names and values under a title."""
     rows = "".join(f"<tr><th>{escape(name)}</th><td>{escape(value)}</td></tr>" for name, value in lines)
     return f"<table><caption>{escape(title)}</caption>{rows}</table>"

@@ -3,6 +3,8 @@
 import os
 import re
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from jumpcad.drive.release import Release
 from jumpcad.errors import JumpcadError
@@ -33,6 +35,11 @@ class Robot(Mechanism):
     layout: Layout
     release: Release
     stop_blow: StopBlow
+
+    if TYPE_CHECKING:
+
+        def show(self) -> Path | None:
+            """Show the robot's page; `jumpcad.notebook` gives this method to the class."""
 
 
 def require_name(name: str) -> None:

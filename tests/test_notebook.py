@@ -3,7 +3,10 @@
 import base64
 import io
 import re
+import sys
 from dataclasses import replace
+from html import unescape
+from types import ModuleType, SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -103,3 +106,62 @@ def test_a_rejected_design_says_why():
 
 def test_names_are_escaped():
     assert "<b>" not in replace(jumpcad.capsule_robot(DESIGN), name="<b>&")._repr_html_()
+
+
+def test_outside_of_a_notebook_a_robot_is_shown_in_the_browser(result, monkeypatch, tmp_path):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.delitem(sys.modules, "IPython", raising=False)
+    path = result.robot.show()
+    assert path.parent == tmp_path
+    assert path.suffix == ".html"
+    assert opened == [path.as_uri()]
+    page = ElementTree.fromstring(path.read_text(encoding="utf-8").removeprefix("<!DOCTYPE html>"))
+    assert page.find(".//div[@id='viewer']") is not None
+
+
+@pytest.mark.parametrize("kernel", [None, object()], ids=["terminal", "notebook"])
+def test_in_a_notebook_the_page_stands_below_the_cell(result, monkeypatch, tmp_path, kernel):
+    shown, opened = [], []
+    ipython, display = ModuleType("IPython"), ModuleType("IPython.display")
+    ipython.get_ipython = lambda: SimpleNamespace(kernel=kernel)
+    display.display = shown.append
+    monkeypatch.setitem(sys.modules, "IPython", ipython)
+    monkeypatch.setitem(sys.modules, "IPython.display", display)
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    path = result.robot.show()
+    if kernel is None:
+        assert not shown
+        assert opened == [path.as_uri()]
+        return
+    assert path is None
+    assert not opened
+    assert not list(tmp_path.iterdir())
+    frame = ElementTree.fromstring(shown[0]._repr_html_())
+    inside = ElementTree.fromstring(frame.get("srcdoc").removeprefix("<!DOCTYPE html>"))
+    assert inside.findtext("body/h1") == result.robot.name
+    assert unescape(shown[0]._repr_html_()).count("</iframe>") == 1
+
+
+def test_a_capsule_robot_has_no_page():
+    assert not hasattr(jumpcad.capsule_robot(DESIGN), "show")
+
+
+def test_the_result_of_a_search_is_a_table():
+    found = jumpcad.optimize("ga", 40, model="capsule", workers=0)
+    shown = table(found._repr_html_())
+    assert shown["fitness"] == f"{found.score:.4g} body lengths"
+    assert float(shown["carrying_link_mm"]) == pytest.approx(found.design.carrying_link_mm, rel=1e-4)
+    assert {name: int(shown[f"rejected: {name}"]) for name in found.rejected} == found.rejected
+    best = jumpcad.optimize("nsga2", 40, model="capsule", workers=0)
+    shown = table(best._repr_html_())
+    assert [name for name in shown if name.startswith("with ")] == [
+        f"with {trial.design.spring_energy_j:.4f} J in the springs" for trial in best.front
+    ]
+
+
+def test_a_search_without_a_design_that_jumps_has_a_table_too():
+    shown = table(Result(Request(SMALL, Hill()), [], None, [], [], [], 0)._repr_html_())
+    assert shown["designs evaluated"].startswith("0,")

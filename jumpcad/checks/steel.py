@@ -70,7 +70,7 @@ def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) 
         else "no shipped rod"
     )
     return (
-        f"a yield stress of {needed:.0f} MPa ({kind}), bought.axle_mm of {thick:.1f} or "
+        f"{needed:.0f} MPa yield stress ({kind}), bought.axle_mm of {thick:.1f} or "
         f"more with its bearings, a span between the plates shorter by {100.0 * (1.0 - 1.0 / share):.0f} % (a shorter "
         f"motor, a narrower battery or board), or {softer}"
     )

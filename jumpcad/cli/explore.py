@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from jumpcad.search.evaluator import Evaluator
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
-LEAST_R_SQUARED = 0.5
-"""Below it, importances mean little."""
 
 ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
 SAMPLES, POINTS, AROUND, OVER = 1000, 21, "best-bo", "rest_angle_deg,compression_ratio"
@@ -153,7 +151,7 @@ def _swept(centre: "Design", points: int) -> View:
             scores = [trial.score for trial in one.trials if trial.score is not None]
             reach = f"{min(scores):9.4f} … {max(scores):9.4f}" if scores else "never feasible       "
             lines.append(f"{one.parameter:24s}{reach}  feasible at {len(scores)} of {len(one.trials)} values")
-        return {"sweeps": data}, lines, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective)}
+        return {"sweeps": data}, lines, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
 
     return run
 
@@ -161,7 +159,7 @@ def _swept(centre: "Design", points: int) -> View:
 def _sampled(view: str, samples: int, seed: int) -> View:
     def run(evaluator: "Evaluator") -> tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]:
         from jumpcad.search import plots
-        from jumpcad.search.explore import UNIFORM_NOTE, components, elite, importance, sample
+        from jumpcad.search.explore import LEAST_R_SQUARED, UNIFORM_NOTE, components, elite, importance, sample
 
         trials = sample(evaluator, samples, seed)
         if view == "importance":
@@ -208,6 +206,6 @@ def _mapped(centre: "Design", over: str, points: int) -> View:
             "verdicts": reasons,
         }
         lines = [f"{count:6d}  {reason}" for reason, count in counts]
-        return data, lines, {"feasibility": lambda: plots.feasibility(found)}
+        return data, lines, {"feasibility": lambda: plots.feasibility(found, centre)}
 
     return run

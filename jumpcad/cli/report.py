@@ -1,4 +1,4 @@
-"""`jumpcad report`: one page that shows a robot moving, its limits and how to make it."""
+"""`jumpcad report`: one page that shows a robot moving, its limits and how to make it; or one of a study."""
 
 from pathlib import Path
 from typing import Annotated
@@ -7,9 +7,10 @@ import typer
 
 from jumpcad.cli.bundle import progress
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
-from jumpcad.cli.subjects import WorkshopOption, bundle_of, designed, tell_template
+from jumpcad.cli.subjects import WorkshopOption, bundle_of, designed, refuse_workshop, tell_template
 
 PAGE = "report.html"
+STUDY = ".db"
 
 
 def register(app: typer.Typer) -> None:
@@ -18,7 +19,9 @@ def register(app: typer.Typer) -> None:
 
 
 def report(
-    subject: Annotated[str, typer.Argument(help="A bundle, a template or a design file.", metavar="BUNDLE|DESIGN")],
+    subject: Annotated[
+        str, typer.Argument(help="A bundle, a template, a design file, or a study file.", metavar="BUNDLE|DESIGN|F.db")
+    ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="File of the page [BUNDLE/report.html, or NAME-report.html].")
     ] = None,
@@ -26,7 +29,35 @@ def report(
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Write report.html: one file, without network, with the robot in 3-D."""
+    """Write report.html: one file, without network, with the robot in 3-D; of a study, its designs and plots."""
+    if subject.endswith(STUDY) and not Path(subject).is_dir():
+        written = _study_page(Path(subject), output, workshop, force)
+    else:
+        written = _robot_page(subject, output, workshop, force)
+    if as_json:
+        print_json({"file": str(written)})
+    else:
+        print(escaped(str(written)))
+
+
+def _study_page(study: Path, output: Path | None, workshop: str | None, force: bool) -> Path:
+    """Write the page of a study; return its path."""
+    from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
+    from jumpcad.search.store import StudyStore
+    from jumpcad.search.study_page import write_study_page
+
+    refuse_workshop(workshop, f"{study} is a study, which keeps the workshop of its robots; leave --workshop out")
+    page = output or Path(f"{study.stem}-{PAGE}")
+    require_apart({"--output": page}, {"the study": study})
+    require_target(page, (".html",), force)
+    with StudyStore.read(study) as store, progress(f"drawing {study}"):
+        text = write_study_page(store, study.stem)
+    write_atomically(page, sealed(text, "<!-- {} -->"))
+    return page
+
+
+def _robot_page(subject: str, output: Path | None, workshop: str | None, force: bool) -> Path:
+    """Write the page of a robot; return its path."""
     from jumpcad.bundle.export import report_page
     from jumpcad.bundle.folder import change_files, require_unedited
     from jumpcad.files.outputs import require_apart, require_target, write_files
@@ -49,7 +80,4 @@ def report(
         change_files(bundle, {PAGE: text}, {}, force)
     else:
         write_files(page.parent, {page.name: text})
-    if as_json:
-        print_json({"file": str(page)})
-    else:
-        print(escaped(str(page)))
+    return page

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.catalogue import Component, Travel
+from jumpcad.errors import CannotBuildError
 from jumpcad.layout.layout import Layout
 from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM, OPENING_MM, SensorPlace
 from jumpcad.mechanism.model import BODY
@@ -34,10 +35,17 @@ SCREWS_MM = (4.0, 5.0, 6.0)
 
 
 def sensor_mount(layout: Layout, holes: HoleSizes) -> Iterator[Drawing]:
-    """Yield the mount, if there is a sensor."""
+    """Yield the mount, if there is a sensor.
+
+    Raises
+    ------
+    CannotBuildError
+        If the plate is so thick that the switch has no base outside it.
+    """
     sensor = layout.sensor
     if sensor is None:
         return
+    _require_base(layout, holes)
     length, width = sensor.case_mm
     around = 2.0 * (MOUNT_PLAY_MM + MOUNT_WALL_MM)
     cavity = rectangle((length + 2.0 * MOUNT_PLAY_MM, width + 2.0 * MOUNT_PLAY_MM))
@@ -85,6 +93,19 @@ def sensor_slabs(part: Component, travel: Travel) -> list[tuple[float, float, Re
     height = part.height_mm or 0.0
     case = rectangle((part.length_mm or 0.0, part.width_mm or 0.0))
     return [(-height, 0.0, case), (-travel.total_mm, -height, disc(travel.pin_mm))]
+
+
+def _require_base(layout: Layout, holes: HoleSizes) -> None:
+    """Raise if the switch's base is too near the plate for the mount's rim around it."""
+    assert layout.sensor is not None
+    base, plate = layout.sensor.base_mm, layout.lateral.left_plate[1] - layout.lateral.left_plate[0]
+    least = max(holes.fits.first_layer_chamfer_mm, holes.process.first_layer_mm)
+    if base < least:
+        raise CannotBuildError(
+            f"no room for the sensor's mount: the base of its switch is {base:.2f} mm outside the left plate, which is "
+            f"{plate:.1f} mm thick, {least:.2f} mm are needed: choose a thinner body.plate_mm, a stiffer material of "
+            "the plates, or a taller bought.sensor"
+        )
 
 
 def screw_mm() -> float:

@@ -22,6 +22,8 @@ ELITE_SHARE = 0.1
 ELITE_LEAST = 20
 FOLDS = 5
 REPEATS = 10
+LEAST_R_SQUARED = 0.5
+"""Below it the surrogate predicts too badly to say which parameter matters; judgement."""
 
 UNIFORM_NOTE = (
     "Components of evenly sampled parameters are equal apart from chance: they say nothing about the robot. "

@@ -1,14 +1,17 @@
 """Pictures of a search: each function takes data and returns a figure."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from jumpcad.arguments import typed
+from jumpcad.design import PARAMETERS, Design
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.fronts import energy_j, front
@@ -16,13 +19,17 @@ from jumpcad.search.objective import Objective
 from jumpcad.search.parameter import Parameter
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Posterior, unwarped, warped
-from jumpcad.search.trial import Trial, feasible_trials
+from jumpcad.search.trial import Trial, best_trial, feasible_trials
 from jumpcad.transforms import Array
 
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
 ACQUISITION = "log10 of EI × P(feasible)"
 MOST_DRAWN = 2000
 """Trials that are drawn as shapes of their own; more of them are one image, or the best of them are drawn."""
+BEST: dict[str, Any] = {"marker": "*", "ms": 10, "mfc": RED, "mec": "white", "mew": 0.6, "ls": "", "label": "best"}
+CENTRE: dict[str, Any] = {
+    "marker": "o", "ms": 9, "mfc": "none", "mec": "black", "mew": 1.2, "ls": "", "label": "centre design",
+}  # fmt: skip
 DECADES = 6.0
 """The acquisition is drawn down to this many decades below its maximum."""
 
@@ -51,10 +58,20 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
     feasible = [trial for trial in trials if trial.score is not None]
     order = np.arange(len(feasible))
     for axes, parameter in zip(all_axes, space.free, strict=True):
-        values = [parameter.number(trial.variant.value(parameter.name)) for trial in feasible]
+
+        def at(trial: Trial, parameter: Parameter = parameter) -> float:
+            return parameter.number(trial.variant.value(parameter.name))
+
         _name_ticks(axes, parameter.names)
-        axes.scatter(values, _scores(feasible), c=order, cmap="viridis", s=8, rasterized=len(feasible) > MOST_DRAWN)
+        dots = axes.scatter(
+            [at(trial) for trial in feasible], _scores(feasible), c=order, cmap="viridis", s=8,
+            rasterized=len(feasible) > MOST_DRAWN,
+        )  # fmt: skip
+        if best := best_trial(feasible):
+            axes.plot(at(best), best.score or 0.0, **BEST)
         labels(axes, parameter.name, objective.unit)
+    bar = figure.colorbar(dots, ax=all_axes, shrink=0.6, ticks=[])
+    bar.set_label("order of the search, yellow last")
     return figure
 
 
@@ -69,7 +86,10 @@ def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
         axes.plot(range(space.dimension), space.to_unit(trial.variant), "-", lw=0.8, color=colour)
     ticks = [f"{p.name}\n{_end(p, p.lower)} … {_end(p, p.upper)}" for p in space.free]
     axes.set_xticks(range(space.dimension), ticks, rotation=30, ha="right", fontsize=7)
-    labels(axes, "", "place in its range", "the best twentieth in red")
+    colours = {"best twentieth": RED, "the others, the better the darker": BLUE}
+    handles = [Line2D([], [], color=colour, label=label) for label, colour in colours.items()]
+    figure.legend(handles=handles, loc="outside upper right", ncols=2)
+    labels(axes, "", "place in its range")
     return figure
 
 
@@ -78,7 +98,9 @@ def pareto(trials: Sequence[Trial], objective: Objective) -> Figure:
     """Draw the score against the energy of the springs, and the front."""
     figure, (axes,) = panels(1, 6.4, 3.6)
     feasible = [trial for trial in trials if trial.score is not None]
-    axes.plot([energy_j(trial.design) for trial in feasible], _scores(feasible), ".", ms=4, color=GREY)
+    axes.plot(
+        [energy_j(trial.design) for trial in feasible], _scores(feasible), ".", ms=4, color=GREY, label="other designs"
+    )
     best = front(trials)
     energies, scores = [energy_j(trial.design) for trial in best], _scores(best)
     axes.plot(energies, scores, ".-", color=BLUE, drawstyle="steps-post", label="front")
@@ -98,16 +120,21 @@ def importance(found: Importance) -> Figure:
 
 
 @typed
-def sweeps(found: Sequence[Sweep], objective: Objective) -> Figure:
-    """Draw the score over each parameter varied alone; crosses where the design is rejected."""
+def sweeps(found: Sequence[Sweep], objective: Objective, centre: Design | None = None) -> Figure:
+    """Draw the score over each parameter varied alone; crosses where the design is rejected, a ring at the centre."""
     figure, all_axes = panels(len(found))
     for axes, one in zip(all_axes, found, strict=True):
         scores = _scores(one.trials)
-        axes.plot(one.values, scores, "." if one.names else ".-", color=BLUE)
+        axes.plot(one.values, scores, "." if one.names else ".-", color=BLUE, label="jumps")
         _name_ticks(axes, one.names)
         rejected = np.isnan(scores)
-        axes.plot(one.values[rejected], np.zeros(int(rejected.sum())), "x", color=RED, ms=4)
+        axes.plot(one.values[rejected], np.zeros(int(rejected.sum())), "x", color=RED, ms=4, label="rejected")
+        if centre is not None and one.parameter in PARAMETERS:
+            value = getattr(centre, one.parameter)
+            axes.plot(value, _at(value, one.values, scores), **CENTRE)
         labels(axes, one.parameter, objective.unit)
+    handles, names = all_axes[0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside upper right", ncols=len(names))
     return figure
 
 
@@ -117,14 +144,15 @@ def components(views: Mapping[str, Components]) -> Figure:
     figure, all_axes = panels(len(views), 4.0, 3.0)
     for axes, (name, view) in zip(all_axes, views.items(), strict=True):
         axes.bar(np.arange(1, len(view.shares) + 1), view.shares, color=BLUE)
-        axes.axhline(1.0 / len(view.shares), color=GREY, lw=1, ls="--")
-        labels(axes, "component", "share of variance", f"{name}: {view.designs} designs; dashed: equal shares")
+        axes.axhline(1.0 / len(view.shares), color=GREY, lw=1, ls="--", label="equal shares")
+        axes.legend()
+        labels(axes, "component", "share of variance", f"{name}: {view.designs} designs")
     return figure
 
 
 @typed
-def feasibility(found: FeasibilityMap) -> Figure:
-    """Draw why designs are rejected, over a grid of two parameters."""
+def feasibility(found: FeasibilityMap, centre: Design | None = None) -> Figure:
+    """Draw why designs are rejected, over a grid of two parameters, with a ring at the centre design."""
     figure, (axes,) = panels(1, 6.4, 4.2)
     reasons = [[" ".join(trial.evaluation.reasons[:1]) or "jump" for trial in line] for line in found.trials]
     names = sorted({reason for line in reasons for reason in line}, key=lambda name: (name != "jump", name))
@@ -136,8 +164,12 @@ def feasibility(found: FeasibilityMap) -> Figure:
         found.x, found.y, codes, shading="nearest", cmap=ListedColormap(palette), norm=norm, rasterized=True
     )
     axes.grid(False)
-    patches = [Patch(color=colour, label=name) for colour, name in zip(palette, names, strict=True)]
-    figure.legend(handles=patches, loc="outside right upper")
+    handles: list[Patch | Line2D] = [
+        Patch(color=colour, label=name) for colour, name in zip(palette, names, strict=True)
+    ]
+    if centre is not None and {found.x_name, found.y_name} <= set(PARAMETERS):
+        handles += axes.plot(getattr(centre, found.x_name), getattr(centre, found.y_name), **CENTRE)
+    figure.legend(handles=handles, loc="outside right upper")
     labels(axes, found.x_name, found.y_name)
     _name_ticks(axes, found.x_names)
     if found.y_names:
@@ -216,6 +248,11 @@ def _name_ticks(axes: Axes, names: Sequence[str]) -> None:
     """Mark the numbers of names with the names."""
     if names:
         axes.set_xticks(range(len(names)), names, rotation=30, ha="right", fontsize=7)
+
+
+def _at(value: float, values: Array, scores: Array) -> float:
+    """Return the score between two neighbours of a sweep; 0, where crosses are, if one of them is rejected."""
+    return float(np.nan_to_num(np.interp(value, values, scores)))
 
 
 def _scores(trials: Sequence[Trial]) -> Array:

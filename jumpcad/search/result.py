@@ -1,6 +1,6 @@
 """`Result`: what a study found, as values, as plain data, and as a design file."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -9,7 +9,7 @@ from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_atomically
-from jumpcad.search.fronts import front, hypervolume
+from jumpcad.search.fronts import energy_j, front, hypervolume
 from jumpcad.search.models import RobotModel
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
@@ -166,6 +166,26 @@ class Result:
     def __repr__(self) -> str:
         found = "no design jumps" if self.winner is None else f"{self.request.objective} {self.score:.4g}"
         return f"<Result {self.request.method}: {found}, {len(self.trials)} trials, {len(self.candidates)} candidates>"
+
+    def _repr_html_(self) -> str:
+        from jumpcad.notebook import figures_table
+
+        return figures_table(self.request.title, self._lines())
+
+    def _lines(self) -> Iterator[tuple[str, str]]:
+        """Yield what a notebook shows: the winner, or the front, and what rejected designs."""
+        yield "designs evaluated", f"{self.evaluations}, {len(self.trials)} of them by the search"
+        if self.request.is_front:
+            yield "hypervolume", f"{self.hypervolume:.4g}"
+            for trial in self.front:
+                yield f"with {energy_j(trial.design):.4f} J in the springs", f"{trial.score:.4g}"
+        elif self.winner is not None:
+            yield self.request.objective, f"{self.score:.4g} {self.request.aim.unit}"
+        if self.candidates:
+            yield "score that nine of ten neighbours reach", f"{self.candidates[0].robust_score:.4g}"
+        if self.winner is not None:
+            yield from ((name, f"{value:.5g}") for name, value in self.design.model_dump().items())
+        yield from ((f"rejected: {reason}", str(count)) for reason, count in self.rejected.items())
 
     def _won(self) -> Trial:
         if self.winner is None:

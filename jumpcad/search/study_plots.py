@@ -20,6 +20,11 @@ from jumpcad.search.trial import LEARNING_PHASES, Trial, searched
 @typed
 def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
     """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
+    return [save_figure(draw(), folder, name) for name, draw in study_figures(store).items()]
+
+
+def study_figures(store: StudyStore) -> dict[str, Callable[[], Figure]]:
+    """Return functions that draw the pictures of a study, by the pictures' names."""
     trials, identity = searched(store.trials()), store.identity
     space, objective = Space.from_record(identity["space"]), described_objective(identity)
     figures: dict[str, Callable[[], Figure]] = {}
@@ -34,7 +39,7 @@ def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
         for name, number, count in _moments(trials):
             posterior = Posterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=())
             figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective)
-    return [save_figure(draw(), folder, name) for name, draw in figures.items()]
+    return figures
 
 
 def _moments(trials: Sequence[Trial]) -> list[tuple[str, int, int]]:

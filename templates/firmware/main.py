@@ -1,7 +1,7 @@
-"""Runs the robot: reads sensor, button, battery and serial commands, and turns the motor as `winder` says.
+"""Runs the robot: reads sensor, button, battery and serial commands, and turns the motor as `winder` returns.
 
-Commands over USB, each a line: `wind`, `jump`, `stop`, `state`. The board's button winds, and then releases after a
-delay in which to step back.
+Commands over USB, one a line: `wind`, `jump`, `stop`, `state`. The button on the board winds, and then releases after
+a delay, in which you step back.
 """
 
 import select
@@ -39,7 +39,7 @@ class Board:
 
 
 class Button:
-    """A push button: pressed once a press, after the release of an earlier one."""
+    """A push button, debounced; each press counts once."""
 
     def __init__(self):
         self.was_down_ms = 0
@@ -52,12 +52,12 @@ class Button:
 
 
 def command(poll):
-    """Return the line that came in, or nothing."""
+    """Return the line that was received, or an empty text."""
     return sys.stdin.readline().strip() if poll.poll(0) else ""
 
 
 def run():
-    """Work until interrupted; the motor is off afterwards, whatever happened."""
+    """Run until interrupted; the motor is off afterwards in every case."""
     board, winder, button = Board(), Winder(robot), Button()
     poll = select.poll()
     poll.register(sys.stdin, select.POLLIN)

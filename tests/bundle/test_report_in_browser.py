@@ -1,42 +1,21 @@
 """report.html in Debian's Chromium without a screen: it shows, plays and answers, and asks the network for nothing."""
 
-import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
+from support.browsers import PHONE, browser, needs_browser, require_quiet, wait, webdriver
 
 from jumpcad.building import build
 from jumpcad.bundle.export import export
 from jumpcad.design import load_design
+from jumpcad.notebook import ShownPage
 
-webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
-from selenium.webdriver.support.ui import WebDriverWait  # noqa: E402
-
-CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-pytestmark = pytest.mark.skipif(not (CHROMIUM and DRIVER), reason="chromium or chromedriver is not installed")
-WAIT_S = 60.0
-"""A browser that does not answer within this time has failed."""
+pytestmark = needs_browser
 THREE_D = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1400,1200")
-
-
-def browser(*arguments: str) -> Any:
-    options = webdriver.ChromeOptions()
-    options.binary_location = CHROMIUM
-    for argument in (
-        "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
-        "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", *arguments,
-    ):  # fmt: skip
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return webdriver.Chrome(options=options, service=webdriver.ChromeService(DRIVER))
-
-
-def wait(driver: Any, condition: Callable[[Any], object]) -> None:
-    WebDriverWait(driver, WAIT_S).until(condition)
 
 
 def opened(driver: Any, page: Path) -> Any:
@@ -110,19 +89,13 @@ def test_a_click_on_a_part_tells_what_it_is(driver: Any, page: Path) -> None:
 
 def test_nothing_is_asked_of_the_network_and_no_error_is_logged(driver: Any, page: Path) -> None:
     opened(driver, page)
-    asked = [
-        entry["message"] for entry in driver.get_log("performance") if "Network.requestWillBeSent" in entry["message"]
-    ]
-    assert [message for message in asked if '"url":"http' in message] == []
-    assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"] == []
+    require_quiet(driver)
 
 
 def test_it_fits_a_phone(page: Path) -> None:
     made = browser(*THREE_D)
     try:
-        made.execute_cdp_cmd(
-            "Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
-        )
+        made.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
         opened(made, page)
         assert made.execute_script("return document.documentElement.scrollWidth") <= 390
     finally:
@@ -138,3 +111,17 @@ def test_without_webgl_a_sentence_stands_in_its_place(page: Path) -> None:
         assert not made.find_element("id", "viewer-controls").is_displayed()
     finally:
         made.quit()
+
+
+def test_in_the_frame_of_a_notebook_it_plays_too(driver: Any, page: Path, tmp_path: Path) -> None:
+    cell = tmp_path / "cell.html"
+    frame = ShownPage(page.read_text(encoding="utf-8"))._repr_html_()
+    cell.write_text(f"<!DOCTYPE html><html><body>{frame}</body></html>", encoding="utf-8")
+    driver.get(cell.as_uri())
+    driver.switch_to.frame(0)
+    try:
+        box = driver.find_element("id", "viewer")
+        wait(driver, lambda _: box.get_attribute("data-state"))
+        assert box.get_attribute("data-state") == "ready"
+    finally:
+        driver.switch_to.default_content()

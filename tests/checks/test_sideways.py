@@ -51,7 +51,7 @@ def test_play_adds_up_along_the_leg(kenan: Robot) -> None:
     assert play_rad(kenan.layout, fine) < play_rad(kenan.layout, holes)
 
 
-@pytest.mark.parametrize(("state", "share"), [("at rest", 0.0), ("wound", 1.0)])
+@pytest.mark.parametrize(("state", "share"), [("at rest", 0.0), ("springs loaded", 1.0)])
 def test_rolling_by_the_stance_brings_the_centre_of_mass_over_the_edge(
     strongest: Robot, state: str, share: float
 ) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Run
+from support.searches import QUICK
 
 
 def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, bundle: Path, tmp_path: Path) -> None:
@@ -37,3 +38,34 @@ def test_a_users_page_is_not_replaced(run: Run, tmp_path: Path) -> None:
     assert code == 2
     assert "--force" in err
     assert (tmp_path / "kenan-2.0-report.html").read_text() == "mine"
+
+
+def test_the_page_of_a_study_is_a_file_of_its_own_and_is_renewed(run: Run, tmp_path: Path) -> None:
+    assert run("optimize", "ga", *QUICK, "--evaluations", 30, "--study", "s.db")[0] == 0
+    code, out, _ = run("report", "s.db")
+    assert (code, out) == (0, "s-report.html\n")
+    page = (tmp_path / "s-report.html").read_text()
+    assert "What was asked" in page
+    assert "too_weak" in page or "0 of" in page
+    assert run("report", "s.db")[0] == 0  # nobody has changed it
+    (tmp_path / "s-report.html").write_text(page + "mine")
+    code, _, err = run("report", "s.db")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "--force" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("no.db",), "no such study file"),
+        (("text.db",), "not a study"),
+        (("text.db", "--workshop", "default"), "--workshop"),
+        (("text.db", "-o", "page.txt"), ".html"),
+    ],
+)
+def test_what_is_no_study_is_refused(run: Run, tmp_path: Path, arguments: tuple[str, ...], said: str) -> None:
+    (tmp_path / "text.db").write_text("a text")
+    code, out, err = run("report", *arguments)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+    assert [path.name for path in tmp_path.iterdir()] == ["text.db"]

@@ -1,0 +1,220 @@
+"""The page of a study: one file, without network, from what was asked to the best designs and what rejected others.
+
+HTML that is well-formed XML too. The same study file gives the same bytes.
+"""
+
+import base64
+from collections.abc import Iterator, Mapping, Sequence
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from jumpcad.arguments import typed
+from jumpcad.design import Design
+from jumpcad.files.templates import templates_folder
+from jumpcad.search.figures import MEANINGS, svg_text
+from jumpcad.search.fronts import REFERENCE_ENERGY_J, energy_j, front, hypervolume
+from jumpcad.search.methods import FRONTS
+from jumpcad.search.page_text import table, written
+from jumpcad.search.replay import Known, known
+from jumpcad.search.robust import best_apart
+from jumpcad.search.shown_design import shown_designs
+from jumpcad.search.store import StudyStore
+from jumpcad.search.study_chart import chart
+from jumpcad.search.study_lessons import active, matters, refused
+from jumpcad.search.study_plots import study_figures
+from jumpcad.search.trial import Trial, feasible_trials
+from jumpcad.workshop.varied import Value
+
+SHOWN = 10
+"""Best designs that are shown where no neighbours were examined and no front was searched."""
+MOST_SHOWN = 100
+"""Designs of a front that are shown, at most, evenly chosen along it with both ends: each is 5 kB of the page."""
+CHOSEN = ("pareto",)
+"""Pictures that the page replaces by its own chart."""
+CANDIDATE_HEAD = ("±1 %", "lengths", "rejected")
+
+
+@typed
+def write_study_page(store: StudyStore, name: str) -> str:
+    """Return the page of a study, also of one that still runs.
+
+    Raises
+    ------
+    JumpcadError
+        If the study file is damaged.
+    """
+    folder = templates_folder() / "report"
+    style = "".join((folder / file).read_text(encoding="ascii") for file in ("style.css", "study.css"))
+    program = (folder / "study.js").read_text(encoding="ascii")
+    found, title = known(store), written(name)
+    return "\n".join(
+        [
+            "<!DOCTYPE html>",
+            '<html lang="en">',
+            '<head><meta charset="utf-8" /><meta name="viewport" content="width=device-width, initial-scale=1" />',
+            f"<title>{title}</title><style>{style}</style></head>",
+            "<body>",
+            f"<h1>{title}</h1>",
+            *_verdict(store, found),
+            *_asked(store, found),
+            *_best(store, found),
+            *_pictures(store),
+            *matters(store, found),
+            *active(found),
+            *refused(found),
+            *_notes(store),
+            f"<script>//<![CDATA[\n{program}\n//]]></script>",
+            "</body>",
+            "</html>",
+            "",
+        ]
+    )
+
+
+def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
+    """Yield the best score in a sentence, and what the study is, as cards."""
+    identity, trials = store.identity, store.trials()
+    objective = found.objective
+    jumped = len(feasible_trials(found.trials))
+    if found.winner is None:
+        yield f'<p class="error">None of {len(found.trials)} designs jumps.</p>'
+    else:
+        yield (
+            f'<p class="verdict">{written(objective.meaning[:1].upper() + objective.meaning[1:])}: '
+            f"{found.winner.score:.4g} {written(objective.unit)}.</p>"
+        )
+    planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
+    cards = [
+        ("method", identity["method"]),
+        ("robot", identity["model"]["name"]),
+        ("designs of the search", f"{len(found.trials)}" + (f" of {planned}" if planned > len(found.trials) else "")),
+        ("of them jump", str(jumped)),
+        ("designs around the best", str(len(trials) - len(found.trials))),
+        ("seed", str(identity["seed"])),
+        ("time of all evaluations", f"{sum(trial.duration_s for trial in trials):.0f} s"),
+    ]
+    yield '<dl class="cards">'
+    yield from (f"<div><dt>{written(term)}</dt><dd>{written(value)}</dd></div>" for term, value in cards)
+    yield "</dl>"
+
+
+def _asked(store: StudyStore, found: Known) -> Iterator[str]:
+    """Yield the objective, the stages and the space, with the winner in it."""
+    identity, objective = store.identity, found.objective
+    stages = [f"{stage['method']}, {stage['evaluations']} designs" for stage in store.recall("stages", [])]
+    yield "<h2>What was asked</h2>"
+    yield (
+        f"<p>The highest {written(identity['objective'])} ({written(objective.meaning)}, {written(objective.unit)})"
+        f"{' against the energy of the springs' if identity['method'] in FRONTS else ''}, "
+        f"searched by {written(', then '.join(stages) or identity['method'])}.</p>"
+    )
+    fields = Design.model_fields
+    rows = []
+    for parameter in found.space.parameters:
+        described = fields[parameter.name].description if parameter.name in fields else ""
+        value = "" if found.winner is None else _value(found.winner.variant.value(parameter.name))
+        rows.append([written(parameter.name), written(described or ""), written(_range(parameter.describe())), value])
+    yield from table(
+        ("parameter", "meaning", "searched", "highest" if identity["method"] in FRONTS else "winner"),
+        rows,
+        numbers=(3,),
+    )
+
+
+def _range(record: Mapping[str, Any]) -> str:
+    if "fixed" in record:
+        return f"fixed at {record['fixed']:g}"
+    if "choices" in record:
+        return "one of " + ", ".join(f"{choice:g}" for choice in record["choices"])
+    return f"{record['lower']:g} … {record['upper']:g}"
+
+
+def _best(store: StudyStore, found: Known) -> Iterator[str]:
+    """Yield the best designs: chart, their robots, table."""
+    objective, is_front = found.objective, store.identity["method"] in FRONTS
+    shown = _shown(found, is_front)
+    if not shown:
+        return
+    yield f"<h2>{'The front' if is_front else 'The best designs'}</h2>"
+    if is_front:
+        area = hypervolume(found.trials)
+        yield f"<p>{MEANINGS['pareto']} It dominates {area:.4g} {written(objective.unit)}·J, seen from score 0 and "
+        yield f"{REFERENCE_ENERGY_J:g} J (hypervolume).</p>"
+        if len(shown) < (whole := len(front(found.trials))):
+            yield f"<p>{len(shown)} of its {whole} designs are shown, evenly chosen along it.</p>"
+    else:
+        yield "<p>Score against the energy in the springs: the large points are the designs of the table below.</p>"
+    yield "<p>Click a point, or go to it with Tab and the arrow keys, to see its robot.</p>"
+    yield '<div class="map">'
+    yield chart(found.trials, shown, objective, is_front)
+    yield '<div id="robots" aria-live="polite">'
+    yield from shown_designs(shown, objective)
+    yield "</div></div>"
+    yield from _designs(found, shown)
+
+
+def _shown(found: Known, is_front: bool) -> list[Trial]:
+    if is_front:
+        best = front(found.trials)
+        places = np.linspace(0, len(best) - 1, min(len(best), MOST_SHOWN))
+        return [best[round(place)] for place in places.tolist()]
+    return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
+
+
+def _designs(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
+    """Yield the table of the shown designs; with what their neighbours reach, where that is known."""
+    if found.candidates and shown[0] is found.candidates[0].trial:
+        neighbours = [
+            [
+                f"{one.parameters_score:.4g}",
+                f"{one.print_score:.4g}",
+                f"{sum(one.rejections.values())} of {one.neighbours}",
+            ]
+            for one in found.candidates
+        ]
+        head: tuple[str, ...] = CANDIDATE_HEAD
+        yield "<p>Most robust first. ±1 % and lengths: the score that nine of ten neighbours reach when every "
+        yield "parameter varies by ±1 %, and when lengths vary by the tolerance of print and assembly; how many of "
+        yield "the neighbours were rejected.</p>"
+    else:
+        neighbours, head = [[] for _ in shown], ()
+    rows = [
+        [
+            f'<a href="#design-{number}" data-design="{number}">{number}</a>',
+            f"{trial.score:.4g}",
+            *cells,
+            f"{energy_j(trial.design):.4f}",
+            *(_value(trial.variant.value(parameter.name)) for parameter in found.space.free),
+        ]
+        for number, (trial, cells) in enumerate(zip(shown, neighbours, strict=True), start=1)
+    ]
+    titles = ("design", "score", *head, "spring J", *(parameter.name for parameter in found.space.free))
+    yield from table(titles, rows, numbers=range(1, len(titles)))
+
+
+def _value(value: Value) -> str:
+    """Return a parameter's value: a number with four digits, or a name."""
+    return f"{value:.4g}" if isinstance(value, float) else escape(value)
+
+
+def _pictures(store: StudyStore) -> Iterator[str]:
+    for name, draw in study_figures(store).items():
+        if name in CHOSEN:
+            continue
+        figure = draw()
+        data = base64.b64encode(svg_text(figure).encode()).decode()
+        kind = "narrow" if figure.get_figwidth() < 5.0 else "full"
+        yield f"<h2>{written(name.replace('-', ', ').capitalize())}</h2>"
+        yield f'<figure class="picture"><img class="{kind}" alt="{name}" src="data:image/svg+xml;base64,{data}" />'
+        yield f"<figcaption>{written(MEANINGS[name])}</figcaption></figure>"
+
+
+def _notes(store: StudyStore) -> Iterator[str]:
+    if notes := store.notes():
+        yield f"<h2>Notes of the run</h2><ul>{''.join(f'<li>{written(note)}</li>' for note in notes)}</ul>"
+    versions = store.identity.get("versions", {})
+    if isinstance(versions, dict) and versions:
+        told = ", ".join(f"{name} {str(version)[:12]}" for name, version in versions.items())
+        yield f"<p>Evaluated with {written(told)}.</p>"

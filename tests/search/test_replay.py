@@ -1,0 +1,54 @@
+"""What a study file knows of the pick is what the run that wrote it found."""
+
+import sqlite3
+
+import pytest
+from support.bumps import REST, Bump, studied
+
+from jumpcad.search.pool import local_pool
+from jumpcad.search.replay import known
+from jumpcad.search.request import Request
+from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
+from jumpcad.search.study import run_study
+
+
+@pytest.mark.parametrize("top", [0.45, 0.72], ids=["bound below the bump", "constraint beside it"])
+def test_candidates_and_bounds_are_those_of_the_run(tmp_path, top):
+    space = Space.parse(fix=REST, bound=[f"compression_ratio=0.1:{top}"])
+    request = Request(space, Bump(), method="ga", evaluations=120, seed=3)
+    with local_pool(0) as pool:
+        result = run_study(request, tmp_path / "s.db", pool)
+    with StudyStore.read(tmp_path / "s.db") as store:
+        found = known(store)
+    assert [one.to_dict() for one in found.candidates] == [one.to_dict() for one in result.candidates]
+    assert result.candidates
+    assert found.bounds == result.bounds
+    assert found.winner is not None
+    assert found.winner.key == result.winner.key
+    assert [trial.key for trial in found.trials] == [trial.key for trial in result.trials]
+
+
+def test_what_a_bound_costs_is_the_fall_of_the_bump(tmp_path):
+    space = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"])
+    with studied(tmp_path / "s.db", space, "bo", 40) as store:
+        found = known(store)
+    (bound,) = found.bounds
+    assert (bound.name, bound.side, bound.value) == ("compression_ratio", "upper", 0.4)
+    assert bound.beyond == pytest.approx(0.4 + 0.05 * 0.3)
+    at = found.winner.design.compression_ratio
+    assert bound.worth == pytest.approx(20.0 * ((0.5 - at) ** 2 - (0.5 - bound.beyond) ** 2), abs=1e-9)
+
+
+def test_a_study_that_was_stopped_in_its_pick_says_what_it_has(tmp_path):
+    space = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"])
+    with studied(tmp_path / "s.db", space, "bo", 40) as store:
+        whole = sum(one.neighbours for one in known(store).candidates)
+    connection = sqlite3.connect(tmp_path / "s.db")
+    connection.execute("DELETE FROM evaluations WHERE phase = 'bounds' OR (phase = 'robust' AND place % 2 = 1)")
+    connection.commit()
+    connection.close()
+    with StudyStore.read(tmp_path / "s.db") as store:
+        found = known(store)
+    assert 0 < sum(one.neighbours for one in found.candidates) < whole
+    assert [bound.worth for bound in found.bounds] == [None]

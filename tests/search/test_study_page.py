@@ -1,0 +1,155 @@
+"""The page of a study: valid, self-contained, the same bytes, and what the study holds."""
+
+import re
+import xml.etree.ElementTree as ElementTree
+from urllib.parse import unquote
+
+import pytest
+from support.bumps import REST, Bump, studied
+
+from jumpcad.search.fronts import front
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.pool import local_pool
+from jumpcad.search.request import Request
+from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
+from jumpcad.search.study import run_study
+from jumpcad.search.study_page import write_study_page
+
+SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
+
+
+class Never(Bump):
+    """No design jumps."""
+
+    def __call__(self, design):
+        return Evaluation("too_weak")
+
+
+class Below(Bump):
+    """Scores are negative."""
+
+    def __call__(self, design):
+        found = super().__call__(design)
+        return Evaluation(found.verdict, {name: value - 100.0 for name, value in found.metrics.items()})
+
+
+def parsed(page):
+    """Return the page's tree; any tag that is not closed, and any stray character, is an error."""
+    return ElementTree.fromstring(page.removeprefix("<!DOCTYPE html>"))
+
+
+def text(element):
+    return "".join(element.itertext())
+
+
+def tables(page):
+    """Return the rows of every table by its first heading."""
+    found = {}
+    for table in parsed(page).iter("table"):
+        rows = [[text(cell) for cell in row] for row in table.iter("tr")]
+        found.setdefault(rows[0][0], rows)
+    return found
+
+
+@pytest.fixture(scope="module")
+def studies(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("studies")
+    for method, evaluations in (("bo", 40), ("nsga2", 60), ("ga", 60)):
+        studied(folder / f"{method}.db", SPACE, method, evaluations).close()
+    return folder
+
+
+def page_of(path, name="study"):
+    with StudyStore.read(path) as store:
+        return write_study_page(store, name)
+
+
+@pytest.mark.parametrize("method", ["bo", "nsga2", "ga"])
+def test_is_xml_that_asks_for_nothing_else_and_repeats(studies, method):
+    page = page_of(studies / f"{method}.db")
+    root = parsed(page)
+    assert page == page_of(studies / f"{method}.db")
+    without_pictures = re.sub(r'src="data:[^"]*"', "", page)
+    assert re.findall(r"https?:|src=|url\(|@import", without_pictures) == []
+    links = {unquote(link.get("href")) for link in root.iter("a")}
+    named = {f"#{element.get('id')}" for element in root.iter() if element.get("id")}
+    assert links
+    assert links <= named
+
+
+def test_says_what_was_asked_and_found(studies):
+    page = page_of(studies / "bo.db")
+    found = tables(page)
+    asked = {row[0]: row for row in found["parameter"]}
+    assert asked["compression_ratio"][2] == "0.1 … 0.8"
+    assert asked["carrying_link_mm"][1:] == ["length of the main leg, l2", "fixed at 100", "100"]
+    assert float(asked["compression_ratio"][3]) == pytest.approx(0.5, abs=0.05)  # the top of the bump
+    cards = {text(card[0]): text(card[1]) for card in parsed(page).iter("div") if len(card) and card[0].tag == "dt"}
+    assert (cards["method"], cards["robot"], cards["seed"]) == ("bo", "bump", "0")
+    with StudyStore.read(studies / "bo.db") as store:
+        searched = [trial for trial in store.trials() if trial.phase == "bo"]
+        around = len(store.trials()) - len(searched)
+    assert int(cards["designs of the search"]) == len(searched)
+    assert int(cards["designs around the best"]) == around > 0
+    reasons = {row[0]: row[2] for row in found["reason"][1:]}
+    assert reasons == {"loop": str(sum(trial.design.compression_ratio > 0.7 for trial in searched))}
+    best = found["design"][1]
+    assert float(best[1]) == pytest.approx(9.0, abs=0.05)
+    assert "of" in best[4]  # rejected of its neighbours
+
+
+def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(studies):
+    with StudyStore.read(studies / "nsga2.db") as store:
+        best = front(store.trials())
+    root = parsed(page_of(studies / "nsga2.db"))
+    sections = [one for one in root.iter("section") if one.get("class") == "design"]
+    points = list(next(root.iter("svg")).iter("a"))
+    lines = tables(page_of(studies / "nsga2.db"))["design"][1:]
+    assert len(sections) == len(points) == len(lines) == len(best) > 3
+    for section, point, line, trial in zip(sections, points, lines, best, strict=True):
+        assert point.get("href") == f"#{section.get('id')}"
+        assert f"{trial.score:.4g}" in point.get("aria-label")
+        assert f"{trial.score:.4g}" == line[1]
+        shown = {text(row[0]): text(row[1]) for row in section.iter("tr")}
+        assert float(shown["compression_ratio"]) == pytest.approx(trial.design.compression_ratio, rel=1e-4)
+        assert float(shown["spring energy"].removesuffix(" mJ")) == pytest.approx(
+            1000.0 * trial.design.spring_energy_j, rel=1e-3
+        )
+        assert [group.get("class") for group in section.iter("g")] == ["loaded", "rest"]
+    heights = [float(point.find("circle").get("cy")) for point in points]
+    across = [float(point.find("circle").get("cx")) for point in points]
+    assert heights == sorted(heights, reverse=True)
+    assert across == sorted(across)
+
+
+def test_a_parameter_without_effect_matters_least(tmp_path):
+    space = Space.parse(fix=REST[1:])  # the leg's length is free, and no bump depends on it
+    studied(tmp_path / "s.db", space, "ga", 90).close()
+    found = [table for table in parsed(page_of(tmp_path / "s.db")).iter("table") if "fall of R²" in text(table)]
+    names = [text(row[0]) for row in found[0].iter("tr")][1:]
+    assert set(names[:2]) == {"compression_ratio", "rest_angle_deg"}
+    assert names[2:] == ["carrying_link_mm"]
+
+
+@pytest.mark.parametrize("model", [Never(), Below()], ids=["nothing jumps", "negative scores"])
+def test_studies_without_a_usual_best_have_a_page(tmp_path, model):
+    with local_pool(0) as pool:
+        run_study(Request(SPACE, model, method="ga", evaluations=30), tmp_path / "s.db", pool)
+    page = page_of(tmp_path / "s.db")
+    said = text(parsed(page).find("body"))
+    if isinstance(model, Never):
+        assert "None of" in said
+        assert "too_weak" in said
+    else:
+        assert tables(page)["design"][1][1].startswith("-9")
+
+
+def test_an_empty_study_and_strange_texts_have_a_page(tmp_path):
+    request = Request(SPACE, Bump())
+    with StudyStore.write(tmp_path / "s.db", request.identity([])) as store:
+        store.note("a <script>alert(1)</script> & \x07 note")
+    page = page_of(tmp_path / "s.db", "a <b> & c")
+    assert parsed(page).findtext("body/h1") == "a <b> & c"
+    assert "a <script>alert(1)</script> &" in text(parsed(page).find("body"))
+    assert page.count("<script>") == 1
