@@ -1,4 +1,4 @@
-"""The documentation is right: its site builds, its reference is the program's, its examples run (about 20 s)."""
+"""The documentation is right: its site builds, its reference is the program's, its examples run (about 35 s)."""
 
 import importlib
 import re

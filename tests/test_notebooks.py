@@ -1,4 +1,4 @@
-"""Every notebook of the examples runs from its first cell to its last, and is kept without results (about 10 s)."""
+"""Every notebook of the examples runs from its first cell to its last, and is kept without results (about 20 s)."""
 
 import json
 from pathlib import Path
