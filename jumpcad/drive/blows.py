@@ -62,7 +62,7 @@ def largest_torques_nm(
     k, share = stiffness_nm_per_rad, 2.0 * damping_share(rebound)
     dog_damping = share * math.sqrt(k * cam_kg_m2 * gear_kg_m2 / (cam_kg_m2 + gear_kg_m2))
     head_damping = share * math.sqrt(k * gear_kg_m2 * rotor_kg_m2 / (gear_kg_m2 + rotor_kg_m2))
-    shortest = STEP_SHARE * math.sqrt(min(cam_kg_m2, gear_kg_m2) / k)
+    shortest = STEP_SHARE * math.sqrt(min(masses_kg_m2) / k)
     cam, gear, rotor = speed_rad_s, motor_rad_s, motor_rad_s
     dog = 0.0  # compression of the contact of cam and gear (rad); below 0 the gap
     head = -backlash_rad  # the same for gear and rotor

@@ -137,5 +137,11 @@ def test_a_setting_at_its_limits_is_borne(sandbox: Sandbox, field: Place) -> Non
     for value in SETTINGS[field].values(0):
         if not (field == ("dt_s",) and value < 1e-4):  # takes minutes
             number = int(value) if SETTINGS[field].whole else value
-            sandbox.write("x.toml", f"{field[0]} = {number}\n")
+            sandbox.write("x.toml", f"{field[0]} = {number}\n" if len(field) == 1 else draws(field[1], number))
             sandbox.run("simulate", "kenan-2.0", "--capsule", "--settings", "x.toml", "--json", exits=(0, 1))
+
+
+def draws(name: Any, value: float) -> str:
+    """Return a table of one draw with one of its values changed."""
+    one = {"spring_efficiency": 1.0, "pin_friction": 0.2} | {name: value}
+    return "[draws]\n" + "".join(f"{key} = [{number}]\n" for key, number in one.items())
