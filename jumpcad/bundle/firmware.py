@@ -95,6 +95,14 @@ WORDS = {
 }
 
 
+BUTTON = "The board's button at {pin} (B or BOOT) winds; pressed again, it releases after 3 s. The other (R or RESET) restarts."
+CHARGE_INSIDE = "Charge with the switch on, over USB: it is not opened for this."
+CHARGE_OUTSIDE = (
+    "Lay the robot on its side, feet away from you, and tie leg and body together with cord, so that the leg cannot swing "
+    "out; then unplug the battery, charge it outside the robot by its balance charger, put it back, and untie."
+)
+
+
 def firmware_files(robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield path and text of every file of the firmware.
 
@@ -126,5 +134,7 @@ def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -
         "WIND_MAX_S": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
         "MIN_V": f"{values['BATTERY_MIN_V']:g}",
         "CAP": f"{100.0 * (values['PWM_CAP'] or 0.0):g}",
+        "BUTTON": BUTTON.format(pin=chosen.controller.button) if chosen.controller.button else "",
+        "CHARGE": CHARGE_INSIDE if chosen.regulator is None else CHARGE_OUTSIDE,
     }
     return re.sub(r"\{([A-Z_]+)\}", lambda found: facts[found[1]], text)

@@ -248,7 +248,8 @@ ORDER: tuple[Plan, ...] = (
                   "battery in, switch on."),
             Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
-                  "and let go after a second: the motor stops {after_ms} ms later and the count is 1."),
+                  "and Enter, and let go at once, within {release_ms} ms: the motor stops {after_ms} ms later and the "
+                  "count is 1. Held longer it says `fault`: press the sensor, `wind`, and try again."),
             Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
                   "not, exchange its two wires at the driver."),
         ),
