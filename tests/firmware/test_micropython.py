@@ -129,7 +129,12 @@ def test_the_button_winds_and_releases_after_a_delay(monkeypatch: pytest.MonkeyP
     bench.presses = (500, 5000)
     turned: list[float] = []
     read = bench.read
-    bench.read = lambda count: (turned.append(bench.turned_ms), read(count))[-1]  # type: ignore[method-assign]
+
+    def noted(count: int) -> bytes:
+        turned.append(bench.turned_ms)
+        return read(count)
+
+    monkeypatch.setattr(bench, "read", noted)
     run_main(bench, monkeypatch)
     assert turned[-1] < 1100.0  # 2.9 s after the button
     assert bench.turned_ms >= 1100.0
