@@ -41,7 +41,7 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
     yield ""
     battery = chosen_parts(robot.workshop).battery
     yield (
-        f"**Battery.** {battery.range_v[0]:g} to {battery.range_v[1]:g} V at its plug, not swollen; its plus must meet "
-        "the plus of the robot's plug. **Motor.** With 3 V at its leads the shaft turns; its flat is "
-        f"{robot.layout.drive.train.motor.shaft_flat_mm:g} mm thick."
+        f"**Battery.** {battery.range_v[0]:g} to {battery.range_v[1]:g} V at its plug, not swollen, no larger than the "
+        "bill says; its plus must meet the plus of the robot's plug. **Motor.** With 3 V at its leads the shaft "
+        f"turns; its flat is {robot.layout.drive.train.motor.shaft_flat_mm:g} mm thick."
     )

@@ -7,7 +7,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from jumpcad.bundle.firmware import AFTER_RELEASE_MS, BUTTON_DELAY_MS, LANDING_MS, numbers
+from jumpcad.bundle.firmware import AFTER_RELEASE_MS, LANDING_MS, numbers
+from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded
+from jumpcad.bundle.ordering import REAMED_MM, ROD_SHORT_MM
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.electronics.chosen import chosen_parts
@@ -22,7 +24,6 @@ TORQUE_M3_NM, TORQUE_M2_NM, TORQUE_PLASTIC_NM = 0.5, 0.1, 0.3
 """Judgement: a third of what M3 and M2 of strength 8.8 bear in steel, and hand-tight in plastic."""
 PRESS_N = 50.0
 """Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
-REAMED_MM = 0.1
 SCATTER_DEG = 10.0
 """Of a stock spring's free angle: Lee Spring, Vanel, 10 to 15 degrees."""
 ROOM_AHEAD = 2.0
@@ -46,10 +47,6 @@ def _drive(robot: Robot) -> dict[str, str]:
     supply = supply_of(chosen)
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
     boards_a = supply.boards_w / supply.nominal_v
-    battery = chosen.battery
-    charge_how = "through the controller's USB socket, with the switch on; its charger must not give more."
-    if chosen.regulator is not None:
-        charge_how = f"by a charger with a balance lead, set to LiPo {battery.cells}S, outside the robot."
     both = {1: "counter-clockwise", -1: "clockwise"}
     return {
         "free_rpm": f"{free.no_load_rpm:.0f}",
@@ -62,12 +59,15 @@ def _drive(robot: Robot) -> dict[str, str]:
         "wind_max": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
         "release_ms": f"{values['RELEASE_MAX_MS']}",
         "after_ms": f"{AFTER_RELEASE_MS}",
-        "delay_s": f"{BUTTON_DELAY_MS / 1000.0:g}",
         "landing_s": f"{LANDING_MS / 1000.0:g}",
         "battery_v": f"{supply.nominal_v:g} to {supply.full_v:g}",
         "min_v": f"{supply.empty_v:g}",
-        "charge_ma": f"{battery.capacity_mah:.0f}",
-        "charge_how": charge_how,
+        "charge_how": charging(chosen),
+        "charge_loaded": charging_loaded(chosen),
+        "cable": cable(chosen.controller),
+        "wind_by": by_button("wind", chosen.controller),
+        "jump_by": by_button("jump", chosen.controller),
+        "ready_deg": f"{values['READY_DEG'] or 0:.0f}",
         "cam_turn": both[1],
         "motor_turn": both[motor_sense(robot)],
         "stroke": f"{math.degrees(cam.law.compression_rad):.0f}",
@@ -100,7 +100,7 @@ def _sizes(robot: Robot) -> dict[str, str]:
     right, left = heights["front_spacer_right"], heights["front_spacer_left"]
     return {
         "eye_drill": f"{robot.layout.axle_mm + REAMED_MM:g}",
-        "end_play": f"{2.0 * AXLE_END_PLAY_MM:g}",
+        "end_play": f"{2.0 * AXLE_END_PLAY_MM:g} mm, or {2.0 * AXLE_END_PLAY_MM + ROD_SHORT_MM:g}",
         "axle_length": f"{outside[1] - outside[0]:.0f}",
         "front_tubes": f"{right:.1f} mm on the right, {left:.1f} mm on the left",
         "bushing_left": f"{heights['spring_bushing_left']:.1f}",
@@ -135,4 +135,4 @@ def _jump(robot: Robot) -> dict[str, str]:
 
 def _order(steps: Sequence[Step]) -> dict[str, str]:
     """Return the numbers of steps that others refer to."""
-    return {"step_arm": str(next((n for n, step in enumerate(steps, start=1) if step.key == "arm"), "")) or "?"}
+    return {f"step_{step.key}": str(number) for number, step in enumerate(steps, start=1)}

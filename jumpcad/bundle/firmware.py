@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 
+from jumpcad.bundle.operation import BUTTON_DELAY_MS, by_button, cable, charging, charging_loaded
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import gpio, wiring_of
@@ -25,8 +26,6 @@ AFTER_RELEASE_MS = round(1000.0 * RUN_ON_S)
 """Motor runs on after the sensor has opened: twice the leg's fall, and past the switch's bounce; judgement."""
 LANDING_MS = 1500
 """How long after a jump commands and sensor are ignored: the flight, and the landing's 300 m/s² and more; judgement."""
-BUTTON_DELAY_MS = 3000
-"""Time to step back after the button was pressed; judgement."""
 RAMP_MS = 100
 """In which the motor gets its power; judgement."""
 LOW_MS = 200
@@ -126,5 +125,10 @@ def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -
         "WIND_MAX_S": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
         "MIN_V": f"{values['BATTERY_MIN_V']:g}",
         "CAP": f"{100.0 * (values['PWM_CAP'] or 0.0):g}",
+        "CABLE": cable(chosen.controller),
+        "WIND_BY": by_button("wind", chosen.controller),
+        "JUMP_BY": by_button("jump", chosen.controller),
+        "CHARGE": charging(chosen),
+        "CHARGE_LOADED": charging_loaded(chosen),
     }
     return re.sub(r"\{([A-Z_]+)\}", lambda found: facts[found[1]], text)

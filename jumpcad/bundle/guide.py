@@ -34,7 +34,7 @@ def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
         *print_lines(robot),
         *order_lines(robot),
         *spring_order(robot),
-        *tool_lines(steps),
+        *tool_lines(robot, steps),
         *arrival_lines(robot),
         *wiring_lines(robot),
         *_steps(robot, steps, pictures),

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.wiring import wires
+from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
@@ -14,16 +15,17 @@ from jumpcad.scene.assembly_steps import Step
 
 ROD_M = (0.33, 0.5, 1.0)
 """Lengths in which shops sell rods of 2 to 4 mm."""
+REAMED_MM = 0.1
+"""Eyes of pins over their nominal diameter."""
+ROD_SHORT_MM = 0.3
+"""By which a rod may be shorter; judgement, a saw and a file."""
 SAW_MM = 2.0
 """Lost at every cut; judgement."""
 STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
 THREAD_MM = 6.0
 """Of a screw inside its standoff."""
-OTHER = (
-    "solder, heat-shrink tube of 1.5 and 3 mm, foam tape 1 mm thick, silicone or lithium grease, "
-    "alcohol, cable ties up to 2.5 mm wide"
-)
+OTHER = "solder, silicone or lithium grease, alcohol, some more cable ties 2.5 mm wide"
 
 
 def order_lines(robot: Robot) -> Iterator[str]:
@@ -37,16 +39,23 @@ def order_lines(robot: Robot) -> Iterator[str]:
     for *_, colour, length in wires(robot):
         total[colour] += length
     lengths = ", ".join(f"{colour} {length / 1000.0:.2f} m" for colour, length in sorted(total.items()))
-    yield f"- wire AWG 28, silicone: {lengths}, and a fifth more"
+    yield f"- wire AWG 28, silicone: {lengths}, ends included; the bill has each rounded up to 0.1 m"
+    yield from _tape(robot)
     yield f"- besides: {OTHER}"
 
 
-def tool_lines(steps: list[Step]) -> Iterator[str]:
+def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
     """Yield the guide's section on tools."""
     names = sorted({placed.move.tool.name for step in steps for placed in step.placed if placed.move.tool})
     yield from ("", "## Tools", "")
     yield f"- {', '.join(names)}"
-    yield "- soldering iron, multimeter, kitchen scale to 1 g or better, caliper, fine saw, file, knife"
+    yield (
+        f"- drill or reamer {robot.layout.axle_mm + REAMED_MM:g} mm, tap M3, vice with flat jaws, small flat "
+        "screwdriver, side cutters"
+    )
+    charger = "" if chosen_parts(robot.workshop).regulator is None else ", LiPo charger with a balance lead"
+    yield f"- soldering iron, multimeter, computer, USB cable with data lines{charger}"
+    yield "- kitchen scale to 1 g or better, caliper, fine saw, file, knife, glasses"
 
 
 def print_lines(robot: Robot) -> Iterator[str]:
@@ -95,8 +104,8 @@ def _rods(robot: Robot) -> Iterator[str]:
         needed = item.quantity * (length + SAW_MM)
         stock = next((f"{m:g}" for m in ROD_M if 1000.0 * m >= needed), f"{math.ceil(needed / 1000.0):g}")
         yield (
-            f"- {plain(found[1])} {found[2]} mm: {item.quantity} pieces of {length:.1f} mm, +0 / -0.3 mm, ends square "
-            f"and deburred{found[4] or ''}; cut from a rod of {stock} m"
+            f"- {plain(found[1])} {found[2]} mm: {item.quantity} pieces of {length:.1f} mm, +0 / -{ROD_SHORT_MM:g} mm, "
+            f"ends square and deburred{found[4] or ''}; cut from a rod of {stock} m"
         )
 
 
@@ -110,6 +119,13 @@ def _standoffs(robot: Robot) -> Iterator[str]:
                 f"{length:.1f} mm, +0 / -0.1 mm and all equal; tap them again where less than {THREAD_MM:g} mm of "
                 "thread is left"
             )
+
+
+def _tape(robot: Robot) -> Iterator[str]:
+    """Yield the pieces of foam tape under the boards."""
+    boards = chosen_parts(robot.workshop).boards.items()
+    pieces = ", ".join(f"{board.length_mm:g} x {board.width_mm:g} mm ({role})" for role, board in boards)
+    yield f"- double-sided foam tape 1 mm thick: {pieces}"
 
 
 def _strips(robot: Robot) -> Iterator[str]:

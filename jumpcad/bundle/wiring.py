@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from html import escape
 
 from jumpcad.bundle.electronics import jumps_per_charge
+from jumpcad.bundle.operation import charging
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.nets import LOWER_OHM, Net, Terminal, Wiring, wiring_of
 from jumpcad.parts.leads import lead_lengths
@@ -14,6 +15,15 @@ COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regu
            ("controller", "sensor", "upper resistor", "lower resistor"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
 STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}
+
+SENSOR_NOTES = (
+    "- sensor, by multimeter: COM and NO have contact only while the plunger is pressed, COM and NC only while it is",
+    "  not; use COM and NO. Switch: 1 and 2 are the two terminals that have contact in one position only",
+    "- known limit: the controller's own pull-up gives the sensor's contact less than 0.1 mA; small switches are rated",
+    "  from 1 mA at 5 V, so dirt may keep it open. With the sensor open, or a lead broken, the motor does not stop",
+    "  when ready: it releases the springs by itself and runs until the time-out. A resistor of 4.7 kΩ from the",
+    "  controller's pin of the sensor to 3V3 gives 0.7 mA: add it",
+)
 
 
 def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
@@ -39,15 +49,18 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
 def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
     """Yield what a table does not say."""
     yield "- lengths follow the trays, those of sensor and motor pass the plates' holes; 30 mm are for bends and solder"
-    yield "- none: the part's own legs or leads reach"
+    yield "- none: the part's own legs or leads; a piece of wire of the same colour where they are too short"
     yield "- the capacitor at the driver's supply pins, with short legs; its minus is marked"
     if wiring.upper_ohm is not None:
         yield f"- resistors: upper {wiring.upper_ohm // 1000} kΩ, lower {LOWER_OHM // 1000} kΩ, 0.1 W or more"
     if chosen.regulator is None:
-        yield "- the battery is charged through the controller's USB socket, with the switch on"
+        yield f"- {charging(chosen)}"
     else:
-        yield "- the battery is charged outside the robot, by a charger with a balance lead; the controller's battery"
-        yield "  pads stay empty"
+        yield f"- {charging(chosen)} The controller's battery pads stay empty"
+    if chosen.diode is not None:
+        yield "- diode: K is the end with the ring"
+    if "sensor" in chosen.components:
+        yield from SENSOR_NOTES
     yield "- the driver's reverse input is at ground: the cam must not turn back against its drop"
     yield "- red and black wires may be joined at any terminal of theirs; the table starts each at its source"
     yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles (multimeter)"

@@ -190,7 +190,8 @@ class Board(Article):
     chip writes on it at start); of a driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs
     that need a series diode, `button` the pin of a push button on the board. `usb_mm` is the opening (width, height)
     that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
-    length. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current.
+    length. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma`
+    the fixed current of its battery charger.
     """
 
     description: Source
@@ -211,6 +212,7 @@ class Board(Article):
     quiescent_a: Annotated[float, Field(ge=0, le=10)] = 0.0
     resistance_ohm: Annotated[float, Field(ge=0, le=100)] = 0.0
     efficiency: Annotated[float, Field(ge=0.01, le=1)] = 1.0
+    charge_ma: Positive | None = None
     confidence: Confidence = "stated"
 
     def with_function(self, function: str) -> tuple[str, ...]:

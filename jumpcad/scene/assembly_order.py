@@ -209,17 +209,19 @@ ORDER: tuple[Plan, ...] = (
             Move(SMALL, way="laid"),
         ),
         (
-            Words("Lay every board on its piece of foam tape, in its place between the rims, the controller's USB "
-                  "socket to the right, and pull a cable tie over it. Plug and capacitor get a tie too: the plug opens "
-                  "forwards."),
-            Words("Solder every wire of the table under Wiring, the shortest first, and slide heat-shrink tube over "
-                  "each joint. The motor's wires go to the driver last. Tie the wires to the tray so that no joint "
+            Words("Solder first, with the boards loose: pads may be on a board's underside (BAT+ and BAT- often are) "
+                  "or under its tie. Solder every wire of the table under Wiring to its boards, the shortest first, "
+                  "and slide heat-shrink tube over each joint. The motor's wires go to the driver last; the sensor's "
+                  "ends stay free until step {step_left}."),
+            Words("Then lay every board on its piece of foam tape, in its place, against the tray's rim where there is "
+                  "one, the controller's USB socket to the right, and pull a cable tie over it. Plug and capacitor get "
+                  "a tie too: the plug opens forwards. Tie the wires together beside the boards, so that no joint "
                   "bears a pull."),
             Words("Put the firmware on the controller over USB (firmware/README.md) before the battery is plugged in "
                   "for the first time."),
         ),
         (
-            Words("Charge with {charge_ma} mA at most: {charge_how}"),
+            Words("{charge_how}"),
             Words("Before the battery is plugged in: switch on, multimeter across the plug's poles, no contact. Plus "
                   "of plug and battery must agree: makers of batteries do not."),
         ),
@@ -234,12 +236,16 @@ ORDER: tuple[Plan, ...] = (
             Move("tie_sensor_leads", way="laid"),
         ),
         (
-            Words("Lead the sensor's two leads through the plate's wire hole and solder them to its terminals (table "
-                  "under Wiring). Put the sensor into the plate's opening from outside, its plunger through to the "
-                  "inside, the mount over it, and turn the two screws into the plastic: {torque_m2} N·m. Tie the leads "
-                  "at the hole so that its terminals bear no pull.", needs="sensor"),
+            Words("The mount is closed all round, so the leads go through it first: lead the free ends of the sensor's "
+                  "two leads through the plate's wire hole to the outside, then through the mount's window towards the "
+                  "plate, and only then solder them to COM and NO (table and notes under Wiring).", needs="sensor"),
+            Words("Put the sensor into the plate's opening from outside, its plunger through to the "
+                  "inside, push the mount along the leads over it, and turn the two screws into the plastic: "
+                  "{torque_m2} N·m. Tie the leads at the hole so that its terminals bear no pull.", needs="sensor"),
         ),
-        checks=(Words("Pressed on the inside, the plunger clicks and comes out again.", needs="sensor"),),
+        checks=(Words("Pressed on the inside, the plunger clicks and comes out again. Multimeter between the "
+                      "controller's ground and its pin of the sensor: no contact; pressed, contact. If it is the other "
+                      "way round, a lead is at NC: `wind` would say `ready` at once.", needs="sensor"),),
     ),
     Plan(
         "power", "First power-up, on the bench", ROBOT, (),
@@ -248,7 +254,8 @@ ORDER: tuple[Plan, ...] = (
                   "battery in, switch on."),
             Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
-                  "and let go after a second: the motor stops {after_ms} ms later and the count is 1."),
+                  "and Enter, and let go at once, within {release_ms} ms: the motor stops {after_ms} ms later and the "
+                  "count is 1. Held longer it says `fault`: press the sensor, `wind`, and try again."),
             Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
                   "not, exchange its two wires at the driver."),
         ),
@@ -294,8 +301,8 @@ ORDER: tuple[Plan, ...] = (
             Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
                   "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
             Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
-                  "up; the RIGHT-HAND spring; the bushing of {bushing_left} mm. A bushing's thicker end is at "
-                  "the leg. Seen on the standing robot, the outer arm of either "
+                  "up; the RIGHT-HAND spring; the bushing of {bushing_left} mm. If a bushing has a thicker "
+                  "end, that is at the leg. Seen on the standing robot, the outer arm of either "
                   "spring lies below the springs' pin, and the inner arms beside the leg, above the hole for its pin. "
                   "Left-hand: held upright, the wire in front rises to the left."),
             Words("Front axle: tube, front link, tube ({front_tubes}). Cam axle: its tube ({cam_tube} mm)."),
@@ -324,9 +331,17 @@ ORDER: tuple[Plan, ...] = (
             Words("Push the stop's tab into the right plate behind the leg, its pad towards the leg."),
             Words("Grease the jaws, the roller's path and the teeth thinly (silicone or lithium grease). On the cam "
                   "axle go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
+            Words("The gear fits the jaws in two positions, half a turn apart, and only one is right: the mark on the "
+                  "gear faces the mark on the cam. One dimple is in the gear's left face, the other in the end face of "
+                  "one jaw: both lie side by side."),
             Words("Then the idler, its small wheel down.", needs="idler"),
         ),
+        warnings=(
+            Words("With the gear half a turn wrong the sensor closes long before the drop, the robot says `ready` "
+                  "there, and a later `wind` releases the springs."),
+        ),
         checks=(
+            Words("Both marks lie side by side."),
             Words("The cam turns in its gear freely from jaw to jaw, by {dog_play}°: this play is needed, do not glue "
                   "it."),
         ),
@@ -338,12 +353,14 @@ ORDER: tuple[Plan, ...] = (
             Words("The pinion is still off. Put the left plate on for a trial, without screws: hold it level, let the "
                   "longest axle find its bore first, then one after the other, the trays' and the stop's tabs last. Do "
                   "not press: where it does not go down, something is beside its bore."),
-            Words("Hold the plates together with thumb and finger and turn the cam gear by hand one full turn, "
-                  "{cam_turn} as seen from the left. Then take the plate off again."),
+            Words("Hold the plates together with thumb and finger, the robot upright and its leg hanging, and "
+                  "turn the cam gear by hand one full turn, "
+                  "{cam_turn} as seen from the left. Then lay it down and take the plate off again."),
         ),
         checks=(
             Words("The cam lifts the leg by {stroke}° over {lift}° of its turn; then the leg falls. Nothing rubs."),
-            Words("The sensor clicks before the drop.", needs="sensor"),
+            Words("The sensor clicks {ready_deg}° before the drop, not earlier: otherwise the gear is half a turn "
+                  "wrong.", needs="sensor"),
         ),
     ),
     Plan(
@@ -411,7 +428,8 @@ ORDER: tuple[Plan, ...] = (
                   "whenever the battery is plugged in or the leg is off its stop."),
         ),
         (
-            Words("Axles can be moved along by {end_play} mm at most. The leg lies on its stop and springs back to it "
+            Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
+                  "tolerance. The leg lies on its stop and springs back to it "
                   "when its end is pulled forward a little: {foot_n} N there would load it completely, so do not."),
         ),
     ),
@@ -435,14 +453,15 @@ ORDER: tuple[Plan, ...] = (
         "jump", "First winding and first jump", ROBOT, (),
         (
             Words("Wear glasses. Put the robot on a floor that is not slippery, with {far} m free ahead of it and "
-                  "{high} m above. Plug in, switch on; `wind` from the computer, or the board's button."),
-            Words("`jump`, or the button again: it releases after {delay_s} s. For {landing_s} s after a jump it "
-                  "ignores everything."),
+                  "{high} m above. Plug the battery in, switch on. {cable} {wind_by}"),
+            Words("{jump_by} For {landing_s} s after a jump it ignores everything."),
         ),
         (
             Words("Wound springs stay loaded when the battery is empty or unplugged. To slacken them, hold the robot "
                   "by its plates, feet away from you and free, and release: `jump`. Never take it apart while the leg "
                   "is off its stop."),
+            Words("Battery low while it winds: the springs are partly loaded and cannot be released. {charge_loaded} "
+                  "Then `wind` again, and `jump`."),
         ),
         (
             Words("It winds in about {wind_s} s with {wind_ma} mA, {peak_ma} mA at most. As computed it jumps {range} "

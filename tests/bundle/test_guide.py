@@ -1,12 +1,14 @@
 """assembly.md: everything in the bill of materials is in the guide, and the springs ordered are those of the design."""
 
 import re
+from pathlib import Path
 
 import pytest
 from support.built import built
 
 from jumpcad.building import build
 from jumpcad.bundle.bom import BilledPlate, bill_of_materials
+from jumpcad.bundle.firmware import firmware_files, numbers
 from jumpcad.bundle.guide import with_bill, write_guide
 from jumpcad.design import load_design
 from jumpcad.robot import Robot
@@ -27,6 +29,31 @@ def test_the_guide_names_all_that_the_bill_names(robot: Robot) -> None:
         assert counted == item.quantity, item.name
     assert "pictures/" not in guide
     assert "![Foot and front link](pictures/step-2-pads.png)" in write_guide(robot, ["step-2-pads", "step-12"])
+
+
+def test_the_guide_asks_for_what_the_firmware_and_the_boards_do(robot: Robot) -> None:
+    """The hand leaves the sensor before the release times out; 370 mA into 300 mAh are 1.23 C."""
+    guide, values = write_guide(robot), numbers(robot)
+    let_go = re.search(r"let go at once, within (\d+) ms", guide)
+    assert let_go is not None
+    assert int(let_go[1]) <= (values["RELEASE_MAX_MS"] or 0)
+    if not robot.workshop.bought.regulator:
+        assert "370 mA, which cannot be set: 1.23 C" in guide
+    assert "the mark on the gear faces the mark on the cam" in guide
+    sensor = guide.split("Left plate with the sensor")[1]
+    assert sensor.index("through the mount's window") < sensor.index("solder them to COM and NO")
+    boards = guide.split("Upper tray with the boards")[1]
+    assert boards.index("Solder every wire") < boards.index("foam tape, in its place")
+
+
+def test_two_cells_are_never_charged_inside_the_robot(tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text('[bought]\nkit = "strong-2s"', encoding="utf-8")
+    robot = build(load_design("best-bo"), load_workshop(path))
+    for text in (write_guide(robot), dict(firmware_files(robot))["firmware/README.md"]):
+        assert "USB socket, with the switch on" not in text
+        assert "by a charger with a balance lead, set to LiPo 2S, outside the robot" in text
+        assert "tie leg and body together with cord" in text
 
 
 def test_a_guide_takes_times_in_and_changes_nothing_else(robot: Robot) -> None:

@@ -29,7 +29,8 @@ class Bench:
     """A board with its robot: the sensor closes after 1 s of motor and opens 0.1 s of motor later."""
 
     def __init__(self, lines: dict[int, str]) -> None:
-        self.now_ms, self.lines = 0, dict(lines)
+        self.now_ms = 0
+        self.keys = [(at, byte) for at, line in sorted(lines.items()) for byte in (line + "\n").encode()]
         self.duty: dict[int, int] = {}
         self.awake: dict[int, int] = {}
         self.turned_ms = 0.0
@@ -64,10 +65,17 @@ class Bench:
         return SimpleNamespace(duty_u16=duty)
 
     def poll(self, timeout: int) -> bool:
-        return any(at <= self.now_ms for at in self.lines)
+        return bool(self.keys) and self.keys[0][0] <= self.now_ms
 
-    def readline(self) -> str:
-        return self.lines.pop(min(self.lines)) + "\n"
+    def read(self, count: int) -> bytes:
+        """Return what has come; one byte that has not come yet would block the program for good."""
+        assert count == 1
+        assert self.poll(0), "waits for a key"
+        return bytes([self.keys.pop(0)[1]])
+
+    def type(self, at_ms: int, keys: str, apart_ms: int) -> None:
+        """Type keys one by one."""
+        self.keys += [(at_ms + n * apart_ms, byte) for n, byte in enumerate(keys.encode())]
 
 
 def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -100,7 +108,7 @@ def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setitem(sys.modules, name, module)
     for name, fake in modules.items():
         monkeypatch.setitem(sys.modules, name, fake)
-    monkeypatch.setattr(sys, "stdin", SimpleNamespace(readline=bench.readline))
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=SimpleNamespace(read=bench.read)))
     with pytest.raises(KeyboardInterrupt):
         exec(compile(FILES["firmware/main.py"], "main.py", "exec"), {"__name__": "__main__"})
 
@@ -120,10 +128,38 @@ def test_the_button_winds_and_releases_after_a_delay(monkeypatch: pytest.MonkeyP
     bench = Bench({7900: "state"})
     bench.presses = (500, 5000)
     turned: list[float] = []
-    bench.readline = lambda: (turned.append(bench.turned_ms), bench.lines.clear(), "state\n")[-1]  # type: ignore[assignment]
+    read = bench.read
+
+    def noted(count: int) -> bytes:
+        turned.append(bench.turned_ms)
+        return read(count)
+
+    monkeypatch.setattr(bench, "read", noted)
     run_main(bench, monkeypatch)
-    assert turned[0] < 1100.0  # 2.9 s after the button
+    assert turned[-1] < 1100.0  # 2.9 s after the button
     assert bench.turned_ms >= 1100.0
+
+
+def test_keys_that_come_one_by_one_do_not_stop_the_loop(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The sensor closes after a second of motor; half a word typed before that must not keep the motor on."""
+    bench = Bench({500: "wind"})
+    bench.type(600, "jum", 200)
+    run_main(bench, monkeypatch)
+    assert 1000.0 <= bench.turned_ms <= 1000.0 + 20.0
+    assert bench.duty[5] == 0
+
+
+@pytest.mark.parametrize("keys", ["stop\r", "stpo\b\bop\r\n", "\r\nstop\n"])
+def test_stop_typed_slowly_acts_with_its_last_key(
+    keys: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    bench = Bench({500: "wind"})
+    bench.type(600, keys, 60)
+    run_main(bench, monkeypatch)
+    ended = 100 + 60 * len(keys.rstrip())
+    assert 0.0 < bench.turned_ms <= ended + 60
+    assert bench.duty[5] == 0
+    assert "stopped" in capsys.readouterr().out
 
 
 def test_main_leaves_the_motor_off_when_interrupted(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,60 @@
+"""How a robot is charged and by what it is operated: words that the guide and the firmware's README share."""
+
+from jumpcad.catalogue import Board
+from jumpcad.electronics.chosen import Chosen
+
+BUTTON_DELAY_MS = 3000
+"""Time to step back after the button was pressed; judgement."""
+
+
+def charging(chosen: Chosen) -> str:
+    """Return how the battery is charged, with which current."""
+    battery, controller = chosen.battery, chosen.controller
+    if chosen.regulator is not None:
+        return (
+            f"Charge with {battery.capacity_mah:.0f} mA at most (1 C) by a charger with a balance lead, set to LiPo "
+            f"{battery.cells}S, outside the robot."
+        )
+    way = "Charge through the controller's USB socket, with the switch on and somebody beside it."
+    if controller.charge_ma is None:
+        return f"{way} What its charger gives is not known: measure it, {battery.capacity_mah:.0f} mA at most (1 C)."
+    rate = controller.charge_ma / battery.capacity_mah
+    bears = (
+        f"{way} Its charger gives {controller.charge_ma:.0f} mA, which cannot be set: {rate:.2f} C for this battery."
+    )
+    if rate <= 1.0:
+        return bears
+    return f"{bears} More than 1 C: use a battery whose maker permits it, or charge outside the robot with 1 C."
+
+
+def charging_loaded(chosen: Chosen) -> str:
+    """Return how to charge while the springs are partly loaded, so that nobody's hand is in the leg's way."""
+    if chosen.regulator is None:
+        return (
+            "Lay the robot on its side, nothing in the leg's way, and charge it over USB with the switch on; do not "
+            "open it."
+        )
+    return (
+        "Lay the robot on its side, feet away from you, and tie leg and body together with cord, so that the leg "
+        "cannot swing out. Then unplug the battery, charge it outside the robot, put it back, and untie."
+    )
+
+
+def cable(controller: Board) -> str:
+    """Return what becomes of the USB cable before a jump."""
+    if controller.button:
+        return "Unplug the USB cable before you wind for a jump: the battery supplies the board."
+    return "The board has no button, so the USB cable stays in: lay a long one slack behind the robot."
+
+
+def by_button(command: str, controller: Board) -> str:
+    """Return how to give the command `wind` or `jump`, with the board's button where it has one."""
+    if not controller.button:
+        return f"Type `{command}`."
+    if command == "jump":
+        return f"Press the same button again and step back: it releases after {BUTTON_DELAY_MS / 1000.0:g} s."
+    return (
+        f"Press the board's button at its pin {controller.button} (marked B or BOOT): it winds until it is ready and "
+        "the motor stops. The other button, R or RESET, restarts the program; wound springs stay loaded: press the "
+        "first again."
+    )
