@@ -8,6 +8,9 @@ GRAVITY_M_S2 = 9.81
 
 GAP_MM = 0.5
 """Axial gap between parts that move past each other; judgement: three times the spread of a first layer."""
+BUSHING_PLAY_MM = 0.15
+"""Between the leg or a plate and the end of a bushing on the leg's axle; judgement: the leg then has 0.6 mm in all,
+more than the spread of three printed lengths, and moves by half of that from its middle."""
 CLEAR_MM = 0.8
 """Between things that do not touch; judgement: twice the play of a loose fit plus assembly error."""
 SPACER_RADIUS_MM = 3.2

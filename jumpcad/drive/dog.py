@@ -18,6 +18,9 @@ from jumpcad.transforms import Array
 PLAY_MORE_RAD = math.radians(3.0)
 """Play beyond the roll-over, and window beyond what the play needs: for printing tolerances and wear; judgement."""
 JAWS = 2
+ASIDE_MORE_RAD = math.radians(3.0)
+"""By how much more than half of the play a jaw stands aside; judgement: turned by half a turn, the jaws then overlap
+the pockets' ends by twice that, 0.6 mm on the smallest dog."""
 
 
 def free_play_rad(roll_over_rad: npt.ArrayLike, fixed_rad: float | None = None) -> Array:
@@ -32,6 +35,9 @@ def free_play_rad(roll_over_rad: npt.ArrayLike, fixed_rad: float | None = None) 
 class Dog:
     """Jaws of cam and gear, which share a ring around the cam's axle.
 
+    The cam's two jaws are equal but not opposite to each other, and so are the gear's pockets: the gear fits in one
+    position only. Of the gear's own jaws, which hub and web hold on either side, one is narrower for it.
+
     Attributes
     ----------
     play_rad
@@ -45,13 +51,18 @@ class Dog:
 
     @property
     def jaw_rad(self) -> float:
-        """Width of a jaw; those of cam and gear are equal, since both carry the same torque."""
+        """Width of a jaw of the cam; those of the gear are as wide on average."""
         return (2.0 * math.pi / JAWS - self.play_rad) / 2.0
+
+    @property
+    def aside_rad(self) -> float:
+        """How far the second jaw stands from opposite the first: twice this is more than the play."""
+        return self.play_rad / 2.0 + ASIDE_MORE_RAD
 
     @property
     def cam_jaws_rad(self) -> list[tuple[float, float]]:
         """Where the cam's jaws begin and end, counter-clockwise from x, at cam angle 0."""
-        middles = (2.0 * math.pi * number / JAWS for number in range(JAWS))
+        middles = (0.0, math.pi + self.aside_rad)
         return [(middle - self.jaw_rad / 2.0, middle + self.jaw_rad / 2.0) for middle in middles]
 
     @property

@@ -23,8 +23,9 @@ from jumpcad.layout.places import best_place, grid_candidates
 from jumpcad.layout.room import EVERYWHERE, Obstacle, box_obstacle, disc
 from jumpcad.transforms import Array
 
-ABOVE_BATTERY_MM = 1.6
-"""Gap above the battery; judgement: ties under the upper tray, 1.1 mm thick, and swelling of the cell."""
+ABOVE_BATTERY_MM = 3.8
+"""Gap above the battery: its strap, 2.5 mm where hook lies on loop, and under the upper tray ties of 1.1 mm, which
+cross the strap; judgement: 0.2 mm more."""
 TRAY_MORE_MM = 2.0
 """By how much a tray is longer than its battery; judgement: an edge of 1 mm at either end."""
 TAPE_MM = 1.0

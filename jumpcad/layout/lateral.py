@@ -8,10 +8,21 @@ lies across, its shaft to the left.
 from dataclasses import dataclass
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import GAP_MM, MOTOR_CAP_MM, ROLLER_HEAD_MM, ROLLER_WASHER_MM, TERMINALS_MM
+from jumpcad.dimensions import (
+    BUSHING_PLAY_MM,
+    GAP_MM,
+    MOTOR_CAP_MM,
+    ROLLER_HEAD_MM,
+    ROLLER_WASHER_MM,
+    TERMINALS_MM,
+)
 from jumpcad.drive.socket import front_length_mm
 
 Interval = tuple[float, float]
+
+HEAD_GAP_MM = GAP_MM + 2.0 * BUSHING_PLAY_MM + 0.2
+"""From the roller's screw to the cam gear: the play of cam and gear, each half a gap, towards the leg, half of the
+leg's, and what is left then; judgement."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +82,7 @@ def lateral_stack(
     half = leg_mm / 2.0
     cam = (half + ROLLER_WASHER_MM, half + ROLLER_WASHER_MM + roller_width_mm)
     spring_left = (half + GAP_MM, half + GAP_MM + spring_length_mm)
-    y = max(cam[1] + ROLLER_HEAD_MM, spring_left[1]) + GAP_MM
+    y = max(cam[1] + ROLLER_HEAD_MM + HEAD_GAP_MM, spring_left[1] + GAP_MM)
     gears = []
     for width in gear_widths_mm:
         gears.append((y, y + width))

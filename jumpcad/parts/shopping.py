@@ -30,8 +30,9 @@ from jumpcad.workshop import BoughtParts
 
 TOE_THREAD_MM = 4.0
 """Least length of thread of a toe's screw in the foot's stub."""
-SCREW_END_MM = 6.0
-"""Length of thread of a standoff's screw inside the standoff."""
+SCREW_END_MM = 4.0
+"""Least length of thread of a standoff's screw inside the standoff, M3 in polyamide; judgement: as in a toe. Stock
+lengths are 2 mm apart, so that it stays below the 6 mm that are tapped."""
 SWITCH_EAR_MM = 0.5
 """Thickness of the ears of a slide switch, tapped M2; usual."""
 STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm", (10.0, 1.0), 0.8

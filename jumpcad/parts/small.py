@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
+from jumpcad.dimensions import BUSHING_PLAY_MM, SPACER_RADIUS_MM
 from jumpcad.errors import JumpcadError
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
@@ -41,14 +41,13 @@ def _cap(width_mm: float, height_mm: float, boss_mm: float, thickness_mm: float,
 
 
 def spring_bushing(layout: Layout, holes: HoleSizes, side: str) -> Drawing:
-    """Return the bushing inside one spring: a mandrel under the coil, then a spacer out to the plate."""
+    """Return the bushing inside one spring: a mandrel from the leg under the coil, then a spacer out to the plate."""
     lateral, spring = layout.lateral, layout.drive.spring
-    coil = lateral.spring_left if side == "left" else lateral.spring_right
-    inner, outer = (coil[0], coil[1]) if side == "left" else (-coil[1], -coil[0])
+    inner, outer = lateral.leg[1] + BUSHING_PLAY_MM, lateral.spring_left[1]
     wall = (lateral.inside[1] if side == "left" else -lateral.inside[0]) - layout.boss_mm
     mandrel, spacer = disc(spring.mandrel_mm), disc(layout.spring_bore_room_mm)
     bore = hole(holes.running(layout.axle_mm))
-    end = wall - GAP_MM / 2.0
+    end = wall - BUSHING_PLAY_MM
     slabs = [(0.0, min(outer, end) - inner, mandrel - bore)]
     slabs += [(outer - inner, end - inner, spacer - bore)] if end > outer else []
     x, z = layout.hub_mm

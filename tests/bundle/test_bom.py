@@ -43,7 +43,7 @@ def test_the_bill_counts_every_piece(robot: Robot) -> None:
     quantity = {row["item"]: int(row["quantity"]) for row in rows(robot)}
     assert quantity["lock nut M3 DIN 985"] == 1
     standoffs = sum(count for item, count in quantity.items() if item.startswith("standoff"))
-    assert quantity["screw M3 x 10 ISO 7380-1"] == 2 * standoffs
+    assert quantity["screw M3 x 8 ISO 7380-1"] == 2 * standoffs
     assert sum(count for item, count in quantity.items() if item.startswith("torsion spring")) == 2
     assert sum(count for item, count in quantity.items() if item.startswith("gear motor")) == 1
     axles = 3 if robot.layout.idler_mm is None else 4
@@ -59,14 +59,14 @@ def test_nothing_costs_anything_unless_the_workshop_says_so(robot: Robot) -> Non
 
 
 def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
-    """1 kg of filament at 25 €; a screw of 10 mm costs more than the others; two bearings."""
+    """1 kg of filament at 25 €; a screw of 8 mm costs more than the others; two bearings."""
     file = tmp_path / "mine.toml"
     file.write_text("""
         [materials.PETG]
         price_eur_per_kg = 25.0
         [prices_eur]
         "screw M3" = 0.05
-        "screw M3 x 10" = 0.08
+        "screw M3 x 8" = 0.08
         "ball bearing MR63" = 1.5
     """)
     robot = build(load_design("kenan-2.0"), load_workshop(file))
@@ -75,7 +75,7 @@ def test_prices_of_a_users_file_are_multiplied_out(tmp_path: Path) -> None:
     assert float(line["main_leg"]["eur"]) == pytest.approx(0.025 * float(line["main_leg"]["grams"]), abs=0.006)
     assert line["body_plate_left"]["eur"] == ""  # PLA
     assert line["screw M3 x 16 ISO 7380-1"]["eur_each"] == "0.050"
-    screws = line["screw M3 x 10 ISO 7380-1"]
+    screws = line["screw M3 x 8 ISO 7380-1"]
     assert float(screws["eur"]) == pytest.approx(0.08 * int(screws["quantity"]))
     assert line["ball bearing MR63"]["eur"] == "3.00"
     known = [line for line in lines[:-1] if line["eur"]]

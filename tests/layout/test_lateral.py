@@ -27,16 +27,16 @@ CASES = [stack(), stack(spring=13.0), stack(gears=(5.0, 4.0)), stack(tray=60.0),
 
 
 def test_the_sum_of_the_left_side() -> None:
-    """Half the leg 4, washer 0.5, roller 4, its screw's head 1.65, gap 0.5, gear 5, gap 0.5: the plate at 16.15 mm."""
+    """Half the leg 4, washer 0.5, roller 4, its screw's head 1.65, 1 mm, gear 5, gap 0.5: the plate at 16.65 mm."""
     lateral = stack()
     assert lateral.cam == (4.5, 8.5)
-    assert lateral.gears == (pytest.approx((10.65, 15.65)),)
-    assert lateral.left_plate == pytest.approx((16.15, 18.55))
+    assert lateral.gears == (pytest.approx((11.15, 16.15)),)
+    assert lateral.left_plate == pytest.approx((16.65, 19.05))
     thicker = stack(spring=13.0)  # the coil, 0.5 to 13.5 mm beside the leg, now is what the gear must clear
     assert thicker.gears == (pytest.approx((18.0, 23.0)),)
     two = stack(gears=(5.0, 4.0))
-    assert two.gears[1] == pytest.approx((16.15, 20.15))
-    assert two.left_plate[0] == pytest.approx(20.65)
+    assert two.gears[1] == pytest.approx((16.65, 20.65))
+    assert two.left_plate[0] == pytest.approx(21.15)
 
 
 @pytest.mark.parametrize("lateral", CASES)

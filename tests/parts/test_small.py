@@ -30,6 +30,28 @@ def test_bushings_turn_on_the_axle_and_fill_the_wound_spring(kenan: Robot, side:
     assert outside == pytest.approx(inside_wound - 0.3, abs=0.01)
 
 
+def at_hub(robot: Robot, name: str) -> np.ndarray:
+    """Return the y at which a printed part of the body has points within 5 mm of the leg's axle."""
+    points = placed(robot, name).vertices
+    return points[np.hypot(*(points[:, ::2] - robot.layout.hub_mm).T) < 5.0, 1]
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_rollers_screw_clears_the_cam_gear_with_all_play_against_it(name: str) -> None:
+    """The leg goes left until a bushing meets the plate; the gear right, until cam and gear meet the cam's spacer."""
+    robot = built(name)
+    bushing, plate = (at_hub(robot, name) for name in ("spring_bushing_left", "body_plate_left"))
+    leg_play = plate.min() - bushing.max() + bushing.min() - placed(robot, "main_leg").bounds[1, 1]
+    assert 2.0 * leg_play == pytest.approx(0.6, abs=1e-3)  # as much to the right
+    gear, cam, spacer = (placed(robot, one).bounds[:, 1] for one in ("cam_gear", "cam", "cam_spacer_right"))
+    levels = np.unique(placed(robot, "cam").vertices[:, 1].round(6))
+    shoulder = levels[levels < gear[0]].max()
+    gear_play = gear[0] - shoulder + cam[0] - spacer[1]
+    screw = next(item for item in robot.hardware if item.name == "roller_screw")
+    head = screw.look.copy().apply_transform(screw.T_body_part).bounds[1, 1]
+    assert head + leg_play < gear[0] - gear_play - 0.1
+
+
 def test_spacers_turn_on_their_axles(kenan: Robot) -> None:
     for name in ("front_spacer_left", "front_spacer_right", "cam_spacer_right"):
         mesh = part(kenan, name).mesh

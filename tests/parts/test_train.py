@@ -240,6 +240,20 @@ def test_the_roller_falls_free_of_the_cam(name: str) -> None:
         assert gap(cam.free_rad, float(wind)) > 0.3
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_cam_gear_fits_onto_the_jaws_in_one_position_only(name: str) -> None:
+    """Turned in steps of 1° against each other, on sections of the meshes: free over the play, and nowhere else."""
+    robot = built(name)
+    y = sum(robot.layout.lateral.gears[0]) / 2.0
+    jaws, gear = (region(cut(placed(robot, part), y) - robot.layout.cam_axis_mm) for part in ("cam", "cam_gear"))
+    assert len(jaws.geoms) == 2
+    # clockwise, as the cam runs ahead of its gear
+    shared = [affinity.rotate(jaws, -turn, (0, 0)).intersection(gear).area for turn in range(360)]
+    free = [turn for turn, area in enumerate(shared) if area < 0.05]
+    assert free == list(range(math.floor(math.degrees(robot.layout.drive.dog.play_rad)) + 1))
+    assert min(area for turn, area in enumerate(shared) if 90 < turn < 270) > 1.0
+
+
 def test_the_sensors_land_is_one_piece_with_a_gear_whose_web_has_holes() -> None:
     """A wheel of 38 teeth has room for holes where the land stands."""
     layout, holes = layout_of(load_design("kenan-2.0"), load_workshop())
