@@ -7,7 +7,7 @@ along the path are sampled.
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -27,6 +27,8 @@ from jumpcad.solids.stack import Stack
 from jumpcad.solids.swept import swept
 from jumpcad.transforms import Array, chained
 
+AROUND = ("from the front", "from behind", "from above", "from below")
+"""Sides from which a clip may be put on."""
 TOLERANCE_MM2 = 0.05
 """Section that may be shared along a path: facets of circles that touch, as of an axle in its bore."""
 BEYOND_MM = 5.0
@@ -109,16 +111,23 @@ def assembly_ways(robot: Robot) -> list[Way]:
             along = [travel(robot, thing, placed.move, poses[thing.body]) for thing in placed.things]
             if placed.move.brings:  # one piece: all of it moves as its first thing does
                 along = [along[0]] * len(along)
-            snapped = placed.move.way == "snapped"
-            reach = [
-                _depth(mover, way) if snapped else _reach(mover, there, way)
-                for mover, way in zip(movers, along, strict=True)
-            ]
-            ways.append(Way(step, placed, movers, [r * a for r, a in zip(reach, along, strict=True)], [*there]))
+            way = Way(step, placed, movers, [], [*there])
+            if placed.move.way == "snapped":
+                paths = [_snapped(way, mover, side) for mover, side in zip(movers, along, strict=True)]
+            else:
+                paths = [_reach(mover, there, side) * side for mover, side in zip(movers, along, strict=True)]
+            ways.append(replace(way, paths_mm=paths))
             there += movers
         tried = {thing.name for placed in step.placed if placed.move.trial for thing in placed.things}
         there[:] = [piece for piece in there if piece.name not in tried]
     return ways
+
+
+def _snapped(way: Way, mover: Component, side: Array) -> Array:
+    """Return the path (3,) of a clip by its own size, from the first free one of four sides around its axle."""
+    around = [side] if way.placed.move.along != "sideways" else [SIDES[name] for name in AROUND]
+    paths: list[Array] = [_depth(mover, one) * one for one in around]
+    return next((path for path in paths if _in_the_way(way, mover, path) is None), paths[0])
 
 
 @dataclass(frozen=True)

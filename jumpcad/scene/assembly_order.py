@@ -44,7 +44,8 @@ class Move:
     parts
         Pattern of their names.
     along
-        A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`.
+        A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`, or
+        `sideways` for a clip: from any side that is free.
     way
         `straight`, checked on the shapes; `bent`, also straight, around things of `past`; `snapped`, by their own size
         only, sideways onto a groove; `laid` for what is soldered or flexible, which has no path to check.
@@ -105,7 +106,7 @@ def _pin(name: str, reach: str, clips: tuple[str, str] = ("from the right", "fro
 def _clips(name: str, reach: tuple[str, str] = ("from the right", "from the left")) -> tuple[Move, ...]:
     """Return the moves of the clips at the right and the left end of an axle, sideways onto their grooves."""
     return tuple(
-        Move(rf"({name})_clip_{end}", "from the front", "snapped", past=rf"({name})", tool=CLIP, reach=side)
+        Move(rf"({name})_clip_{end}", "sideways", "snapped", past=rf"({name})", tool=CLIP, reach=side)
         for end, side in enumerate(reach, start=1)
     )
 
@@ -331,17 +332,11 @@ ORDER: tuple[Plan, ...] = (
             Words("Push the stop's tab into the right plate behind the leg, its pad towards the leg."),
             Words("Grease the jaws, the roller's path and the teeth thinly (silicone or lithium grease). On the cam "
                   "axle go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
-            Words("The gear fits the jaws in two positions, half a turn apart, and only one is right: the mark on the "
-                  "gear faces the mark on the cam. One dimple is in the gear's left face, the other in the end face of "
-                  "one jaw: both lie side by side."),
+            Words("The gear fits the jaws in one position only: where its pockets do not take both jaws, turn it by "
+                  "half a turn."),
             Words("Then the idler, its small wheel down.", needs="idler"),
         ),
-        warnings=(
-            Words("With the gear half a turn wrong the sensor closes long before the drop, the robot says `ready` "
-                  "there, and a later `wind` releases the springs."),
-        ),
         checks=(
-            Words("Both marks lie side by side."),
             Words("The cam turns in its gear freely from jaw to jaw, by {dog_play}°: this play is needed, do not glue "
                   "it."),
         ),

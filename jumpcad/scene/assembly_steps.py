@@ -83,6 +83,8 @@ def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Arra
     """
     if move.along in SIDES:
         return SIDES[move.along]
+    if move.along == "sideways":
+        return SIDES["from the front"]
     own = chained(T_world_body, thing.T_body_mesh)[:3, :3]
     if move.along == "head last":
         return np.asarray(own[:, 2] * (-1.0 if _head_up(thing) else 1.0))

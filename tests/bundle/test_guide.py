@@ -39,7 +39,7 @@ def test_the_guide_asks_for_what_the_firmware_and_the_boards_do(robot: Robot) ->
     assert int(let_go[1]) <= (values["RELEASE_MAX_MS"] or 0)
     if not robot.workshop.bought.regulator:
         assert "370 mA, which cannot be set: 1.23 C" in guide
-    assert "the mark on the gear faces the mark on the cam" in guide
+    assert "The gear fits the jaws in one position only" in guide
     sensor = guide.split("Left plate with the sensor")[1]
     assert sensor.index("through the mount's window") < sensor.index("solder them to COM and NO")
     boards = guide.split("Upper tray with the boards")[1]

@@ -85,7 +85,7 @@ def test_the_left_plate_meets_nothing_on_its_way_down() -> None:
     """The same path by another program: trimesh's meshes, moved to the left in steps."""
     robot = built("kenan-2.0")
     plate = placed(robot, "body_plate_left")
-    for name in ("cam_gear", "cam", "stop_bar", "motor_cap", "electronics_tray"):
+    for name in ("cam_gear", "cam", "stop_bar", "motor_cap", "electronics_tray_upper"):
         other = placed(robot, name)
         for away in np.linspace(0.5, 40.0, 12):
             moved = plate.copy().apply_translation([0.0, away, 0.0])
