@@ -1,7 +1,7 @@
-"""Runs the robot: reads sensor, button, battery and serial commands, and turns the motor as `winder` says.
+"""Runs the robot: reads sensor, button, battery and serial commands, and turns the motor as `winder` returns.
 
-Commands over USB, each a line: `wind`, `jump`, `stop`, `state`. The board's button winds, and then releases after a
-delay in which to step back.
+Commands over USB, one a line: `wind`, `jump`, `stop`, `state`. The button on the board winds, and then releases after
+a delay, in which you step back.
 """
 
 import select
@@ -13,6 +13,7 @@ from machine import ADC, PWM, Pin
 from winder import READY, Winder
 
 STEP_MS = 2
+LONGEST = 20  # characters of a line that are kept
 
 
 class Board:
@@ -39,7 +40,7 @@ class Board:
 
 
 class Button:
-    """A push button: pressed once a press, after the release of an earlier one."""
+    """A push button, debounced; each press counts once."""
 
     def __init__(self):
         self.was_down_ms = 0
@@ -51,16 +52,29 @@ class Button:
         return before < 30 <= self.was_down_ms
 
 
-def command(poll):
-    """Return the line that came in, or nothing."""
-    return sys.stdin.readline().strip() if poll.poll(0) else ""
+class Console:
+    """Commands over USB, taken byte by byte: waiting for the end of a line would stop the loop with the motor on."""
+
+    def __init__(self):
+        self.poll = select.poll()
+        self.poll.register(sys.stdin, select.POLLIN)
+        self.typed = ""
+
+    def command(self):
+        """Take at most one byte; return the line that it ends, or an empty text."""
+        byte = sys.stdin.buffer.read(1) if self.poll.poll(0) else b""
+        if not byte:
+            return ""
+        if byte in (b"\r", b"\n"):
+            line, self.typed = self.typed.strip(), ""
+            return line
+        self.typed = self.typed[:-1] if byte in (b"\b", b"\x7f") else (self.typed + chr(byte[0]))[-LONGEST:]
+        return ""
 
 
 def run():
-    """Work until interrupted; the motor is off afterwards, whatever happened."""
-    board, winder, button = Board(), Winder(robot), Button()
-    poll = select.poll()
-    poll.register(sys.stdin, select.POLLIN)
+    """Run until interrupted; the motor is off afterwards in every case."""
+    board, winder, button, console = Board(), Winder(robot), Button(), Console()
     told, release_at = "", None
     now, last = 0, time.ticks_ms()
     try:
@@ -68,7 +82,7 @@ def run():
             ticks = time.ticks_ms()
             now += time.ticks_diff(ticks, last)
             last = ticks
-            word = command(poll)
+            word = console.command()
             down = board.button is not None and not board.button.value()
             pressed = button.pressed(now, down)
             if pressed and winder.state == READY and release_at is None:

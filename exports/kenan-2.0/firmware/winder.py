@@ -1,14 +1,15 @@
 """When the motor turns: the logic of the firmware, without hardware.
 
-`Winder.step` takes the time (ms) and what the pins say, and returns the motor's share of PWM, 0 to 1. It runs under
-MicroPython and CPython. The cam has one drop a turn: the sensor closes shortly before the drop (ready), opens after it.
+`Winder.step` takes the time (ms) and the states of the pins, and returns the motor's share of PWM, 0 to 1. It runs
+under MicroPython and CPython. The cam has one drop per turn: the sensor closes shortly before the drop (ready) and
+opens after it.
 """
 
 IDLE, WINDING, READY, RELEASING, REFUSED, FAULT = "idle", "winding", "ready", "releasing", "refused", "fault"
 
 
 class Debounced:
-    """A switch whose state counts once it has lasted for a time (ms)."""
+    """A switch whose state counts once it has been constant for a time (ms)."""
 
     def __init__(self, settle_ms, closed=False):
         self.settle_ms = settle_ms
@@ -58,12 +59,12 @@ class Winder:
             if settled:
                 return self._enter(READY, now_ms, "ready: keep away from the leg")
             if elapsed > numbers.WIND_MAX_MS:
-                return self._enter(FAULT, now_ms, "not wound in time: stuck, slipping, or no sensor; motor off")
+                return self._enter(FAULT, now_ms, "not wound in time: blocked, slipping, or no sensor; motor off")
             return self._power(elapsed)
         if self.state == RELEASING:
             return self._releasing(now_ms, elapsed, closed)
         if self.state == READY:
-            if jump:  # even on a low battery: a robot is safer when its springs are slack
+            if jump:  # even on a low battery: a robot is safer with its springs unloaded
                 self._opened_ms = None
                 return self._enter(RELEASING, now_ms, "releasing")
             return 0.0
@@ -73,7 +74,7 @@ class Winder:
 
     def _begin(self, now_ms, settled, battery_v):
         """Start to wind from rest; springs that are loaded already can be released on a low battery too."""
-        if settled:  # it stopped there before
+        if settled:  # the springs are loaded already
             return self._enter(READY, now_ms, "ready: keep away from the leg")
         if self._refuses(battery_v):
             return self._enter(REFUSED, now_ms, "battery low: charge it")
@@ -81,9 +82,9 @@ class Winder:
         return self._enter(WINDING, now_ms, "winding")
 
     def _releasing(self, now_ms, elapsed, closed):
-        """Drive over the drop: the sensor opens, and the motor stops a little after that.
+        """Turn the cam past the drop: the sensor opens, and the motor stops a little after that.
 
-        The first opening counts at once, since the leg falls within milliseconds; a bounce only starts the time anew.
+        The first opening counts at once, since the leg swings back within milliseconds; a bounce restarts the time.
         """
         numbers = self.numbers
         if closed:
@@ -94,15 +95,15 @@ class Winder:
             self.jumps += 1
             return self._enter(IDLE, now_ms, "jump %d" % self.jumps)
         if elapsed > numbers.RELEASE_MAX_MS:
-            return self._enter(FAULT, now_ms, "no release in time: stuck, or the sensor hangs; motor off")
+            return self._enter(FAULT, now_ms, "no release in time: blocked, or the sensor stays closed; motor off")
         return self._power(elapsed)
 
     def _quiet_until_ms(self):
-        """Return the time before which switch and commands are ignored: the landing shakes both."""
+        """Return the time before which switch and commands are ignored: the landing may close them."""
         return self._since_ms + self.numbers.LANDING_MS if self.jumps else self._since_ms
 
     def _power(self, elapsed):
-        """Return the share of PWM some time after the start (ms): a ramp, since a sudden start empties the supply."""
+        """Return the share of PWM some time after the start (ms): a ramp, since a sudden start lowers the voltage."""
         numbers = self.numbers
         return numbers.PWM_CAP * min(1.0, 0.3 + 0.7 * elapsed / numbers.RAMP_MS)
 
