@@ -78,10 +78,10 @@ def export(
 
 def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
     """Yield path and content of every file of a bundle but its manifest."""
-    seen = all_pictures(robot) if pictures else {}
+    seen: dict[str, bytes] = {}
     paths: list[str] = []
     glb: bytes | None = None
-    for path, content in _beside_report(robot, exporters, seen):
+    for path, content in _beside_report(robot, exporters, pictures, seen):
         paths.append(path)
         if pictures and path.endswith(".glb") and isinstance(content, bytes):
             glb = content
@@ -99,11 +99,11 @@ def _page(robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Ite
     return write_report(robot, {name: seen[name] for name in RENDERS if name in seen}, jump, glb, tuple(files))
 
 
-def _beside_report(robot: Robot, exporters: Iterable[Exporter], seen: Mapping[str, bytes]) -> Files:
-    """Yield what the report links to, with the pictures that were seen."""
+def _beside_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, seen: dict[str, bytes]) -> Files:
+    """Yield what the report links to; pictures also go into `seen`."""
     yield DESIGN, robot.design.to_toml()
     yield WORKSHOP, robot.workshop.to_toml()
-    motion = jump_motion(robot) if seen else None
+    motion = jump_motion(robot) if pictures else None
     for exporter in exporters:
         for path, content in exporter.files(robot):
             if motion is not None and isinstance(content, bytes) and path.endswith(".glb"):
@@ -113,6 +113,8 @@ def _beside_report(robot: Robot, exporters: Iterable[Exporter], seen: Mapping[st
     yield "bom.csv", write_bom(bill_of_materials(robot))
     yield from firmware_files(robot)
     yield from spring_sheets(robot)
+    if pictures:
+        seen |= all_pictures(robot)
     files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     yield from files.items()
     wiring, guide = wiring_svg(robot), write_guide(robot, list(seen))
