@@ -134,8 +134,9 @@ ORDER: tuple[Plan, ...] = (
             Words("Press one bearing into either side of the hub, between flat jaws with a sheet of card, until it is "
                   "flush: push on its outer ring alone.", needs="hub_bearing.*"),
             Words("Open the eye at the leg's lower end with a drill or reamer of {eye_drill} mm, turned by hand, until "
-                  "the pin turns in it without rocking. Open the leg's hole for the springs' pin too, until its pin "
-                  "goes in under the push of a thumb; the pin itself stays out until step {step_arm}."),
+                  "the pin turns in it without rocking."),
+            Words("Open the leg's hole for the springs' pin too, until its pin goes in under the push of a thumb; the "
+                  "pin itself stays out until step {step_arm}.", needs="leg_spring_pin"),
             Words("Washer and roller go on the lever's left side (the lever is the short arm at the hub; it points "
                   "backwards and up when the leg hangs down). Put the screw in from the left and turn the lock nut on "
                   "from the right until the washer has no play: {torque_m3} N·m, hand-tight."),

@@ -38,7 +38,7 @@ def changed(table: str, **values: Any) -> Workshop:
         ("safety", "strength_factor", 5.0, "train", {"stress_mpa"}),
         ("fits", "backlash_circumferential_mm", 0.3, "train", {"backlash_circumferential_mm"}),
         ("fits", "press_mm", 0.15, "train", {"shaft_wall_mm"}),
-        ("fits", "wall_mm", 1.4, "train", {"cam_gear_root_min_mm", "pinion_root_min_mm", "shaft_wall_mm"}),
+        ("fits", "wall_mm", 1.4, "train", {"pinion_root_min_mm", "shaft_wall_mm"}),
         ("release", "play_deg", 30.0, "cam", {"play_rad"}),
         ("fits", "sliding_mm", 0.4, "spring", {"mandrel_min_mm", "pin_radius_min_mm"}),
         ("process", "line_width_mm", 0.6, "train", {"tip_min_mm"}),

@@ -33,7 +33,12 @@ def test_calibrated_settings_are_what_uncertain_takes(run: Run, tmp_path: Path) 
     assert {row["what"] for row in document["residuals"]} == {"distance", "height", "battery"}
     assert {row["as"] for row in document["predictions"]["kenan-1.0"]["beside"]} >= {"resting-place", "absolute"}
     assert document["sampler"]["converged"] is False
-    assert sorted(path.name for path in (tmp_path / "pictures").iterdir()) == ["measurements.svg", "parameters.svg"]
+    assert sorted(path.name for path in (tmp_path / "pictures").iterdir()) == [
+        "measurements.png",
+        "measurements.svg",
+        "parameters.png",
+        "parameters.svg",
+    ]
     code, out, err = run(
         "simulate", "kenan-2.0", "--engine", "planar", "--uncertain", "--settings", "mine.toml", "--json"
     )

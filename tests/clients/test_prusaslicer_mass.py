@@ -74,7 +74,7 @@ def require_agreement(shape, stl, infill, material):
     assert 1000.0 * model.mass_kg == pytest.approx(sliced.grams, rel=0.06)
     extruded = mass_of(sliced.toolpath.moments(), material.density_g_cm3)
     np.testing.assert_allclose(np.diag(model.inertia_kg_m2), np.diag(extruded.inertia_kg_m2), rtol=0.05)
-    assert model.com_m[2] == pytest.approx(extruded.com_m[2], abs=1e-4)
+    assert model.com_m[2] == pytest.approx(extruded.com_m[2], rel=0.012, abs=1e-4)
 
 
 @needs_slicer

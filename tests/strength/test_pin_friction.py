@@ -19,7 +19,7 @@ def test_its_work_is_that_of_the_pins(name: str) -> None:
     taken = PlanarWorld(robot, Settings()).push_off().moment.losses.friction_j
     work = pin_torque_nm(robot, 0.25) * robot.spring.wind_rad
     assert work == pytest.approx(taken, rel=0.2)
-    assert 0.01 < work / robot.spring.energy_j < 0.04
+    assert 0.01 < work / robot.spring.energy_j < 0.05
 
 
 def test_it_grows_with_coefficient_and_radius_and_each_pin_adds_its_own() -> None:
