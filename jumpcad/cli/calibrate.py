@@ -72,7 +72,7 @@ def _document(posterior: "Posterior", seed: int) -> dict[str, Any]:
         "robots": [subject.name for subject in posterior.model.subjects],
         "parameters": posterior.summaries(),
         "energy_per_mass": posterior.energies(),
-        "together": [list(pair) for pair in posterior.together()],
+        "together": [list(pair) for pair in posterior.correlated()],
         "residuals": posterior.residuals(),
         "model_error": {
             subject.name: {"median": subject.surface.error, "largest": float(subject.surface.errors.max())}

@@ -14,7 +14,7 @@ from trimesh.visual.material import PBRMaterial
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.shading import creased
+from jumpcad.scene.shading import with_normals
 from jumpcad.scene.visuals import Colour, Visual, visuals
 
 Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
@@ -72,7 +72,7 @@ def frame_name(body: str) -> str:
 
 def _in_metres(shape: Visual) -> trimesh.Trimesh:
     """Return a mesh (m) with a vertex per face and corner where the surface is creased."""
-    vertices, normals, faces = creased(shape.mesh)
+    vertices, normals, faces = with_normals(shape.mesh)
     material = PBRMaterial(name=shape.mesh_name, metallicFactor=0.0, roughnessFactor=ROUGHNESS)
     visual = trimesh.visual.TextureVisuals(material=material)
     return trimesh.Trimesh(vertices * 0.001, faces, vertex_normals=normals, visual=visual, process=False)

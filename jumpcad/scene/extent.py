@@ -1,4 +1,4 @@
-"""How large a robot is where it stands."""
+"""Length, width and height of a standing robot."""
 
 import numpy as np
 
@@ -11,8 +11,8 @@ from jumpcad.transforms import Array, chained, in_metres
 def extent_m(robot: Robot) -> Array:
     """Return length, width and height (3,) of a robot that stands with its springs at rest, bought parts included (m).
 
-    It is that of every part's outline over its whole height: exact for parts of one outline, else never too small;
-    0.006 mm too large in the templates, where a pad at the nose is the farthest point.
+    Every part counts with its whole outline over its whole height: exact for a part of one outline, an upper bound for
+    others; 0.006 mm too large in the templates, where a pad at the nose is the farthest point.
     """
     poses = body_poses(robot)
     pieces: list[tuple[Shape, str, Array]] = [(item.shape, item.body, item.T_body_part) for item in robot.hardware]

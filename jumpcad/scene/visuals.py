@@ -1,4 +1,4 @@
-"""The visible things of a robot: every copy of every part with its mesh, its place and its colour.
+"""The visible parts of a robot: every copy of every part with its mesh, its pose and its colour.
 
 Every picture and every exported file takes its meshes and colours from here.
 """
@@ -44,7 +44,7 @@ STEEL: Colour = (0.62, 0.64, 0.67)
 
 @dataclass(frozen=True)
 class Visual:
-    """One thing on the robot.
+    """One printed or bought part on the robot.
 
     `name` is unique; `mesh_name` names its mesh, which copies share. `T_body_mesh` (4, 4) is the pose of the mesh (mm)
     in the frame of `body`, its translation in metres. `source` is the printed or bought part.
