@@ -35,6 +35,8 @@ from jumpcad.workshop import load_workshop
 
 HERE = Path(__file__).parent
 ROBOTS = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+SHOWN = ("kenan-1.0", "kenan-2.0", "best-printable")
+"""The templates of the README."""
 PROTOTYPES = tuple(row for row in PUBLISHED_RESULTS if row.measured is not None)
 SEARCH = ("optimize", "--evaluations", "240", "--seed", "0")
 RIVALS = ("pybullet", "mujoco", "planar")
@@ -100,6 +102,21 @@ def of_robots() -> dict[str, str]:
     head = ("design", "range", "rise", "mass", "energy in the springs", "winding energy (electrical)",
             "range with the study's masses", "real robot: distance, height")  # fmt: skip
     return {"robots": table(head, rows)}
+
+
+def of_results() -> dict[str, str]:
+    """Return how far three of the templates jump, and how far the real ones did."""
+    measured = {row.template: row.measured for row in PROTOTYPES}
+    rows = []
+    for name in SHOWN:
+        robot, jump, _ = built(name)
+        real = measured.get(name)
+        rows.append(
+            (f"`{name}`", mm(jump.ballistic_range_m), mm(jump.com_rise_m), grams([robot.mass_kg]),
+             f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
+        )  # fmt: skip
+    head = ("design", "simulated range", "rise", "mass", "real robot: distance, height")
+    return {"results": table(head, rows)}
 
 
 def of_engines() -> dict[str, str]:
@@ -187,7 +204,7 @@ def of_best_printable() -> dict[str, str]:
 
 
 def of_assumptions() -> dict[str, str]:
-    """Return what the README says of settings, of the search's call in Python, and of what may differ elsewhere."""
+    """Return what the docs say of settings, of the search's call in Python, and of what may differ elsewhere."""
     study = coefficients(capsule_robot(load_design("kenan-2.0")), Settings())
     given = ", ".join(f"{option[2:]}={value}" for option, value in zip(SEARCH[1::2], SEARCH[2::2], strict=True))
     return {
