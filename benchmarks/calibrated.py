@@ -126,7 +126,8 @@ def _mm(values_m: Iterable[float]) -> str:
 
 
 def _share(value: float) -> str:
-    return f"{100.0 * value:.0f} %"
+    """Return a share in per cent; a sampler's is never whole."""
+    return f"{min(100.0 * value, 99.0):.0f} %"
 
 
 def _span(values: list[float]) -> str:

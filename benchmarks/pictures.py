@@ -37,8 +37,9 @@ FRAME_S = 0.1
 PX_PER_MM, EDGE_PX = 1.6, 46.0
 COLOURS = {BODY: "#4a4f57", MAIN_LEG: "#1f6fb2", FRONT_LINK: "#c8641a", FOOT: "#2f8f4e"}
 INK, GHOST, CAM = "#22262b", "#9aa1aa", "#d9a441"
+TITLES = {"winding": "winding", "drop": "release", "push-off": "push-off", "flight": "flight"}
 WORDS = {
-    "winding": "Winding: the motor turns the cam, which lifts the roller and winds the springs",
+    "winding": "Winding: the cam lifts the roller and winds the springs",
     "drop": "Release: the roller drops off the cam",
     "push-off": "Push-off: the springs extend the legs",
     "flight": "Flight, to the first touchdown",
@@ -62,7 +63,10 @@ def jump_gif(robot: Robot, data: dict[str, Any]) -> bytes:
     for moment in moments:
         bodies = {name: _pose(frames[moment]) for name, frames in data["frames"].items()}
         poses.append(
-            [bodies[thing.body] @ _turned(turning.get(thing.name), data, moment) @ thing.T_body_mesh for thing in things]
+            [
+                bodies[thing.body] @ _turned(turning.get(thing.name), data, moment) @ thing.T_body_mesh
+                for thing in things
+            ]
         )
     corners = np.concatenate([corners_of(things, one) for one in poses])
     camera = aimed(corners, VIEW, SIZE[0] / SIZE[1])
@@ -70,7 +74,7 @@ def jump_gif(robot: Robot, data: dict[str, Any]) -> bytes:
     pictures = []
     for moment, one in zip(moments, poses, strict=True):
         phase = data["phase"][moment]
-        caption = f"{phase}{data['phases'][phase]}; stripes of {1000.0 * STRIPE_M:.0f} mm"
+        caption = f"{TITLES[phase]}{data['phases'][phase]}; stripes of {1000.0 * STRIPE_M:.0f} mm"
         pictures.append(with_floor(scene.picture(one, SIZE, VIEW, corners), camera, corners, caption))
     return gif(pictures, round(1000.0 * FRAME_S))
 
@@ -100,7 +104,11 @@ def mechanism_svg(robot: Robot, data: dict[str, Any]) -> str:
     width = PX_PER_MM * (places[:, 0].max() + 0.75 * reach) - left
     height = PX_PER_MM * (places[:, 1].max() + 0.35 * reach) + 2 * EDGE_PX
     at = f"translate({-left:.1f} {height - EDGE_PX:.1f})"
-    com = " ".join(f"{1000 * PX_PER_MM * x:.1f},{-1000 * PX_PER_MM * z:.1f}" for x, z in data["com_m"])
+    com = " ".join(
+        f"{1000 * PX_PER_MM * x:.1f},{-1000 * PX_PER_MM * z:.1f}"
+        for (x, z), phase in zip(data["com_m"], data["phase"], strict=True)
+        if phase in ("push-off", "flight")
+    )
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '

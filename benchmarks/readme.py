@@ -62,7 +62,8 @@ def shown(page: str) -> dict[str, str]:
 def rewritten(page: str, made: dict[str, str]) -> str:
     """Return a page with other figures."""
     return FIGURE.sub(
-        lambda found: f"<!-- {found[1]} -->{found[2]}{made.get(found[1], found[3])}{found[4]}<!-- / -->", page
+        lambda found: f"<!-- {found[1]} -->{found[2]}{made.get(found[1], found[3])}{found[4] or found[2]}<!-- / -->",
+        page,
     )
 
 
