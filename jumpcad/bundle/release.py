@@ -12,7 +12,7 @@ def release_facts(release: Release) -> dict[str, Any]:
 
     `energy_ratio` leaves the lever's bending aside, `energy_ratio_rounded` too, with the corner rounded as the workshop
     says; `energy_ratio_with_bending` is where the jump starts. Torques are the largest of both corners and of the two
-    motors of `assumed`, those at the ends of the workshop's ranges.
+    motors of `assumed`, those at the ends of the workshop's ranges, the second one also slow.
     """
     return {
         "energy_ratio": round(release.energy_ratio, 6),
