@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from jumpcad.bundle.arrival import REAMED_MM
 from jumpcad.bundle.firmware import AFTER_RELEASE_MS, LANDING_MS, numbers
 from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded
-from jumpcad.bundle.ordering import REAMED_MM, ROD_SHORT_MM
+from jumpcad.bundle.ordering import ROD_SHORT_MM
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.electronics.chosen import chosen_parts

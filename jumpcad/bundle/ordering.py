@@ -141,8 +141,8 @@ def _switch(robot: Robot) -> Iterator[str]:
     yield (
         f"- slide switch: {2.0 * SWITCH_SCREWS_MM:g} mm between the holes of its ears, at most {switch.length_mm:g} x "
         f"{switch.width_mm:g} mm, {switch.height_mm:g} mm high behind its ears, {switch.rated_a:g} A or more. Its "
-        f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it must "
-        f"stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No maker's article with all of it is known "
+        f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it "
+        f"must stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No maker's article with all of it is known "
         "here: compare the drawing before you order"
     )
 

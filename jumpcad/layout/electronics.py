@@ -103,8 +103,21 @@ class Electronics:
     def length_mm(self) -> float:
         """Along x: the battery, or all boards one behind the other with the slots of their ties."""
         boards = self.boards_mm + 2.0 * (SEAT_PLAY_MM + TIE_SLOT_MM[0] + TIE_END_MM)
-        tie = TIE_SLOT_MM[1] + 2.0 * TIE_END_MM if self.balanced else 0.0
-        return max(self.battery.length_mm + 2.0 * (BATTERY_PLAY_MM + RIM_MM + tie), boards, TRAY_LENGTH_MIN_MM)
+        return max(2.0 * self._stopped_mm + self._balance_room_mm, boards, TRAY_LENGTH_MIN_MM)
+
+    @property
+    def battery_mm(self) -> float:
+        """The battery's middle from that of the trays: behind it where its balance lead needs the room in front."""
+        return min(0.0, self.length_mm / 2.0 - self._stopped_mm - self._balance_room_mm)
+
+    @property
+    def _stopped_mm(self) -> float:
+        """Half of the battery's length with its stop."""
+        return self.battery.length_mm / 2.0 + BATTERY_PLAY_MM + RIM_MM
+
+    @property
+    def _balance_room_mm(self) -> float:
+        return TIE_SLOT_MM[1] + 2.0 * TIE_END_MM if self.balanced else 0.0
 
     @property
     def balanced(self) -> bool:
@@ -114,12 +127,12 @@ class Electronics:
     @property
     def stop_mm(self) -> float:
         """From the battery's middle to that of the stops at its ends."""
-        return self.battery.length_mm / 2.0 + BATTERY_PLAY_MM + RIM_MM / 2.0
+        return self._stopped_mm - RIM_MM / 2.0
 
     @property
     def balance_mm(self) -> float:
         """From the battery's middle to that of the tie over its balance lead, forwards."""
-        return self.stop_mm + RIM_MM / 2.0 + TIE_END_MM + TIE_SLOT_MM[1] / 2.0
+        return self._stopped_mm + TIE_END_MM + TIE_SLOT_MM[1] / 2.0
 
     @property
     def boards_mm(self) -> float:
@@ -176,7 +189,7 @@ class Electronics:
         # as near to the legs' plane as strap and plates let it: the robot tips less sideways
         strap = battery.width_mm / 2.0 + 1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM
         y = min(max(0.0, low + strap), high - strap)
-        seats = {"battery": Seat(0.0, y, TRAY_MM, size)}
+        seats = {"battery": Seat(self.battery_mm, y, TRAY_MM, size)}
         start = -self.boards_mm / 2.0
         for role, board in self.boards.items():
             x, reach = start + board.width_mm / 2.0, _from_plate_mm(role) + board.length_mm / 2.0
@@ -218,7 +231,8 @@ class Electronics:
         x = controller.x_mm + (controller.size_mm[0] + TIES_APART_MM) / 2.0
         ties = [y for role in list(self.boards)[:2] for _, y, _ in self.tie_slots(inside)[role]]
         low, high = inside[0] + TRAY_SIDE_MM, inside[1] - TRAY_SIDE_MM
-        free, length = [], SMALL_MM[1] + 2.0 * SEAT_PLAY_MM
+        free: list[float] = []
+        length = SMALL_MM[1] + 2.0 * SEAT_PLAY_MM
         for start in np.arange(low, high - length, 0.5):
             apart = all(abs(start + length / 2.0 - y) >= (length + TIE_SLOT_MM[1]) / 2.0 for y in ties)
             if apart and (not free or start >= free[-1] + length):

@@ -30,15 +30,20 @@ def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     """Return the lower and the upper tray."""
     electronics, inside = layout.electronics, layout.lateral.inside
     battery, middle = electronics.battery, sum(inside) / 2.0
-    strap_y, at = battery.width_mm / 2.0 + STRAP_SLOT_MM[0], electronics.seats(inside)["battery"].y_mm - middle
-    straps = [rectangle(STRAP_SLOT_MM[::-1], (0.0, at + side * strap_y)) for side in (-1.0, 1.0)]
+    strap_y, seat = battery.width_mm / 2.0 + STRAP_SLOT_MM[0], electronics.seats(inside)["battery"]
+    x, at = seat.x_mm, seat.y_mm - middle
+    straps = [rectangle(STRAP_SLOT_MM[::-1], (x, at + side * strap_y)) for side in (-1.0, 1.0)]
     between = 2.0 * (electronics.stop_mm - RIM_MM / 2.0 - STOP_FOOT_MM)
-    window = _window(min(electronics.length_mm - 2.0 * EDGE_MM, between), battery.width_mm - 2.0 * LEDGE_MM)
+    window = _window(min(electronics.length_mm - 2.0 * (EDGE_MM - x), between), battery.width_mm - 2.0 * LEDGE_MM)
     if electronics.balanced:
         reach = (BALANCE_MM + TIE_SLOT_MM[0]) / 2.0
-        straps += [rectangle(TIE_SLOT_MM[::-1], (electronics.balance_mm, at + side * reach)) for side in (-1.0, 1.0)]
-    lower = _floor(layout, holes, 0) - union([*straps, *(region.translate((0.0, at)) for region in window)])
-    stops = [rectangle((RIM_MM, RIM_SHARE * battery.width_mm), (end * electronics.stop_mm, at)) for end in (-1.0, 1.0)]
+        straps += [
+            rectangle(TIE_SLOT_MM[::-1], (x + electronics.balance_mm, at + side * reach)) for side in (-1.0, 1.0)
+        ]
+    lower = _floor(layout, holes, 0) - union([*straps, *(region.translate((x, at)) for region in window)])
+    stops = [
+        rectangle((RIM_MM, RIM_SHARE * battery.width_mm), (x + end * electronics.stop_mm, at)) for end in (-1.0, 1.0)
+    ]
     floor = _floor(layout, holes, 1)
     cuts, rims = [], []
     for slots in electronics.tie_slots(inside).values():

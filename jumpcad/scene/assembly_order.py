@@ -470,8 +470,8 @@ ORDER: tuple[Plan, ...] = (
                   "by its plates, feet away from you and free, and release: `jump`. Never take it apart while the leg "
                   "is off its stop."),
             Words("`fault: sensor pressed too early`: a lead of the sensor is broken, the springs may be partly "
-                  "loaded. Nothing in the leg's way, type `wind`, then `jump`, until the leg falls: each turns the cam a "
-                  "little. Then mend the lead.", needs="wiring_resistor_pull_up"),
+                  "loaded. Nothing in the leg's way, type `wind`, then `jump`, until the leg falls: each turns the cam "
+                  "a little. Then mend the lead.", needs="wiring_resistor_pull_up"),
             Words("Battery low while it winds: the springs are partly loaded and cannot be released. {charge_loaded} "
                   "Then `wind` again, and `jump`."),
         ),
