@@ -23,7 +23,7 @@ from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
-from jumpcad.bundle.wiring import wiring_svg
+from jumpcad.bundle.wiring import drawings_of
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.animation import animated
@@ -117,10 +117,11 @@ def _beside_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, 
         seen |= all_pictures(robot)
     files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     yield from files.items()
-    wiring, guide = wiring_svg(robot), write_guide(robot, list(seen))
-    yield "wiring.svg", wiring
+    drawings = {path: text for path, text in drawings_of(robot).items() if text}
+    yield from drawings.items()
+    guide = write_guide(robot, list(seen))
     yield "assembly.md", guide
-    yield "assembly.html", write_page(guide, robot.name, files | {"wiring.svg": wiring.encode()})
+    yield "assembly.html", write_page(guide, robot.name, files | {path: svg.encode() for path, svg in drawings.items()})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:
