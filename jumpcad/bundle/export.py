@@ -23,6 +23,7 @@ from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
+from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.bundle.wiring import drawings_of
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
@@ -53,7 +54,8 @@ def export(
         Is made, with its parents; may be empty or hold an older bundle of the robot. The files that it lists are
         replaced; what a user added stays.
     pictures
-        Whether to draw the robot and to animate its jump in the GLB file, which takes a quarter of the time.
+        Whether to draw the robot, to animate its jump in the GLB file, and to say in the report how sure it is; half
+        of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
     force
@@ -96,7 +98,9 @@ def report_page(robot: Robot, files: Iterable[str] = ()) -> str:
 
 def _page(robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str]) -> str:
     jump = simulate(robot, Settings(flight="simulated", trajectory=glb is not None), default_engine())
-    return write_report(robot, {name: seen[name] for name in RENDERS if name in seen}, jump, glb, tuple(files))
+    pictures = {name: seen[name] for name in RENDERS if name in seen}
+    sure = uncertainty_of(robot) if glb is not None and jump.verdict == "jump" else None
+    return write_report(robot, pictures, jump, glb, tuple(files), sure)
 
 
 def _beside_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, seen: dict[str, bytes]) -> Files:

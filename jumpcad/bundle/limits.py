@@ -11,7 +11,8 @@ SHOWN = 3
 WIDEST = 1.25
 """Use at which a bar is as long as its box; beyond it a bar is cut off."""
 AT_LIMIT = 5e-4
-"""A use this near to 1 is at the limit: a size was made as large as that allows."""
+"""A use this near to 1 is at the limit: a size was made as large as that allows. So is a margin as small as this, but
+not one of exactly 0, of what holds or does not."""
 
 
 def limits(findings: Sequence[Finding]) -> Iterator[str]:
@@ -52,6 +53,10 @@ def _words(finding: Finding) -> str:
 def _used(finding: Finding) -> str:
     """Return how much of a limit is used, in words."""
     if finding.use is None:
+        if 0.0 < abs(finding.margin) < AT_LIMIT:
+            return "at the limit"
+        if finding.margin == 0.0 and not finding.unit:
+            return "holds" if finding.severity == "info" else "does not hold"
         return f"margin {finding.margin:.3g} {finding.unit}".strip()
     return "at the limit" if abs(finding.use - 1.0) < AT_LIMIT else f"{100.0 * finding.use:.0f} % used"
 

@@ -13,7 +13,7 @@ FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
 
 def uncertain(robot: "Robot", settings: "Settings", engine: str, seed: int) -> dict[str, Any]:
     """Return quantiles and indices of a printed robot's jump."""
-    from jumpcad.calibration import uncertain_jump
+    from jumpcad.simulation import uncertain_jump
 
     with status("simulates with everything that is not known"):
         return uncertain_jump(robot, settings, engine, seed).to_dict()
