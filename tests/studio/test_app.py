@@ -14,7 +14,7 @@ from jumpcad.workshop import load_workshop
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Studio  # noqa: E402
-from jumpcad.studio.answers import printed_answer, capsule_answer  # noqa: E402
+from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
 
 
 @pytest.fixture
