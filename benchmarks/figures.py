@@ -1,7 +1,8 @@
-"""The figures that the README shows, by name, each as the text that it should have; `readme.py` compares them.
+"""The figures that README and documentation show, by name, each as the text that it should have; `readme.py` compares.
 
-What follows from the templates alone takes some seconds: `of_robots`, `of_prototypes`, `of_best_printable`,
-`of_assumptions`. The others take minutes: they run the search, PrusaSlicer and the benchmarks of this folder.
+What follows from the templates alone takes some seconds: `of_robots`, `of_engines`, `of_prototypes`,
+`of_best_printable`, `of_assumptions`. The others take minutes: they run the search, PrusaSlicer and the benchmarks of
+this folder. Those of calibrations are in `calibrated.py`.
 """
 
 import json
@@ -34,8 +35,12 @@ from jumpcad.workshop import load_workshop
 
 HERE = Path(__file__).parent
 ROBOTS = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+SHOWN = ("kenan-1.0", "kenan-2.0", "best-printable")
+"""The templates of the README."""
 PROTOTYPES = tuple(row for row in PUBLISHED_RESULTS if row.measured is not None)
 SEARCH = ("optimize", "--evaluations", "240", "--seed", "0")
+RIVALS = ("pybullet", "mujoco", "planar")
+"""The engines that are compared."""
 PUBLISHED_MS = 40.0
 """CPU time of one published simulation on the machine that all CPU times are scaled to."""
 SEARCH_SLACK = 0.01
@@ -97,6 +102,41 @@ def of_robots() -> dict[str, str]:
     head = ("design", "range", "rise", "mass", "energy in the springs", "winding energy (electrical)",
             "range with the study's masses", "real robot: distance, height")  # fmt: skip
     return {"robots": table(head, rows)}
+
+
+def of_results() -> dict[str, str]:
+    """Return how far three of the templates jump, and how far the real ones did."""
+    measured = {row.template: row.measured for row in PROTOTYPES}
+    rows = []
+    for name in SHOWN:
+        robot, jump, _ = built(name)
+        real = measured.get(name)
+        rows.append(
+            (f"`{name}`", mm(jump.ballistic_range_m), mm(jump.com_rise_m), grams([robot.mass_kg]),
+             f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
+        )  # fmt: skip
+    head = ("design", "simulated range", "rise", "mass", "real robot: distance, height")
+    return {"results": table(head, rows)}
+
+
+def of_engines() -> dict[str, str]:
+    """Return range and rise of all templates, printed and as capsule robots, in every engine at its default step."""
+    rows = []
+    for name in ROBOTS:
+        printed = built(name)[0]
+        for kind, robot in (("printed", printed), ("capsule", capsule_robot(printed.design))):
+            jumps = [simulate(robot, engine=engine) for engine in RIVALS]
+            found = [[jump.ballistic_range_m for jump in jumps], [jump.com_rise_m for jump in jumps]]
+            cells = [f"{1000.0 * (value or 0.0):.1f}" for values in found for value in values]
+            rows.append((f"`{name}`, {kind}", *cells, f"{_apart(found[0]):.2f} %, {_apart(found[1]):.2f} %"))
+    head = ("robot", *(f"{figure} (mm), {engine}" for figure in ("range", "rise") for engine in RIVALS), "apart")
+    return {"engines": table(head, rows)}
+
+
+def _apart(values: list[float | None]) -> float:
+    """Return how far the smallest value is below the largest (%); inf if one is missing."""
+    known = [value for value in values if value is not None]
+    return 100.0 * (1.0 - min(known) / max(known)) if len(known) == len(values) else float("inf")
 
 
 def of_prototypes() -> dict[str, str]:
@@ -164,7 +204,7 @@ def of_best_printable() -> dict[str, str]:
 
 
 def of_assumptions() -> dict[str, str]:
-    """Return what the README says of settings, of the search's call in Python, and of what may differ elsewhere."""
+    """Return what the docs say of settings, of the search's call in Python, and of what may differ elsewhere."""
     study = coefficients(capsule_robot(load_design("kenan-2.0")), Settings())
     given = ", ".join(f"{option[2:]}={value}" for option, value in zip(SEARCH[1::2], SEARCH[2::2], strict=True))
     return {

@@ -54,7 +54,7 @@ def rest_picture(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> bytes:
     """
     things = visuals(robot)
     poses = _poses(things, body_poses(robot))
-    return _png(_renderer(things).picture(poses, size, View(), _corners(things, poses)))
+    return _png(_renderer(things).picture(poses, size, View(), corners_of(things, poses)))
 
 
 def all_pictures(robot: Robot) -> dict[str, bytes]:
@@ -76,13 +76,13 @@ def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_
     times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
     frames = [_poses(things, recorded_poses(trajectory, moment)) for moment in moments]
-    corners = np.concatenate([_corners(things, poses) for poses in frames])
+    corners = np.concatenate([corners_of(things, poses) for poses in frames])
     scene = _renderer(things)
     camera = aimed(corners, JUMP_VIEW, size[0] / size[1])
     slower = 0.001 * FRAME_MS * (JUMP_FRAMES - 1) / (times[-1] - times[0])
     caption = f"slow motion, {slower:.0f} times; stripes of {1000.0 * STRIPE_M:.0f} mm"
     pictures = [scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames]
-    return _gif([with_floor(picture, camera, corners, caption) for picture in pictures])
+    return gif([with_floor(picture, camera, corners, caption) for picture in pictures])
 
 
 def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
@@ -92,10 +92,10 @@ def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
     Parts centred on the middle plane are not shifted: legs, and parts that go from plate to plate.
     """
     body = [(thing, pose) for thing, pose in zip(things, poses, strict=True) if thing.body == BODY]
-    widest = float(np.abs(_corners([thing for thing, _ in body], [pose for _, pose in body])[:, 1]).max())
+    widest = float(np.abs(corners_of([thing for thing, _ in body], [pose for _, pose in body])[:, 1]).max())
     moved = []
     for thing, pose in zip(things, poses, strict=True):
-        y = _corners([thing], [pose])[:, 1]
+        y = corners_of([thing], [pose])[:, 1]
         centre = float((pose[:3, :3] @ thing.mesh.centroid)[1] / 1000.0 + pose[1, 3])
         outer = (
             float(np.clip(y.max() if centre > 0.0 else y.min(), -widest, widest)) if abs(centre) > CENTRED_M else 0.0
@@ -108,7 +108,7 @@ def _renders(scene: Renderer, robot: Robot, things: Sequence[Visual], size: tupl
     rest, loaded = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
     scenes = ((rest, View()), (loaded, View()), (exploded(things, rest), EXPLODED_VIEW))
     return {
-        name: _png(scene.picture(poses, size, view, _corners(things, poses)))
+        name: _png(scene.picture(poses, size, view, corners_of(things, poses)))
         for name, (poses, view) in zip(RENDERS, scenes, strict=True)
     }
 
@@ -121,7 +121,7 @@ def _poses(things: Sequence[Visual], bodies: dict[str, Array]) -> list[Array]:
     return [bodies[thing.body] @ thing.T_body_mesh for thing in things]
 
 
-def _corners(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
+def corners_of(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
     """Return the corners (8·n, 3) of the parts' bounding boxes in the world (m)."""
     return np.concatenate(
         [thing.corners_m @ pose[:3, :3].T + pose[:3, 3] for thing, pose in zip(things, poses, strict=True)]
@@ -134,7 +134,7 @@ def _png(picture: Image.Image) -> bytes:
     return stream.getvalue()
 
 
-def _gif(pictures: list[Image.Image]) -> bytes:
+def gif(pictures: list[Image.Image], frame_ms: int = FRAME_MS) -> bytes:
     """Return an endless GIF whose frames share one palette."""
     width, height = pictures[0].size
     sheet = Image.new("RGB", (width, height * len(pictures)))
@@ -143,5 +143,5 @@ def _gif(pictures: list[Image.Image]) -> bytes:
     palette = sheet.quantize(PALETTE, dither=Image.Dither.NONE)
     first, *rest = (picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures)
     stream = io.BytesIO()
-    first.save(stream, "GIF", save_all=True, append_images=rest, duration=FRAME_MS, loop=0)
+    first.save(stream, "GIF", save_all=True, append_images=rest, duration=frame_ms, loop=0)
     return stream.getvalue()

@@ -142,7 +142,7 @@ class Bearing(Article):
 
 
 class Battery(Article):
-    """A battery pack: length along the robot, width across it."""
+    """A battery pack: length along the robot, width across it; `charge_ma` is the largest charging current."""
 
     description: Source
     length_mm: Side
@@ -154,6 +154,7 @@ class Battery(Article):
     full_v: Positive | None = None
     empty_v: Positive | None = None
     discharge_a: Positive | None = None
+    charge_ma: Positive | None = None
     resistance_ohm: Positive | None = None
     plug: Text = ""
     confidence: Confidence = "stated"
@@ -172,6 +173,11 @@ class Battery(Article):
     def ohm(self) -> float:
         """Internal resistance."""
         return self.resistance_ohm or self.cells * CELL_OHM
+
+    @property
+    def bears_ma(self) -> float:
+        """The largest charging current; where it is not given 1 C, which makers of small cells permit."""
+        return self.charge_ma or self.capacity_mah
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield voltages that are not in the order empty, nominal, full."""
@@ -240,7 +246,8 @@ class Travel(TomlTable):
 class Component(Article):
     """A small electrical part: sensor, switch, plug, capacitor, diode or wire; `terminals` as its maker names them.
 
-    `rated_a` and `rated_v` are its ratings, `drop_v` its voltage drop. Length, width and height are those of its case
+    `rated_a` and `rated_v` are its ratings, `least_a` the least current that keeps a contact clean, `drop_v` its
+    voltage drop. Length, width and height are those of its case
     without terminals; `travel` is that of a sensor's plunger, in the middle of the case, along its height.
     """
 
@@ -253,6 +260,7 @@ class Component(Article):
     terminals: Annotated[tuple[Text, ...], Field(strict=False)] = ()
     rated_a: Positive | None = None
     rated_v: Positive | None = None
+    least_a: Positive | None = None
     drop_v: Annotated[float, Field(ge=0, le=5)] = 0.0
     confidence: Confidence
 

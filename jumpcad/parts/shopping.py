@@ -9,7 +9,7 @@ import numpy as np
 from jumpcad.catalogue import Battery, Bearing, Board, Catalogue, Component, Screw
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.electronics.chosen import chosen_of
-from jumpcad.electronics.nets import LOWER_OHM, wiring_of
+from jumpcad.electronics.nets import wiring_of
 from jumpcad.layout.drive_places import arm_line
 from jumpcad.layout.electronics import TAPE_MM
 from jumpcad.layout.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM
@@ -237,9 +237,9 @@ def _soldered(
             yield "heat_shrink", HEAT_SHRINK, HEAT_SHRINK_G
         elif role not in placed and (role != "diode" or parts.regulator is not None):
             yield role, part.description, part.mass_g
-    if wiring.upper_ohm is not None:
-        for name, ohm in (("upper", wiring.upper_ohm), ("lower", LOWER_OHM)):
-            yield f"resistor_{name}", f"resistor {ohm // 1000} kOhm 0.25 W, 1 %", RESISTOR_G
+    for name, ohm in wiring.resistors.items():
+        which = name.removesuffix(" resistor").replace("-", "_")
+        yield f"resistor_{which}", f"resistor {ohm / 1000:g} kOhm 0.25 W, 1 %", RESISTOR_G
 
 
 def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:

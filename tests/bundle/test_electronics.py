@@ -16,8 +16,8 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
-NO_LEADS = {"upper resistor", "lower resistor", "diode"}
-"""Parts that are soldered by their own legs; the battery's plug is on its own cable."""
+NO_LEADS = {"upper resistor", "lower resistor", "pull-up resistor", "diode"}
+"""Parts whose own legs reach the controller, where they lie; the battery's plug is on its own cable."""
 
 
 @pytest.fixture(scope="module", params=["light-1s", "strong-2s"])
@@ -62,10 +62,12 @@ def test_the_drawing_names_every_terminal_and_is_the_same_each_time(robot: Robot
         assert start.pin in words
         assert end.pin in words
         ends = {start.part, end.part}
-        if ends & NO_LEADS or ends == {"battery", "plug"}:
+        if (ends & NO_LEADS and "controller" in ends) or ends == {"battery", "plug"}:
             assert length == 0.0
         else:
             assert 30.0 <= length <= 250.0
+    resistors = [end for _, start, end, _, _ in wires(robot) if end.part == "pull-up resistor"]
+    assert {(end.pin) for end in resistors} == {"1", "2"}
     table = [line for line in wiring_lines(robot) if line.startswith("| ")]
     assert len(table) == len(wires(robot)) + 1
 
