@@ -290,9 +290,7 @@ def _labels(
 
 def _corners(thing: Visual, pose: Array) -> Array:
     """Return the corners (8, 3) of a part's bounding box in the world (m)."""
-    low, high = thing.mesh.bounds / 1000.0
-    box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    return np.asarray(np.round(np.einsum("ij,nj->ni", pose[:3, :3], box) + pose[:3, 3], DIGITS))
+    return np.asarray(np.round(np.einsum("ij,nj->ni", pose[:3, :3], thing.corners_m) + pose[:3, 3], DIGITS))
 
 
 def _at_place(thing: Visual, poses: dict[str, Array]) -> Array:

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
@@ -61,6 +63,12 @@ class Visual:
     def mesh(self) -> "trimesh.Trimesh":
         """The mesh in its own frame (mm), as detailed as a picture needs."""
         return self.source.drawing.look if isinstance(self.source, Part) else self.source.look
+
+    @property
+    def corners_m(self) -> Array:
+        """The corners (8, 3) of the mesh's bounding box in its own frame (m)."""
+        low, high = self.mesh.bounds / 1000.0
+        return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
 
 
 def visuals(robot: Robot) -> tuple[Visual, ...]:
