@@ -130,16 +130,32 @@ def _with_track(gear: Stack, layout: Layout) -> Stack:
         return gear
     top, lift = layout.lateral.gears[0][1] - layout.lateral.gears[0][0], layout.drive.cam.law.lift_rad
     low, step = top - sensor.depth_mm, sensor.needs.layer_mm
-    groove = ring(2.0 * (sensor.radius_mm + sensor.half_width_mm), 2.0 * (sensor.radius_mm - sensor.half_width_mm))
+    steps = tuple(
+        (low + n * step, low + (n + 1) * step, *sensor.land_rad((n + 0.5) * step, lift))
+        for n in range(round(sensor.depth_mm / step))
+    )
+    radii = (sensor.radius_mm - sensor.half_width_mm, sensor.radius_mm + sensor.half_width_mm)
+    return _grooved(gear, low, top, radii, steps)
 
-    def land(above_mm: float) -> Region:
-        sector = _sectors([sensor.land_rad(above_mm, lift)], 2.0 * (sensor.radius_mm + sensor.half_width_mm))
-        return (groove ^ sector).mirror((1.0, 0.0))
 
-    steps = round(sensor.depth_mm / step)
-    rising = [(low + n * step, low + (n + 1) * step, land((n + 0.5) * step)) for n in range(steps)]
+@lru_cache(maxsize=8)
+def _grooved(
+    gear: Stack,
+    low_mm: float,
+    top_mm: float,
+    radii_mm: tuple[float, float],
+    steps: tuple[tuple[float, float, float, float], ...],
+) -> Stack:
+    """Return a gear with a groove and a land's steps (bottom, top, begin, end): often that of the round of growth before."""
+    inner, outer = (2.0 * radius for radius in radii_mm)
+    groove = ring(outer, inner)
+
+    def land(begin_rad: float, end_rad: float) -> Region:
+        return (groove ^ _sectors([(begin_rad, end_rad)], outer)).mirror((1.0, 0.0))
+
+    rising = [(z0, z1, land(begin, end)) for z0, z1, begin, end in steps]
     # the ring under the groove carries the land where the web has holes
-    return gear.minus([(low, top, groove)]).plus([(0.0, low, groove), *rising])
+    return gear.minus([(low_mm, top_mm, groove)]).plus([(0.0, low_mm, groove), *rising])
 
 
 def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:
