@@ -146,7 +146,10 @@ def _grooved(
     radii_mm: tuple[float, float],
     steps: tuple[tuple[float, float, float, float], ...],
 ) -> Stack:
-    """Return a gear with a groove and a land's steps (bottom, top, begin, end): often that of the round of growth before."""
+    """Return a gear with a groove and a land's steps (bottom, top, begin, end).
+
+    It is often that of the round of growth before.
+    """
     inner, outer = (2.0 * radius for radius in radii_mm)
     groove = ring(outer, inner)
 
