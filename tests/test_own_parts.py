@@ -111,7 +111,7 @@ FITS = {
     "boss higher than the cap": motor(boss_length_mm=6.0, shaft_length_mm=14.0),
     "boss as wide as the body": motor(boss_mm=10.0),
     "battery of 100 mm, bearing 693 in the hub": both(
-        battery(100.0, 40.0, 30.0), bearing("leg_bearing", 3.0, 8.0, 4.0)
+        battery(100.0, 36.0, 30.0), bearing("leg_bearing", 3.0, 8.0, 4.0)
     ),
     "battery as wide as the plates are apart, bearing 693 for the roller": both(
         battery(35.0, 37.0, 8.0), bearing("roller", 3.0, 8.0, 4.0)
@@ -256,8 +256,15 @@ WRONG = {
         '[motors.n20-298]\nlike = "n20-298"\nsource = "x"',
         r"^\S+my.toml:1: motors.n20-298 = 'n20-298': is the name of a shipped part: choose another one, and like = ",
     ),
-    "no source": ('[motors.a]\nlike = "n20-298"', r"^\S+my.toml:1: motors.a.source: missing$"),
+    "no source": (
+        '[motors.a]\nlike = "n20-298"',
+        r"^\S+my.toml:1: motors.a.source: missing: say where the figures come from$",
+    ),
     "blank source": ('[motors.a]\nlike = "n20-298"\nsource = " "', r"my.toml:3: motors.a.source = ' ': is empty: say"),
+    "no mass": (
+        '[bearings.b]\nsource = "x"\nbore_mm = 3.0\nouter_mm = 7.0\nwidth_mm = 3.0\nstatic_load_n = 99.0',
+        r"^\S+my.toml:1: bearings.b.mass_g: missing: weigh it, or take the maker's figure$",
+    ),
     "missing": ('[motors]\n[bearings.b]\nsource = "x"', r"my.toml:2: bearings.b.bore_mm: missing"),
     "unknown key": (
         '[motors.a]\nlike = "n20-298"\nsource = "x"\nshaft = 3.0',
