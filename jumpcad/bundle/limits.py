@@ -9,10 +9,12 @@ from jumpcad.findings import Finding
 SHOWN = 3
 """How many limits are named at the top of the page."""
 WIDEST = 1.25
-"""Use at which a bar is as long as its box; beyond it a bar is cut off."""
+"""Use at which a bar has its full length; longer bars are cut off."""
 AT_LIMIT = 5e-4
-"""A use this near to 1 is at the limit: a size was made as large as that allows. So is a margin as small as this, but
-not one of exactly 0, of what holds or does not."""
+"""Largest difference of a use from 1, or of a margin from 0, that is shown as "at the limit", where sizing ends.
+
+A margin of exactly 0 is that of a condition that holds or does not, and is not shown so.
+"""
 
 
 def limits(findings: Sequence[Finding]) -> Iterator[str]:
@@ -29,7 +31,7 @@ def limits(findings: Sequence[Finding]) -> Iterator[str]:
 
 
 def tightest(findings: Sequence[Finding]) -> Iterator[str]:
-    """Yield the limits that a robot comes nearest to, or violates."""
+    """Yield the list of violated limits and those of the highest use, `SHOWN` at most."""
     nearest = [finding for finding in ordered(findings) if finding.severity != "info" or finding.use is not None]
     yield "<p>Tightest limits:</p><ul>"
     for finding in nearest[:SHOWN]:

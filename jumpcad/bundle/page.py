@@ -1,6 +1,6 @@
-"""report.html: one file, without network, on one robot: verdict, motion in 3-D, limits, energy, how to make it.
+"""report.html: a page on one robot, without network: verdict, motion in 3-D, limits, energy, printing, parts.
 
-HTML that is well-formed XML too. The same robot and jump give the same bytes.
+The HTML is well-formed XML too. The same robot and jump give the same bytes.
 """
 
 import base64
@@ -48,9 +48,9 @@ def write_report(
     Parameters
     ----------
     robot, jump
-        The robot and how it jumps, with its trajectory where the page shows the motion.
+        The robot and its jump, with its trajectory if the page shows the motion.
     pictures
-        PNG files by what they show; they become part of the page.
+        PNG files by title; they become part of the page.
     glb
         The robot's GLB file; without it there is no 3-D view.
     files
@@ -88,7 +88,7 @@ def write_report(
 
 
 def _verdict(robot: Robot, jump: Jump, sure: Uncertainty | None) -> Iterator[str]:
-    """Yield whether the robot jumps and how far, its mass and price, and the limits that it comes nearest to."""
+    """Yield the range or the reason for no jump, the main figures, and the tightest limits."""
     if jump.ballistic_range_m is None or jump.com_rise_m is None:
         yield f'<p class="error">It does not jump: {escape(jump.verdict)}.</p>'
         shown = []
@@ -115,7 +115,7 @@ def _verdict(robot: Robot, jump: Jump, sure: Uncertainty | None) -> Iterator[str
 
 
 def _energy(jump: Jump) -> Iterator[str]:
-    """Yield where the springs' energy is at take-off: a bar and a table."""
+    """Yield the energy account at take-off as a bar and a table."""
     account = jump.energy_account_j
     if account is None:
         return

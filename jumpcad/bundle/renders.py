@@ -1,12 +1,12 @@
-"""Pictures of a robot: at rest, springs loaded (`compressed`), exploded, steps of assembly, and its jump."""
+"""Pictures of a robot: at rest, loaded (`compressed` in file names), exploded, its assembly steps and its jump."""
 
 import io
 from collections.abc import Sequence
 
 import numpy as np
 from PIL import Image
-from scipy.spatial.transform import Rotation
 
+from jumpcad.bundle.motion import recorded_poses
 from jumpcad.bundle.step_pictures import step_pictures
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
@@ -25,27 +25,33 @@ JUMP_FRAMES = 36
 FRAME_MS = 50
 PALETTE = 64
 EXPLOSION = 2.4
-"""How far things move apart across the robot, over their distance from its middle plane."""
+"""Shift of a part along y in the exploded view, over the distance of its outer face from the middle plane."""
 CENTRED_M = 0.004
-"""A thing whose middle is within this of the middle plane is in the middle."""
+"""Parts whose centre is nearer to the middle plane are not shifted."""
 EXPLODED_VIEW = View(yaw_deg=-34.0, pitch_deg=24.0)
 JUMP_VIEW = View(yaw_deg=-80.0, pitch_deg=6.0)
 
 
 def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> dict[str, bytes]:
-    """Return the PNG files of a robot at rest, compressed and exploded, by name.
+    """Return the PNG files of a robot at rest, loaded and exploded, by their names in `RENDERS`.
 
     Raises
     ------
     JumpcadError
-        If the robot has no parts to be seen.
+        If the robot has no visible parts.
     """
     things = visuals(robot)
     return _renders(_renderer(things), robot, things, size)
 
 
 def rest_picture(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> bytes:
-    """Return the PNG file of a robot at rest. Raises as `renders`."""
+    """Return the PNG file of a robot at rest.
+
+    Raises
+    ------
+    JumpcadError
+        As `renders`.
+    """
     things = visuals(robot)
     poses = _poses(things, body_poses(robot))
     return _png(_renderer(things).picture(poses, size, View(), corners_of(things, poses)))
@@ -65,11 +71,11 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
-    """Return an animated GIF of a recorded jump above a striped floor, at equal time steps from release on."""
+    """Return an animated GIF of a recorded jump on a striped floor, in equal time steps from the release on."""
     things = visuals(robot)
     times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
-    frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
+    frames = [_poses(things, recorded_poses(trajectory, moment)) for moment in moments]
     corners = np.concatenate([corners_of(things, poses) for poses in frames])
     scene = _renderer(things)
     camera = aimed(corners, JUMP_VIEW, size[0] / size[1])
@@ -80,10 +86,10 @@ def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_
 
 
 def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
-    """Return poses with everything moved apart across the robot, by `EXPLOSION` times its outer face's distance.
+    """Return the poses of the exploded view: every part is shifted along y by `EXPLOSION` times a distance.
 
-    Distances are from the middle plane, those of what the toes carry at most the body's. What is centred on it stays:
-    legs, and what reaches from plate to plate.
+    The distance is that of the part's outer face from the middle plane, at most that of the body's outermost part.
+    Parts centred on the middle plane are not shifted: legs, and parts that go from plate to plate.
     """
     body = [(thing, pose) for thing, pose in zip(things, poses, strict=True) if thing.body == BODY]
     widest = float(np.abs(corners_of([thing for thing, _ in body], [pose for _, pose in body])[:, 1]).max())
@@ -115,20 +121,11 @@ def _poses(things: Sequence[Visual], bodies: dict[str, Array]) -> list[Array]:
     return [bodies[thing.body] @ thing.T_body_mesh for thing in things]
 
 
-def _recorded(trajectory: Trajectory, moment: int) -> dict[str, Array]:
-    turns = Rotation.from_quat(trajectory.quaternion_xyzw[moment]).as_matrix()
-    places = trajectory.position_m[moment]
-    return {name: pose_at(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)}
-
-
 def corners_of(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
-    """Return the corners (8·n, 3) of the things' bounding boxes in the world (m)."""
-    corners = []
-    for thing, pose in zip(things, poses, strict=True):
-        low, high = thing.mesh.bounds / 1000.0
-        box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-        corners.append(box @ pose[:3, :3].T + pose[:3, 3])
-    return np.concatenate(corners)
+    """Return the corners (8·n, 3) of the parts' bounding boxes in the world (m)."""
+    return np.concatenate(
+        [thing.corners_m @ pose[:3, :3].T + pose[:3, 3] for thing, pose in zip(things, poses, strict=True)]
+    )
 
 
 def _png(picture: Image.Image) -> bytes:

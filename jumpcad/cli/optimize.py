@@ -139,7 +139,7 @@ def optimize(
 
 
 def _headed(heading: str, watch: "Watch") -> "Watch":
-    """Return a watch that prints a line before the first trial: the study then is what was asked for."""
+    """Return a watch that prints the heading before the first trial, when the study has been opened without error."""
     waiting = [heading]
 
     def headed(trial: "Trial", computed: bool) -> None:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from jumpcad.bundle.sliced import SlicedBundle
 
 WIDE = 120
-"""Columns of a table that holds the longest names of parts."""
+"""Width of a table with the longest names of parts (characters)."""
 
 
 def register(app: typer.Typer) -> None:
@@ -34,7 +34,7 @@ def slice_command(
 ) -> None:
     """Slice a bundle with PrusaSlicer: masses beside the model's, printing times, settings that it ignored.
 
-    The times go into the bundle's bill of materials and guide, unless another workshop prints it.
+    The times are written into the bundle's bill of materials and guide, unless --workshop is given.
     """
     from jumpcad.bundle.sliced import slice_bundle, write_times
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
@@ -54,7 +54,7 @@ def slice_command(
     if as_json:
         print_json(slice_facts(bundle, found, write_masses))
         return
-    _tell(found)
+    _print_sliced(found)
     if found.billed:
         print(f"written   the times, into bom.csv and assembly.md of {escaped(str(bundle))}")
     if write_masses is not None:
@@ -77,7 +77,7 @@ def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) 
     }
 
 
-def _tell(found: "SlicedBundle") -> None:
+def _print_sliced(found: "SlicedBundle") -> None:
     from jumpcad.bundle.guide import duration
 
     _print_table(
@@ -108,7 +108,7 @@ def _tell(found: "SlicedBundle") -> None:
 
 
 def _print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table as wide as it needs to be; columns of figures are right-aligned."""
+    """Print a table; columns of figures are right-aligned."""
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)

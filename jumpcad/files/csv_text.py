@@ -1,4 +1,4 @@
-"""Tables as CSV text in which no cell is a formula, whatever program opens them."""
+"""Tables as CSV text in which no cell is a formula for a spreadsheet."""
 
 import csv
 import io
@@ -8,11 +8,11 @@ from collections.abc import Iterable, Sequence
 from jumpcad.errors import without_controls
 
 FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
-"""First characters of cells that spreadsheets compute (OWASP, CSV injection), also in full-width form."""
+"""First characters of formulas (OWASP, CSV injection), also in full-width form."""
 
 
 def to_csv(rows: Iterable[Sequence[object]]) -> str:
-    """Return rows as CSV, the first of them the heading; text that would be a formula gets an apostrophe before it."""
+    """Return rows as CSV; the first is the heading. Text that would be a formula is preceded by an apostrophe."""
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
     return stream.getvalue()

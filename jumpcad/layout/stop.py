@@ -54,6 +54,8 @@ class StopPlace:
         Of the bar, in the direction of the impact.
     pad
         The pad that is glued on.
+    room_mm
+        How far the freest place for it is from everything else.
     """
 
     angle_rad: float
@@ -63,6 +65,7 @@ class StopPlace:
     face_mm: Array
     depth_mm: float
     pad: Pad
+    room_mm: float
 
     @property
     def reach_rad(self) -> float:
@@ -120,24 +123,26 @@ def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> f
     least = math.radians(LEAST_DEG)
     angle = wanted_rad
     while True:
-        missing = _missing(linkage, sections, angle + GIVE_ROOM_RAD)
+        missing, short = _missing(linkage, sections, angle + GIVE_ROOM_RAD)
         if not missing:
             return angle
         if angle <= least:
             raise CannotBuildError(
                 f"no rest stop: {missing} with the leg {math.degrees(angle + GIVE_ROOM_RAD):.1f}° past rest, which a "
-                f"stop at {LEAST_DEG:g}° and its pad's deflection need: lower rest_angle_deg, or raise d_coef or c_coef"
-            )
+                f"stop at {LEAST_DEG:g}° and its pad's deflection need: lower rest_angle_deg, or raise d_coef or "
+                "c_coef",
+                "stop_reach", -short,
+            )  # fmt: skip
         angle = max(angle - math.radians(STEP_DEG), least)
 
 
-def _missing(linkage: Linkage, sections: Sections, reach_rad: float) -> str:
-    """Return what prevents the links from turning that far past rest; empty if nothing does."""
+def _missing(linkage: Linkage, sections: Sections, reach_rad: float) -> tuple[str, float]:
+    """Return what prevents the links from turning that far past rest, and by how much (mm); empty if nothing does."""
     short = float(linkage.diagonal_mm(reach_rad)) - linkage.l3 - linkage.l4
     if short > 0.0:
-        return f"foot and front link are {short:.1f} mm too short to close the loop"
+        return f"foot and front link are {short:.1f} mm too short to close the loop", short
     room = legs_apart_mm(linkage, sections, reach_rad) - GAP_MM
-    return f"the gap of main leg and front link is {-room:.1f} mm less than {GAP_MM:g} mm" if room < 0.0 else ""
+    return f"the gap of main leg and front link is {-room:.1f} mm less than {GAP_MM:g} mm" if room < 0.0 else "", -room
 
 
 def stop_place(
@@ -175,10 +180,13 @@ def stop_place(
     if not (room >= 0.0).any():
         raise CannotBuildError(
             f"no room for the rest stop behind the main leg: {-room.max():.1f} mm too little: lower compression_ratio, "
-            "or raise rest_angle_deg"
-        )
+            "or raise rest_angle_deg",
+            "stop_room", room.max(),
+        )  # fmt: skip
     best = int(np.argmax(room >= 0.0))
-    return StopPlace(angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), sections.stop_mm, pad)
+    return StopPlace(
+        angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), sections.stop_mm, pad, float(room.max())
+    )
 
 
 def stop_obstacles(stop: StopPlace, inside: Interval) -> Iterable[Obstacle]:

@@ -157,8 +157,9 @@ def _clevis(place: Place, diameter_mm: float, catalogue: Catalogue) -> Iterator[
     if length is None:
         raise CannotBuildError(
             f"no clevis pin of {needed:.1f} mm for the {place.name.replace('_', ' ')}; the longest is "
-            f'{pin.lengths_mm[-1]:g} mm: choose bought.retention = "clips"'
-        )
+            f'{pin.lengths_mm[-1]:g} mm: choose bought.retention = "clips"',
+            "clevis_pin", pin.lengths_mm[-1] - needed,
+        )  # fmt: skip
     head = high + AXLE_END_PLAY_MM
     slabs = [
         (0.0, length, disc(diameter_mm)),

@@ -19,6 +19,7 @@ from jumpcad.files import Record, did_you_mean, templates_folder
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import COST, QUANTILE, Evaluation, Objective, find_objective
+from jumpcad.search.refusal import CANNOT_BUILD, refusal_findings, room_findings
 from jumpcad.search.tolerances import tenth, varied_lengths, varied_parameters
 from jumpcad.search.variant import NOTHING
 from jumpcad.settings import Settings, load_settings
@@ -115,7 +116,7 @@ class RobotModel:
         try:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:
-            return Evaluation("cannot_build", detail=str(error))
+            return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
 
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
         """Return the model of the robot that is built in the workshop with other values."""
@@ -186,7 +187,8 @@ class RobotModel:
         from jumpcad.evaluation import evaluate
 
         result = evaluate(design, self.workshop, self.settings, self.engine)
-        return Evaluation(result.verdict, _figures(result.jump) | result.metrics, tuple(result.findings))
+        findings = (*result.findings, *room_findings(result.robot.layout))
+        return Evaluation(result.verdict, _figures(result.jump) | result.metrics, findings)
 
     def _capsule(self, design: Design) -> Evaluation:
         from jumpcad.mechanism.capsule import capsule_robot

@@ -8,7 +8,7 @@ from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.findings import Finding, errors
+from jumpcad.findings import Finding, bare, errors
 from jumpcad.search.code_hash import code_hash
 from jumpcad.search.own_objective import SUFFIX, checked, load_function, name_of, require_function
 
@@ -55,7 +55,7 @@ class Evaluation:
 
         Forty findings with their texts are 12 kB; who wants to read them evaluates the design again.
         """
-        findings = tuple(Finding(one.name, one.severity, one.margin, one.unit, "", "") for one in self.findings)
+        findings = tuple(bare(one.name, one.severity, one.margin, one.unit) for one in self.findings)
         return replace(self, findings=findings)
 
     def __repr__(self) -> str:

@@ -256,14 +256,25 @@ def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
     errors = {f.name for trial in trials for f in trial.evaluation.findings if f.severity == "error"}
     ranked = sorted(errors & set(rejections), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
-    margins = {name: np.array([_margin(trial, name) for trial in trials]) for name in ranked}
+    margins = {name: _margins(trials, name) for name in ranked}
     if rejections:
         margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
     return margins
 
 
-def _margin(trial: Trial, name: str) -> float:
-    return min((f.margin for f in trial.evaluation.findings if f.name == name), default=np.nan)
+def _margins(trials: Sequence[Trial], name: str) -> Array:
+    """Return the margins (n,) of a constraint.
+
+    Some are known only where they are missed: of a refusal, or of a robot that stays on the ground. Where a robot was
+    built, they then count as met by as much as they are missed in the median.
+    """
+    found = [[f.margin for f in trial.evaluation.findings if f.name == name] for trial in trials]
+    margins = np.array([min(one, default=np.nan) for one in found])
+    missed = margins[np.isfinite(margins)]
+    if missed.size and missed.max() <= 0.0:
+        built = np.array([bool(trial.evaluation.metrics) for trial in trials])
+        margins[built & np.isnan(margins)] = -np.median(missed)
+    return margins
 
 
 def _scaled(margins: Array) -> Array:

@@ -10,15 +10,19 @@ from scipy.special import ndtr, ndtri
 from jumpcad.transforms import Array
 
 Shape = Literal["normal", "lognormal", "uniform", "half-normal"]
+QUANTILES = (0.1, 0.5, 0.9)
+"""Probabilities of the quantiles that are reported."""
 EDGE = 1e-12
-"""Least probability that is turned back into a standard normal."""
+"""Least probability in the upper tail of a half-normal, so that its quantile is finite."""
 
 
 @dataclass(frozen=True)
 class Prior:
-    """A prior: `normal` (mean, deviation), `lognormal` (median, deviation of the logarithm), `uniform` (least, most).
+    """A prior: `first` and `second` are the parameters of its distribution.
 
-    `half-normal` is (0, scale): the absolute value of a normal. A normal one of a positive quantity ends at `least`.
+    They are mean and standard deviation (`normal`), median and standard deviation of the logarithm (`lognormal`), least
+    and largest value (`uniform`), or 0 and scale (`half-normal`, the absolute value of a normal). A `normal` is cut off
+    at `least`. `source` says where they come from.
     """
 
     shape: Shape
@@ -28,7 +32,7 @@ class Prior:
     least: float = -math.inf
 
     def at(self, z: Array) -> Array:
-        """Return the values at standard normals (...)."""
+        """Return the values (...) at standard normals (...)."""
         if self.shape == "normal":
             return np.maximum(self.first + self.second * z, self.least)
         if self.shape == "lognormal":
@@ -39,7 +43,7 @@ class Prior:
         return self.second * np.asarray(ndtri(np.clip(0.5 * (1.0 + share), 0.5, 1.0 - EDGE)))
 
     def quantiles(self, shares: tuple[float, ...]) -> tuple[float, ...]:
-        """Return quantiles."""
+        """Return the quantiles at probabilities."""
         return tuple(float(value) for value in self.at(ndtri(np.array(shares))))
 
 

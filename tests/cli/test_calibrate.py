@@ -60,7 +60,7 @@ def test_people_read_what_the_data_leave_open(run: Run) -> None:
     code, out, _ = run("simulate", "kenan-2.0", "--engine", "planar", "--uncertain")
     assert code == 0
     assert "the priors of a calibration: none was given" in out
-    assert "what matters" in out
+    assert "first-order indices" in out
 
 
 @pytest.mark.parametrize(
