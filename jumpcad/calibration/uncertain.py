@@ -21,7 +21,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.variants import with_lengths, with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
-from jumpcad.search.tolerances import with_length_errors
+from jumpcad.search.tolerances import FLOOR_SHARE, MASS_SHARE, with_length_errors
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation import simulate
 from jumpcad.transforms import Array
@@ -30,10 +30,6 @@ SAMPLES = 256
 """Jumps, a power of two."""
 DEGREE, RESAMPLES = 3, 100
 SHARES = (0.1, 0.5, 0.9)
-MASS_SHARE = 0.04
-"""Deviation of a printed robot's mass from the model's, as of parts from PrusaSlicer's."""
-FLOOR_SHARE = 0.15
-"""Deviation of the logarithm of a floor's friction that nobody tested; judgement: rubber slides at 0.6 to 1.0."""
 FIGURES = ("ballistic_range_m", "com_rise_m")
 EDGE, TINY = 1e-9, 1e-30
 

@@ -1,9 +1,8 @@
 """Tables as CSV text in which no cell is a formula, whatever program opens them."""
 
 import csv
-import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from jumpcad.errors import without_controls
 
@@ -13,9 +12,21 @@ FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
 
 def to_csv(rows: Iterable[Sequence[object]]) -> str:
     """Return rows as CSV, the first of them the heading; text that would be a formula gets an apostrophe before it."""
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
-    return stream.getvalue()
+    return "".join(csv_lines(rows))
+
+
+def csv_lines(rows: Iterable[Sequence[object]]) -> Iterator[str]:
+    """Yield the rows of `to_csv` one by one, for a table that is longer than memory."""
+    writer = csv.writer(_Handed(), lineterminator="\n")
+    for row in rows:
+        yield writer.writerow([_cell(value) for value in row])
+
+
+class _Handed:
+    """A file that hands back what is written to it."""
+
+    def write(self, text: str) -> str:
+        return text
 
 
 def _cell(value: object) -> object:
