@@ -15,7 +15,7 @@ from typing import Any, Self
 import numpy as np
 
 from jumpcad.building import build
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import Mechanism
@@ -118,19 +118,19 @@ class Screen:
         rows = len(trials) // RENEWED * RENEWED
         if self.fit is not None and self.fit.rows == rows:
             return False
-        if kept is not None and kept["rows"] == rows:
-            self.fit = Fit.from_record(kept)
-            return False
         known = [trial for trial in trials[:rows] if trial.evaluation.verdict != SCREENED]
         best = best_trial(known)
         if best is None or sum(MARK in trial.evaluation.metrics for trial in known) < LEAST:
             return False
         self._like = self._like or build(best.design, self.model.workshop)
+        if kept is not None and kept["rows"] == rows:
+            self.fit = Fit.from_record(kept)
+            return False
         self.fit = replace(self._fitted(known, best), rows=rows)
         return True
 
     def guess(self, one: Variant) -> Guess | None:
-        """Return what a variant would do; None where nothing is known yet."""
+        """Return what a variant would do; None where nothing is known yet, or its jump cannot be guessed."""
         return None if self.fit is None else self._guess(one, self.fit)
 
     def leaves_out(self, guess: Guess, best: float) -> bool:
@@ -141,14 +141,17 @@ class Screen:
             return True
         return (guess.score or 0.0) + error["score"] < best
 
-    def _guess(self, one: Variant, fit: Fit) -> Guess:
+    def _guess(self, one: Variant, fit: Fit) -> Guess | None:
         figures = fit.predict(self.space.to_unit(one))
         margins = {name.removeprefix(MARGIN): value for name, value in figures.items() if name.startswith(MARGIN)}
         design = one.design
         if errors(geometry_findings(design)):
             return Guess(None, margins)
         assert self._like is not None
-        jump = simulate(stand_in(design, figures, self._like), self.model.settings, self.engine)
+        try:
+            jump = simulate(stand_in(design, figures, self._like), self.model.settings, self.engine)
+        except JumpcadError:  # a dead point, or figures far from all that was built
+            return None
         margins |= {finding.name: finding.margin for finding in jump.findings if finding.name in STATICS}
         if jump.verdict != "jump":
             return Guess(None, margins)
@@ -177,10 +180,9 @@ class Screen:
         for fold in range(FOLDS):
             part = Fit(0, table.coefficients(fold), {})
             for trial in table.trials[fold::FOLDS]:
-                try:
-                    yield self._guess(trial.variant, part), trial
-                except (CannotBuildError, JumpcadError):
-                    continue
+                guess = self._guess(trial.variant, part)
+                if guess is not None:
+                    yield guess, trial
 
 
 STATICS = ("tips", "too_weak")
