@@ -8,9 +8,8 @@ import effects
 import numpy as np
 
 from jumpcad.building import build
-from jumpcad.calibration import uncertain_jump
 from jumpcad.design import load_design
-from jumpcad.simulation import Settings
+from jumpcad.simulation import Settings, uncertain_jump
 
 SAMPLER_SLACK = 0.05
 """How far apart (share) quantiles of the sampler may be on two machines."""

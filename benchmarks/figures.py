@@ -249,6 +249,7 @@ def of_speed() -> dict[str, str]:
     evaluate = _json(str(HERE / "evaluate.py"), "--rounds", "1")
     building = _json(str(HERE / "build.py"), "kenan-2.0")["kenan-2.0"]
     start = _json(str(HERE / "start.py"))
+    studio = _json(str(HERE / "studio.py"), "--steps", "1")
     scale = PUBLISHED_MS / evaluator["published"]["cpu_ms"]
     scale_there = PUBLISHED_MS / evaluate["speed"]["published_ms"]
 
@@ -268,6 +269,10 @@ def of_speed() -> dict[str, str]:
         ("`jumpcad build kenan-2.0`", s(building["total"]), "`build.py`"),
         ("… of this, pictures", s(building["pictures"]), "`build.py`"),
         ("`jumpcad --help`", s(start["help_s"]), "`start.py`"),
+        ("studio: from a slider to the figures with the study's masses", ms(scale * studio["figures"]["median"]),
+         "`studio.py`"),
+        ("… to the printed robot's figures", ms(scale * studio["printed"]["median"]), "`studio.py`"),
+        ("… to its new meshes", ms(scale * studio["meshes"]["median"]), "`studio.py`"),
         ("the search for `best-printable`, all workers together", s(outcome("printed").cpu_s), "`readme.py`"),
     )  # fmt: skip
     return {"speed": table(("what", "CPU time", "computed by"), rows)}

@@ -23,7 +23,8 @@ from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
-from jumpcad.bundle.wiring import wiring_svg
+from jumpcad.bundle.uncertainty import uncertainty_of
+from jumpcad.bundle.wiring import drawings_of
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.animation import animated
@@ -53,7 +54,8 @@ def export(
         Is made, with its parents; may be empty or hold an older bundle of the robot, whose files are replaced; files
         that a user added stay.
     pictures
-        Whether to draw the robot and to animate its jump in the GLB file.
+        Whether to draw the robot, to animate its jump in the GLB file, and to state the uncertainty of range and rise
+        in the report; half of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
     force
@@ -96,7 +98,9 @@ def report_page(robot: Robot, files: Iterable[str] = ()) -> str:
 
 def _page(robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str]) -> str:
     jump = simulate(robot, Settings(flight="simulated", trajectory=glb is not None), default_engine())
-    return write_report(robot, {name: seen[name] for name in RENDERS if name in seen}, jump, glb, tuple(files))
+    pictures = {name: seen[name] for name in RENDERS if name in seen}
+    sure = uncertainty_of(robot) if glb is not None and jump.verdict == "jump" else None
+    return write_report(robot, pictures, jump, glb, tuple(files), sure)
 
 
 def _files_before_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, seen: dict[str, bytes]) -> Files:
@@ -117,10 +121,11 @@ def _files_before_report(robot: Robot, exporters: Iterable[Exporter], pictures: 
         seen |= all_pictures(robot)
     files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     yield from files.items()
-    wiring, guide = wiring_svg(robot), write_guide(robot, list(seen))
-    yield "wiring.svg", wiring
+    drawings = {path: text for path, text in drawings_of(robot).items() if text}
+    yield from drawings.items()
+    guide = write_guide(robot, list(seen))
     yield "assembly.md", guide
-    yield "assembly.html", write_page(guide, robot.name, files | {"wiring.svg": wiring.encode()})
+    yield "assembly.html", write_page(guide, robot.name, files | {path: svg.encode() for path, svg in drawings.items()})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:

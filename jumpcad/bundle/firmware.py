@@ -102,6 +102,15 @@ WORDS = {
 }
 
 
+OPENING = """The sensor's contact opens when it is pressed, so a broken lead, a dirty contact or a missing ground reads
+  as pressed: the motor stops. `wind` that says `ready` at once, or `fault: sensor pressed too early`, means a broken
+  lead where the springs are not loaded. To unload springs that are: `wind`, `jump`, `wind`, `jump`, until the leg
+  falls; each `jump` turns the cam a little and ends in `fault`. A lead that is shorted to ground reads as free: the
+  motor releases the springs by itself and runs until the time-out."""
+CLOSING = """The sensor's contact closes when it is pressed. With a lead broken the motor does not stop when ready: it
+  releases the springs by itself and runs until the time-out."""
+
+
 def firmware_files(robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield path and text of every file of the firmware.
 
@@ -131,6 +140,7 @@ def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -
         "CONTROLLER": plain(chosen.controller.description),
         "WIND_S": f"{robot.layout.drive.train.winding_s:.1f}",
         "WIND_MAX_S": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
+        "SENSOR": OPENING if values["READY_LEVEL"] else CLOSING,
         "MIN_V": f"{values['BATTERY_MIN_V']:g}",
         "CAP": f"{100.0 * (values['PWM_CAP'] or 0.0):g}",
         "CABLE": cable(chosen.controller),

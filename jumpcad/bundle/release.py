@@ -12,7 +12,7 @@ def release_facts(release: Release) -> dict[str, Any]:
 
     `energy_ratio` and `energy_ratio_rounded` (with the workshop's corner radius) neglect the bending of the lever;
     simulated jumps start with `energy_ratio_with_bending`. Torques are the largest of both corners and of the two
-    motors in `assumed`, which are at the ends of the workshop's ranges.
+    motors in `assumed`, which are at the ends of the workshop's ranges; the second one is computed at low speed too.
     """
     return {
         "energy_ratio": round(release.energy_ratio, 6),

@@ -5,6 +5,7 @@ from html import escape
 
 from jumpcad.bundle.electronics import jumps_per_charge
 from jumpcad.bundle.operation import charging
+from jumpcad.bundle.soldering import soldering_svg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.nets import Net, Terminal, Wiring, wiring_of
 from jumpcad.parts.leads import lead_lengths
@@ -21,13 +22,18 @@ BY_METER = (
     "  pressed. Switch: 1 and 2 are the two terminals that have contact in one position only",
 )
 OPENS = (
-    "- use COM and NC: pressed, the contact opens and the pin goes high. A broken lead or a dirty contact reads the same",
-    "  as ready, so the motor stops instead of releasing the springs by itself",
+    "- use COM and NC: pressed, the contact opens and the pin goes high. A broken lead or a dirty contact reads as",
+    "  ready too, so the motor stops instead of releasing the springs by itself",
 )
 CLOSES = (
     "- known limit: this sensor has no contact that opens. With a lead broken the motor does not stop when ready: it",
     "  releases the springs by itself and runs until the time-out",
 )
+
+
+def drawings_of(robot: Robot) -> dict[str, str]:
+    """Return the drawings of the wiring by their files; an empty one is not written."""
+    return {"wiring.svg": wiring_svg(robot), "soldering.svg": soldering_svg(robot)}
 
 
 def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
@@ -42,6 +48,8 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
     yield from ("", "## Wiring", "", "![wiring](wiring.svg)", "", "| from | to | colour | mm |", "|---|---|---|--:|")
     for _, start, end, colour, length in wires(robot):
         yield f"| {start} | {end} | {colour} | {f'{length:.0f}' if length else 'none'} |"
+    if soldering_svg(robot):
+        yield from ("", "![soldering](soldering.svg)")
     yield from ("", *_notes(chosen, wiring), "")
     yield (
         f"One jump takes {train.electrical_j:.2f} J from the battery: {train.motor_j:.2f} J the motor, "
@@ -59,7 +67,7 @@ def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
         values = ", ".join(
             f"{name.removesuffix(' resistor')} {ohm / 1000:g} kΩ" for name, ohm in wiring.resistors.items()
         )
-        yield f"- resistors: {values}, 0.1 W or more; they lie flat against the controller's edge"
+        yield f"- resistors: {values}, 0.1 W or more; their bodies lie between controller and driver"
     grounds = chosen.controller.with_function("ground")
     if chosen.regulator is None and len(grounds) > 1:
         yield f"- {' and '.join(grounds)} of the controller are connected on the board: use the one that is nearer"

@@ -196,7 +196,8 @@ class Board(Article):
     chip writes on it at start); of a driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs
     that need a series diode, `button` the pin of a push button on the board. `usb_mm` is the opening (width, height)
     that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
-    length. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma`
+    length. `left` and `right` are the pins along its sides, from that end on, as seen from above; others are
+    underneath. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma`
     the fixed current of its battery charger.
     """
 
@@ -207,6 +208,8 @@ class Board(Article):
     mass_g: Mass
     supply_v: dict[Name, Volts] = Field(default_factory=dict)
     pins: dict[Name, Annotated[tuple[Name, ...], Field(strict=False)]] = Field(default_factory=dict)
+    left: Annotated[tuple[Name, ...], Field(strict=False)] = ()
+    right: Annotated[tuple[Name, ...], Field(strict=False)] = ()
     diode_at: Annotated[tuple[Name, ...], Field(strict=False)] = ()
     button: OptionalName = ""
     usb_mm: Annotated[tuple[Side, Side], Field(strict=False)] | None = None

@@ -13,7 +13,7 @@ FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
 
 def uncertain(robot: "Robot", settings: "Settings", engine: str, seed: int) -> dict[str, Any]:
     """Return quantiles and first-order indices of a printed robot's jump as plain data."""
-    from jumpcad.calibration import uncertain_jump
+    from jumpcad.simulation import uncertain_jump
 
     with status("simulating samples of the uncertain inputs …"):
         return uncertain_jump(robot, settings, engine, seed).to_dict()

@@ -36,7 +36,7 @@ OPENING_MM = 0.4
 MOUNT_WALL_MM, MOUNT_PLAY_MM = 1.2, 0.2
 """Wall of the mount, and play around the case in it, either side; judgement."""
 EAR_RADIUS_MM, HEAD_RADIUS_MM = 2.6, 1.9
-"""Of the mount's ears, and room for its screws' heads: M2 button heads of 3.5 mm (ISO 7380)."""
+"""Of the mount's ears, and room for its screws' heads: M2 heads of 3.8 mm (ISO 14580)."""
 TERMINALS_MM = 6.0
 """Room beyond the mount for terminals and the bend of their wires; judgement."""
 PLACE_WANTED_MM = np.array([0.0, 14.0])

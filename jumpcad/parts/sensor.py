@@ -31,7 +31,7 @@ THREAD_MIN_MM = 1.6
 EDGE_MM = 2.0
 """Material of the plate around the switch's opening and its screws; judgement."""
 SCREWS_MM = (4.0, 5.0, 6.0)
-"""Lengths of M2 screws (ISO 7380-1)."""
+"""Lengths of M2 screws (ISO 14580)."""
 
 
 def sensor_mount(layout: Layout, holes: HoleSizes) -> Iterator[Drawing]:

@@ -26,7 +26,8 @@ class Tool:
 
 HEX_M3 = Tool("hex key 2 mm, long end", 3.0, 50.0)
 """ISO 2936: 2.3 mm across corners, long arm 50 mm."""
-HEX_M2 = Tool("hex key 1.3 mm, long end", 2.0, 40.0)
+TORX_M2 = Tool("screwdriver T6", 3.0, 50.0)
+"""Socket 6 of ISO 14580; a blade of 3 mm."""
 HEX_AXLE = Tool("hex key 2.5 mm, long end", 3.5, 50.0)
 NUT_M3 = Tool("nut driver 5.5 mm", 9.0, 40.0)
 PLIERS = Tool("needle-nose pliers", 4.0, 40.0)
@@ -170,18 +171,18 @@ ORDER: tuple[Plan, ...] = (
             Move("standoff_\\d+"),
             Move("standoff_\\d+_screw_right", "from the right", tool=HEX_M3),
             Move("switch"),
-            Move("switch_screw_\\d+", "head last", tool=HEX_M2),
+            Move("switch_screw_\\d+", "head last", tool=TORX_M2),
             Move("motor|motor_shaft"),
             Move("motor_cap"),
-            Move("cap_screw_.*", "from the left", tool=HEX_M2),
+            Move("cap_screw_.*", "from the left", tool=TORX_M2),
         ),
         (
             Words("Solder the motor's two wires first ({motor_wire} mm each): its terminals are behind the plate's "
                   "window later. The terminal with the mark is motor +."),
             Words("Screw the standoffs to the right plate, the one with the motor's socket, from outside: "
                   "{torque_plastic} N·m. Then lay it on the bench, outside down: up is the robot's left from now on."),
-            Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside.",
-                  needs="switch"),
+            Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside. Ears "
+                  "without thread: screws 2 mm longer, and an M2 nut behind each ear.", needs="switch"),
             Words("Lead the wires through the window and push the motor into its socket from above, its shaft up, its "
                   "shorter side as the socket's. Put the cap on and turn its two screws into the plastic, in turns, "
                   "until the motor has no play: {torque_m2} N·m."),
@@ -193,11 +194,15 @@ ORDER: tuple[Plan, ...] = (
         (
             Move("electronics_tray_lower"),
             Move("battery", "from above"),
-            Move("strap_battery", way="laid"),
+            Move("strap_battery|tie_balance_lead", way="laid"),
         ),
         (
-            Words("Lay the battery on the lower tray and close its strap: tight enough that it does not slide, not so "
-                  "tight that it dents. Do not plug it in yet."),
+            Words("Lay the battery on the lower tray, between the two stops at its ends, its leads to the front, over "
+                  "the stop. Close its strap: tight enough that it does not slide, not so tight that it dents. Gaps to "
+                  "the stops of more than 1 mm are filled with foam tape on the stop. Do not plug it in yet."),
+            Words("The plug of the balance lead lies ahead of the battery under its cable tie, its open end covered "
+                  "with adhesive tape: its pins must touch nothing. To charge, pull it out from under the tie.",
+                  needs="tie_balance_lead"),
         ),
         (
             Words("A lithium battery that is dented, swollen or shorted can burn: do not use it, and keep tools off "
@@ -213,9 +218,12 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Solder first, with the boards loose: pads may be on a board's underside (BAT+ and BAT- often are) "
-                  "or under its tie. Solder every wire of the table under Wiring to its boards, the shortest first, "
-                  "and slide heat-shrink tube over each joint. The motor's wires go to the driver last; the sensor's "
-                  "ends stay free until step {step_left}."),
+                  "or under its tie. First what is soldered by its own legs: bend the legs as soldering.svg shows "
+                  "(under Wiring), a piece of heat-shrink tube over each leg, and lay the bodies beside the "
+                  "controller, towards the driver."),
+            Words("Then solder every wire of the table under Wiring to its boards, the shortest first, and slide "
+                  "heat-shrink tube over each joint. The motor's wires go to the driver last; the sensor's ends stay "
+                  "free until step {step_left}."),
             Words("Then lay every board on its piece of foam tape, in its place, against the tray's rim where there is "
                   "one, the controller's USB socket to the right, and pull a cable tie over it. Plug and capacitor get "
                   "a tie too: the plug opens forwards. Tie the wires together beside the boards, so that no joint "
@@ -235,30 +243,34 @@ ORDER: tuple[Plan, ...] = (
             Move("body_plate_left"),
             Move("sensor", "from the left"),
             Move("sensor_mount", "from the left"),
-            Move("sensor_screw_\\d+", "head last", tool=HEX_M2),
+            Move("sensor_screw_\\d+", "head last", tool=TORX_M2),
             Move("tie_sensor_leads", way="laid"),
         ),
         (
             Words("The mount is closed all round, so the leads go through it first: lead the free ends of the sensor's "
                   "two leads through the plate's wire hole to the outside, then through the mount's window towards the "
-                  "plate, and only then solder them to COM and NO (table and notes under Wiring).", needs="sensor"),
+                  "plate, and only then solder them to COM and {contact} (table and notes under Wiring).",
+                  needs="sensor"),
             Words("Put the sensor into the plate's opening from outside, its plunger through to the "
                   "inside, push the mount along the leads over it, and turn the two screws into the plastic: "
                   "{torque_m2} N·m. Tie the leads at the hole so that its terminals bear no pull.", needs="sensor"),
         ),
         checks=(Words("Pressed on the inside, the plunger clicks and comes out again. Multimeter between the "
-                      "controller's ground and its pin of the sensor: no contact; pressed, contact. If it is the other "
-                      "way round, a lead is at NC: `wind` would say `ready` at once.", needs="sensor"),),
+                      "controller's ground and its pin of the sensor, battery unplugged: {free}; pressed, {pressed}. "
+                      "The other way round a lead is at the wrong terminal.", needs="sensor"),),
     ),
     Plan(
         "power", "First power-up, on the bench", ROBOT, (),
         (
-            Words("Nothing is on the motor's shaft yet. Lay right plate and trays side by side, switch off; plug the "
-                  "battery in, switch on."),
+            Words("Nothing is on the motor's shaft yet. Lay right plate, left plate and both trays side by side as "
+                  "wired, switch off; plug the battery in, switch on. Connect the computer by USB, open the console "
+                  "(firmware/README.md)."),
             Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
                   "and Enter, and let go at once, within {release_ms} ms: the motor stops {after_ms} ms later and the "
                   "count is 1. Held longer it says `fault`: press the sensor, `wind`, and try again."),
+            Words("Pull one lead off the sensor, or open its joint, and type `wind`: the motor must not turn, and the "
+                  "answer is `fault` or `ready`. Connect it again.", needs="wiring_resistor_pull_up"),
             Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
                   "not, exchange its two wires at the driver."),
         ),
@@ -334,8 +346,9 @@ ORDER: tuple[Plan, ...] = (
             Words("Push the stop's tab into the right plate behind the leg, its pad towards the leg."),
             Words("Grease the jaws, the roller's path and the teeth thinly (silicone or lithium grease). On the cam "
                   "axle go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
-            Words("The gear fits the jaws in one position only: where its pockets do not take both jaws, turn it by "
-                  "half a turn."),
+            Words("The gear's face with the pockets goes towards the cam, the face with the sensor's ring groove to "
+                  "the left, up. It fits the jaws in one position only: where its pockets do not take both jaws, turn "
+                  "it by half a turn."),
             Words("Then the idler, its small wheel down.", needs="idler"),
         ),
         checks=(
@@ -379,8 +392,8 @@ ORDER: tuple[Plan, ...] = (
         (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),
         (
             Words("It winds in about {dry_s} s with about {dry_ma} mA and stops by itself, ready. After `jump` the leg "
-                  "falls within {release_ms} ms. A motor that runs for {wind_max} s and says `fault` had no signal: "
-                  "mend the sensor before the springs are armed."),
+                  "falls within {release_ms} ms. A motor that runs for {wind_max} s and says `fault` had no signal, "
+                  "one that is `ready` at once has a broken lead: mend the sensor before the springs are armed."),
         ),
     ),
     Plan(
@@ -457,6 +470,9 @@ ORDER: tuple[Plan, ...] = (
             Words("Wound springs stay loaded when the battery is empty or unplugged. To slacken them, hold the robot "
                   "by its plates, feet away from you and free, and release: `jump`. Never take it apart while the leg "
                   "is off its stop."),
+            Words("`fault: sensor pressed too early`: a lead of the sensor is broken, the springs may be partly "
+                  "loaded. Nothing in the leg's way, type `wind`, then `jump`, until the leg falls: each turns the cam "
+                  "a little. Then mend the lead.", needs="wiring_resistor_pull_up"),
             Words("Battery low while it winds: the springs are partly loaded and cannot be released. {charge_loaded} "
                   "Then `wind` again, and `jump`."),
         ),

@@ -1,12 +1,14 @@
 """The pictures of assembly steps: parts in place, parts put on (drawn apart from their places), labels, view."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order import LEFT, LOWER, UPPER
 from jumpcad.scene.assembly_steps import Placed, Step, assembly_steps, travel
 from jumpcad.scene.camera import View
 from jumpcad.scene.visuals import Visual
@@ -74,6 +76,11 @@ INSETS = (
     Inset("foot", "pads", "Pads from below", "foot|toe_.*|nose_pad_.*", "nose_pad_.*", View(35.0, -30.0), room=2.6),
     Inset("arm", "springs", "Springs, seen from the left: arms and pins",
           "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_(left|right).*|leg_spring_pin", View(75.0, 12.0)),
+    Inset("cam", "gear", "Cam gear from the right: the face with the pockets, towards the cam", "cam_gear", "cam_gear",
+          View(-60.0, 15.0)),
+    Inset("boards", "small", "Resistors and diode between the boards",
+          "electronics_tray_upper|tape_(controller|driver)|wiring_(res|dio).*", "wiring_(res|dio).*", View(62.0, 50.0),
+          room=2.4),
     Inset("cam", "dog", "Dog: jaws of the cam, pockets of the gear", "cam|cam_gear|cam_axle", "cam|cam_gear",
           View(24.0, 20.0)),
 )  # fmt: skip
@@ -83,6 +90,12 @@ TURNS = {"power": ("motor_shaft", 0), "trial": ("cam_gear", 1)}
 """What turns in a step, and its sense about +y; 0: the motor's, see `motor_sense`."""
 TURN_M = 0.008
 """Least radius of an arrow that shows a sense of rotation."""
+NAMELESS = ("motor_shaft", "wiring_wire", "wiring_heat")
+"""Beginnings of the names of what gets no label: a part of another thing, and wire, which is everywhere."""
+BENCH = {"power": (LEFT, UPPER, LOWER)}
+"""Assemblies that lie on the bench, beside what the step is about: their wires reach."""
+BENCH_M = 0.012
+"""Between them."""
 
 
 def motor_sense(robot: Robot) -> int:
@@ -105,7 +118,8 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
         if not before and not step.placed:
             continue
         moved = _apart(robot, step, poses, bool(before))
-        views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot))]
+        beside = {name: built.get(name, []) for name in BENCH.get(step.key, ())}
+        views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot), beside)]
         for inset in INSETS:
             if inset.step == step.key and any(re.fullmatch(inset.framed, thing.name) for thing in there):
                 views[step.key].append(_view(inset.name, inset.title, step, before, moved, poses, inset))
@@ -125,14 +139,16 @@ def label_of(thing: Visual) -> str:
 
 def _view(
     name: str, title: str, step: Step, before: list[Visual], moved: dict[str, Array], poses: dict[str, Array],
-    inset: Inset | None, motor: int = 1,
+    inset: Inset | None, motor: int = 1, beside: Mapping[str, list[Visual]] | None = None,
 ) -> StepView:  # fmt: skip
     """Return the picture of a step, or of a detail of it.
 
-    `before` are the parts in place, `moved` the offsets (3,) of those drawn apart, `motor` is `motor_sense`.
+    `before` are the parts in place, `moved` the offsets (3,) of those drawn apart, `motor` is `motor_sense`,
+    `beside` the assemblies beside it on the bench.
     """
     added = [thing for placed in step.placed for thing in placed.things]
-    things = [*before, *added]
+    moved, beside = moved | _on_bench(before, beside or {}, poses), beside or {}
+    things = [*before, *added, *(thing for others in beside.values() for thing in others)]
     if inset is not None:
         things = [thing for thing in things if re.fullmatch(inset.shown, thing.name)]
     new = {thing.name for thing in added}
@@ -148,6 +164,9 @@ def _view(
         corners = np.concatenate([corners, *places, [middle - NEAREST_M, middle + NEAREST_M]])
     pale = tuple(thing.name not in new and bool(new) for thing in things)
     labels = _labels(things, at, poses, new if not inset else {things[i].name for i in framed}, step)
+    if any(beside.values()):
+        labels += tuple(_bench_label(name, others, moved, poses) for name, others in beside.items() if others)
+        labels += (_bench_label("right plate", before, moved, poses),)
     view = inset.view if inset else _direction(step)
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
     corners = middle + (inset.room if inset else 1.0) * (corners - middle)
@@ -158,6 +177,33 @@ def _view(
         if thing.name == turning and not inset
     ]
     return StepView(name, title, tuple(things), tuple(at), pale, labels, corners, view, tuple(turns))
+
+
+def _on_bench(before: list[Visual], beside: Mapping[str, list[Visual]], poses: dict[str, Array]) -> dict[str, Array]:
+    """Return by how much (3,) everything beside what is there is moved: the first behind it, the others below both."""
+    moved: dict[str, Array] = {}
+    if not before or not beside:
+        return moved
+    there = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in before])
+    ahead, bottom = float(there[:, 0].max()), float(there[:, 2].min()) - BENCH_M
+    behind = float(there[:, 0].min()) - BENCH_M
+    for index, others in enumerate(filter(None, beside.values())):
+        corners = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in others])
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        if index == 0:
+            by = np.array([behind - high[0], 0.0, 0.0])
+        else:
+            by = np.array([ahead - high[0], 0.0, bottom - high[2]])
+            ahead -= float(high[0] - low[0]) + 2.0 * BENCH_M
+        moved |= {thing.name: np.round(by, DIGITS) for thing in others}
+    return moved
+
+
+def _bench_label(name: str, others: list[Visual], moved: dict[str, Array], poses: dict[str, Array]) -> Label:
+    """Return the label of an assembly on the bench: at its first thing, plate or tray."""
+    first = others[0]
+    middle = np.round(_corners(first, _at_place(first, poses)).mean(axis=0) + moved.get(first.name, 0.0), DIGITS)
+    return Label(name, middle, middle)
 
 
 def _turn(thing: Visual, pose: Array, sense: int) -> Array:
@@ -230,7 +276,7 @@ def _labels(
     brought = {thing.name: placed.move.brings for placed in step.placed for thing in placed.things}
     found: dict[str, list[tuple[Array, Array]]] = {}
     for thing, pose in zip(things, at, strict=True):
-        if thing.name in wanted and not thing.name.startswith("motor_shaft"):
+        if thing.name in wanted and not thing.name.startswith(NAMELESS):
             text = brought.get(thing.name, "") or label_of(thing)
             ends = (_corners(thing, one).mean(axis=0) for one in (pose, _at_place(thing, poses)))
             here, there = (np.round(end, DIGITS) for end in ends)

@@ -124,11 +124,11 @@ class RobotModel:
 
     @property
     def tolerance_mm(self) -> float:
-        """Error of a printed link's length (mm): both its ends have the play of a sliding fit.
+        """Error of a link's length (mm).
 
         A capsule or published robot is made in no workshop; for it this is 0.2 mm (judgement).
         """
-        return 0.2 if self.workshop is None else 2.0 * self.workshop.fits.sliding_mm
+        return 0.2 if self.workshop is None else self.workshop.fits.link_tolerance_mm
 
     @property
     def default_objective(self) -> str:

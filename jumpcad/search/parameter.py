@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.design import PARAMETERS, Design
+from jumpcad.design import PARAMETERS, limits_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
@@ -114,10 +114,7 @@ def physical_limits(name: str) -> tuple[float, float]:
     """
     if name not in PARAMETERS:
         return -math.inf, math.inf
-    limits = Design.model_fields[name].metadata
-    lower = next(limit.ge for limit in limits if hasattr(limit, "ge"))
-    upper = next(limit.le for limit in limits if hasattr(limit, "le"))
-    return float(lower), float(upper)
+    return limits_of(name)
 
 
 def read_change(kind: Kind, text: str) -> Change:

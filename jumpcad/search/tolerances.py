@@ -4,7 +4,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from jumpcad.design import PARAMETERS, Design
-from jumpcad.search.parameter import physical_limits
+from jumpcad.mechanism.variants import design_within_limits, with_length_errors
 from jumpcad.transforms import Array
 
 SAMPLES = 16
@@ -16,18 +16,12 @@ PERCENTILE = 10
 def varied_parameters(design: Design, generator: np.random.Generator) -> list[Design]:
     """Return designs with every parameter varied evenly within ±1 %, and within a design's limits."""
     factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)
-    return [_clipped(np.array(design.to_vector()) * factor) for factor in factors]
+    return [design_within_limits(np.array(design.to_vector()) * factor) for factor in factors]
 
 
 def varied_lengths(design: Design, tolerance_mm: float, generator: np.random.Generator) -> list[Design]:
     """Return designs whose links l2…l5 each vary evenly within a tolerance (mm)."""
     return [with_length_errors(design, error) for error in tolerance_mm * _even(4, generator)]
-
-
-def with_length_errors(design: Design, error_mm: Array) -> Design:
-    """Return the design whose links l2…l5 are longer by errors (4,) (mm)."""
-    l2, l3, l4, l5 = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm]) + error_mm
-    return _clipped(np.array([l2, l3 / l2, l4 / l2, l5 / l2, *design.to_vector()[4:]]))
 
 
 def tenth(scores: list[float]) -> float:
@@ -39,8 +33,3 @@ def _even(dimension: int, generator: np.random.Generator) -> Array:
     """Return evenly spread points (SAMPLES, dimension) of the cube from -1 to 1."""
     points: Array = qmc.Sobol(dimension, seed=generator).random(SAMPLES)
     return 2.0 * points - 1.0
-
-
-def _clipped(vector: Array) -> Design:
-    limits = np.array([physical_limits(name) for name in PARAMETERS])
-    return Design.from_vector(np.clip(vector, limits[:, 0], limits[:, 1]).tolist())

@@ -60,22 +60,28 @@ class Stage:
     def _put(
         self, tree: str, things: tuple[Visual, ...], opacity: float | None, wrong: frozenset[str] = frozenset()
     ) -> int:
-        """Show parts below a tree, and remove the tree's others; return how many meshes were sent."""
+        """Show parts below a tree, and remove the tree's others; return how many meshes were sent.
+
+        A part whose mesh is the same is moved, not sent again.
+        """
         names = {f"/{tree}/{one.body}/{one.name}": one for one in things}
         for name in [name for name in self.meshes if name.startswith(f"/{tree}/") and name not in names]:
             self.meshes.pop(name)[1].remove()
         sent = 0
         for name, one in names.items():
             colour = WRONG if one.mesh_name in wrong else one.colour if opacity is None else GHOST_COLOUR
-            key = (_shape(one), colour, one.T_body_mesh.tobytes())
+            x, y, z, w = Rotation.from_matrix(one.T_body_mesh[:3, :3]).as_quat().tolist()
+            turn, place = (w, x, y, z), tuple(one.T_body_mesh[:3, 3].tolist())
+            key = (_shape(one), colour)
             if name in self.meshes and self.meshes[name][0] == key:
+                handle = self.meshes[name][1]
+                if tuple(handle.position) != place or tuple(handle.wxyz) != turn:
+                    handle.position, handle.wxyz = place, turn
                 continue
             mesh = one.mesh
-            turn = Rotation.from_matrix(one.T_body_mesh[:3, :3]).as_quat()
             self.meshes[name] = key, self.server.scene.add_mesh_simple(
                 name, np.asarray(mesh.vertices) * 0.001, np.asarray(mesh.faces),
-                color=colour, opacity=opacity, flat_shading=True,
-                wxyz=(turn[3], turn[0], turn[1], turn[2]), position=tuple(one.T_body_mesh[:3, 3]),
+                color=colour, opacity=opacity, flat_shading=True, wxyz=turn, position=place,
             )  # fmt: skip
             sent += 1
         return sent

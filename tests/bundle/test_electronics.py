@@ -10,7 +10,7 @@ from jumpcad.building import build
 from jumpcad.bundle.electronics import electronics_facts, jumps_per_charge
 from jumpcad.bundle.export import export
 from jumpcad.bundle.firmware import numbers
-from jumpcad.bundle.wiring import wires, wiring_lines, wiring_svg
+from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
@@ -79,3 +79,41 @@ def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:
     with pytest.raises(CannotBuildError, match=r"BAT\+ gets .* 8\.40 V and bears 3\.20 to 4\.20 V: choose a "):
         export(robot, tmp_path / "out", pictures=False)
     assert not (tmp_path / "out").exists()
+
+
+def test_the_soldering_plan_joins_every_leg_to_its_pin(robot: Robot) -> None:
+    """Each resistor has two legs; those at the controller end at a pin of it, the others say where their wire goes."""
+    drawing = drawings_of(robot)["soldering.svg"]
+    root = ET.fromstring(drawing)
+    space = "{http://www.w3.org/2000/svg}"
+    words = [element.text or "" for element in root.iter(f"{space}text")]
+    small = [name for name in ("upper", "lower", "pull-up", "diode") if any(w.startswith(name) for w in words)]
+    assert len(small) == (4 if robot.workshop.bought.regulator else 3)
+    assert len(list(root.iter(f"{space}polyline"))) == 2 * len(small)
+    pins = {
+        (float(element.get("cx", "")), float(element.get("cy", ""))): element.get("fill")
+        for element in root.iter(f"{space}circle")
+    }
+    starts = [line.get("points", "").split()[0] for line in root.iter(f"{space}polyline")]
+    at_pins = [tuple(map(float, start.split(","))) for start in starts]
+    to_wires = sum(word.startswith("wire to") for word in words)
+    assert sum(at in pins for at in at_pins) == 2 * len(small) - to_wires
+    assert to_wires == (2 if robot.workshop.bought.regulator else 0)
+
+
+def test_small_parts_lie_beside_the_controller_and_apart(robot: Robot) -> None:
+    """Bodies of 6.3 x 2.3 mm between the boards, outside their seats and their ties' slots."""
+    electronics, inside = robot.layout.electronics, robot.layout.lateral.inside
+    seats, slots = electronics.seats(inside), electronics.tie_slots(inside)
+    places = electronics.small_seats(inside)[: 4 if robot.workshop.bought.regulator else 3]
+    assert len(places) >= 3
+    boxes = [(place.x_mm, place.y_mm, 2.3, 6.3) for place in places]
+    kept = [(s.x_mm, s.y_mm, s.size_mm[0], s.size_mm[1]) for role, s in seats.items() if role != "battery"]
+    kept += [(x, y, *size) for role in ("controller", "driver") for x, y, size in slots[role]]
+    for index, box in enumerate(boxes):
+        for other in (*boxes[index + 1 :], *kept):
+            apart = [abs(box[i] - other[i]) - (box[i + 2] + other[i + 2]) / 2.0 for i in (0, 1)]
+            assert max(apart) > -1e-9
+    names = {item.name for item in robot.hardware}
+    assert {"wiring_resistor_upper", "wiring_resistor_lower", "wiring_resistor_pull_up"} <= names
+    assert ("tie_balance_lead" in names) == bool(robot.workshop.bought.regulator)

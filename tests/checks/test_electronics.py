@@ -1,6 +1,7 @@
 """Kits that fit, and what is said of those that do not: every finding with which range misses which."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -178,8 +179,9 @@ def test_the_contact_opens_when_pressed_and_gets_its_least_current(kit: str, wor
 
 
 def test_a_sensor_that_only_closes_reads_the_other_way_round(workshop: Write) -> None:
-    text = '[bought]\nsensor = "mine"\n[components.mine]\nlike = "omron-d2hw"\nsource = "x"\nterminals = ["COM", "NO"]'
-    wired = wiring(workshop(text))
+    chosen = chosen_parts(workshop("[bought]"))
+    sensor = chosen.components["sensor"].model_copy(update={"terminals": ("COM", "NO")})
+    wired = wiring_of(replace(chosen, components=chosen.components | {"sensor": sensor}), {})
     assert wired.ready_level == 0
     assert "sensor NO" in {str(t) for net in wired.nets for t in net.terminals}
 

@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
-from jumpcad.calibration import posterior, surface, uncertain
+from jumpcad.calibration import posterior, surface
 from jumpcad.files.templates import templates_folder
+from jumpcad.simulation import uncertain
 
 COARSE = ((0.45, 0.7, 1.0, 1.6, 2.5), (0.0, 0.9), (0.3, 0.5, 0.65, 1.0))
 

@@ -251,7 +251,8 @@ class Contact:
         wind = (both * above - weight) / (both + rate)
         roller = wind + both * (above - wind) / lever
         turn, speed = np.array([lift, lift, lift]), np.full(3, motor["cam_rad_s"])
-        wind_rate = roller_rate = 0.0
+        before = math.radians(0.2)
+        wind_rate = roller_rate = (above - self.wind_at(lift - before)) / before * motor["cam_rad_s"]
         kick = blow = 0.0
         left = kept = raised = 0.0
         parted = struck = math.inf

@@ -52,6 +52,22 @@ def test_only_what_changes_is_sent_again(studio: Studio) -> None:
     assert 0 < studio.stage.show(other) < len(studio.stage.meshes) / 2
 
 
+def test_what_only_moves_is_moved(studio: Studio) -> None:
+    """A longer carrying link changes the links and what holds them, and moves nearly everything."""
+    studio.answer(studio.design)
+    sent: list[str] = []
+    add = studio.server.scene.add_mesh_simple
+    studio.server.scene.add_mesh_simple = lambda name, *rest, **more: sent.append(name) or add(name, *rest, **more)
+    robot = printed_answer(studio.design.model_copy(update={"carrying_link_mm": 101.0}), studio.workshop).robot
+    assert robot is not None
+    studio.stage.show(robot)
+    assert "/robot/main_leg/main_leg" in sent
+    assert len(sent) < len(studio.stage.meshes) / 4
+    for one in visuals(robot):
+        handle = studio.stage.meshes[f"/robot/{one.body}/{one.name}"][1]
+        assert tuple(handle.position) == pytest.approx(tuple(one.T_body_mesh[:3, 3]), abs=1e-9)
+
+
 def test_a_design_that_cannot_be_built_is_told_with_its_reason(studio: Studio) -> None:
     found = studio.answer(studio.design.model_copy(update={"stiffness_nmm_per_deg": 200.0}))
     assert found.robot is None

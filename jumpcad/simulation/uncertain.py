@@ -15,15 +15,12 @@ import numpy.typing as npt
 from scipy.special import ndtri
 from scipy.stats import qmc
 
-from jumpcad.calibration import priors
-from jumpcad.calibration.priors import QUANTILES, Prior
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.variants import with_lengths, with_spring_factor
+from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
 from jumpcad.robot import Robot
-from jumpcad.search.models import RobotModel
-from jumpcad.search.tolerances import with_length_errors
 from jumpcad.settings import Settings, coefficients
-from jumpcad.simulation import simulate
+from jumpcad.simulation.prior import PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, Prior
+from jumpcad.simulation.simulator import simulate
 from jumpcad.transforms import Array
 
 SAMPLES = 256
@@ -148,11 +145,11 @@ def _first_order(inputs: dict[str, Array], figures: Array, rows: npt.NDArray[np.
 def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
     """Return the groups of uncertain inputs, by name."""
     workshop, rubs, draws = robot.workshop, coefficients(robot, settings), settings.draws
-    tolerance_mm = RobotModel("printed", workshop).tolerance_mm
+    tolerance_mm = workshop.fits.link_tolerance_mm
     rate = Prior("normal", 1.0, workshop.safety.spring_rate_scatter / 2.0, "workshop", 0.3)
     mass = Prior("normal", 1.0, PRINTED_MASS_SHARE, "model", 0.3)
     floor = Prior("lognormal", rubs.ground, FLOOR_SHARE, "workshop")
-    pins = Prior("lognormal", rubs.pin, priors.PIN_FRICTION.second, "workshop")
+    pins = Prior("lognormal", rubs.pin, PIN_FRICTION.second, "workshop")
 
     def drawn(at: Array) -> Array:
         pairs = np.column_stack([draws.spring_efficiency, draws.pin_friction])
@@ -160,7 +157,7 @@ def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
         return found
 
     def assumed(at: Array) -> Array:
-        return np.column_stack([priors.SPRING_EFFICIENCY.at(ndtri(at[:, 0])), pins.at(ndtri(at[:, 1]))])
+        return np.column_stack([SPRING_EFFICIENCY.at(ndtri(at[:, 0])), pins.at(ndtri(at[:, 1]))])
 
     def calibrated(robot: Robot, settings: Settings, value: Array) -> Applied:
         return robot, _changed(settings, spring_efficiency=value[0], pin_friction=value[1])
