@@ -31,7 +31,8 @@ PRINTED_MASS_SHARE = 0.04
 """Relative deviation of a printed robot's mass from the model's: that of parts from PrusaSlicer's mass."""
 FLOOR_SHARE = 0.15
 """Standard deviation of the logarithm of an untested floor's friction; judgement: rubber slides at 0.6 to 1.0."""
-FIGURES = ("ballistic_range_m", "com_rise_m")
+FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
+"""Figures of a jump whose uncertainty is computed, and their names in texts."""
 EDGE, TINY = 1e-9, 1e-30
 """Least distance of a sample from 0 and 1; least variance that is divided by."""
 
