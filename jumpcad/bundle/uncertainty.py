@@ -1,4 +1,4 @@
-"""How sure range and rise are, for report.html: their 10, 50 and 90 %, and what they depend on."""
+"""The uncertainty of range and rise for report.html: quantiles, and the sensitivity to each uncertain input."""
 
 from collections.abc import Iterator
 
@@ -6,12 +6,11 @@ from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import uncertain_jump
-from jumpcad.simulation.uncertain import Uncertainty
+from jumpcad.simulation.uncertain import FIGURES, Uncertainty
 
 ENGINE, JUMPS = "planar", 128
-"""The engine that every platform has, and as many jumps as two seconds allow where it is not compiled: 10 and 90 % of
-kenan-2.0's range are within 2 mm of those of 1024."""
-FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
+"""The engine that every platform has, and the number of jumps, which take two seconds where the engine is not compiled:
+the 10 and 90 % quantiles of kenan-2.0's range are within 2 mm of those of 1024 jumps."""
 GROUPS = {
     "calibration": "springs' efficiency and friction of the pins",
     "lengths": "lengths of the links, as printed",

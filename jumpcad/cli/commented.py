@@ -55,7 +55,7 @@ def commented_workshop(workshop: "Workshop", origin: str) -> str:
     for section in sections:
         lines += _section(section, data)
     lines += [] if printer else ["", *_table("printer", data["printer"])]
-    for key, table in _others(workshop, data):
+    for key, table in _others(data):
         lines += ["", *_table(key, table)]
     return "\n".join(lines).rstrip("\n") + "\n"
 
@@ -101,7 +101,7 @@ def _beyond_kit(bought: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in bought.items() if key not in kit or _plain(value) != _plain(kit[key])}
 
 
-def _others(workshop: "Workshop", data: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+def _others(data: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     """Yield the tables that the default workshop does not have: pins, changed materials, the user's own parts."""
     from jumpcad.files import find_template, read_toml, template_names
     from jumpcad.workshop import OWN_PARTS

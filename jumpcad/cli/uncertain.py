@@ -8,8 +8,6 @@ if TYPE_CHECKING:
     from jumpcad.robot import Robot
     from jumpcad.settings import Settings
 
-FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
-
 
 def uncertain(robot: "Robot", settings: "Settings", engine: str, seed: int) -> dict[str, Any]:
     """Return quantiles and first-order indices of a printed robot's jump as plain data."""
@@ -21,6 +19,8 @@ def uncertain(robot: "Robot", settings: "Settings", engine: str, seed: int) -> d
 
 def uncertain_lines(found: dict[str, Any]) -> list[str]:
     """Return the result as lines of text."""
+    from jumpcad.simulation.uncertain import FIGURES
+
     source = "the calibration's draws" if found["calibrated"] else "the priors of a calibration: none was given"
     lines = [f"uncertainty ({found['jumps']} jumps, {source}), quantiles 10…50…90 %:"]
     for name, label in FIGURES.items():

@@ -32,7 +32,7 @@ def extent_m(robot: Robot) -> Array:
 
 
 def _boxes_m(bounds_mm: Array, T_world_part: Array) -> Array:
-    """Return boxes (n, 2, 3) in the world around parts' bounding boxes (n, 2, 3) in poses (n, 4, 4) (m)."""
+    """Return boxes (n, 2, 3) in the world (m) that contain bounding boxes (n, 2, 3) (mm) in poses (n, 4, 4)."""
     middle, half = bounds_mm.mean(axis=1) / 1000.0, (bounds_mm[:, 1] - bounds_mm[:, 0]) / 2000.0
     rotation = T_world_part[:, :3, :3]
     centre = T_world_part[:, :3, 3] + np.einsum("nij,nj->ni", rotation, middle)

@@ -65,7 +65,7 @@ def _at_rest(design: Design, joints: Points, scale: float) -> list[str]:
     leg = cmath.phase(joints["ankle"] - joints["back"])
     return [
         _ground(at),
-        *_links(at, 1.0),
+        *_links(at),
         _arc(at["back"], 34.0, leg, body),
         _coil(at["back"]),
         _label(_middle(at["back"], at["ankle"]) + complex(-10, -8), "end", "carrying_link_mm",
@@ -91,7 +91,7 @@ def _with_springs_loaded(design: Design, linkage: Linkage, joints: Points, scale
     return [
         _ground(at),
         _line(at["back"], ghost, GHOST, 2.0, dashed=True),
-        *_links(at, 1.0),
+        *_links(at),
         _arc(at["back"], 60.0, before, leg),
         _label(at["back"] + complex(0, -38), "middle", "compression_ratio",
                f"{design.compression_ratio:.3g} of the way to a flat leg: {degrees:.1f}°", INK),
@@ -121,7 +121,7 @@ def _placed(joints: Points, scale: float) -> Points:
     return {name: scale * (joint - left).conjugate() for name, joint in joints.items()}
 
 
-def _links(at: Points, opacity: float) -> list[str]:
+def _links(at: Points) -> list[str]:
     pairs = (("ankle", "toe", FOOT, 3.0), ("ankle", "eye", FOOT, 6.0), ("front", "eye", FRONT, 5.0),
              ("back", "ankle", LEG, 6.0), ("back", "front", BODY, 9.0))  # fmt: skip
     lines = [_line(at[one], at[other], colour, width) for one, other, colour, width in pairs]

@@ -91,11 +91,11 @@ TURNS = {"power": ("motor_shaft", 0), "trial": ("cam_gear", 1)}
 TURN_M = 0.008
 """Least radius of an arrow that shows a sense of rotation."""
 NAMELESS = ("motor_shaft", "wiring_wire", "wiring_heat")
-"""Beginnings of the names of what gets no label: a part of another thing, and wire, which is everywhere."""
+"""Parts without a label, by the beginnings of their names: the motor's shaft, and wires."""
 BENCH = {"power": (LEFT, UPPER, LOWER)}
-"""Assemblies that lie on the bench, beside what the step is about: their wires reach."""
+"""Assemblies that lie on the bench beside the step's own, connected by wires, by the step's key."""
 BENCH_M = 0.012
-"""Between them."""
+"""Distance between them."""
 
 
 def motor_sense(robot: Robot) -> int:
@@ -180,7 +180,7 @@ def _view(
 
 
 def _on_bench(before: list[Visual], beside: Mapping[str, list[Visual]], poses: dict[str, Array]) -> dict[str, Array]:
-    """Return by how much (3,) everything beside what is there is moved: the first behind it, the others below both."""
+    """Return the offsets (3,) of the assemblies `beside` the parts `before`, by part: one behind, the others below."""
     moved: dict[str, Array] = {}
     if not before or not beside:
         return moved
@@ -200,7 +200,7 @@ def _on_bench(before: list[Visual], beside: Mapping[str, list[Visual]], poses: d
 
 
 def _bench_label(name: str, others: list[Visual], moved: dict[str, Array], poses: dict[str, Array]) -> Label:
-    """Return the label of an assembly on the bench: at its first thing, plate or tray."""
+    """Return the label of an assembly on the bench, at its first part: its plate or tray."""
     first = others[0]
     middle = np.round(_corners(first, _at_place(first, poses)).mean(axis=0) + moved.get(first.name, 0.0), DIGITS)
     return Label(name, middle, middle)

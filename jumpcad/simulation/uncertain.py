@@ -27,7 +27,8 @@ SAMPLES = 256
 """Jumps, a power of two."""
 DEGREE, RESAMPLES = 3, 100
 """Degree of the polynomial; bootstrap resamples."""
-FIGURES = ("ballistic_range_m", "com_rise_m")
+FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
+"""Figures of a jump whose uncertainty is computed, and their names in texts."""
 EDGE, TINY = 1e-9, 1e-30
 """Least distance of a sample from 0 and 1; least variance that is divided by."""
 
