@@ -42,7 +42,8 @@ def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
         ]
     lower = _floor(layout, holes, 0) - union([*straps, *(region.translate((x, at)) for region in window)])
     stops = [
-        rectangle((RIM_MM, RIM_SHARE * battery.width_mm), (x + end * electronics.stop_mm, at)) for end in (-1.0, 1.0)
+        rectangle((RIM_MM, max(RIM_SHARE * battery.width_mm, RIM_MM)), (x + end * electronics.stop_mm, at))
+        for end in (-1.0, 1.0)
     ]
     floor = _floor(layout, holes, 1)
     cuts, rims = [], []
