@@ -28,7 +28,8 @@ from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
-from jumpcad.search.robust import varied_lengths, varied_parameters
+from jumpcad.search.tolerances import Making, varied_parameters
+from jumpcad.search.variant import Variant
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.workshop import load_workshop
@@ -185,7 +186,8 @@ def of_best_printable() -> dict[str, str]:
     design, workshop = load_design("best-printable"), load_workshop("default")
     length_mm = 2.0 * workshop.fits.sliding_mm  # a link has the play of a sliding fit at both ends
     generator = np.random.default_rng(0)
-    neighbours = varied_parameters(design, generator) + varied_lengths(design, length_mm, generator)
+    neighbours = varied_parameters(design, generator)
+    neighbours += [one.design for one in Making(length_mm).neighbours(Variant(design), generator)]
     model, score = RobotModel("printed", workshop), find_objective("fitness").score
     refused = sum(score(model(neighbour)) is None for neighbour in neighbours)
     bounds = [

@@ -52,7 +52,7 @@ def slice_command(
     if found.billed:
         write_times(found)
     if as_json:
-        print_json(_facts(bundle, found) | {"workshop": write_masses and str(write_masses), "written": found.billed})
+        print_json(slice_facts(bundle, found, write_masses))
         return
     _print_sliced(found)
     if found.billed:
@@ -62,7 +62,8 @@ def slice_command(
         print(f"written   {name}: try jumpcad build DESIGN --workshop {name}")
 
 
-def _facts(bundle: Path, found: "SlicedBundle") -> dict[str, Any]:
+def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) -> dict[str, Any]:
+    """Return the JSON document of a sliced bundle."""
     return {
         "bundle": str(bundle),
         "slicer": found.version,
@@ -71,6 +72,8 @@ def _facts(bundle: Path, found: "SlicedBundle") -> dict[str, Any]:
         "plates": [vars(plate) for plate in found.plates],
         "grams": sum(plate.grams for plate in found.plates),
         "time_s": sum(plate.time_s for plate in found.plates),
+        "workshop": write_masses and str(write_masses),
+        "written": found.billed,
     }
 
 

@@ -164,7 +164,8 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
     lost = [f for f in ("forward", "motor+", "motor-") if not chosen.driver.with_function(f)]
     twice = [pin for pin, count in Counter(wiring.pins.values()).items() if count > 1]
     if missing:
-        message = f"{chosen.controller.name} has no pin left for {' and '.join(missing)}"
+        wanted = len(have) + len(missing)
+        message = f"{chosen.controller.name} has no pin left for {' and '.join(missing)}: {len(have)} of {wanted} suit"
         return _yes_or_no(
             "wiring_pins", False, "error", message, "choose a controller with more pins, or give its pins"
         )

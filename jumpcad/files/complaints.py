@@ -76,12 +76,16 @@ def described(value: Any) -> str:
     return f"{shown(value)} ({type(value).__name__[:LONGEST]})" if value is not None else "None"
 
 
+MISSING = {"source": ": say where the figures come from", "mass_g": ": weigh it, or take the maker's figure"}
+"""What to do about keys that own parts need most."""
+
+
 def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:
     key = ".".join(_step(step) for step in location) or model.__name__
     if item["type"] == "extra_forbidden":
         return f"{key}: unknown key{did_you_mean(location[-1], _known_keys(model, location[:-1]))}"
     if item["type"] == "missing":
-        return f"{key}: missing"
+        return f"{key}: missing{MISSING.get(location[-1], '')}"
     if not location:  # a validator of the whole record
         return _reason(item, location, model)
     if item["loc"][-1] == "[key]":

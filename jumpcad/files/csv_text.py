@@ -1,9 +1,8 @@
 """Tables as CSV text in which no cell is a formula for a spreadsheet."""
 
 import csv
-import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from jumpcad.errors import without_controls
 
@@ -13,9 +12,21 @@ FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
 
 def to_csv(rows: Iterable[Sequence[object]]) -> str:
     """Return rows as CSV; the first is the heading. Text that would be a formula is preceded by an apostrophe."""
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
-    return stream.getvalue()
+    return "".join(csv_lines(rows))
+
+
+def csv_lines(rows: Iterable[Sequence[object]]) -> Iterator[str]:
+    """Yield the rows of `to_csv` one by one, for a table that is longer than memory."""
+    writer = csv.writer(_Returned(), lineterminator="\n")
+    for row in rows:
+        yield writer.writerow([_cell(value) for value in row])
+
+
+class _Returned:
+    """A file whose `write` returns the text."""
+
+    def write(self, text: str) -> str:
+        return text
 
 
 def _cell(value: object) -> object:

@@ -112,8 +112,8 @@ class Electronics:
 
     @property
     def _stopped_mm(self) -> float:
-        """Half of the battery's length with its stop."""
-        return self.battery.length_mm / 2.0 + BATTERY_PLAY_MM + RIM_MM
+        """Half of the battery's length with its stop, which keeps away from the strap."""
+        return max(self.battery.length_mm / 2.0 + BATTERY_PLAY_MM, STRAP_SLOT_MM[1] / 2.0 + TIE_END_MM) + RIM_MM
 
     @property
     def _balance_room_mm(self) -> float:
@@ -224,7 +224,7 @@ class Electronics:
     def small_seats(self, inside: Interval) -> list[Seat]:
         """Return places for resistors and diode, nearest to the controller first: between it and the next board.
 
-        Two lie side by side; they keep away from the ties of both boards.
+        Two lie side by side; they keep away from the ties of both boards and from what lies beside them.
         """
         seats = self.seats(inside)
         controller = seats["controller"]
@@ -238,6 +238,8 @@ class Electronics:
             if apart and (not free or start >= free[-1] + length):
                 free.append(float(start))
         free.sort(key=lambda y: abs(y + length / 2.0 - controller.y_mm))
+        beside = [seat for role, seat in seats.items() if role in self.tied]
+        free = [y for y in free if all(_apart(seat, x, y, length) for seat in beside)]
         bottom = self.upper_tray_mm + TRAY_MM
         lanes = (-SMALL_MM[0] / 2.0, SMALL_MM[0] / 2.0)
         return [Seat(x + lane, y + length / 2.0, bottom, SMALL_MM) for y in free for lane in lanes]
@@ -245,6 +247,12 @@ class Electronics:
     def middle_mm(self, tray_mm: Array) -> Array:
         """Return the middle (2,) of trays and boards, given that of the lower tray's underside."""
         return np.asarray(tray_mm + np.array([0.0, self.half_mm[1]]))
+
+
+def _apart(seat: Seat, x_mm: float, start_mm: float, length_mm: float) -> bool:
+    """Tell whether a seat is clear of two bodies side by side that begin at a place across the robot."""
+    along = abs(seat.x_mm - x_mm) >= seat.size_mm[0] / 2.0 + SMALL_MM[0]
+    return along or abs(seat.y_mm - start_mm - length_mm / 2.0) >= (seat.size_mm[1] + length_mm) / 2.0
 
 
 def _from_plate_mm(role: str) -> float:

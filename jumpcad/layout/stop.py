@@ -32,6 +32,8 @@ TAB_MM = (5.0, 4.0)
 bar's edge nearest to the hub, so that the plates reach down no further than the bar."""
 EAR_MM = 16.0
 """Width of the plates' ears at the pivots' line, from the leg's axle forwards; judgement: the impact bends them."""
+KNOWN_MM = 3.0
+"""The stop's room is known up to this; more does not matter."""
 NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.25
 """Distances of the pad's middle from the hub, along the leg; judgement: a pad near the hub lets the leg turn far."""
 
@@ -55,7 +57,7 @@ class StopPlace:
     pad
         The pad that is glued on.
     room_mm
-        How far the freest place for it is from everything else.
+        How far the freest place for it is from everything else, at most `KNOWN_MM`.
     """
 
     angle_rad: float
@@ -173,10 +175,10 @@ def stop_place(
     radii = radii[np.argsort(np.abs(radii - WANTED_MM), kind="stable")]
     faces = linkage.back_pivot_mm + radii[:, None] * along + heel * behind
     half = (STOP_PAD_MM / 2.0, (pad.thickness_mm - STOP_SEAT_MM + sections.stop_mm) / 2.0)
-    room = clearance(obstacles, faces + half[1] * behind, half, -below, inside)
+    room = clearance(obstacles, faces + half[1] * behind, half, -below, inside, KNOWN_MM)
     slots = faces + (pad.thickness_mm - STOP_SEAT_MM) * behind + tab_offset_mm(along, behind)
     edge = (TAB_MM[0] / 2.0 + STOP_EDGE_MM, TAB_MM[1] / 2.0 + STOP_EDGE_MM)
-    room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate))
+    room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate, KNOWN_MM))
     if not (room >= 0.0).any():
         raise CannotBuildError(
             f"no room for the rest stop behind the main leg: {-room.max():.1f} mm too little: lower compression_ratio, "
@@ -185,7 +187,14 @@ def stop_place(
         )  # fmt: skip
     best = int(np.argmax(room >= 0.0))
     return StopPlace(
-        angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), sections.stop_mm, pad, float(room.max())
+        angle_rad,
+        below,
+        float(radii[best]),
+        heel,
+        np.round(faces[best], 6),
+        sections.stop_mm,
+        pad,
+        min(float(room.max()), KNOWN_MM),
     )
 
 

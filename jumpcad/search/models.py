@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib.metadata
+import importlib.util
 import json
 import math
 from collections.abc import Mapping
@@ -20,10 +21,12 @@ from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import COST, QUANTILE, Evaluation, Objective, find_objective
 from jumpcad.search.refusal import CANNOT_BUILD, refusal_findings, room_findings
-from jumpcad.search.tolerances import tenth, varied_lengths, varied_parameters
-from jumpcad.search.variant import NOTHING
+from jumpcad.search.stand_in import figures_of
+from jumpcad.search.tolerances import FRICTIONS, Making, tenth, varied_parameters
+from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
+from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE
 from jumpcad.version import __version__
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 from jumpcad.workshop.varied import Value
@@ -51,6 +54,8 @@ class RobotModel:
     neighbours_of
         An objective by name: of a design that jumps, neighbours are evaluated too, and the figure `p10` is that score
         of the worst of them. The design is rejected with the first neighbour that is.
+    screened
+        Whether the evaluation of a printed robot has the figures that a `Screen` learns from.
     """
 
     name: str
@@ -58,6 +63,7 @@ class RobotModel:
     settings: Settings | None = None
     engine: str = "pybullet"
     neighbours_of: str = ""
+    screened: bool = False
 
     def __repr__(self) -> str:
         return f"<RobotModel {self.name}, {self.describe()['engine']}>"
@@ -86,13 +92,14 @@ class RobotModel:
         """
         generators = (np.random.default_rng(kind) for kind in (0, 1))
         kinds = (
-            varied_parameters(design, next(generators)),
-            varied_lengths(design, self.tolerance_mm, next(generators)),
+            [Variant(one) for one in varied_parameters(design, next(generators))],
+            self.making.neighbours(Variant(design), next(generators)),
         )
         objective, scores = find_objective(self.neighbours_of), []
         neighbours = [one for pair in zip(*kinds, strict=True) for one in pair][:NEIGHBOURS]
         for number, neighbour in enumerate(neighbours, start=1):
-            beside = self._alone(neighbour)
+            model = self.varied(neighbour.workshop) if neighbour.workshop else self
+            beside = model._alone(neighbour.design)
             score = objective.score(beside)
             if score is None:
                 reasons = ", ".join(beside.reasons)
@@ -131,6 +138,19 @@ class RobotModel:
         return 0.2 if self.workshop is None else self.workshop.fits.link_tolerance_mm
 
     @property
+    def making(self) -> Making:
+        """How far what is made of a design differs from it; of a robot that is made in no workshop, in lengths alone.
+
+        Springs from stock keep their rate here: a design for them has that rate and no other.
+        """
+        if self.workshop is None or self.name != "printed":
+            return Making(self.tolerance_mm)
+        workshop, (with_pad, bare) = self.workshop, FRICTIONS
+        rate = 0.0 if workshop.bought.spring else workshop.safety.spring_rate_scatter / 2.0
+        key = with_pad if workshop.ground.pad else bare
+        return Making(self.tolerance_mm, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, workshop.ground.foot_friction, key)
+
+    @property
     def default_objective(self) -> str:
         """What is searched for unless the user says something else: only a printed robot has a size."""
         return "body_lengths" if self.name == "printed" else "fitness"
@@ -164,13 +184,19 @@ class RobotModel:
         except JumpcadError:
             return found.metrics["fitness"]
 
+    @property
+    def screen_engine(self) -> str:
+        """The engine of a screen: the planar one where it is compiled, else the model's own."""
+        return "planar" if importlib.util.find_spec("numba") else self.engine
+
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""
         record: dict[str, Any] = {"name": self.name, "engine": "pybullet" if self.name == "published" else self.engine}
         for key in ("workshop", "settings"):
             value = getattr(self, key)
             record[key] = None if value is None else value.model_dump(mode="json")
-        return record | ({"neighbours_of": self.neighbours_of} if self.neighbours_of else {})
+        record |= {"neighbours_of": self.neighbours_of} if self.neighbours_of else {}
+        return record | ({"screened": self.screen_engine} if self.screened else {})
 
     @cached_property
     def digest(self) -> str:
@@ -188,7 +214,8 @@ class RobotModel:
 
         result = evaluate(design, self.workshop, self.settings, self.engine)
         findings = (*result.findings, *room_findings(result.robot.layout))
-        return Evaluation(result.verdict, _figures(result.jump) | result.metrics, findings)
+        figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.screened else {})
+        return Evaluation(result.verdict, figures, findings)
 
     def _capsule(self, design: Design) -> Evaluation:
         from jumpcad.mechanism.capsule import capsule_robot

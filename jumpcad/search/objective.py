@@ -16,6 +16,8 @@ COST = "evaluations"
 """Figure of an evaluation that took several robots: how many."""
 QUANTILE = "p10"
 """Figure, and objective: the score that nine of ten neighbours reach."""
+SCREENED, GUESSED = "screened", "guessed_score"
+"""Verdict of a candidate that a screen left out, and the figure that it had for its score."""
 QUARANTINED = "quarantined"
 """Verdict of a design whose evaluation failed twice: ended its worker, or ran past its limit."""
 

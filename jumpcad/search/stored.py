@@ -6,7 +6,7 @@ import sys
 from array import array
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
@@ -61,6 +61,15 @@ def _whole(space: dict[str, _Range]) -> dict[str, _Range]:
     return space
 
 
+class _Making(TomlTable):
+    length_mm: float
+    rate: float = 0.0
+    mass: float = 0.0
+    floor: float = 0.0
+    friction: float = 0.0
+    key: Literal["ground.friction", "ground.bare_friction"] = "ground.friction"
+
+
 class _Identity(TomlTable):
     """What readers of a study need; the writer compares the rest."""
 
@@ -71,6 +80,8 @@ class _Identity(TomlTable):
     method: Name
     seed: Count
     space: Annotated[dict[str, _Range], AfterValidator(_whole)]
+    making: _Making | None = None
+    tolerance_mm: Count | float = 0.0
 
 
 def _is_method(name: str) -> str:
@@ -239,8 +250,8 @@ def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
     return proposal
 
 
-def stored_workshop(record: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
-    """Return the workshop's values of a row in a search of these keys.
+def stored_workshop(record: Mapping[str, Any], keys: Sequence[str], more: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the workshop's values of a row in a search of these keys; it may have some `more`.
 
     Raises
     ------
@@ -248,7 +259,7 @@ def stored_workshop(record: Mapping[str, Any], keys: Sequence[str]) -> dict[str,
         If they are not numbers and names, or belong to other keys.
     """
     values: dict[str, Any] = _validated(_WORKSHOP.validate_json, "workshop", record["workshop"])
-    if list(values) != list(keys):
+    if [key for key in values if key in keys or key not in more] != list(keys):
         raise JumpcadError(f"workshop: has {shown(list(values))}, not the keys of the study's space")
     return values
 

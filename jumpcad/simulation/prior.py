@@ -49,3 +49,7 @@ class Prior:
 
 SPRING_EFFICIENCY = Prior("normal", 0.95, 0.05, "judgement: coils rub on their mandrel and on each other", 0.3)
 PIN_FRICTION = Prior("lognormal", 0.25, 0.4, "judgement: dry plastic on steel")
+PRINTED_MASS_SHARE = 0.04
+"""Relative deviation of a printed robot's mass from the model's: that of parts from PrusaSlicer's mass."""
+FLOOR_SHARE = 0.15
+"""Standard deviation of the logarithm of an untested floor's friction; judgement: rubber slides at 0.6 to 1.0."""

@@ -19,7 +19,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings, coefficients
-from jumpcad.simulation.prior import PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, Prior
+from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
 from jumpcad.simulation.simulator import simulate
 from jumpcad.transforms import Array
 
@@ -27,10 +27,6 @@ SAMPLES = 256
 """Jumps, a power of two."""
 DEGREE, RESAMPLES = 3, 100
 """Degree of the polynomial; bootstrap resamples."""
-PRINTED_MASS_SHARE = 0.04
-"""Relative deviation of a printed robot's mass from the model's: that of parts from PrusaSlicer's mass."""
-FLOOR_SHARE = 0.15
-"""Standard deviation of the logarithm of an untested floor's friction; judgement: rubber slides at 0.6 to 1.0."""
 FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
 """Figures of a jump whose uncertainty is computed, and their names in texts."""
 EDGE, TINY = 1e-9, 1e-30
