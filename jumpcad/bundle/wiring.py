@@ -92,7 +92,7 @@ def wiring_svg(robot: Robot) -> str:
     lanes = {net.name: index for index, net in enumerate(wiring.nets)}
     width = MARGIN_MM + COLUMN_MM * (len(COLUMNS) - 1) + BOX_MM + 4.0 * len(lanes) + 2.0 * MARGIN_MM
     width += 2.0 * 2.0 * len(lanes)
-    lines = [line for net in wiring.nets for line in _net_lines(net, ends, lanes[net.name], len(lanes))]
+    lines = [line for net in wiring.nets for line in _net_lines(net, ends, lanes[net.name])]
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.1f} {height:.1f}" width="{4 * width:.0f}" '
@@ -141,7 +141,7 @@ def _boxes(
     return boxes, ends, height + 4.0 * len(nets) + MARGIN_MM
 
 
-def _net_lines(net: Net, ends: dict[Terminal, tuple[float, float]], lane: int, lanes: int) -> Iterator[str]:
+def _net_lines(net: Net, ends: dict[Terminal, tuple[float, float]], lane: int) -> Iterator[str]:
     """Yield a net's lines: from each terminal to the right, down a track of its own, along a lane below all parts."""
     stroke = STROKES[net.colour]
     places = [ends[terminal] for terminal in net.terminals]

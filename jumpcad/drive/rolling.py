@@ -1,5 +1,8 @@
 """The release: the roller rolls over the cam's corner, the cam runs ahead through the dog's play to its end (SI).
 
+It begins at the end of the lift, with the leg still rising: the leg swings on its lever while the motor carries the
+roller over the top, and what the lever is bent by then is what throws the cam.
+
 The model has a cam (inertia J, angle phi), a leg (inertia I reflected to its joint, wind angle theta), and between
 them the lever, an elastic link with the roller's mass at its end. During contact the corner sets the roller's wind
 angle w(phi); the lever's torque Q = k·(w - theta) accelerates cam and roller, less friction, and holds the leg against
@@ -125,9 +128,11 @@ class _Release:
         # friction tilts the contact force: the cam is driven as by a corner of smaller slope
         self.drive = -(corner.slope + parts.friction_mm / corner.arm_mm)
         self.last = len(self.drive) - 1
-        self.at = self.first = int(np.argmax(self.drive > 0.0)) if (self.drive > 0.0).any() else self.last
+        self.first = int(np.argmax(self.drive > 0.0)) if (self.drive > 0.0).any() else self.last
+        self.at = 0
         self.speed, self.inertia = parts.cam_rad_s, parts.cam_kg_m2
-        self.wind, self.rate = parts.held_rad(float(corner.wind_rad[self.first])), 0.0
+        # the leg still rises with the lift, and swings on its lever when the roller turns down
+        self.wind, self.rate = parts.held_rad(float(corner.wind_rad[0])), float(corner.slope[0]) * parts.cam_rad_s
         self.touches = True
         self.blow_nm = self.kick_nm = 0.0
 
@@ -198,13 +203,14 @@ class _Release:
         for number in range(stop - self.at):
             torque = lever * (roller[number] - wind)
             grown = (moving[number] * square + 2.0 * step * drive[number] * torque) / moving[number + 1]
+            grown = max(grown, least)  # the motor keeps turning the cam
             gain = (grown - square) / (2.0 * step)
             if torque + tip * (bend[number] * square + slope[number] * gain) < 0.0:
                 self.touches = False
                 break
             if with_motor:
                 self.kick_nm = max(self.kick_nm, parts.rotor_kg_m2 * gain)
-            square = max(grown, least)  # the motor keeps turning the cam
+            square = grown
             parts_of_it = math.ceil(step / math.sqrt(square) / LONGEST_S)
             time = step / math.sqrt(square) / parts_of_it
             for _ in range(parts_of_it):

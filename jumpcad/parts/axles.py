@@ -18,13 +18,15 @@ from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY, FOOT, MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart, bought
-from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring
+from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring, union
 from jumpcad.strength.axles import clipped_pins
 from jumpcad.transforms import Array
 from jumpcad.workshop import BoughtParts
 
 COTTER_SPAN_MM = 5.0
 """Across a split pin's bent ends; judgement: cut and bent around a pin of 3 mm, no wider than the pin's head."""
+COTTER_ROOM_MM = 0.1
+"""Around a split pin in its hole, for the picture: both are drawn square, a split pin with its ends bent."""
 CLIP_OPENING = 0.8
 """Width of a clip's opening over the groove's diameter; judgement, for the picture."""
 
@@ -157,21 +159,26 @@ def _clevis(place: Place, diameter_mm: float, catalogue: Catalogue) -> Iterator[
     if length is None:
         raise CannotBuildError(
             f"no clevis pin of {needed:.1f} mm for the {place.name.replace('_', ' ')}; the longest is "
-            f'{pin.lengths_mm[-1]:g} mm: choose bought.retention = "clips"'
-        )
-    head = high + AXLE_END_PLAY_MM
+            f'{pin.lengths_mm[-1]:g} mm: choose bought.retention = "clips"',
+            "clevis_pin", pin.lengths_mm[-1] - needed,
+        )  # fmt: skip
+    head, cotter = high + AXLE_END_PLAY_MM, pin.cotter_mm
+    begin, end = pin.end_mm - cotter / 2.0 - COTTER_ROOM_MM, pin.end_mm + cotter / 2.0 + COTTER_ROOM_MM
     slabs = [
-        (0.0, length, disc(diameter_mm)),
+        (0.0, begin, disc(diameter_mm)),
+        (begin, end, disc(diameter_mm) - rectangle((2.0 * diameter_mm, cotter + 2.0 * COTTER_ROOM_MM))),
+        (end, length, disc(diameter_mm)),
         (length, length + pin.head_height_mm, disc(pin.head_mm)),
     ]
     mass = catalogue.rod_mass_g(diameter_mm, length) + catalogue.rod_mass_g(pin.head_mm, pin.head_height_mm)
     article = f"clevis pin B {diameter_mm:g} x {length:g} ISO 2341"
     yield bought(place.name, article, place.body, mass, slabs, _at(place, head - length))
-    region = rectangle((COTTER_SPAN_MM, 2.0 * pin.cotter_mm)) - disc(diameter_mm)
-    y = head - length + pin.end_mm - pin.cotter_mm / 2.0
-    mass = catalogue.rod_mass_g(pin.cotter_mm, pin.cotter_length_mm)
-    article = f"split pin {pin.cotter_mm:g} x {pin.cotter_length_mm:g} ISO 1234"
-    slab = [(0.0, pin.cotter_mm, region)]
+    bent = rectangle((COTTER_SPAN_MM, 2.0 * cotter)) - disc(diameter_mm + 2.0 * COTTER_ROOM_MM)
+    region = union([rectangle((COTTER_SPAN_MM, cotter)), bent])
+    y = head - length + pin.end_mm - cotter / 2.0
+    mass = catalogue.rod_mass_g(cotter, pin.cotter_length_mm)
+    article = f"split pin {cotter:g} x {pin.cotter_length_mm:g} ISO 1234"
+    slab = [(0.0, cotter, region)]
     yield bought(f"{place.name}_split_pin", article, place.body, mass, slab, _at(place, y))
 
 

@@ -7,6 +7,7 @@ axle. The boss ends beside the gear and holds it in its plane.
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -15,7 +16,7 @@ from jumpcad.dimensions import GAP_MM
 from jumpcad.drive.dog import Dog
 from jumpcad.drive.gears import Gear
 from jumpcad.layout.layout import Layout
-from jumpcad.layout.sensor import GEAR_PLAY_MM
+from jumpcad.layout.sensor import GEAR_PLAY_MM, TRACK_WALL_MM, SensorPlace
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, laid, lying_on_left, lying_on_right
@@ -27,6 +28,8 @@ from jumpcad.transforms import pose_about_z
 WEB_RIM_MM = 3.0
 """Material kept inside the root circle and around the hub of a gear with web holes."""
 WEB_HOLES = 6
+WEB_CORNER_MM = 1.0
+"""Radius of a web hole's corners: no hole is narrower than twice this."""
 SECTOR_POINTS = 16
 """On the rim of a sector: twice as far out as what it cuts, so that few are enough."""
 RIB_MM, RIB_ROOT_MM = 0.6, 0.2
@@ -59,8 +62,8 @@ def gears(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     stages, motor = layout.drive.train.stages, layout.drive.train.motor
     cam_y, motor_y = layout.lateral.gears[0], layout.lateral.gears[-1]
     turns = gear_turns(layout)
-    cam_gear = _cam_gear(stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes, _hub_mm(layout))
-    cam_gear = _with_track(cam_gear, layout)
+    shape = (stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes, _hub_mm(layout))
+    cam_gear = _cam_gear(*shape, None) if layout.sensor is None else _grooved(*shape, _track(layout, layout.sensor))
     pinion = _motor_pinion(stages[0].pinion, motor.shaft_mm, motor.shaft_flat_mm, holes)
     made = [
         Drawing("cam_gear", "gears", cam_gear, (Placement(BODY, lying_on_right(cam_y[0], *layout.cam_axis_mm)),)),
@@ -103,16 +106,20 @@ def _placed(top_mm: float, centre_mm: np.ndarray, turn_rad: float) -> Placement:
 
 
 @lru_cache(maxsize=64)
-def _cam_gear(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes, hub_mm: float) -> Stack:
+def _cam_gear(
+    gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes, hub_mm: float, track_mm: tuple[float, float] | None
+) -> Stack:
     """Return the cam gear: a hub on the axle, and around it pockets in which the cam's jaws slide.
 
-    The hub stands out by `hub_mm` to the left, up to the plate. As it prints, x points to the back.
+    The hub stands out by `hub_mm` to the left, up to the plate. Web holes leave the sensor's track with a wall on
+    either side. As it prints, x points to the back.
     """
     play = 2.0 * holes.fits.sliding_mm
     outer, inner = dog.outer_mm + play, dog_inside_mm(holes.fits, axle_mm) - play
     around = hole(outer) - disc(inner)
     bore, width = hole(holes.running(axle_mm)), gear.face_width_mm
-    region = _webbed(gear, bore, outer / 2.0) - (around ^ _sectors(dog.pockets_rad, outer))
+    solid = None if track_mm is None else _annulus(track_mm[0] - TRACK_WALL_MM, track_mm[1] + TRACK_WALL_MM)
+    region = _webbed(gear, bore, outer / 2.0, solid) - (around ^ _sectors(dog.pockets_rad, outer))
     slabs = [(0.0, width, region.mirror((1.0, 0.0)))]
     slabs += [(width, width + hub_mm, disc(inner) - bore)] if hub_mm > 0.0 else []
     return holes.chamfered(Stack.of(slabs))
@@ -123,23 +130,42 @@ def _hub_mm(layout: Layout) -> float:
     return GAP_MM - GEAR_PLAY_MM if layout.idler_mm is None else 0.0
 
 
-def _with_track(gear: Stack, layout: Layout) -> Stack:
-    """Return the cam gear with the sensor's groove and, in it, the land, whose ramps rise at 45° a layer a step."""
-    sensor = layout.sensor
-    if sensor is None:
-        return gear
+def _annulus(inner_mm: float, outer_mm: float) -> Region:
+    return ring(2.0 * outer_mm, 2.0 * inner_mm)
+
+
+@dataclass(frozen=True)
+class Track:
+    """The sensor's groove in the cam gear, and the steps (bottom, top, begin, end) of the land in it."""
+
+    radii_mm: tuple[float, float]
+    bottom_mm: float
+    top_mm: float
+    steps: tuple[tuple[float, float, float, float], ...]
+
+
+def _track(layout: Layout, sensor: SensorPlace) -> Track:
+    """Return the sensor's groove and, in it, the land, whose ramps rise at 45° a layer a step."""
     top, lift = layout.lateral.gears[0][1] - layout.lateral.gears[0][0], layout.drive.cam.law.lift_rad
     low, step = top - sensor.depth_mm, sensor.needs.layer_mm
-    groove = ring(2.0 * (sensor.radius_mm + sensor.half_width_mm), 2.0 * (sensor.radius_mm - sensor.half_width_mm))
+    steps = tuple(
+        (low + n * step, low + (n + 1) * step, *sensor.land_rad((n + 0.5) * step, lift))
+        for n in range(round(sensor.depth_mm / step))
+    )
+    return Track((sensor.radius_mm - sensor.half_width_mm, sensor.radius_mm + sensor.half_width_mm), low, top, steps)
 
-    def land(above_mm: float) -> Region:
-        sector = _sectors([sensor.land_rad(above_mm, lift)], 2.0 * (sensor.radius_mm + sensor.half_width_mm))
-        return (groove ^ sector).mirror((1.0, 0.0))
 
-    steps = round(sensor.depth_mm / step)
-    rising = [(low + n * step, low + (n + 1) * step, land((n + 0.5) * step)) for n in range(steps)]
-    # the ring under the groove carries the land where the web has holes
-    return gear.minus([(low, top, groove)]).plus([(0.0, low, groove), *rising])
+@lru_cache(maxsize=8)
+def _grooved(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes, hub_mm: float, track: Track) -> Stack:
+    """Return the cam gear with the sensor's track: often that of the round of growth before."""
+    groove = _annulus(*track.radii_mm)
+
+    def land(begin_rad: float, end_rad: float) -> Region:
+        return (groove ^ _sectors([(begin_rad, end_rad)], 2.0 * track.radii_mm[1])).mirror((1.0, 0.0))
+
+    rising = [(low, high, land(begin, end)) for low, high, begin, end in track.steps]
+    stack = _cam_gear(gear, dog, axle_mm, holes, hub_mm, track.radii_mm)
+    return stack.minus([(track.bottom_mm, track.top_mm, groove)]).plus(rising)
 
 
 def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:
@@ -186,8 +212,8 @@ def _idler(wheel: Gear, pinion: Gear, gap_mm: float, axle_mm: float, holes: Hole
     return holes.chamfered(Stack.of(slabs))
 
 
-def _webbed(gear: Gear, bore: Region, hub_radius_mm: float) -> Region:
-    """Return a gear with its bore, and web holes where there is room between hub and rim."""
+def _webbed(gear: Gear, bore: Region, hub_radius_mm: float, solid: Region | None = None) -> Region:
+    """Return a gear with its bore, and web holes where there is room between hub and rim, outside what stays solid."""
     low_x, _, high_x, _ = bore.bounds()
     hub = max(hub_radius_mm, (high_x - low_x) / 2.0) + WEB_RIM_MM
     rim = gear.root_radius_mm - WEB_RIM_MM
@@ -197,4 +223,5 @@ def _webbed(gear: Gear, bore: Region, hub_radius_mm: float) -> Region:
     spokes = union(
         rectangle((2.0 * rim, WEB_RIM_MM)).rotate(180.0 * index / (WEB_HOLES / 2)) for index in range(WEB_HOLES // 2)
     )
-    return region - rounded(disc(2.0 * rim) - disc(2.0 * hub) - spokes, 1.0)
+    kept = union([disc(2.0 * hub), spokes, *([] if solid is None else [solid])])
+    return region - rounded(disc(2.0 * rim) - kept, WEB_CORNER_MM)

@@ -1,7 +1,7 @@
-"""The order of assembly as data: in every step which things move where, by which tool they are fastened, and words.
+"""The order of assembly as data: for every step the parts, their direction of assembly, the tool, and the texts.
 
-Names are patterns of things' names; what a robot lacks is left out, and so are words that `need` it. Lengths and
-diameters of tools are those of a usual screwdriver, key or pair of pliers.
+Parts are named by regular expressions. Parts that a robot lacks are left out, and so are the texts that need them.
+Lengths and diameters of tools are those of a usual screwdriver, key or pair of pliers.
 
 The pin in the leg that the springs push comes late: without it they are slack, so that both plates stand before
 anything is loaded, the cam can be turned by hand, and the motor turns it for the first time without springs.
@@ -12,12 +12,12 @@ from typing import Literal
 
 ROBOT, LEG, FOOT, STOP = "robot", "leg", "foot", "rest stop"
 LOWER, UPPER, LEFT = "lower tray", "upper tray", "left plate"
-"""Assemblies: the robot grows on the right plate, the others on the bench."""
+"""Assemblies: the robot is built up on the right plate, the others on the bench."""
 
 
 @dataclass(frozen=True)
 class Tool:
-    """A straight tool: a cylinder that must be free from a fastener's end on, along its axis (mm)."""
+    """A straight tool: the cylinder along the fastener's axis, from its end outwards, that must be free (mm)."""
 
     name: str
     diameter_mm: float
@@ -48,18 +48,19 @@ class Move:
         A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`, or
         `sideways` for a clip: from any side that is free.
     way
-        `straight`, checked on the shapes; `bent`, also straight, around things of `past`; `snapped`, by their own size
-        only, sideways onto a groove; `laid` for what is soldered or flexible, which has no path to check.
+        How the path is checked. `straight`: along its whole length, on the shapes; `bent`: likewise, for what is bent
+        around parts of `past`; `snapped`: sideways onto a groove, over the part's own size only; `laid`: not at all,
+        for what is soldered or flexible.
     past
-        Pattern of things that may be in the way, since one of the two gives.
+        Pattern of parts that may be in the way, because one of the two yields.
     tool, reach
-        What fastens them, and the side from which it reaches them: that of their path, or one as in `along`.
+        What fastens them, and the side from which the tool comes: by default `along`, else one of its values.
     trial
-        It is taken off again at the end of the step.
+        Whether it is taken off again at the end of the step.
     brings
         An assembly of an earlier step that is put on as one piece.
     retention
-        The kinds of axles that are put on here; all where empty.
+        The kinds of axle retention with which this move is needed; empty: all.
     """
 
     parts: str
@@ -84,7 +85,7 @@ class Words:
 
 @dataclass(frozen=True)
 class Plan:
-    """A step before it meets a robot: its moves onto an assembly; words on what to do, heed, and check afterwards."""
+    """A step for any robot: its moves onto an assembly, and its texts: instructions, warnings, checks afterwards."""
 
     key: str
     title: str

@@ -21,7 +21,7 @@ from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, is_bare
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
 from jumpcad.search.methods import STEPS
 from jumpcad.search.stored import (
@@ -34,6 +34,7 @@ from jumpcad.search.stored import (
     stored_text,
     stored_workshop,
 )
+from jumpcad.search.tolerances import FRICTIONS
 from jumpcad.search.trial import LEARNING_PHASES, PHASES, SEARCH_PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50
@@ -294,7 +295,8 @@ class StudyStore:
             return Trial(
                 phase, step, stored_count(record, "place"), stored_design(record),
                 stored_evaluation(record), score, sys.intern(stored_text(record, "model")),
-                stored_figure(record, "duration_s"), proposal, stored_workshop(record, keys),
+                stored_figure(record, "duration_s"), proposal,
+                stored_workshop(record, keys, FRICTIONS if phase == "robust" else ()),
             )  # fmt: skip
         except JumpcadError as error:
             name = " ".join(shown(record[key]).removeprefix("b") for key in ("phase", "step", "place"))
@@ -353,12 +355,8 @@ def _record(trial: Trial) -> tuple[Any, ...]:
 
 def _finding(finding: Finding) -> Any:
     """Return a bare finding as a list, any other one as a mapping."""
-    bare = [finding.name, finding.severity, finding.margin, finding.unit]
-    return (
-        bare
-        if finding == Finding(finding.name, finding.severity, finding.margin, finding.unit, "", "")
-        else finding.to_dict()
-    )
+    few = [finding.name, finding.severity, finding.margin, finding.unit]
+    return few if is_bare(finding) else finding.to_dict()
 
 
 _text = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), check_circular=False).encode

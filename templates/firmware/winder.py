@@ -97,7 +97,7 @@ class Winder:
     def _releasing(self, now_ms, elapsed, pressed):
         """Turn the cam past the drop: the sensor is free, and the motor stops a little after that.
 
-        The first free reading counts at once, since the leg swings back within milliseconds; a bounce restarts the time.
+        The first free reading counts at once: the leg swings back within milliseconds; a bounce restarts the time.
         """
         numbers = self.numbers
         if pressed:

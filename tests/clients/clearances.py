@@ -19,23 +19,26 @@ import trimesh
 from manifold3d import Manifold, Mesh
 
 TOLERANCE_MM3 = 0.3
-"""The meshes of bought parts leave out detail below 0.05 mm: round things in round holes share a little."""
+"""The meshes of bought parts leave out detail below 0.05 mm: round things in round holes share a little, two bought
+ones twice as much."""
 FACET_MM = 0.05
 """By which the meshes of bought parts may leave a circle."""
 DOG_DEG = 12.0
 """How far the cam may run past where it lets the roller fall, where the manifest says nothing of its play."""
 TRAIN = ("cam", "cam_gear", "idler", "motor_pinion", "motor_shaft")
+TURNING = {"cam", "cam_gear"}
 LIFTED, DROPPED, PAST = 30, 15, 5
 """Positions; those past rest each with three angles of the cam: 60 in all."""
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A mesh in its link's frame (mm)."""
+    """A mesh in its link's frame (mm); a printed one is as exact as its STL file."""
 
     name: str
     link: str
     solid: Manifold
+    printed: bool
 
 
 @dataclass(frozen=True)
@@ -63,6 +66,9 @@ class Bundle:
             for visual in root.iter("visual")
             if visual.get("name") in TRAIN
         }
+        self.corners = [np.asarray(piece.solid.hull().to_mesh().vert_properties)[:, :3] for piece in self.pieces]
+        """Of every piece's hull (n, 3): what its box needs."""
+        self.moving = [i for i, piece in enumerate(self.pieces) if piece.link != "body" or piece.name in TURNING]
         pieces = {piece.name: piece for piece in self.pieces}
         low, high = pieces["roller"].solid.bounding_box()[1::3]
         self.cam, self.roller = (_section(pieces[name].solid, (low + high) / 2.0) for name in ("cam", "roller"))
@@ -119,18 +125,33 @@ class Bundle:
 
     def meetings(self) -> Iterator[tuple[str, str, float, Pose]]:
         """Yield the pieces that meet: names, shared volume (mm³), position."""
-        for pose in self.poses():
-            links = self.places(pose)
-            solids = [self._placed(piece, links, pose) for piece in self.pieces]
-            boxes = np.array([solid.bounding_box() for solid in solids])
-            beyond = (boxes[:, None, :3] >= boxes[None, :, 3:]).any(axis=2)
-            for i, j in np.argwhere(np.triu(~(beyond | beyond.T), 1)):
+        poses = self.poses()
+        places = [self._matrices(pose) for pose in poses]
+        boxes = np.array([[_box(*pair) for pair in zip(self.corners, matrices, strict=True)] for matrices in places])
+        near = self._near(boxes)
+        for pose, matrices, box in zip(poses, places, boxes, strict=True):
+            beyond = (box[:, None, :3] >= box[None, :, 3:]).any(axis=2)
+            placed = {i: self.pieces[i].solid.transform(matrices[i][:3]) for i in self.moving}
+            for i, j in np.argwhere(np.triu(~(beyond | beyond.T), 1)).tolist():
                 a, b = self.pieces[i], self.pieces[j]
                 if not self._moves(a, b, pose):
                     continue
-                volume = (solids[i] ^ solids[j]).volume()
-                if volume > TOLERANCE_MM3:
+                one, other = ((near[k, m] if k not in placed else placed[k]) for k, m in ((i, j), (j, i)))
+                if one.is_empty() or other.is_empty():
+                    continue
+                volume = (one ^ other).volume()
+                if volume > (1.0 if a.printed or b.printed else 2.0) * TOLERANCE_MM3:
                     yield a.name, b.name, volume, pose
+
+    def _near(self, boxes: np.ndarray) -> dict[tuple[int, int], Manifold]:
+        """Return what of each fixed piece lies in the box that a moving one sweeps, by both: less to cut in each pose.
+
+        `boxes` (poses, pieces, 6) are the corners, least ones first.
+        """
+        low, high = boxes[..., :3].min(axis=0), boxes[..., 3:].max(axis=0)
+        swept = {j: Manifold.cube((high[j] - low[j]).tolist()).translate(low[j].tolist()) for j in self.moving}
+        fixed = [i for i in range(len(self.pieces)) if i not in swept]
+        return {(i, j): self.pieces[i].solid ^ box for j, box in swept.items() for i in fixed}
 
     def _moves(self, a: Piece, b: Piece, pose: Pose) -> bool:
         """Tell whether two pieces move past each other and may not meet."""
@@ -139,16 +160,14 @@ class Bundle:
             return False  # wheels in mesh; coil and arm of one wire
         if names == {"stop_pad", "main_leg"}:
             return pose.leg < self.stop - 1e-9
-        return a.link != b.link or bool(names & {"cam", "cam_gear"})
+        return a.link != b.link or bool(names & TURNING)
 
-    def _placed(self, piece: Piece, links: dict[str, np.ndarray], pose: Pose) -> Manifold:
-        matrix = links[piece.link]
-        if piece.name in ("cam", "cam_gear"):
-            centre = self.axes["cam_gear"]
-            there, back = np.eye(4), np.eye(4)
-            there[[0, 2], 3], back[[0, 2], 3] = centre, -centre
-            matrix = matrix @ there @ _turn(pose.cam) @ back
-        return piece.solid.transform(matrix[:3])
+    def _matrices(self, pose: Pose) -> list[np.ndarray]:
+        """Return the pose (4, 4; mm) of every piece."""
+        links, there, back = self.places(pose), np.eye(4), np.eye(4)
+        there[[0, 2], 3], back[[0, 2], 3] = self.axes["cam_gear"], -self.axes["cam_gear"]
+        turned = links["body"] @ there @ _turn(pose.cam) @ back
+        return [turned if piece.name in TURNING else links[piece.link] for piece in self.pieces]
 
     def _roller_gaps(self, legs: np.ndarray, turns: np.ndarray | float) -> np.ndarray:
         """Return the gaps (n,) between roller and cam (mm); negative where they meet."""
@@ -181,6 +200,12 @@ def _section(solid: Manifold, y_mm: float) -> shapely.Geometry:
     return shapely.transform(outline, lambda points: points * [1.0, -1.0])
 
 
+def _box(points: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """Return the corners (6,) of the box around points (n, 3), moved: the least ones, the largest ones."""
+    moved = points @ matrix[:3, :3].T + matrix[:3, 3]
+    return np.concatenate([moved.min(axis=0), moved.max(axis=0)])
+
+
 def _turn(angle: float) -> np.ndarray:
     return trimesh.transformations.rotation_matrix(angle, [0.0, 1.0, 0.0])
 
@@ -206,7 +231,7 @@ def _piece(folder: Path, link: str | None, visual: ET.Element) -> Piece:
     assert solid.volume() > 0.0, visual.get("name")
     matrix = _frame(visual)
     matrix[:3, 3] *= 1000.0
-    return Piece(str(visual.get("name")), link, solid.transform(matrix[:3]))
+    return Piece(str(visual.get("name")), link, solid.transform(matrix[:3]), printed.exists())
 
 
 if __name__ == "__main__":

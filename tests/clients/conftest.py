@@ -12,9 +12,11 @@ from jumpcad.bundle.manifest import open_bundle
 from jumpcad.robot import Robot
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
+ON_BARS = "kenan-2.0 on carbon tubes"
+"""Its legs are tubes with printed ends: more parts in a link, and hardware that turns with it."""
 
 
-@pytest.fixture(scope="session", params=["lopsided", *TEMPLATES])
+@pytest.fixture(scope="session", params=["lopsided", *TEMPLATES, ON_BARS])
 def case(
     request: pytest.FixtureRequest,
     small_robot: Robot,
@@ -25,4 +27,5 @@ def case(
     name = request.param
     if name in TEMPLATES:
         return Case(built(name), open_bundle(bundle_of(name)))
-    return Case(small_robot, export(small_robot, tmp_path_factory.mktemp("bundles") / small_robot.name, pictures=False))
+    robot = built("kenan-2.0", leg="carbon-tube-4x2") if name == ON_BARS else small_robot
+    return Case(robot, export(robot, tmp_path_factory.mktemp("bundles") / robot.name, pictures=False))

@@ -25,6 +25,10 @@ from shapely import affinity
 STEP_S = 2e-6
 DAMPING = 0.2
 """Of the roller on the cam, as a share of the critical one: a rebound with about half of the speed."""
+APART_S = 0.002
+"""Without contact for as long, the roller has left the cam; hops are shorter."""
+AFTER_S = 0.025
+"""Simulated beyond first parting and blow: the cam rebounds once or twice, and later blows are weaker."""
 G = 9.81
 
 
@@ -224,8 +228,11 @@ class Contact:
             low, high = (middle, high) if self.gap_mm(middle, cam)[0] < 0.0 else (low, middle)
         return high
 
-    def run(self, motor: dict[str, float], play: float | None = None, seconds: float = 0.03) -> Outcome:
-        """Simulate a release with one of the manifest's assumed motors; `play` (rad) replaces the measured one."""
+    def run(self, motor: dict[str, float], play: float | None = None, longest_s: float = 0.3) -> Outcome:
+        """Simulate a release with one of the manifest's assumed motors; `play` (rad) replaces the measured one.
+
+        It ends when roller and cam have parted and the cam has struck its gear, after `longest_s` at the latest.
+        """
         play = self.play if play is None else play
         spring = self.files.loop["spring"]
         rate, wound = spring["stiffness_nm_per_rad"], spring["wind_rad"]
@@ -244,14 +251,18 @@ class Contact:
         wind = (both * above - weight) / (both + rate)
         roller = wind + both * (above - wind) / lever
         turn, speed = np.array([lift, lift, lift]), np.full(3, motor["cam_rad_s"])
-        wind_rate = roller_rate = 0.0
+        before = math.radians(0.2)
+        wind_rate = roller_rate = (above - self.wind_at(lift - before)) / before * motor["cam_rad_s"]
         kick = blow = 0.0
         left = kept = raised = 0.0
+        parted = struck = math.inf
         share = damping(motor["rebound"])
         damp = [2.0 * share * math.sqrt(train * a * b / (a + b)) for a, b in itertools.pairwise(masses)]
         damp_roller = 2.0 * DAMPING * math.sqrt(contact * tip_inertia) / arm_m
         damp_lever = 0.04 * math.sqrt(lever * tip_inertia)
-        for step in range(int(seconds / STEP_S)):
+        for step in range(int(longest_s / STEP_S)):
+            if step * STEP_S > max(parted, struck) + AFTER_S:
+                break
             gap, normal, point = self.gap_mm(roller, float(turn[0]))
             force = 0.0
             centre = self.lever_mm * np.array([math.cos(self.lever_rad + roller), math.sin(self.lever_rad + roller)])
@@ -275,6 +286,8 @@ class Contact:
             speed[1] += STEP_S * (dog - head) / masses[1]
             speed[2] = max(speed[2] + STEP_S * head / masses[2], motor["cam_rad_s"])  # the motor still runs
             blow, kick = max(blow, dog), max(kick, head)
+            parted = min(parted, step * STEP_S) if gap > 0.0 and step * STEP_S > left + APART_S else parted
+            struck = min(struck, step * STEP_S) if dog > 0.0 else struck
             raised += STEP_S * weight * wind_rate  # what lifted the body is not lost
             wind, roller, turn = wind + STEP_S * wind_rate, roller + STEP_S * roller_rate, turn + STEP_S * speed
         ratio = self.files.manifest["drive"]["release"]["gear_ratio"]

@@ -20,11 +20,14 @@ LONG_TOES = "long toes"
 
 
 @lru_cache(maxsize=32)
-def built(name: str, workshop: str = "default", mass_model: str = "printed", motor: str = "") -> Robot:
-    """Return the robot of a template or of `LONG_TOES`, built once; a quick `motor` needs two pairs of gears."""
+def built(name: str, workshop: str = "default", mass_model: str = "printed", motor: str = "", leg: str = "") -> Robot:
+    """Return the robot of a template or of `LONG_TOES`, built once; a quick `motor` needs two pairs of gears.
+
+    `leg` is the bar of legs with printed ends.
+    """
     shop = load_workshop(workshop)
     mass = shop.mass.model_copy(update={"model": mass_model})
-    bought = shop.bought.model_copy(update={"motors": (motor,)} if motor else {})
+    bought = shop.bought.model_copy(update={"leg": leg} | ({"motors": (motor,)} if motor else {}))
     return build(design(name), shop.model_copy(update={"mass": mass, "bought": bought}), name)
 
 
