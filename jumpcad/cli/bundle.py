@@ -16,7 +16,7 @@ from jumpcad.cli.subjects import (
     note_template,
     printed_robot,
 )
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle
@@ -55,12 +55,14 @@ def build(
     pictures: Annotated[bool, typer.Option(help="Draw the robot.")] = True,
     step: Annotated[bool, typer.Option("--step", help="Write STEP files of the parts too.")] = False,
     ros2: Annotated[bool, typer.Option("--ros2", help="Write a ROS 2 description package too.")] = False,
+    anyway: Annotated[bool, typer.Option("--anyway", help="Write the files of a robot that does not jump.")] = False,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Build a robot: parts to print, files to simulate, what to buy, and how far it jumps.
 
-    In a folder that holds the robot already, its files are replaced and everything else stays.
+    In a folder that holds the robot already, its files are replaced and everything else stays. A robot that does not
+    jump is refused.
     """
     from jumpcad.bundle.export import export
     from jumpcad.files.outputs import require_apart
@@ -75,11 +77,13 @@ def build(
     folder = output or EXPORTS / robot.name
     if not force:
         _require_same_design_file(robot, design_file(design), folder)
-    with status(f"writing {robot.name} …"):
-        bundle = export(robot, folder, pictures, step, force, ros2)
     with status(f"simulating {robot.name} …"):
         engine = default_engine()
         printed, capsule = (simulate(one, engine=engine) for one in (robot, capsule_robot(robot.design)))
+    if printed.verdict != "jump" and not anyway:
+        raise CannotBuildError(f"{robot.name} {_jump_in_words(printed.to_dict())}; --anyway writes its files")
+    with status(f"writing {robot.name} …"):
+        bundle = export(robot, folder, pictures, step, force, ros2)
     facts = _facts(robot, bundle, printed, capsule)
     if as_json:
         print_json(facts)
