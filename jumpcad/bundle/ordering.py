@@ -27,7 +27,10 @@ SLIDER_MM = 1.5
 """Of a switch's slider outside the plate, for a fingertip; judgement."""
 THREAD_MM = 6.0
 """Of a screw inside its standoff."""
-OTHER = "solder, silicone or lithium grease, alcohol, some more cable ties 2.5 mm wide"
+OTHER = (
+    "solder, silicone or lithium grease, alcohol, adhesive tape, a strip more of foam tape, some more cable ties "
+    "2.5 mm wide; two screws M2 x 6 and two nuts M2 if the switch's ears have no thread"
+)
 
 
 def order_lines(robot: Robot) -> Iterator[str]:

@@ -16,7 +16,7 @@ from jumpcad.scene.floor import STRIPE_M, with_floor
 from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
-from jumpcad.transforms import Array, pose_at
+from jumpcad.transforms import Array, chained, pose_at
 
 RENDERS = ("rest", "compressed", "exploded")
 RENDER_SIZE = (600, 450)
@@ -96,7 +96,7 @@ def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
     moved = []
     for thing, pose in zip(things, poses, strict=True):
         y = corners_of([thing], [pose])[:, 1]
-        centre = float((pose[:3, :3] @ thing.mesh.centroid)[1] / 1000.0 + pose[1, 3])
+        centre = float((pose[1, :3] * thing.mesh.centroid).sum() / 1000.0 + pose[1, 3])
         outer = (
             float(np.clip(y.max() if centre > 0.0 else y.min(), -widest, widest)) if abs(centre) > CENTRED_M else 0.0
         )
@@ -118,13 +118,16 @@ def _renderer(things: Sequence[Visual]) -> Renderer:
 
 
 def _poses(things: Sequence[Visual], bodies: dict[str, Array]) -> list[Array]:
-    return [bodies[thing.body] @ thing.T_body_mesh for thing in things]
+    return [chained(bodies[thing.body], thing.T_body_mesh) for thing in things]
 
 
 def corners_of(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
     """Return the corners (8·n, 3) of the parts' bounding boxes in the world (m)."""
     return np.concatenate(
-        [thing.corners_m @ pose[:3, :3].T + pose[:3, 3] for thing, pose in zip(things, poses, strict=True)]
+        [
+            np.einsum("ni,ji->nj", thing.corners_m, pose[:3, :3]) + pose[:3, 3]
+            for thing, pose in zip(things, poses, strict=True)
+        ]
     )
 
 

@@ -18,6 +18,7 @@ from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.extent import extent_m
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Jump
+from jumpcad.transforms import chained
 
 MICRONS = 6
 """Decimals of lengths in m."""
@@ -48,7 +49,7 @@ def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
     """Return the viewer's data: motion, turning parts, parts' labels, assembly steps, offsets when exploded (SI)."""
     things = visuals(robot)
     bodies = body_poses(robot)
-    poses = [bodies[thing.body] @ thing.T_body_mesh for thing in things]
+    poses = [chained(bodies[thing.body], thing.T_body_mesh) for thing in things]
     apart = [after[:3, 3] - before[:3, 3] for before, after in zip(poses, exploded(things, poses), strict=True)]
     return motion(robot, jump.trajectory, jump.takeoff_time_s) | {
         "size_m": round(float(extent_m(robot).max()), MICRONS),

@@ -34,8 +34,9 @@ TIE_END_MM = 1.6
 """From a tie's slot to the end of a tray; judgement: four lines of a 0.4 mm nozzle."""
 SMALL_MM = (2.3, 6.3, 2.3)
 """Room for the body of a resistor of 0.25 W or of a diode of 1 A: along the robot, across it, and up; usual sizes."""
-BATTERY_PLAY_MM, STOP_HEIGHT_MM = 0.5, 3.0
-"""Play of a battery between the stops at its ends, and their height; judgement: packs differ, and leads pass over."""
+BATTERY_PLAY_MM, STOP_HEIGHT_MM = 0.5, 2.0
+"""Play of a battery between the stops at its ends, and their height; judgement: packs differ, leads pass over, and with
+its strap open a battery can be lifted over them below the upper tray's ties."""
 BALANCE_MM = 10.0
 """Room across for a balance lead under its tie, ahead of the battery; judgement: three wires beside their plug."""
 USB_BESIDE_MM, BESIDE_PLATE_MM = 0.9, 0.6

@@ -18,6 +18,8 @@ EDGE_MM, LEDGE_MM = 5.0, 2.0
 """Of the battery's window: distance from the tray's ends, and width left under the battery."""
 STOP_FOOT_MM = 1.0
 """Floor left before a stop of the battery."""
+STOP_MIN_MM = 4.0
+"""Least length of a stop across; judgement."""
 BOARD_LEDGE_MM = 4.0
 """Width left under a board for its tape; judgement."""
 WINDOW_MIN_MM = 4.0
@@ -42,7 +44,8 @@ def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
         ]
     lower = _floor(layout, holes, 0) - union([*straps, *(region.translate((x, at)) for region in window)])
     stops = [
-        rectangle((RIM_MM, RIM_SHARE * battery.width_mm), (x + end * electronics.stop_mm, at)) for end in (-1.0, 1.0)
+        rectangle((RIM_MM, max(RIM_SHARE * battery.width_mm, STOP_MIN_MM)), (x + end * electronics.stop_mm, at))
+        for end in (-1.0, 1.0)
     ]
     floor = _floor(layout, holes, 1)
     cuts, rims = [], []

@@ -199,7 +199,8 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("Lay the battery on the lower tray, between the two stops at its ends, its leads to the front, over "
                   "the stop. Close its strap: tight enough that it does not slide, not so tight that it dents. Gaps to "
-                  "the stops of more than 1 mm are filled with foam tape on the stop. Do not plug it in yet."),
+                  "the stops of more than 1 mm are filled with foam tape on the stop. Do not plug it in yet. Later it "
+                  "leaves the finished robot to the front: strap open, lifted over the stop."),
             Words("The plug of the balance lead lies ahead of the battery under its cable tie, its open end covered "
                   "with adhesive tape: its pins must touch nothing. To charge, pull it out from under the tie.",
                   needs="tie_balance_lead"),
@@ -219,8 +220,8 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("Solder first, with the boards loose: pads may be on a board's underside (BAT+ and BAT- often are) "
                   "or under its tie. First what is soldered by its own legs: bend the legs as soldering.svg shows "
-                  "(under Wiring), a piece of heat-shrink tube over each leg, and lay the bodies beside the "
-                  "controller, towards the driver."),
+                  "(under Wiring), a piece of heat-shrink tube over each leg, and lay the bodies where the "
+                  "picture shows them, on a strip of foam tape."),
             Words("Then solder every wire of the table under Wiring to its boards, the shortest first, and slide "
                   "heat-shrink tube over each joint. The motor's wires go to the driver last; the sensor's ends stay "
                   "free until step {step_left}."),
@@ -269,8 +270,9 @@ ORDER: tuple[Plan, ...] = (
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
                   "and Enter, and let go at once, within {release_ms} ms: the motor stops {after_ms} ms later and the "
                   "count is 1. Held longer it says `fault`: press the sensor, `wind`, and try again."),
-            Words("Pull one lead off the sensor, or open its joint, and type `wind`: the motor must not turn, and the "
-                  "answer is `fault` or `ready`. Connect it again.", needs="wiring_resistor_pull_up"),
+            Words("Press and hold the sensor, wait 2 s, type `wind`: the motor must not turn, and the answer is "
+                  "`fault` right after a jump, else `ready`. A broken lead reads the same.",
+                  needs="wiring_resistor_pull_up"),
             Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
                   "not, exchange its two wires at the driver."),
         ),
@@ -369,8 +371,9 @@ ORDER: tuple[Plan, ...] = (
         ),
         checks=(
             Words("The cam lifts the leg by {stroke}° over {lift}° of its turn; then the leg falls. Nothing rubs."),
-            Words("The sensor clicks {ready_deg}° before the drop, not earlier: otherwise the gear is half a turn "
-                  "wrong.", needs="sensor"),
+            Words("The sensor clicks {ready_deg}° before the drop, and again after it; nowhere else. Otherwise take "
+                  "the plate off: is the gear on both jaws, its groove to the left, the sensor's base against its "
+                  "mount?", needs="sensor"),
         ),
     ),
     Plan(
@@ -386,7 +389,7 @@ ORDER: tuple[Plan, ...] = (
                   "damages the gearhead."),
             Words("Put the left plate on with its screws. The springs are slack: the leg has no pin yet that they "
                   "could push. Hold the robot upright by the plates, its leg hanging, plug the battery in, switch on, "
-                  "type `wind`, then `jump`; ten times."),
+                  "USB cable in, type `wind`, then `jump`; ten times."),
             Words("Switch off, unplug, lay the robot on its right plate and take the left one off again."),
         ),
         (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),

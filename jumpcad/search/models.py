@@ -34,7 +34,7 @@ from jumpcad.workshop.varied import Value
 NEIGHBOURS = 10
 """Neighbours of a design that the objective p10 looks at, half of each kind."""
 MODELS = ("printed", "capsule", "published")
-PRESENTATION = ("bundle", "calibration", "cli", "coupon")
+PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio")
 """The packages of jumpcad that do not affect the trials of a study."""
 
 

@@ -2,7 +2,9 @@
 
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from support.built import built
 
@@ -13,7 +15,10 @@ from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.visuals import visuals
+from jumpcad.transforms import chained
 from jumpcad.workshop import load_workshop
 
 NO_LEADS = {"upper resistor", "lower resistor", "pull-up resistor", "diode"}
@@ -117,3 +122,22 @@ def test_small_parts_lie_beside_the_controller_and_apart(robot: Robot) -> None:
     names = {item.name for item in robot.hardware}
     assert {"wiring_resistor_upper", "wiring_resistor_lower", "wiring_resistor_pull_up"} <= names
     assert ("tie_balance_lead" in names) == bool(robot.workshop.bought.regulator)
+
+
+def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> None:
+    """Lifted over the stops of 2 mm: nothing but its strap and its lead's tie is in the way of its box."""
+    poses, shown = body_poses(robot), {thing.name: thing for thing in visuals(robot)}
+
+    def triangles(name: str) -> Any:
+        thing = shown[name]
+        pose = chained(poses[thing.body], thing.T_body_mesh)
+        points = np.asarray(thing.mesh.vertices) / 1000.0 @ pose[:3, :3].T + pose[:3, 3]
+        return 1000.0 * points[np.asarray(thing.mesh.faces)]
+
+    corners = triangles("battery").reshape(-1, 3)
+    lifted, out = np.array([0.0, 0.0, 2.1]), np.array([150.0, 0.0, 0.0])
+    low, high = corners.min(axis=0) + lifted, corners.max(axis=0) + lifted + out
+    for name in shown.keys() - {"battery", "strap_battery", "tie_balance_lead"}:
+        mesh = triangles(name)
+        beside = (mesh.min(axis=1) >= high - 1e-6) | (mesh.max(axis=1) <= low + 1e-6)
+        assert beside.any(axis=1).all(), name

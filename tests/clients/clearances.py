@@ -66,8 +66,6 @@ class Bundle:
             for visual in root.iter("visual")
             if visual.get("name") in TRAIN
         }
-        self.corners = [np.asarray(piece.solid.hull().to_mesh().vert_properties)[:, :3] for piece in self.pieces]
-        """Of every piece's hull (n, 3): what its box needs."""
         self.moving = [i for i, piece in enumerate(self.pieces) if piece.link != "body" or piece.name in TURNING]
         pieces = {piece.name: piece for piece in self.pieces}
         low, high = pieces["roller"].solid.bounding_box()[1::3]
@@ -127,7 +125,8 @@ class Bundle:
         """Yield the pieces that meet: names, shared volume (mm³), position."""
         poses = self.poses()
         places = [self._matrices(pose) for pose in poses]
-        boxes = np.array([[_box(*pair) for pair in zip(self.corners, matrices, strict=True)] for matrices in places])
+        corners = [np.asarray(piece.solid.hull().to_mesh().vert_properties)[:, :3] for piece in self.pieces]
+        boxes = np.array([[_box(*pair) for pair in zip(corners, matrices, strict=True)] for matrices in places])
         near = self._near(boxes)
         for pose, matrices, box in zip(poses, places, boxes, strict=True):
             beyond = (box[:, None, :3] >= box[None, :, 3:]).any(axis=2)

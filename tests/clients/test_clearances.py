@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from clients.clearances import Bundle
 
@@ -51,3 +53,25 @@ def test_the_pads_are_the_lowest_of_the_foot(bundle: Bundle) -> None:
     lowest = sorted((solid.bounding_box()[2], name) for name, solid in solids.items())
     assert all(name.endswith("_pad") or name.startswith("nose_pad") for _, name in lowest[:4])
     assert lowest[0][0] == pytest.approx(-1000.0 * bundle.loop["foot_depth_m"], abs=0.02)
+
+
+def test_the_program_sees_a_leg_that_no_stop_holds(bundle_of: Callable[[str], Path]) -> None:
+    """Turned 8° farther past rest than the stop and its pad let it, the leg runs into the stop's bar."""
+    room = Bundle(bundle_of("kenan-2.0"))
+    room.stop += math.radians(8.0)
+    assert ("stop_bar", "main_leg") in {(a, b) for a, b, _, _ in room.meetings()}
+
+
+def test_the_program_sees_a_part_in_the_way(bundle_of: Callable[[str], Path]) -> None:
+    """A standoff moved onto the leg is met by it, and one moved into the gear by the gear."""
+    room = Bundle(bundle_of("kenan-2.0"))
+    pieces = {piece.name: piece for piece in room.pieces}
+    number = room.pieces.index(pieces["standoff_1"])
+    for name in ("main_leg", "cam_gear"):
+        place = room.leg_place(room.wound / 2.0) if name == "main_leg" else np.eye(4)
+        solid = pieces[name].solid.transform(place[:3])
+        there, here = (
+            np.reshape(one.bounding_box(), (2, 3)).mean(axis=0) for one in (solid, pieces["standoff_1"].solid)
+        )
+        room.pieces[number] = replace(pieces["standoff_1"], solid=pieces["standoff_1"].solid.translate(there - here))
+        assert name in {other for pair in room.meetings() if "standoff_1" in pair for other in pair[:2]}
