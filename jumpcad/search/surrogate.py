@@ -22,7 +22,9 @@ from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 VERDICT = "verdict"
-"""A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
+"""The constraint of all rejections that have no margin of their own; see `constraint_margins`."""
+GRADES, TINY = (-3.0, -0.1), 1e-9
+"""Least and largest value of a graded rejection."""
 MAX_CONSTRAINTS = 8
 _FIT_STEPS = 30
 
@@ -147,8 +149,10 @@ class Surrogate:
 
     def _distance(self, points: Array) -> Array:
         """Return the distances (m, n) of points (m, k) from the data: √5·r, in length scales of the kernel."""
-        difference = points[:, None, :] / self._lengths - self._seen[None] / self._lengths
-        distance: Array = np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        squares = np.zeros((len(points), len(self._seen)))
+        for column, seen in zip((points / self._lengths).T, (self._seen / self._lengths).T, strict=True):
+            squares += (column[:, None] - seen) ** 2  # one axis at a time: all at once would take 40 MB
+        distance: Array = np.sqrt(5.0 * squares)
         return distance
 
 
@@ -252,30 +256,33 @@ def unwarped(values: Array) -> Array:
 def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
     """Return the margins (n,) of each constraint that rejected a design; NaN where a trial lacks it.
 
-    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most often.
+    At most `MAX_CONSTRAINTS`: those with margins on both sides that reject most often, and `VERDICT` for all other
+    rejections together. That is 1 for a jump; for a limit whose margin is known only where it is missed (most refusals,
+    robots that stay on the ground), the margin over its median; and -1 for what has none.
     """
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
     errors = {f.name for trial in trials for f in trial.evaluation.findings if f.severity == "error"}
-    ranked = sorted(errors & set(rejections), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
-    margins = {name: _margins(trials, name) for name in ranked}
-    if rejections:
-        margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
-    return margins
+    found = {name: _margins(trials, name) for name in errors & set(rejections)}
+    one_sided = {name: margins for name, margins in found.items() if not np.nanmax(margins) > 0.0}
+    both = sorted(set(found) - set(one_sided), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
+    verdict = np.array([_verdict(trial, set(both)) for trial in trials])
+    for margins in one_sided.values():
+        graded = margins / max(float(-np.nanmedian(margins)), TINY)
+        verdict = np.where(np.isnan(margins), verdict, np.clip(graded, *GRADES))
+    chosen = {name: found[name] for name in both}
+    return chosen | ({VERDICT: verdict} if (verdict < 0.0).any() else {})
 
 
 def _margins(trials: Sequence[Trial], name: str) -> Array:
-    """Return the margins (n,) of a constraint.
+    found = ([f.margin for f in trial.evaluation.findings if f.name == name] for trial in trials)
+    return np.array([min(one, default=np.nan) for one in found])
 
-    Some are known only where they are missed: of a refusal, or of a robot that stays on the ground. Where a robot was
-    built, they then count as met by as much as they are missed in the median.
-    """
-    found = [[f.margin for f in trial.evaluation.findings if f.name == name] for trial in trials]
-    margins = np.array([min(one, default=np.nan) for one in found])
-    missed = margins[np.isfinite(margins)]
-    if missed.size and missed.max() <= 0.0:
-        built = np.array([bool(trial.evaluation.metrics) for trial in trials])
-        margins[built & np.isnan(margins)] = -np.median(missed)
-    return margins
+
+def _verdict(trial: Trial, known: set[str]) -> float:
+    """Return 1 for a jump, NaN for what a known margin rejects, else -1."""
+    if trial.evaluation.feasible:
+        return 1.0
+    return np.nan if known & set(trial.evaluation.reasons) else -1.0
 
 
 def _scaled(margins: Array) -> Array:

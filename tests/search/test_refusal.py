@@ -2,7 +2,6 @@
 
 import pickle
 
-import numpy as np
 import pytest
 
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
@@ -12,7 +11,7 @@ from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.refusal import refusal_findings
-from jumpcad.search.surrogate import constraint_margins
+from jumpcad.search.surrogate import VERDICT, constraint_margins
 from jumpcad.search.trial import Trial
 from jumpcad.simulation import Settings, simulate
 
@@ -60,10 +59,10 @@ def test_a_robot_that_stays_on_the_ground_says_how_much_speed_is_missing():
     assert missing.margin < 0.0
 
 
-def test_a_margin_that_only_refusals_have_counts_as_met_where_a_robot_was_built():
+def test_a_margin_that_only_refusals_have_grades_the_verdict():
     missed = [Finding("room", "error", margin, "mm", "", "") for margin in (-1.0, -3.0, -2.0)]
     trials = [trial(Evaluation("cannot_build", findings=(one,)), number) for number, one in enumerate(missed)]
     trials += [trial(Evaluation("jump", {"fitness": 1.0}), 3), trial(Evaluation("loop"), 4)]
-    margins = constraint_margins(trials)["room"]
-    assert margins[:4].tolist() == [-1.0, -3.0, -2.0, 2.0]
-    assert np.isnan(margins[4])
+    found = constraint_margins(trials)
+    assert list(found) == [VERDICT]
+    assert found[VERDICT].tolist() == [-0.5, -1.5, -1.0, 1.0, -1.0]
