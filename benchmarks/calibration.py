@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 
 from jumpcad.calibration import Model, calibrate, explanations, load_subject, predicted_jump
-from jumpcad.calibration.likelihood import ANGLE_DEG, JUMP_SHARE, MODEL_SHARE, TAILS
+from jumpcad.calibration.likelihood import ANGLE_DEG, JUMP_SHARE, MODEL_SHARE, STUDENT_T_DEGREES
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.posterior import SHARES, Posterior, sampled
+from jumpcad.calibration.posterior import Posterior, sampled
 from jumpcad.calibration.prediction import growth
-from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, SPRING_EFFICIENCY, modelled_mass
+from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, modelled_mass
 from jumpcad.calibration.subject import Subject
 from jumpcad.calibration.video import seen_takeoff
 from jumpcad.mechanism.variants import with_spring_factor
@@ -60,7 +60,12 @@ def measured(subject: Subject, true: dict[str, float], jump: Jump, plan: int, rn
     assert jump.takeoff_angle_deg is not None
     deviation = math.hypot(JUMP_SHARE / math.sqrt(JUMPS), MODEL_SHARE)
     single = JUMP_SHARE * rng.standard_normal(JUMPS)
-    logs = math.log(1000.0 * jump.ballistic_range_m) + deviation * rng.standard_t(TAILS) + single - single.mean()
+    logs = (
+        math.log(1000.0 * jump.ballistic_range_m)
+        + deviation * rng.standard_t(STUDENT_T_DEGREES)
+        + single
+        - single.mean()
+    )
     data: dict[str, Any] = {
         "design": subject.measured.design, "source": "synthetic", "release": "dog",
         "jumps": ({"distance_mm": tuple(np.exp(logs).tolist()), "distance_of": "centre-of-mass"},),
@@ -98,7 +103,7 @@ def trials(robot: str, count: int, seed: int) -> dict[str, Any]:
             found = {key.split(":")[0]: values for key, values in posterior.values.items()}
             found["energy per mass"] = found["spring_efficiency"] * found["rate"] / found["mass"]
             for key, value in true.items():
-                low, middle, high = np.quantile(found[key], SHARES)
+                low, middle, high = np.quantile(found[key], QUANTILES)
                 held[key].append(bool(low <= value <= high))
                 widths[key].append(float(high - low) / middle)
         result[name] = {
@@ -120,7 +125,7 @@ def paper(seed: int) -> dict[str, Any]:
         "residuals": first.residuals(),
         "prediction": prediction.quantiles(),
         "beside": prediction.beside(),
-        "growth": np.quantile(times, SHARES).tolist(),
+        "growth": np.quantile(times, QUANTILES).tolist(),
         "growth_of_1.40": float((times >= 1.4).mean()),
         "explanations": [vars(one) for one in explanations(prediction, 0.35)],
         "both": {"energy_per_mass": both.energies(), "residuals": both.residuals(), "parameters": _plain(both)},

@@ -10,6 +10,7 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -86,11 +87,8 @@ def priced(name: str, robot: Robot, jump: Jump) -> Priced:
     )
 
 
-def main() -> None:
-    """Compute, print as JSON, and draw where asked for."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--plots", type=Path)
-    arguments = parser.parse_args()
+def computed(folder: Path | None = None) -> dict[str, Any]:
+    """Return prices of effects, energy accounts and floors of the templates; draw the last two into a folder."""
     robots = {name: build(load_design(name), name=name) for name in template_names("robots")}
     jumps = {name: simulate(robot, Settings(), "planar") for name, robot in robots.items()}
     accounts = {name: jump.energy_account_j or {} for name, jump in jumps.items()}
@@ -100,16 +98,22 @@ def main() -> None:
         floors[name] = tuple(
             np.array([getattr(jump, key) or np.nan for jump in found]) for key in ("ballistic_range_m", "com_rise_m")
         )
-    result = {
+    if folder:
+        save_figure(plots.energy_accounts(accounts), folder, "energy-account")
+        save_figure(plots.floors(FRICTIONS.tolist(), floors), folder, "floor-friction")
+    return {
         "effects": {name: vars(priced(name, robot, jumps[name])) for name, robot in robots.items()},
         "accounts_j": accounts,
         "floors": {"friction": FRICTIONS.tolist()}
         | {name: {"range_m": both[0].tolist(), "rise_m": both[1].tolist()} for name, both in floors.items()},
     }
-    if arguments.plots:
-        save_figure(plots.energy_accounts(accounts), arguments.plots, "energy-account")
-        save_figure(plots.floors(FRICTIONS.tolist(), floors), arguments.plots, "floor-friction")
-    print(json.dumps(result, indent=1))
+
+
+def main() -> None:
+    """Compute, print as JSON, and draw where asked for."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--plots", type=Path)
+    print(json.dumps(computed(parser.parse_args().plots), indent=1))
 
 
 if __name__ == "__main__":

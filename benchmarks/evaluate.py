@@ -36,10 +36,9 @@ STAGES: dict[str, tuple[ModuleType, str]] = {
     "plan": (assembly, "make_layout"),
     "drawings": (assembly, "drawings"),
     "printed masses": (assembly, "mass_properties"),
-    "growth": (building, "constraint_findings"),
+    "checks": (building, "constraint_findings"),
     "bought parts": (shopping, "bought_parts"),
     "simulation": (evaluation, "simulate"),
-    "checks": (evaluation, "constraint_findings"),
 }
 """Stages of `evaluate`: module, and name of the function in it."""
 

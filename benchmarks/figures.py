@@ -1,7 +1,8 @@
-"""The figures that the README shows, by name, each as the text that it should have; `readme.py` compares them.
+"""The figures that README and documentation show, by name, each as the text that it should have; `readme.py` compares.
 
-What follows from the templates alone takes some seconds: `of_robots`, `of_prototypes`, `of_best_printable`,
-`of_assumptions`. The others take minutes: they run the search, PrusaSlicer and the benchmarks of this folder.
+What follows from the templates alone takes some seconds: `of_robots`, `of_engines`, `of_prototypes`,
+`of_best_printable`, `of_assumptions`. The others take minutes: they run the search, PrusaSlicer and the benchmarks of
+this folder. Those of calibrations are in `calibrated.py`.
 """
 
 import json
@@ -27,15 +28,20 @@ from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
-from jumpcad.search.robust import varied_lengths, varied_parameters
+from jumpcad.search.tolerances import Making, varied_parameters
+from jumpcad.search.variant import Variant
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.workshop import load_workshop
 
 HERE = Path(__file__).parent
 ROBOTS = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+SHOWN = ("kenan-1.0", "kenan-2.0", "best-printable")
+"""The templates of the README."""
 PROTOTYPES = tuple(row for row in PUBLISHED_RESULTS if row.measured is not None)
 SEARCH = ("optimize", "--evaluations", "240", "--seed", "0")
+RIVALS = ("pybullet", "mujoco", "planar")
+"""The engines that are compared."""
 PUBLISHED_MS = 40.0
 """CPU time of one published simulation on the machine that all CPU times are scaled to."""
 SEARCH_SLACK = 0.01
@@ -99,6 +105,41 @@ def of_robots() -> dict[str, str]:
     return {"robots": table(head, rows)}
 
 
+def of_results() -> dict[str, str]:
+    """Return how far three of the templates jump, and how far the real ones did."""
+    measured = {row.template: row.measured for row in PROTOTYPES}
+    rows = []
+    for name in SHOWN:
+        robot, jump, _ = built(name)
+        real = measured.get(name)
+        rows.append(
+            (f"`{name}`", mm(jump.ballistic_range_m), mm(jump.com_rise_m), grams([robot.mass_kg]),
+             f"{mm(real.distance_m)}, {mm(real.height_m)}" if real else "not built")
+        )  # fmt: skip
+    head = ("design", "simulated range", "rise", "mass", "real robot: distance, height")
+    return {"results": table(head, rows)}
+
+
+def of_engines() -> dict[str, str]:
+    """Return range and rise of all templates, printed and as capsule robots, in every engine at its default step."""
+    rows = []
+    for name in ROBOTS:
+        printed = built(name)[0]
+        for kind, robot in (("printed", printed), ("capsule", capsule_robot(printed.design))):
+            jumps = [simulate(robot, engine=engine) for engine in RIVALS]
+            found = [[jump.ballistic_range_m for jump in jumps], [jump.com_rise_m for jump in jumps]]
+            cells = [f"{1000.0 * (value or 0.0):.1f}" for values in found for value in values]
+            rows.append((f"`{name}`, {kind}", *cells, f"{_apart(found[0]):.2f} %, {_apart(found[1]):.2f} %"))
+    head = ("robot", *(f"{figure} (mm), {engine}" for figure in ("range", "rise") for engine in RIVALS), "apart")
+    return {"engines": table(head, rows)}
+
+
+def _apart(values: list[float | None]) -> float:
+    """Return how far the smallest value is below the largest (%); inf if one is missing."""
+    known = [value for value in values if value is not None]
+    return 100.0 * (1.0 - min(known) / max(known)) if len(known) == len(values) else float("inf")
+
+
 def of_prototypes() -> dict[str, str]:
     """Return the prototypes' measured jumps beside the simulated ones, and what the measured ones would need."""
     columns = [_prototype(row) for row in PROTOTYPES]
@@ -145,7 +186,8 @@ def of_best_printable() -> dict[str, str]:
     design, workshop = load_design("best-printable"), load_workshop("default")
     length_mm = 2.0 * workshop.fits.sliding_mm  # a link has the play of a sliding fit at both ends
     generator = np.random.default_rng(0)
-    neighbours = varied_parameters(design, generator) + varied_lengths(design, length_mm, generator)
+    neighbours = varied_parameters(design, generator)
+    neighbours += [one.design for one in Making(length_mm).neighbours(Variant(design), generator)]
     model, score = RobotModel("printed", workshop), find_objective("fitness").score
     refused = sum(score(model(neighbour)) is None for neighbour in neighbours)
     bounds = [
@@ -164,7 +206,7 @@ def of_best_printable() -> dict[str, str]:
 
 
 def of_assumptions() -> dict[str, str]:
-    """Return what the README says of settings, of the search's call in Python, and of what may differ elsewhere."""
+    """Return what the docs say of settings, of the search's call in Python, and of what may differ elsewhere."""
     study = coefficients(capsule_robot(load_design("kenan-2.0")), Settings())
     given = ", ".join(f"{option[2:]}={value}" for option, value in zip(SEARCH[1::2], SEARCH[2::2], strict=True))
     return {
@@ -209,6 +251,7 @@ def of_speed() -> dict[str, str]:
     evaluate = _json(str(HERE / "evaluate.py"), "--rounds", "1")
     building = _json(str(HERE / "build.py"), "kenan-2.0")["kenan-2.0"]
     start = _json(str(HERE / "start.py"))
+    studio = _json(str(HERE / "studio.py"), "--steps", "1")
     scale = PUBLISHED_MS / evaluator["published"]["cpu_ms"]
     scale_there = PUBLISHED_MS / evaluate["speed"]["published_ms"]
 
@@ -228,6 +271,10 @@ def of_speed() -> dict[str, str]:
         ("`jumpcad build kenan-2.0`", s(building["total"]), "`build.py`"),
         ("… of this, pictures", s(building["pictures"]), "`build.py`"),
         ("`jumpcad --help`", s(start["help_s"]), "`start.py`"),
+        ("studio: from a slider to the figures with the study's masses", ms(scale * studio["figures"]["median"]),
+         "`studio.py`"),
+        ("… to the printed robot's figures", ms(scale * studio["printed"]["median"]), "`studio.py`"),
+        ("… to its new meshes", ms(scale * studio["meshes"]["median"]), "`studio.py`"),
         ("the search for `best-printable`, all workers together", s(outcome("printed").cpu_s), "`readme.py`"),
     )  # fmt: skip
     return {"speed": table(("what", "CPU time", "computed by"), rows)}

@@ -23,8 +23,6 @@ from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.study_plots import plot_study
-from jumpcad.search.table import write_table
 from jumpcad.search.trial import Trial
 
 TARGET_MB = 400.0
@@ -81,12 +79,16 @@ def use(name: str, path: Path, rows: int) -> None:
     if name == "resume":
         resume(path, rows)
         return
-    with StudyStore.read(path) as store:
+    with StudyStore.read(path) as store:  # what a use needs is imported for it alone, as by the command line
         if name == "read":
             assert len(store.trials()) == rows
         elif name == "plot":
+            from jumpcad.search.study_plots import plot_study
+
             plot_study(store, path.parent / "plots")
         else:
+            from jumpcad.search.table import write_table
+
             write_table(store.trials(), path.parent / "trials.csv")
 
 

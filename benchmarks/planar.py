@@ -1,15 +1,13 @@
 """The planar engine against converged PyBullet and MuJoCo (step 1/16000 s), and its CPU time.
 
-Errors of range on the table of reference flights, on printed robots of random designs that pass the gate, and on
-slipping ones; CPU time of everything in turn, so that a busy machine slows all alike. For slipping feet MuJoCo has
-contacts that its steps resolve.
-Run `python benchmarks/planar.py [--json] [--rounds N] [--printed N] [--slipping N]`.
+Errors of range on the table of reference flights, on capsule and printed robots of random designs that pass the gate,
+and on slipping ones; CPU time of everything in turn, so that a busy machine slows all alike.
+Run `python benchmarks/planar.py [--json] [--rounds N] [--capsule N] [--printed N] [--slipping N]`.
 """
 
 import argparse
 import csv
 import json
-import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
@@ -26,13 +24,10 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import statics_findings
 from jumpcad.robot import Robot
-from jumpcad.simulation import Settings, load_settings, simulate
+from jumpcad.simulation import load_settings, simulate
 from jumpcad.simulation.planar import PlanarWorld
 
 TESTS = Path(__file__).parents[1] / "tests"
-sys.path.insert(0, str(TESTS))
-from support.push_off import last_contact_range_m, softer_mujoco_range_m  # noqa: E402
-
 FINE, DEFAULT = load_settings("fine"), load_settings("default")
 RIVALS = ("pybullet", "mujoco")
 FRICTIONS = (0.3, 0.6)
@@ -48,8 +43,8 @@ def of_table() -> Iterator[tuple[Robot, str, float | None]]:
             yield robot, row["verdict"], float(row["ballistic_range_m"]) if row["ballistic_range_m"] else None
 
 
-def printed_robots(count: int) -> list[Robot]:
-    """Return the templates and random designs as printed robots that pass the gate."""
+def robots_of(make: Callable[[Design], Robot], count: int) -> list[Robot]:
+    """Return the templates and random designs as robots that pass the gate."""
     rng = np.random.default_rng(12)
     lower, upper = np.transpose([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()])
     designs = [load_design(name) for name in template_names("robots")][:count]
@@ -57,11 +52,10 @@ def printed_robots(count: int) -> list[Robot]:
     while len(robots) < count:
         design = designs.pop(0) if designs else Design.from_vector(rng.uniform(lower, upper).tolist())
         try:
-            robot = build(design)
+            robot = make(design)
+            robots += [robot] if not errors(statics_findings(robot)) else []
         except CannotBuildError:
             continue
-        if not errors(statics_findings(robot)):
-            robots.append(robot)
     return robots
 
 
@@ -86,24 +80,16 @@ def table_errors() -> dict[str, dict[str, float]]:
     }
 
 
-def printed_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
-    """Return the errors on printed robots at the default step, against each rival and of one against the other."""
+def random_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
+    """Return the errors on robots at the default step, against each rival and of one against the other."""
     ranges = {rival: [simulate(robot, FINE, rival).ballistic_range_m for robot in robots] for rival in RIVALS}
-    ranges["mujoco, contacts of 8 steps"] = [softer_mujoco_range_m(robot, FINE, 8.0) for robot in robots]
     planar = [simulate(robot, DEFAULT, "planar").ballistic_range_m for robot in robots]
     result = {rival: errors_of(planar, found) for rival, found in ranges.items()}
     return result | {"mujoco against pybullet": errors_of(ranges["mujoco"], ranges["pybullet"])}
 
 
-def sliding_range_m(robot: Robot, settings: Settings, rival: str) -> float | None:
-    """Return a rival's range after the last contact, MuJoCo's with four times as many steps and contacts of 31 µs."""
-    if rival == "mujoco":
-        return softer_mujoco_range_m(robot, settings.model_copy(update={"dt_s": FINE.dt_s / 4}), 8.0)
-    return last_contact_range_m(robot, settings, rival)
-
-
 def slipping_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
-    """Return the errors at frictions where feet slide, each rival to its last contact."""
+    """Return the errors at frictions where feet slide."""
     frictions = np.random.default_rng(3).uniform(*FRICTIONS, len(robots))
     cases = [
         (robot, FINE.model_copy(update={"ground_friction": float(friction)}))
@@ -112,11 +98,11 @@ def slipping_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
     coarse = {"dt_s": DEFAULT.dt_s}
     planar = [simulate(robot, settings.model_copy(update=coarse), "planar") for robot, settings in cases]
     slides = [jump.energy is not None and jump.energy.slip_j > SLIDES * jump.spring_energy_j for jump in planar]
+    sliding = [index for index, slid in enumerate(slides) if slid]
     result = {}
     for rival in RIVALS:
-        ranges = [sliding_range_m(robot, settings, rival) for robot, settings in cases]
-        sliding = [index for index, slid in enumerate(slides) if slid]
-        result[rival] = errors_of([planar[k].ballistic_range_m for k in sliding], [ranges[k] for k in sliding])
+        ranges = [simulate(*cases[index], rival).ballistic_range_m for index in sliding]
+        result[rival] = errors_of([planar[index].ballistic_range_m for index in sliding], ranges)
     return result
 
 
@@ -154,13 +140,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--capsule", type=int, default=40)
     parser.add_argument("--printed", type=int, default=40)
     parser.add_argument("--slipping", type=int, default=20)
     arguments = parser.parse_args()
     result: dict[str, dict[str, dict[str, float]]] = {"speed": speeds(arguments.rounds), "table": table_errors()}
-    robots = printed_robots(max(arguments.printed, arguments.slipping))
+    if arguments.capsule:
+        result["capsule"] = random_errors(robots_of(capsule_robot, arguments.capsule))
+    robots = robots_of(build, max(arguments.printed, arguments.slipping))
     if arguments.printed:
-        result["printed"] = printed_errors(robots[: arguments.printed])
+        result["printed"] = random_errors(robots[: arguments.printed])
     if arguments.slipping:
         result["slipping"] = slipping_errors(robots[: arguments.slipping])
     if arguments.json:

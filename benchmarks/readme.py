@@ -1,12 +1,13 @@
-"""Is every figure of the README what the program gives today? Exit code 1 and a list of what differs, if not.
+"""Is every figure of README and docs what the program gives today? Exit code 1 and a list of what differs, if not.
 
-Compared are the README's figures between `<!-- NAME -->` and `<!-- / -->`, the template `best-printable` and its
-picture. Words have to be the same. Numbers may be a unit of their last digit apart; those of the search, which may
-take another path on another processor or library, 1 %; CPU times, a factor of 1.5.
+Compared are the figures between `<!-- NAME -->` and `<!-- / -->` in README.md and docs/*.md, the template
+`best-printable` and its picture. Words have to be the same. Numbers may be a unit of their last digit apart; those of
+the search, which may take another path on another processor or library, 1 %; those of a sampler 5 %; CPU times, a
+factor of 1.5.
 
-Run `python benchmarks/readme.py [--cheap | --only search|masses|speed ...] [--write]`. The search, PrusaSlicer's
-masses and the CPU times (with the search's) take minutes: `--cheap` leaves them out, as the tests do; `--only` takes
-those that it names. `--write` corrects README, template and picture.
+Run `python benchmarks/readme.py [--cheap | --only search|masses|speed|calibration|effects ...] [--write]`. All but
+what follows from the templates takes minutes: `--cheap` leaves it out, as the tests do; `--only` takes those that it
+names. `--write` corrects pages, template and picture.
 """
 
 import argparse
@@ -16,6 +17,7 @@ from collections.abc import Callable, Iterator
 from itertools import zip_longest
 from pathlib import Path
 
+import calibrated
 import figures
 
 from jumpcad.bundle.renders import renders
@@ -23,7 +25,7 @@ from jumpcad.design import Design
 from jumpcad.files.outputs import write_atomically
 
 ROOT = Path(__file__).parents[1]
-README = ROOT / "README.md"
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 TEMPLATE = ROOT / "templates" / "robots" / "best-printable.toml"
 PICTURE = ROOT / "docs" / "best-printable.png"
 COMMAND = " ".join(("jumpcad", *figures.SEARCH))
@@ -34,6 +36,8 @@ SPEED_SLACK = 1.0 - 1.0 / figures.SPEED_FACTOR
 Maker = Callable[[], dict[str, str]]
 CHEAP: dict[Maker, float] = {
     figures.of_robots: 0.0,
+    figures.of_results: 0.0,
+    figures.of_engines: 0.0,
     figures.of_prototypes: 0.0,
     figures.of_best_printable: 0.0,
     figures.of_assumptions: 0.0,
@@ -42,21 +46,24 @@ COSTLY: dict[str, tuple[Maker, float]] = {
     "search": (figures.of_search, figures.SEARCH_SLACK),
     "masses": (figures.of_masses, 0.0),
     "speed": (figures.of_speed, SPEED_SLACK),
+    "calibration": (calibrated.of_calibration, calibrated.SAMPLER_SLACK),
+    "effects": (calibrated.of_effects, 0.0),
 }
 
 FIGURE = re.compile(r"<!-- ([\w' -]+) -->(\n?)(.*?)(\n?)<!-- / -->", re.S)
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
 
 
-def shown(readme: str) -> dict[str, str]:
-    """Return the figures that a README shows, by name."""
-    return {found[1]: found[3] for found in FIGURE.finditer(readme)}
+def shown(page: str) -> dict[str, str]:
+    """Return the figures that a page shows, by name."""
+    return {found[1]: found[3] for found in FIGURE.finditer(page)}
 
 
-def rewritten(readme: str, made: dict[str, str]) -> str:
-    """Return a README with other figures."""
+def rewritten(page: str, made: dict[str, str]) -> str:
+    """Return a page with other figures."""
     return FIGURE.sub(
-        lambda found: f"<!-- {found[1]} -->{found[2]}{made.get(found[1], found[3])}{found[4]}<!-- / -->", readme
+        lambda found: f"<!-- {found[1]} -->{found[2]}{made.get(found[1], found[3])}{found[4] or found[2]}<!-- / -->",
+        page,
     )
 
 
@@ -65,7 +72,7 @@ def differences(name: str, written: str, made: str, slack: float = 0.0) -> Itera
     for there, here in zip_longest(written.splitlines(), made.splitlines(), fillvalue=""):
         numbers = zip(NUMBER.findall(there), NUMBER.findall(here), strict=False)
         if NUMBER.sub("0", there) != NUMBER.sub("0", here) or any(apart(*pair, slack) for pair in numbers):
-            yield f"README.md, {name}: says {there!r}, should say {here!r}"
+            yield f"{name}: says {there!r}, should say {here!r}"
 
 
 def apart(written: str, made: str, slack: float = 0.0) -> bool:
@@ -99,7 +106,7 @@ def main(arguments: list[str] | None = None) -> int:
     some = parser.add_mutually_exclusive_group()
     some.add_argument("--cheap", action="store_true", help="without search, slicer and CPU times")
     some.add_argument("--only", nargs="+", choices=COSTLY, default=[*COSTLY], help="which of these")
-    parser.add_argument("--write", action="store_true", help="correct README, template and picture")
+    parser.add_argument("--write", action="store_true", help="correct pages, template and picture")
     options = parser.parse_args(arguments)
     wrong, costly = list[str](), [] if options.cheap else options.only
     if "search" in costly:
@@ -109,21 +116,24 @@ def main(arguments: list[str] | None = None) -> int:
             write_atomically(TEMPLATE, HEADING + design.to_toml())
         wrong += template_differences(design, winner["fitness"])
     wrong += picture_differences(options.write)
-    readme = README.read_text(encoding="utf-8")
-    written, names = shown(readme), set[str]()
-    for make, slack in (CHEAP | dict(COSTLY[name] for name in costly)).items():
-        made = make()
-        names |= made.keys()
+    made, slack = dict[str, str](), dict[str, float]()
+    for make, off in (CHEAP | dict(COSTLY[name] for name in costly)).items():
+        found = make()
+        made |= found
+        slack |= dict.fromkeys(found, off)
+    there = set[str]()
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        written = shown(text)
+        there |= written.keys()
         if options.write:
-            readme = rewritten(readme, made)
-        else:
-            for name in made.keys() & written.keys():
-                wrong += differences(name, written[name], made[name], slack)
-    wrong += [f"README.md, {name}: is missing" for name in sorted(names - written.keys())]
+            write_atomically(page, rewritten(text, made))
+            continue
+        for name in made.keys() & written.keys():
+            wrong += differences(f"{page.name}, {name}", written[name], made[name], slack[name])
+    wrong += [f"{name}: is on no page" for name in sorted(made.keys() - there)]
     if len(costly) == len(COSTLY):
-        wrong += [f"README.md, {name}: nothing computes it" for name in sorted(written.keys() - names)]
-    if options.write:
-        write_atomically(README, readme)
+        wrong += [f"{name}: nothing computes it" for name in sorted(there - made.keys())]
     print("\n".join(wrong) or "every figure is what the program gives")
     return int(bool(wrong))
 

@@ -150,6 +150,14 @@ class Design(Record):
 PARAMETERS: tuple[str, ...] = tuple(Design.model_fields)
 
 
+def limits_of(parameter: str) -> tuple[float, float]:
+    """Return the least and the greatest value that a design can have in a parameter."""
+    limits = Design.model_fields[parameter].metadata
+    lower = next(limit.ge for limit in limits if hasattr(limit, "ge"))
+    upper = next(limit.le for limit in limits if hasattr(limit, "le"))
+    return float(lower), float(upper)
+
+
 @dataclass(frozen=True)
 class Bounds:
     """Lower and upper limit of one searched parameter, in the parameter's own unit."""

@@ -40,11 +40,11 @@ SOCKET_WALL_MM = 1.6
 SOCKET_PLAY_MM = 0.3
 """Between the motor and its socket where room is kept for both; judgement: more than a sliding fit."""
 MOTOR_CAP_MM = 2.4
-"""Thickness of the cap that holds the motor in its socket; judgement: an M2 head sunk into 1 mm of it."""
+"""Thickness of the cap that holds the motor in its socket; judgement: an M2 head sunk, 0.8 mm below it."""
 TERMINALS_MM = 0.5
 """Between the motor's rear face and the plate, in which a window lets its terminals through; judgement."""
 CAP_EAR_MM = 5.6
-"""How far the ears for the motor cap's screws reach beyond the socket: an M2 head of 3.8 mm (ISO 4762) and a wall."""
+"""How far the ears for the motor cap's screws reach beyond the socket: an M2 head of 3.8 mm (ISO 14580) and a wall."""
 TOE_TIP_WIDTH_MM = 5.0
 """Width of a toe's tip; judgement: wider than high, so that a landing does not turn it over."""
 PAD_WALL_MM = 3.0

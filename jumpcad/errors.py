@@ -20,9 +20,17 @@ class JumpcadError(Exception):
 
 
 class CannotBuildError(JumpcadError):
-    """The request is well-formed, but the answer is no: this design cannot work or cannot be made."""
+    """The request is well-formed, but the answer is no: this design cannot work or cannot be made.
+
+    Where a number missed its limit, `limit` names it and `margin` says by how much, in `unit`; negative.
+    """
 
     exit_code = 1
+
+    def __init__(self, message: str, limit: str = "", margin: float | None = None, unit: str = "mm") -> None:
+        super().__init__(message)
+        self.limit, self.unit = limit, unit
+        self.margin = None if margin is None else min(float(margin), 0.0)
 
 
 def without_controls(text: str) -> str:

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from jumpcad.arguments import typed
-from jumpcad.building import build
-from jumpcad.checks import constraint_findings
+from jumpcad.building import built_and_checked
 from jumpcad.design import Design
 from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
@@ -73,10 +72,9 @@ def evaluate(
     CannotBuildError
         If the mechanism cannot work, or there is no room for its parts.
     """
-    robot = build(design, workshop, name="")
+    robot, findings = built_and_checked(design, workshop, name="")
     jump = simulate(robot, settings, engine)
-    findings = (*jump.findings, *constraint_findings(robot))
-    return EvaluationResult(robot, jump, findings, _metrics(robot, jump))
+    return EvaluationResult(robot, jump, (*jump.findings, *findings), _metrics(robot, jump))
 
 
 def _metrics(robot: Robot, jump: Jump) -> dict[str, float]:

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 Severity = Literal["info", "warning", "error"]
+SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,16 @@ class Finding:
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
         return dict(vars(self))  # flat, so the slow deep copy of `asdict` is not needed
+
+
+def bare(name: str, severity: Severity, margin: float, unit: str) -> Finding:
+    """Return a finding without texts and numbers but its margin: what a study keeps."""
+    return Finding(name, severity, margin, unit, "", "")
+
+
+def is_bare(finding: Finding) -> bool:
+    """Tell whether a finding has nothing but name, severity and margin."""
+    return finding == bare(finding.name, finding.severity, finding.margin, finding.unit)
 
 
 def at_most(

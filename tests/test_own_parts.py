@@ -4,7 +4,9 @@ import filecmp
 import json
 import re
 from collections.abc import Callable
+from itertools import chain
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.commands import exit_code_of
@@ -21,7 +23,9 @@ from jumpcad.search.models import RobotModel
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import OWN_PARTS, load_workshop
 
-Write = Callable[[str], Path]
+Tables = dict[str, dict[str, Any]]
+"""Tables of a workshop by their headings."""
+Write = Callable[[str | Tables], Path]
 KENAN = load_design("kenan-2.0")
 CHAPTER = (Path(__file__).parents[1] / "docs" / "workshop.md").read_text(encoding="utf-8")
 (EXAMPLE,) = re.findall(r"```toml\n(\[bought\].*?)```", CHAPTER, re.S)
@@ -42,24 +46,24 @@ source = "a shop"
 def written(tmp_path: Path) -> Write:
     """Return a function that writes `my.toml`."""
 
-    def write(text: str) -> Path:
+    def write(content: str | Tables) -> Path:
         path = tmp_path / "my.toml"
-        path.write_text(text, encoding="utf-8")
+        path.write_text(content if isinstance(content, str) else in_toml(content), encoding="utf-8")
         return path
 
     return write
 
 
-WIDE_TOES = "[body]\ntoe_half_width_mm = 90.0\n"
+WIDE_TOES: Tables = {"body": {"toe_half_width_mm": 85.0}}
+"""What is heavy at one side needs a wider stance."""
 
 
-def motor(**figures: float) -> str:
+def motor(**figures: float) -> Tables:
     """Return a workshop with one allowed motor: the N20 with other figures."""
-    lines = "".join(f"{key} = {value}\n" for key, value in figures.items())
-    return f'[bought]\nmotors = ["own"]\n[motors.own]\nlike = "n20-298"\nsource = "test"\n{lines}'
+    return {"bought": {"motors": ["own"]}, "motors.own": {"like": "n20-298", "source": "test", **figures}}
 
 
-def large(**figures: float) -> str:
+def large(**figures: float) -> Tables:
     """Return a workshop with one allowed motor: a gear motor of 25 mm with a D-shaft of 4 mm, with other figures.
 
     It makes the robot heavy and its plates wide apart: the leg takes longer to get out of the cam's way, which a slow
@@ -69,56 +73,76 @@ def large(**figures: float) -> str:
         "mass_g": 65.0, "no_load_rpm": 33.0, "width_mm": 25.0, "height_mm": 25.0, "body_length_mm": 50.0,
         "shaft_mm": 4.0, "shaft_flat_mm": 3.5, "shaft_length_mm": 12.0, "boss_mm": 7.0, "boss_length_mm": 2.5,
     }  # fmt: skip
-    text = motor(**large_motor | figures).replace("[bought]\n", '[bought]\nroller = "MR63"\n')
-    return text + WIDE_TOES
+    return joined(motor(**large_motor | figures), {"bought": {"roller": "MR63"}})
 
 
-def battery(length: float, width: float, height: float) -> str:
+def battery(length: float, width: float, height: float) -> Tables:
     """Return a workshop with a battery of a size."""
-    size = f"length_mm = {length}\nwidth_mm = {width}\nheight_mm = {height}\n"
-    return f'[bought]\nbattery = "own"\n[batteries.own]\nlike = "lipo-1s-300"\nsource = "test"\n{size}'
+    size = {"length_mm": length, "width_mm": width, "height_mm": height}
+    return {"bought": {"battery": "pack"}, "batteries.pack": {"like": "lipo-1s-300", "source": "test", **size}}
 
 
-def boards(length: float, width: float) -> str:
+def boards(length: float, width: float) -> Tables:
     """Return a workshop with two boards of a size."""
-    size = f"length_mm = {length}\nwidth_mm = {width}\n"
-    names = 'controller = "own"\ndriver = "own-driver"\n'
-    own = f'[boards.own]\nlike = "xiao-esp32c3"\nsource = "test"\n{size}'
-    return f'[bought]\n{names}{own}[boards.own-driver]\nlike = "drv8833"\nsource = "test"\n{size}'
+    size = {"length_mm": length, "width_mm": width, "source": "test"}
+    return {
+        "bought": {"controller": "small", "driver": "small-driver"},
+        "boards.small": {"like": "xiao-esp32c3", **size},
+        "boards.small-driver": {"like": "drv8833", **size},
+    }
 
 
-def bearing(place: str, bore: float, outer: float, width: float, more: str = "") -> str:
-    """Return a workshop with a bearing of a size in the hub or for the roller."""
-    size = f"bore_mm = {bore}\nouter_mm = {outer}\nwidth_mm = {width}\n"
-    return f'[bought]\n{place} = "own"\n{more}[bearings.own]\nlike = "623"\nsource = "test"\n{size}'
+def bearing(place: str, bore: float, outer: float, width: float) -> Tables:
+    """Return a workshop with a bearing of a size in the hub (`leg_bearing`) or for the roller (`roller`)."""
+    size = {"bore_mm": bore, "outer_mm": outer, "width_mm": width}
+    return {"bought": {place: "own"}, "bearings.own": {"like": "623", "source": "test", **size}}
 
 
-def both(one: str, other: str) -> str:
-    """Return a workshop with the parts of two: what is bought is one table."""
-    bought, _, parts = other.removeprefix("[bought]\n").partition("[")
-    return one.replace("[bought]\n", f"[bought]\n{bought}") + f"[{parts}"
+def joined(*workshops: Tables) -> Tables:
+    """Return the workshop that has the tables of all; of a value given twice, the last."""
+    return {heading: dict(chain(*(one.get(heading, {}).items() for one in workshops))) for heading in chain(*workshops)}
+
+
+def in_toml(tables: Tables) -> str:
+    """Return tables as TOML, one value a line."""
+    return "".join(
+        f"[{heading}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in values.items())
+        for heading, values in tables.items()
+    )
 
 
 FITS = {
-    "gear motor of 25 mm, shaft of 4 mm": large(),
-    "square body of 12 mm": motor(width_mm=12.0),
+    "gear motor of 25 mm, shaft of 8 mm": large(
+        shaft_mm=8.0, shaft_flat_mm=7.0, boss_mm=10.0, shaft_length_mm=14.0
+    ),
     "body wider than high": motor(width_mm=12.0, height_mm=8.0),
-    "body of 5 mm": motor(width_mm=5.0, height_mm=5.0, body_length_mm=10.0),
-    "body of 60 mm": motor(body_length_mm=60.0) + WIDE_TOES,
+    "square body of 5 mm": motor(width_mm=5.0, height_mm=5.0, body_length_mm=10.0),
+    "body of 60 mm": motor(body_length_mm=60.0),
     "shaft of 6 mm": motor(shaft_mm=6.0, shaft_flat_mm=5.5, boss_mm=9.0),
-    "shaft of 8 mm": large(shaft_mm=8.0, shaft_flat_mm=7.0, boss_mm=10.0, shaft_length_mm=14.0),
     "shaft of 40 mm": motor(shaft_length_mm=40.0),
     "boss higher than the cap": motor(boss_length_mm=6.0, shaft_length_mm=14.0),
     "boss as wide as the body": motor(boss_mm=10.0),
-    "battery of 100 mm, bearing 693 in the hub": both(
-        battery(100.0, 40.0, 30.0), bearing("leg_bearing", 3.0, 8.0, 4.0)
-    ),
-    "battery as wide as the plates are apart, bearing 693 for the roller": both(
-        battery(35.0, 37.0, 8.0), bearing("roller", 3.0, 8.0, 4.0)
-    ),
-    "battery of 1 mm, boards of 5 mm": both(battery(1.0, 1.0, 1.0), boards(5.0, 4.0)),
+    "battery of 100 mm": battery(100.0, 36.0, 30.0),
+    "battery as wide as the plates are apart": battery(35.0, 37.0, 8.0),
+    "battery of 1 mm": battery(1.0, 1.0, 1.0),
+    "boards of 5 mm": boards(5.0, 4.0),
+    "bearing 693 in the hub": bearing("leg_bearing", 3.0, 8.0, 4.0),
     "bearing hardly wider than the axle": bearing("leg_bearing", 3.0, 5.0, 2.0),
+    "bearing 693 for the roller": bearing("roller", 3.0, 8.0, 4.0),
 }  # fmt: skip
+ROBOTS = {
+    "heavy": ["gear motor of 25 mm, shaft of 8 mm", "bearing 693 in the hub"],
+    "long": [
+        "body of 60 mm", "shaft of 6 mm", "boss higher than the cap", "boss as wide as the body", "battery of 1 mm",
+        "boards of 5 mm",
+    ],
+    "flat": [
+        "body wider than high", "shaft of 40 mm", "battery as wide as the plates are apart",
+        "bearing 693 for the roller",
+    ],
+    "small": ["square body of 5 mm", "battery of 100 mm", "bearing hardly wider than the axle"],
+}  # fmt: skip
+"""Robots with several own parts each: a check of everything costs seconds."""
 REFUSED = {
     "short shaft": (
         motor(shaft_length_mm=5.0),
@@ -156,37 +180,49 @@ REFUSED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", FITS)
-def test_what_fits_passes_every_check(case: str, written: Write) -> None:
-    """What is heavy at one side needs a wider stance."""
-    shop = load_workshop(written(FITS[case]))
-    robot = build(KENAN, shop.model_copy(update={"body": shop.body.model_copy(update={"toe_half_width_mm": 85.0})}))
-    assert not [f"{finding.name}: {finding.message}" for finding in errors(check(robot))]
+def faults(write: Write, *cases: str) -> list[str]:
+    """Return what is wrong with Kenan 2.0 made with own parts; what is heavy at one side needs a wider stance."""
+    workshop = load_workshop(write(joined(*(FITS[case] for case in cases), WIDE_TOES)))
+    try:
+        return [f"{finding.name}: {finding.message}" for finding in errors(check(build(KENAN, workshop)))]
+    except CannotBuildError as error:
+        return [str(error)]
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_what_fits_passes_every_check(robot: str, written: Write) -> None:
+    """Where it does not, each own part alone shows which one."""
+    if found := faults(written, *ROBOTS[robot]):
+        pytest.fail(f"{found}; alone: { {case: faults(written, case) for case in ROBOTS[robot]} }")
+
+
+def test_every_part_that_fits_is_in_a_robot() -> None:
+    assert set(FITS) == set(chain(*ROBOTS.values()))
 
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_what_does_not_fit_is_refused_by_its_name(case: str, written: Write) -> None:
-    text, words = REFUSED[case]
+    tables, words = REFUSED[case]
     with pytest.raises(JumpcadError, match=words) as caught:
-        build(KENAN, load_workshop(written(text)))
+        build(KENAN, load_workshop(written(tables)))
     assert "\n" not in str(caught.value)
 
 
 def test_the_pinion_of_a_thick_shaft_keeps_a_wall_around_it(written: Write) -> None:
-    workshop = load_workshop(written(FITS["shaft of 8 mm"]))
+    workshop = load_workshop(written(FITS["gear motor of 25 mm, shaft of 8 mm"]))
     pinion = build(KENAN, workshop).layout.drive.train.stages[0].pinion
     assert pinion.root_radius_mm >= 4.0 + workshop.fits.press_mm + workshop.fits.wall_mm
 
 
 def test_a_wide_socket_stays_clear_of_the_cam(written: Write) -> None:
-    robot = build(KENAN, load_workshop(written(FITS["gear motor of 25 mm, shaft of 4 mm"])))
+    robot = build(KENAN, load_workshop(written(large())))
     layout = robot.layout
     apart = float(((layout.motor_mm - layout.cam_axis_mm) ** 2).sum() ** 0.5)
     assert apart >= layout.drive.cam.outer_radius_mm + 25.0 / 2.0
 
 
 def test_a_heavy_motor_is_not_taken_where_a_light_one_turns_the_cam(written: Write) -> None:
-    heavy = FITS["gear motor of 25 mm, shaft of 4 mm"].replace('motors = ["own"]', "motors = []")
+    heavy = joined(large(), {"bought": {"motors": []}})
     assert build(KENAN, load_workshop(written(heavy))).layout.drive.train.motor.name != "own"
 
 
@@ -256,8 +292,15 @@ WRONG = {
         '[motors.n20-298]\nlike = "n20-298"\nsource = "x"',
         r"^\S+my.toml:1: motors.n20-298 = 'n20-298': is the name of a shipped part: choose another one, and like = ",
     ),
-    "no source": ('[motors.a]\nlike = "n20-298"', r"^\S+my.toml:1: motors.a.source: missing$"),
+    "no source": (
+        '[motors.a]\nlike = "n20-298"',
+        r"^\S+my.toml:1: motors.a.source: missing: say where the figures come from$",
+    ),
     "blank source": ('[motors.a]\nlike = "n20-298"\nsource = " "', r"my.toml:3: motors.a.source = ' ': is empty: say"),
+    "no mass": (
+        '[bearings.b]\nsource = "x"\nbore_mm = 3.0\nouter_mm = 7.0\nwidth_mm = 3.0\nstatic_load_n = 99.0',
+        r"^\S+my.toml:1: bearings.b.mass_g: missing: weigh it, or take the maker's figure$",
+    ),
     "missing": ('[motors]\n[bearings.b]\nsource = "x"', r"my.toml:2: bearings.b.bore_mm: missing"),
     "unknown key": (
         '[motors.a]\nlike = "n20-298"\nsource = "x"\nshaft = 3.0',
@@ -272,7 +315,7 @@ WRONG = {
     "like of a spring": ('[springs.a]\nlike = "b"', r"springs.a.like = 'b': is no shipped part .*9271K619"),
     "like of a list": ("[motors.a]\nlike = [1]", r"motors.a.like = \[1\]: is no shipped part"),
     "negative": (motor(mass_g=-1.0), r"my.toml:6: motors.own.mass_g = -1.0: must be at least 0.001"),
-    "not a number": (motor(shaft_mm=float("nan")), r"my.toml:6: motors.own.shaft_mm = nan: must be a finite number"),
+    "not a number": ('[motors.a]\nlike = "n20-298"\nsource = "x"\nshaft_mm = nan', r"= nan: must be a finite number"),
     "no table": ("[boards]\na = 3", r"my.toml:2: boards.a = 3: must be a table: \[boards.a\] with source, description"),
     "flat wider than the shaft": (
         motor(shaft_flat_mm=3.5),

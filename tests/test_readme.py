@@ -1,4 +1,4 @@
-"""The README is right: its figures, its commands and options, its lines of Python (about 6 s)."""
+"""README and docs are right: their figures, the commands with their options, lines of Python (about 8 s)."""
 
 import importlib
 import re
@@ -14,7 +14,9 @@ from jumpcad.cli.commands import app
 from jumpcad.files import template_names
 
 ROOT = Path(__file__).parents[1]
-TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+TEXT = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+PYTHON = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
 COMMANDS = dict(re.findall(r"^\| `jumpcad ([a-z]+)[^|]*(\|.*) \|$", TEXT, re.M))
 
 
@@ -46,34 +48,46 @@ def test_a_figure_that_nothing_computes_is_named(
     readme: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(readme, "CHEAP", {readme.figures.of_assumptions: 0.0})
-    monkeypatch.setattr(readme, "COSTLY", {"masses": (lambda: {"mass model": readme.shown(TEXT)["mass model"]}, 0.0)})
+    monkeypatch.setattr(
+        readme, "COSTLY", {"masses": (lambda: {"mass model": shown_anywhere(readme)["mass model"]}, 0.0)}
+    )
     assert readme.main([]) == 1
     said = capsys.readouterr().out
-    assert "README.md, speed: nothing computes it" in said
+    assert "speed: nothing computes it" in said
     assert "mass model" not in said
+
+
+def shown_anywhere(readme: ModuleType) -> dict[str, str]:
+    """Return the figures of all pages."""
+    return {name: text for page in readme.PAGES for name, text in readme.shown(page.read_text("utf-8")).items()}
 
 
 def test_wrong_figures_are_named_and_corrected(
     readme: ModuleType, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    copies = {name: tmp_path / getattr(readme, name).name for name in ("README", "PICTURE")}
-    copies["README"].write_text(re.sub(r"(`kenan-2.0` [|]) (\d+ mm)", r"\1 9\2", TEXT, count=1), encoding="utf-8")
-    copies["PICTURE"].write_bytes(b"another picture")
-    for name, path in copies.items():
-        monkeypatch.setattr(readme, name, path)
-    monkeypatch.setattr(readme, "CHEAP", {readme.figures.of_robots: 0.0})
+    page, picture = tmp_path / "README.md", tmp_path / "best-printable.png"
+    page.write_text(re.sub(r"(`kenan-2.0` [|]) (\d+ mm)", r"\1 9\2", README, count=1), encoding="utf-8")
+    picture.write_bytes(b"another picture")
+    monkeypatch.setattr(readme, "PAGES", [page])
+    monkeypatch.setattr(readme, "PICTURE", picture)
+    monkeypatch.setattr(readme, "CHEAP", {readme.figures.of_results: 0.0})
     assert readme.main(["--cheap"]) == 1
     found = capsys.readouterr().out.splitlines()
     assert len(found) == 2
     assert found[0].startswith("best-printable.png: is not the picture")
     says = re.match(
-        r"README.md, robots: says .*`kenan-2.0` [|] 9(\d+ mm) .*, should say .*`kenan-2.0` [|] (\d+ mm)", found[1]
+        r"README.md, results: says .*`kenan-2.0` [|] 9(\d+ mm) .*, should say .*`kenan-2.0` [|] (\d+ mm)", found[1]
     )
     assert says
     assert says[1] == says[2]
     assert readme.main(["--cheap", "--write"]) == 0
-    assert copies["README"].read_text(encoding="utf-8") == TEXT
-    assert copies["PICTURE"].read_bytes() == (ROOT / "docs" / "best-printable.png").read_bytes()
+    assert page.read_text(encoding="utf-8") == README
+    assert picture.read_bytes() == (ROOT / "docs" / "best-printable.png").read_bytes()
+
+
+def test_a_new_figure_of_several_lines_ends_on_a_line_of_its_own(readme: ModuleType) -> None:
+    page = readme.rewritten("<!-- a -->\n<!-- / -->\nof <!-- b -->1<!-- / -->", {"a": "| x |\n| y |", "b": "2"})
+    assert page == "<!-- a -->\n| x |\n| y |\n<!-- / -->\nof <!-- b -->2<!-- / -->"
 
 
 @pytest.mark.parametrize(
@@ -98,7 +112,7 @@ def test_every_command_is_described_with_options_that_it_has() -> None:
     commands = typer.main.get_command(app).commands
     assert set(COMMANDS) == set(commands)
     for name, description in COMMANDS.items():
-        described = set(re.findall(r"`(-{1,2}[a-z-]+)", description))
+        described = set(re.findall(r"`(-{1,2}[a-z0-9-]+)", description))
         assert described <= opts(commands[name])
 
 
@@ -119,8 +133,18 @@ def test_templates_are_named() -> None:
 
 
 def test_lines_of_python_run(capsys: pytest.CaptureFixture[str]) -> None:
-    (code,) = re.findall(r"```python\n(.*?)```", TEXT, re.S)
+    (code,) = [code for code in re.findall(r"```python\n(.*?)```", PYTHON, re.S) if "published" in code]
     names: dict[str, object] = {}
     exec(code, names)
     assert capsys.readouterr().out.startswith("jump 0.19")
     assert {"distance_m", "base_height_m", "energy_j"} <= vars(names["paper"]).keys()
+
+
+def test_the_readme_is_read_in_a_minute_and_its_links_lead_somewhere() -> None:
+    """Some 400 words beside tables and links; the picture is small enough to load at once."""
+    prose = re.sub(r"```.*?```|^\|.*$|\]\(.*?\)|<!--.*?-->", "", README, flags=re.S | re.M)
+    assert len(prose.split()) < 450
+    links = re.findall(r"\]\(([^)#]+)", README)
+    assert [link for link in links if not (ROOT / link).exists()] == []
+    (moving,) = [link for link in links if link.endswith(".gif")]
+    assert (ROOT / moving).stat().st_size < 1_500_000

@@ -6,7 +6,7 @@ from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.names import composed
-from jumpcad.findings import errors
+from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot import Robot, require_name
 from jumpcad.strength.sizing import Growth
@@ -29,6 +29,11 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
     CannotBuildError
         If the mechanism cannot work or cannot be laid out; the message names the reason and what to change.
     """
+    return built_and_checked(design, workshop, name)[0]
+
+
+def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> tuple[Robot, list[Finding]]:
+    """Return the robot as `build` does, and its `constraint_findings`."""
     name = composed(name)
     if name:
         require_name(name)
@@ -38,8 +43,9 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
         raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")
     growth = Growth()
     robot = assembled(design, workshop, name, growth)
+    findings = constraint_findings(robot)
     for _ in range(GROWTH_ROUNDS):
-        weak = {finding.grows for finding in errors(constraint_findings(robot)) if finding.grows}
+        weak = {finding.grows for finding in errors(findings) if finding.grows}
         if not weak:
             break
         growth = growth.more(weak)
@@ -47,4 +53,5 @@ def build(design: Design, workshop: Workshop | None = None, name: str = "robot")
             robot = assembled(design, workshop, name, growth)
         except CannotBuildError:  # no room for more: the checks report what stays too weak
             break
-    return robot
+        findings = constraint_findings(robot)
+    return robot, findings

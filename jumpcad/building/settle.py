@@ -121,5 +121,6 @@ def _require_hub_room(settled: Settled) -> None:
     if holes.bearing.outer_mm > largest:
         raise CannotBuildError(
             f"the leg's bearing {holes.bearing.name} has {holes.bearing.outer_mm:g} mm diameter; {largest:.1f} mm fit "
-            "beside the roller's screw and the cam's axle: choose a smaller bought.leg_bearing"
-        )
+            "beside the roller's screw and the cam's axle: choose a smaller bought.leg_bearing",
+            "leg_bearing", largest - holes.bearing.outer_mm,
+        )  # fmt: skip

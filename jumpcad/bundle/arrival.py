@@ -7,6 +7,8 @@ from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.robot import Robot
 
+REAMED_MM = 0.1
+"""Of a reamed bore over its rod, in diameter."""
 AT_DEG = (10.0, 20.0, 30.0)
 
 
@@ -35,8 +37,13 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
     )
     yield (
         f"**Fits.** A rod of {robot.layout.axle_mm:g} mm must drop through the spacers and turn in the plates' bores; "
-        "the motor must slide into its socket without force. Where it does not, print `jumpcad coupon`, write its "
-        "readings into your workshop and build again, rather than file every part."
+        "the motor must slide into its socket without force. A bore that is too tight: turn a drill or reamer of "
+        f"{robot.layout.axle_mm + REAMED_MM:g} mm through it by hand. One in which a rod rocks by more than 0.3 mm, "
+        "or a bearing that falls out of its seat: a thin coat of super glue on the wall, left to harden before the "
+        "rod goes in. More than a few such: the printer's fits differ from those computed. Print the fit coupon "
+        "(`jumpcad coupon -o coupon`), write its readings into `coupon/readings.toml`, then "
+        "`jumpcad coupon --measured coupon/readings.toml --workshop workshop.toml -o mine.toml` and "
+        "`jumpcad build design.toml --workshop mine.toml`: workshop.toml and design.toml are in this folder."
     )
     yield ""
     battery = chosen_parts(robot.workshop).battery

@@ -1,6 +1,6 @@
 """The bill of materials: every printed part and every bought one, nuts and washers included.
 
-Prices come from the workshop, printing times from a slicer; what is not known stays blank.
+Prices come from the workshop, printing times from a slicer; unknown ones stay blank.
 """
 
 from collections import defaultdict
@@ -52,7 +52,7 @@ class BilledPlate:
 
 @dataclass(frozen=True)
 class Bill:
-    """All lines, printed parts first, and the plates where a slicer was asked."""
+    """All lines, printed parts first, and the print plates if they were sliced."""
 
     items: tuple[BillLine, ...]
     plates: tuple[BilledPlate, ...] = ()
@@ -64,12 +64,12 @@ class Bill:
 
     @property
     def time_s(self) -> float | None:
-        """Printing time of all plates."""
+        """Printing time of all plates (s); None if they were not sliced."""
         return sum(plate.time_s for plate in self.plates) if self.plates else None
 
     @property
     def cost_eur(self) -> float | None:
-        """What the lines whose prices are known cost together."""
+        """Price of all lines whose prices are known; None if none is."""
         known = [item.total_eur for item in self.items if item.total_eur is not None]
         return sum(known) if known else None
 
@@ -80,7 +80,7 @@ class Bill:
         return f"prices known for {priced} of {len(self.items)} lines"
 
     def sliced(self, times_s: Mapping[str, float], plates: Iterable[BilledPlate]) -> "Bill":
-        """Return the bill with the printing times of parts, by name, and of plates."""
+        """Return the bill with printing times: `times_s` of one copy of each part, by name, and those of plates."""
         items = (
             replace(item, time_s=times_s.get(item.name)) if item.kind == "printed" else item for item in self.items
         )
@@ -105,7 +105,7 @@ def bill_of_materials(robot: Robot) -> Bill:
 
 
 def mass_facts(bill: Bill) -> list[dict[str, Any]]:
-    """Return what a manifest keeps of a bill: masses and where they came from."""
+    """Return the bill's masses and where they came from, for the manifest."""
     return [
         {
             "kind": item.kind,
@@ -120,13 +120,13 @@ def mass_facts(bill: Bill) -> list[dict[str, Any]]:
 
 
 def bill_of_facts(facts: Iterable[Mapping[str, Any]], workshop: Workshop) -> Bill:
-    """Return the bill of the masses in a manifest, with the prices of a workshop."""
+    """Return the bill of `mass_facts` in a manifest, with the prices of a workshop."""
     keys = ("kind", "name", "quantity", "material", "mass_kg", "source")
     return _priced([BillLine(*(line[key] for key in keys)) for line in facts], workshop)
 
 
 def write_bom(bill: Bill) -> str:
-    """Return the bill of materials as CSV: the lines, plates that were sliced, and all together."""
+    """Return the bill of materials as CSV: the lines, the sliced plates, the total."""
     return to_csv([COLUMNS, *_rows(bill)])
 
 
@@ -143,7 +143,7 @@ def _rows(bill: Bill) -> Iterator[Sequence[object]]:
 
 
 def euros(price: float | None, digits: int = 2) -> str:
-    """Return a price, or nothing where there is none."""
+    """Return a price as text, empty if it is unknown."""
     return "" if price is None else f"{price:.{digits}f}"
 
 
@@ -152,7 +152,7 @@ def _seconds(time_s: float | None) -> str:
 
 
 def _priced(items: Sequence[BillLine], workshop: Workshop) -> Bill:
-    """Return the bill of lines with a workshop's prices: of filament by mass, of articles by their names."""
+    """Return the bill of lines with a workshop's prices: filament by mass, articles by the beginnings of names."""
     return Bill(tuple(replace(item, price_eur=_price_eur(item, workshop)) for item in items))
 
 

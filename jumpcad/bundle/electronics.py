@@ -1,4 +1,4 @@
-"""The robot's electricity as facts of the manifest and in the guide: voltages, energy, what it lasts for."""
+"""The manifest's entries about electronics: voltages, energies, jumps per charge."""
 
 from typing import Any
 
@@ -9,11 +9,11 @@ from jumpcad.robot import Robot
 
 DIGITS = 6
 USABLE = 0.8
-"""Share of a battery's energy that is used before the firmware refuses; practice with lithium polymer packs."""
+"""Share of a battery's energy that is used before the firmware stops winding; practice with lithium polymer packs."""
 
 
 def electronics_facts(robot: Robot) -> dict[str, Any]:
-    """Return what the manifest says: the battery's volts (empty, full), and for each part what it gets and bears."""
+    """Return the battery's voltages (empty, full), and for each part the supplied and the permitted voltages."""
     chosen, train = chosen_parts(robot.workshop), robot.layout.drive.train
     supply = supply_of(chosen)
     empty, full = chosen.battery.range_v

@@ -7,12 +7,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from jumpcad.bundle.arrival import REAMED_MM
 from jumpcad.bundle.firmware import AFTER_RELEASE_MS, LANDING_MS, numbers
 from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded
-from jumpcad.bundle.ordering import REAMED_MM, ROD_SHORT_MM
+from jumpcad.bundle.ordering import ROD_SHORT_MM
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
@@ -22,6 +24,8 @@ from jumpcad.simulation import default_engine, simulate
 
 TORQUE_M3_NM, TORQUE_M2_NM, TORQUE_PLASTIC_NM = 0.5, 0.1, 0.3
 """Judgement: a third of what M3 and M2 of strength 8.8 bear in steel, and hand-tight in plastic."""
+FREE = ("no contact", "contact")
+"""At the free sensor, by its pin's level at the ready position."""
 PRESS_N = 50.0
 """Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
 SCATTER_DEG = 10.0
@@ -44,7 +48,7 @@ def _drive(robot: Robot) -> dict[str, str]:
     """Return what motor, battery and firmware do."""
     workshop, train, cam = robot.workshop, robot.layout.drive.train, robot.layout.drive.cam
     chosen, values = chosen_parts(workshop), numbers(robot)
-    supply = supply_of(chosen)
+    supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
     boards_a = supply.boards_w / supply.nominal_v
     both = {1: "counter-clockwise", -1: "clockwise"}
@@ -67,6 +71,9 @@ def _drive(robot: Robot) -> dict[str, str]:
         "cable": cable(chosen.controller),
         "wind_by": by_button("wind", chosen.controller),
         "jump_by": by_button("jump", chosen.controller),
+        "contact": wiring.contact,
+        "free": FREE[wiring.ready_level],
+        "pressed": FREE[1 - wiring.ready_level],
         "ready_deg": f"{values['READY_DEG'] or 0:.0f}",
         "cam_turn": both[1],
         "motor_turn": both[motor_sense(robot)],

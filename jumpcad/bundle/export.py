@@ -23,7 +23,8 @@ from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
-from jumpcad.bundle.wiring import wiring_svg
+from jumpcad.bundle.uncertainty import uncertainty_of
+from jumpcad.bundle.wiring import drawings_of
 from jumpcad.checks.electronics import electronics_findings
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.animation import animated
@@ -50,22 +51,23 @@ def export(
     robot
         With its parts, from `build`.
     folder
-        Is made, with its parents; may be empty or hold an older bundle of the robot. The files that it lists are
-        replaced; what a user added stays.
+        Is made, with its parents; may be empty or hold an older bundle of the robot, whose files are replaced; files
+        that a user added stay.
     pictures
-        Whether to draw the robot and to animate its jump in the GLB file, which takes a quarter of the time.
+        Whether to draw the robot, to animate its jump in the GLB file, and to state the uncertainty of range and rise
+        in the report; half of the time.
     step
         Whether to write STEP files too; needs the extra `step`.
     force
-        Whether to replace another bundle too, and files that a user edited or added under a name of ours.
+        Whether to replace another bundle too, and files that a user edited, or added under a path of the bundle.
     ros2
         Whether to write a ROS 2 description package too.
 
     Raises
     ------
     JumpcadError
-        If the folder holds anything else, if something of a user's would be lost, if it cannot be written, or if the
-        extra for STEP is not installed.
+        If the robot's name is no file name, the folder holds anything else, a user's file would be lost, the folder
+        cannot be written, or the extra for STEP is not installed.
     CannotBuildError
         If a part's file is not one closed solid, or the electrical parts do not fit together.
     """
@@ -77,11 +79,11 @@ def export(
 
 
 def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
-    """Yield path and content of every file of a bundle but its manifest."""
+    """Yield path and content of every file of a bundle, except its manifest."""
     seen: dict[str, bytes] = {}
     paths: list[str] = []
     glb: bytes | None = None
-    for path, content in _beside_report(robot, exporters, pictures, seen):
+    for path, content in _files_before_report(robot, exporters, pictures, seen):
         paths.append(path)
         if pictures and path.endswith(".glb") and isinstance(content, bytes):
             glb = content
@@ -90,17 +92,19 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Fil
 
 
 def report_page(robot: Robot, files: Iterable[str] = ()) -> str:
-    """Return report.html alone, with links to files that lie beside it."""
+    """Return report.html alone, with links to `files` relative to it."""
     return _page(robot, renders(robot), write_glb(robot), files)
 
 
 def _page(robot: Robot, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str]) -> str:
     jump = simulate(robot, Settings(flight="simulated", trajectory=glb is not None), default_engine())
-    return write_report(robot, {name: seen[name] for name in RENDERS if name in seen}, jump, glb, tuple(files))
+    pictures = {name: seen[name] for name in RENDERS if name in seen}
+    sure = uncertainty_of(robot) if glb is not None and jump.verdict == "jump" else None
+    return write_report(robot, pictures, jump, glb, tuple(files), sure)
 
 
-def _beside_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, seen: dict[str, bytes]) -> Files:
-    """Yield what the report links to; pictures also go into `seen`."""
+def _files_before_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, seen: dict[str, bytes]) -> Files:
+    """Yield path and content of the files that the report links to; pictures are also added to `seen`, by name."""
     yield DESIGN, robot.design.to_toml()
     yield WORKSHOP, robot.workshop.to_toml()
     motion = jump_motion(robot) if pictures else None
@@ -117,14 +121,15 @@ def _beside_report(robot: Robot, exporters: Iterable[Exporter], pictures: bool, 
         seen |= all_pictures(robot)
     files = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     yield from files.items()
-    wiring, guide = wiring_svg(robot), write_guide(robot, list(seen))
-    yield "wiring.svg", wiring
+    drawings = {path: text for path, text in drawings_of(robot).items() if text}
+    yield from drawings.items()
+    guide = write_guide(robot, list(seen))
     yield "assembly.md", guide
-    yield "assembly.html", write_page(guide, robot.name, files | {"wiring.svg": wiring.encode()})
+    yield "assembly.html", write_page(guide, robot.name, files | {path: svg.encode() for path, svg in drawings.items()})
 
 
 def _facts(robot: Robot) -> dict[str, Any]:
-    """Return what the manifest says of the robot."""
+    """Return the manifest's entries about the robot."""
     return {
         "mass_kg": robot.mass_kg,
         "masses": mass_facts(bill_of_materials(robot)),

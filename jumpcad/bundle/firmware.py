@@ -20,6 +20,8 @@ FOLDER = "firmware"
 COPIED = ("main.py", "winder.py")
 SLOWEST = 1.5
 """Time allowed for winding over that on an empty battery; judgement: cold grease and scatter of the motor."""
+TOO_EARLY = 0.5
+"""Share of the shortest time for a turn before which the sensor is not believed after a release; judgement."""
 SETTLE_MS = 10
 """How long a switch must keep its state; usual of small switches: they bounce for 1 to 5 ms."""
 AFTER_RELEASE_MS = round(1000.0 * RUN_ON_S)
@@ -40,6 +42,8 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
     supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
     torque_max = workshop.safety.motor_torque_max_nm
     slow = supply.driven(train.motor, supply.empty_v, torque_max)
+    fast = supply.driven(train.motor, supply.full_v, torque_max)
+    fastest_s = 2.0 * math.pi * train.ratio / (fast.no_load_rpm * math.pi / 30.0)
     share = min(train.motor_torque_nm / slow.stall_torque_nm, 0.9)
     slowest_s = 2.0 * math.pi * train.ratio / (slow.no_load_rpm * math.pi / 30.0) / (1.0 - share)
     controller, sensor = chosen.controller, robot.layout.sensor
@@ -48,6 +52,7 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "PIN_MOTOR": pins.get("motor"),
         "PIN_SLEEP": pins.get("sleep"),
         "PIN_READY": pins.get("ready"),
+        "READY_LEVEL": wiring.ready_level,
         "PIN_BATTERY": pins.get("battery"),
         "PIN_BUTTON": gpio(controller, controller.button) if controller.button else None,
         "PWM_HZ": PWM_HZ,
@@ -56,6 +61,7 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "BATTERY_MIN_V": supply.empty_v,
         "BATTERY_SAG_V": round(train.peak_current_a * chosen.battery.ohm, 3),
         "LOW_MS": LOW_MS,
+        "WIND_MIN_MS": math.floor(TOO_EARLY * fastest_s * 10.0) * 100,
         "WIND_MAX_MS": math.ceil(SLOWEST * slowest_s * 10.0) * 100,
         "RELEASE_MAX_MS": math.ceil(SLOWEST * slowest_s * release_share(robot) * 10.0) * 100,
         "READY_DEG": None if sensor is None else round(math.degrees(sensor.ready_rad), 1),
@@ -77,6 +83,7 @@ def release_share(robot: Robot) -> float:
 
 WORDS = {
     "PIN_MOTOR": "GPIO numbers",
+    "READY_LEVEL": "of the sensor's pin at the ready position: 1 with a contact that opens there (NC)",
     "PIN_BATTERY": "None: not measured",
     "PIN_BUTTON": "on the board; None: serial commands alone",
     "PWM_CAP": "largest share of PWM: keeps gearbox and winding within their limits on a full battery",
@@ -84,14 +91,24 @@ WORDS = {
     "BATTERY_MIN_V": "below this, at rest, it refuses to wind",
     "BATTERY_SAG_V": "lower by this while it winds",
     "LOW_MS": "for so long",
+    "WIND_MIN_MS": "right after a jump the sensor is not believed before this",
     "WIND_MAX_MS": "a blocked motor is off after this at the latest",
     "RELEASE_MAX_MS": "as above, from the ready position over the drop",
-    "READY_DEG": "cam angle before the drop at which the sensor closes; for information",
-    "AFTER_RELEASE_MS": "motor runs on after the sensor has opened",
+    "READY_DEG": "cam angle before the drop at which the sensor is pressed; for information",
+    "AFTER_RELEASE_MS": "motor runs on after the sensor is free",
     "SETTLE_MS": "a switch counts after this",
     "LANDING_MS": "ignored after a jump",
     "BUTTON_DELAY_MS": "to step back",
 }
+
+
+OPENING = """The sensor's contact opens when it is pressed, so a broken lead, a dirty contact or a missing ground reads
+  as pressed: the motor stops. `wind` that says `ready` at once, or `fault: sensor pressed too early`, means a broken
+  lead where the springs are not loaded. To unload springs that are: `wind`, `jump`, `wind`, `jump`, until the leg
+  falls; each `jump` turns the cam a little and ends in `fault`. A lead that is shorted to ground reads as free: the
+  motor releases the springs by itself and runs until the time-out."""
+CLOSING = """The sensor's contact closes when it is pressed. With a lead broken the motor does not stop when ready: it
+  releases the springs by itself and runs until the time-out."""
 
 
 def firmware_files(robot: Robot) -> Iterator[tuple[str, str]]:
@@ -123,6 +140,7 @@ def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -
         "CONTROLLER": plain(chosen.controller.description),
         "WIND_S": f"{robot.layout.drive.train.winding_s:.1f}",
         "WIND_MAX_S": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
+        "SENSOR": OPENING if values["READY_LEVEL"] else CLOSING,
         "MIN_V": f"{values['BATTERY_MIN_V']:g}",
         "CAP": f"{100.0 * (values['PWM_CAP'] or 0.0):g}",
         "CABLE": cable(chosen.controller),

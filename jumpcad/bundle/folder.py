@@ -1,6 +1,6 @@
-"""A bundle's folder: what jumpcad may replace in it, and what is a user's own.
+"""A bundle's folder: which of its files jumpcad replaces, and which belong to the user.
 
-Files that are as the manifest says are replaced. All others are the user's and are kept; where one cannot be kept,
+Files with the manifest's sha256 are replaced. All others belong to the user and are kept; if one cannot be kept,
 `JumpcadError` is raised before anything is written.
 """
 
@@ -22,7 +22,7 @@ from jumpcad.files import real_path
 from jumpcad.version import __version__
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")
-"""Whose versions the shapes may depend on."""
+"""Libraries on whose versions the shapes may depend."""
 
 
 def write_folder(
@@ -37,27 +37,27 @@ def write_folder(
     Parameters
     ----------
     folder
-        Is made, with its parents; may be empty or hold a bundle, in which what a user added stays.
+        Is made, with its parents; may be empty or hold a bundle; files that a user added to it stay.
     name, facts
-        What the manifest says beside the versions and the sha256 of every file.
+        Entries of the manifest, in addition to the versions and the sha256 of every file.
     contents
-        Path and content of every file but the manifest.
+        Path and content of every file, except the manifest.
     force
-        Whether to replace the bundle of something else, and files that a user edited or added under a name of ours.
+        Whether to replace another bundle too, and files that a user edited, or added under a path of the bundle.
 
     Raises
     ------
     JumpcadError
-        If the folder holds anything else, if something of a user's would be lost, or if it cannot be written.
+        If the folder holds anything else, a user's file would be lost, or the folder cannot be written.
     """
-    target = _place(folder)
+    target = _writable_folder(folder)
     manifest = {
         "format": FORMAT,
         "name": name,
         "versions": {"jumpcad": __version__} | {lib: importlib.metadata.version(lib) for lib in LIBRARIES},
         **facts,
     }
-    old, new = _held(target), Bundle(target, manifest)
+    old, new = _bundle_in(target), Bundle(target, manifest)
     if old and old.content != new.content and not force:
         raise JumpcadError(
             f"{target}: holds {old.content}, not {new.content}; choose another folder with -o, "
@@ -70,33 +70,33 @@ def write_folder(
 def change_files(
     bundle: Bundle, contents: Mapping[str, str | bytes], versions: Mapping[str, str], force: bool = False
 ) -> Bundle:
-    """Put contents into some files of a bundle, new ones too; the manifest then lists them and `versions`.
+    """Write files of a bundle, old or new ones; the manifest then lists them, and `versions` of what made them.
 
     Raises
     ------
     JumpcadError
-        If something of a user's would be lost, or the folder cannot be read or written.
+        If a user's file would be lost, or the folder cannot be read or written.
     """
-    target = _place(bundle.folder)
+    target = _writable_folder(bundle.folder)
     manifest = {**bundle.manifest, "versions": {**bundle.manifest["versions"], **versions}}
     files = {path: data.encode() if isinstance(data, str) else data for path, data in contents.items()}
     return _put(Bundle(target, manifest), bundle, files, set(files), force)
 
 
 def require_unedited(bundle: Bundle, paths: Iterable[str], force: bool = False) -> None:
-    """Require files to be as jumpcad wrote them: `change_files` would reject others, but only after the work.
+    """Require that a user has not edited files: `change_files` would reject them, but only after they were made.
 
     Raises
     ------
     JumpcadError
-        Naming them.
+        If some were edited; it names them.
     """
     with _plain_errors(bundle.folder):
         _kept(bundle, tree(bundle.folder), dict.fromkeys(paths, b""), set(), force)
 
 
 def _put(new: Bundle, old: Bundle | None, files: Mapping[str, bytes], gone: set[str], force: bool) -> Bundle:
-    """Write files in place of those that go; the manifest lists the sha256 of these and of what stays."""
+    """Write files in place of `gone` ones; the manifest lists the sha256 of these and of the old bundle's others."""
     stays = {} if old is None else {path: digest for path, digest in old.manifest["files"].items() if path not in gone}
     digests = stays | {path: hashlib.sha256(data).hexdigest() for path, data in files.items()}
     manifest = {**new.manifest, "files": dict(sorted(digests.items()))}
@@ -108,12 +108,18 @@ def _put(new: Bundle, old: Bundle | None, files: Mapping[str, bytes], gone: set[
     return Bundle(new.folder, manifest)
 
 
-def _place(folder: str | Path) -> Path:
-    """Return where a folder really lies; refuse one that holds the current folder, which would be removed."""
+def _writable_folder(folder: str | Path) -> Path:
+    """Return the real path of a folder.
+
+    Raises
+    ------
+    JumpcadError
+        If it is or contains the working directory, which would be removed.
+    """
     target = real_path(folder)
     try:
         here = Path.cwd().resolve()
-    except OSError:  # somebody removed it
+    except OSError:  # the working directory no longer exists
         return target
     if target == here or target in here.parents:
         raise JumpcadError(
@@ -122,8 +128,14 @@ def _place(folder: str | Path) -> Path:
     return target
 
 
-def _held(target: Path) -> Bundle | None:
-    """Return the bundle that a folder holds, if any; refuse to write over anything else."""
+def _bundle_in(target: Path) -> Bundle | None:
+    """Return the bundle in a folder, or None if the folder is missing or empty.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder holds anything else.
+    """
     if not os.path.lexists(target):
         return None
     if not target.is_dir():
@@ -141,12 +153,13 @@ def _held(target: Path) -> Bundle | None:
 
 
 def _kept(old: Bundle, there: Tree, files: Mapping[str, bytes], gone: set[str], force: bool) -> Tree:
-    """Return what stays in a bundle's folder, in the order of `there`.
+    """Return the user's part of `there`, which stays in a bundle's folder when `files` replace those of `gone`.
 
     Raises
     ------
     JumpcadError
-        If something of a user's would not stay: a file under a name of ours, unless forced; anything else in any case.
+        If a user's file is in the way: an edited or added one under a path of the bundle, unless `force`; anything
+        that is no plain file in any case.
     """
     touched = there.keys() & {MANIFEST, *gone, *files}
     solid = {path for path, status in there.items() if path not in touched and not stat.S_ISDIR(status.st_mode)}
@@ -170,7 +183,7 @@ def _kept(old: Bundle, there: Tree, files: Mapping[str, bytes], gone: set[str], 
 
 @contextmanager
 def _plain_errors(folder: str | Path) -> Iterator[None]:
-    """Turn errors of the system into one line about the folder."""
+    """Raise `JumpcadError` of one line for an `OSError`."""
     try:
         yield
     except OSError as error:

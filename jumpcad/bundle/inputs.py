@@ -27,7 +27,7 @@ def kept_workshop(bundle: Bundle) -> Workshop:
     Raises
     ------
     JumpcadError
-        If its file is missing, is a link, is not a workshop, or leads to a file outside of the bundle.
+        If its file is missing, is a link, is not a workshop, or names another file.
     """
     path = bundle.file(WORKSHOP)
     data, _ = read_toml(path)

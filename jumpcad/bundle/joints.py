@@ -1,4 +1,4 @@
-"""How a robot's joints are held and how it stands, as facts of the manifest."""
+"""The manifest's entries about axle retention, and about the robot's roll on its foot."""
 
 import math
 from typing import Any
@@ -11,10 +11,10 @@ DIGITS = 3
 
 
 def joint_facts(robot: Robot) -> dict[str, Any]:
-    """Return what keeps axles and pins, the pinion's fit, and the roll that is left in every state (mm, °).
+    """Return the retention of axles and pins, the pinion's fit, and the roll in every state (mm, °).
 
-    `play_deg` is how far the body may roll on its foot to either side, as drawn. `pinion_rib_mm` is by how much the
-    ribs of the pinion's bore are inside of the motor's shaft: its play is 0.
+    `play_deg` is the roll of the body on its foot to either side, as drawn. `pinion_rib_mm` is the overlap of the ribs
+    in the pinion's bore with the motor's shaft (a press fit without play).
     """
     layout, workshop = robot.layout, robot.workshop
     holes = HoleSizes.of(workshop, layout.hub_bearing)

@@ -1,4 +1,4 @@
-"""The jump of a robot as a motion to be animated."""
+"""The jump of a robot as a motion for the GLB file's animations."""
 
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.animation import Motion
@@ -6,11 +6,11 @@ from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 
 ENGINE = "planar"
-"""It is there on every platform, so that a bundle has the same bytes on each."""
+"""Available on every platform, so that a bundle has the same bytes on each."""
 
 
 def jump_motion(robot: Robot) -> Motion | None:
-    """Return the motion from release to touchdown; None for a robot that does not jump, or not in this engine."""
+    """Return the motion from release to touchdown; None if the engine finds no jump or cannot simulate the robot."""
     try:
         path = simulate(robot, Settings(flight="simulated", trajectory=True), ENGINE).trajectory
     except JumpcadError:

@@ -9,9 +9,12 @@ from jumpcad.findings import Finding
 SHOWN = 3
 """How many limits are named at the top of the page."""
 WIDEST = 1.25
-"""Use at which a bar is as long as its box; beyond it a bar is cut off."""
+"""Use at which a bar has its full length; longer bars are cut off."""
 AT_LIMIT = 5e-4
-"""A use this near to 1 is at the limit: a size was made as large as that allows."""
+"""Largest difference of a use from 1, or of a margin from 0, that is shown as "at the limit", where sizing ends.
+
+A margin of exactly 0 is that of a condition that holds or does not, and is not shown so.
+"""
 
 
 def limits(findings: Sequence[Finding]) -> Iterator[str]:
@@ -28,7 +31,7 @@ def limits(findings: Sequence[Finding]) -> Iterator[str]:
 
 
 def tightest(findings: Sequence[Finding]) -> Iterator[str]:
-    """Yield the limits that a robot comes nearest to, or violates."""
+    """Yield the list of violated limits and those of the highest use, `SHOWN` at most."""
     nearest = [finding for finding in ordered(findings) if finding.severity != "info" or finding.use is not None]
     yield "<p>Tightest limits:</p><ul>"
     for finding in nearest[:SHOWN]:
@@ -52,6 +55,10 @@ def _words(finding: Finding) -> str:
 def _used(finding: Finding) -> str:
     """Return how much of a limit is used, in words."""
     if finding.use is None:
+        if 0.0 < abs(finding.margin) < AT_LIMIT:
+            return "at the limit"
+        if finding.margin == 0.0 and not finding.unit:
+            return "holds" if finding.severity == "info" else "does not hold"
         return f"margin {finding.margin:.3g} {finding.unit}".strip()
     return "at the limit" if abs(finding.use - 1.0) < AT_LIMIT else f"{100.0 * finding.use:.0f} % used"
 

@@ -19,7 +19,7 @@ from jumpcad.files.names import Text
 MANIFEST = "manifest.json"
 FORMAT = 1
 LARGEST_BYTES = 16_000_000
-"""A manifest has some 20 kB; what is far larger is not read."""
+"""A manifest has some 20 kB; a file that is far larger is not read."""
 
 
 SUFFIXES = (
@@ -30,27 +30,27 @@ PROGRAMS = ("firmware/main.py", "firmware/robot.py", "firmware/winder.py")
 IN_ROS2 = re.compile(
     r"ros2/[a-z0-9_]+_description/(CMakeLists\.txt|launch/(view_robot|gazebo)\.launch\.py|config/controllers\.yaml)"
 )
-"""Of the files that a bundle may have. A stranger's manifest that lists others, such as .git/HEAD or a module of
-Python, would have them removed when the bundle is built again."""
+"""With `SUFFIXES` and `PROGRAMS`: the files that a bundle may have. A forged manifest that lists others, such as
+.git/HEAD or a Python module, would cause their removal when the bundle is built again."""
 
 
 def _safe(path: str) -> str:
-    """Return a path that stays below the bundle's folder; reject others."""
+    """Return a path below the bundle's folder; others raise `ValueError`."""
     if not is_safe(path) or path == MANIFEST:
         raise ValueError("leads out of the bundle")
     return path
 
 
 def _ours(path: str) -> str:
-    """Return the path of a file that jumpcad can have written; reject others."""
+    """Return the path of a file that jumpcad can have written; others raise `ValueError`."""
     hidden = any(name.startswith(".") for name in path.split("/"))
     if hidden or not (path.endswith(SUFFIXES) or path in PROGRAMS or IN_ROS2.fullmatch(path)):
         raise ValueError("is no file of a bundle")
     return _safe(path)
 
 
-def _apart(files: dict[str, str]) -> dict[str, str]:
-    """Return files of which none is the folder of another; reject others."""
+def _no_file_is_folder(files: dict[str, str]) -> dict[str, str]:
+    """Return files of which none is the folder of another; others raise `ValueError`."""
     if any(folder in files for path in files for folder in above(path)):
         raise ValueError("a file is the folder of another")
     return files
@@ -74,7 +74,7 @@ class _MassLine(BaseModel):
 
 
 class _Manifest(BaseModel):
-    """What is read of a manifest; it may have more keys."""
+    """The keys of a manifest that jumpcad reads; it may have more."""
 
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
 
@@ -84,12 +84,12 @@ class _Manifest(BaseModel):
     masses: list[_MassLine] = []
     mass_kg: float = 0.0
     bodies: dict[str, Any] = {}
-    files: Annotated[dict[Annotated[str, AfterValidator(_ours)], Sha256], AfterValidator(_apart)]
+    files: Annotated[dict[Annotated[str, AfterValidator(_ours)], Sha256], AfterValidator(_no_file_is_folder)]
 
 
 @dataclass(frozen=True, repr=False)
 class Bundle:
-    """A folder that holds a robot or the coupon; `manifest` is what its manifest.json says."""
+    """A folder that holds a robot or the coupon; `manifest` is the content of its manifest.json."""
 
     folder: Path
     manifest: Mapping[str, Any]
@@ -99,7 +99,7 @@ class Bundle:
 
     @property
     def name(self) -> str:
-        """The robot's name, after which its files are called."""
+        """The robot's name, which is part of its files' names."""
         return str(self.manifest["name"])
 
     @property
@@ -109,22 +109,28 @@ class Bundle:
 
     @property
     def files(self) -> tuple[str, ...]:
-        """The paths of all files but the manifest, relative to the folder."""
+        """The paths of all files, except the manifest, relative to the folder."""
         return tuple(self.manifest["files"])
 
     @property
     def urdf(self) -> Path:
-        """The URDF file, beside which the loop lies."""
-        self.file(f"urdf/{self.name}.loop.json")
-        return self.file(f"urdf/{self.name}.urdf")
-
-    def file(self, path: str) -> Path:
-        """Return where one of the bundle's files lies.
+        """Path of the URDF file; the loop file is beside it.
 
         Raises
         ------
         JumpcadError
-            If the manifest does not list it, or it is no plain file of this folder: missing, a link, behind a link.
+            If one of the two is missing.
+        """
+        self.file(f"urdf/{self.name}.loop.json")
+        return self.file(f"urdf/{self.name}.urdf")
+
+    def file(self, path: str) -> Path:
+        """Return the path of one of the bundle's files.
+
+        Raises
+        ------
+        JumpcadError
+            If the manifest does not list it, or it is missing, a link, below a link, or not a plain file.
         """
         wrong = trouble(self.folder, path) if path in self.manifest["files"] else "not in the manifest"
         if wrong:
@@ -132,7 +138,7 @@ class Bundle:
         return self.folder / path
 
     def is_unchanged(self, path: str) -> bool:
-        """Tell whether a plain file is as the manifest says."""
+        """Tell whether a plain file has the manifest's sha256."""
         return bool(self.manifest["files"].get(path) == _sha256(self.folder / path))
 
 
@@ -142,7 +148,7 @@ def open_bundle(folder: str | Path) -> Bundle:
     Raises
     ------
     JumpcadError
-        If there is none.
+        If there is none, its manifest cannot be read, or it has another format.
     """
     path = Path(folder) / MANIFEST
     if wrong := trouble(Path(folder), MANIFEST):
@@ -184,7 +190,7 @@ def verify(folder: str | Path) -> list[str]:
 
 
 def unlisted(folder: str | Path) -> list[str]:
-    """Return the paths in a bundle's folder that its manifest does not list: what was added since.
+    """Return the paths in a bundle's folder that its manifest does not list: files that a user added.
 
     Raises
     ------
@@ -207,7 +213,7 @@ def _sha256(file: Path) -> str:
 
 
 def _finite(number: str) -> float:
-    """Return a number, unless it is too large for one, as 1e999 is."""
+    """Return a number; one that is too large for a double, as 1e999, raises `ValueError`."""
     if not math.isfinite(value := float(number)):
         raise ValueError(number)
     return value

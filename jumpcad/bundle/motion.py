@@ -1,7 +1,7 @@
-"""What a robot does from rest to landing, as poses over a shown time that makes fast things slow (SI).
+"""The motion of a robot from rest to landing for the 3-D viewer, each phase with its own time scale (SI).
 
-The cam winds the springs, the roller drops, the legs extend, the robot flies. Up to the release the robot stands with
-its foot flat; from then on its poses are those of a simulated jump.
+Phases: the cam winds the springs, the roller drops, the legs extend, the robot flies. Up to the release the robot
+stands with its foot flat; from then on its poses are those of a simulated jump.
 """
 
 from collections.abc import Iterator
@@ -15,20 +15,21 @@ from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.simulation.jump import Trajectory
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, pose_at
 
 WINDING_MOMENTS, DROP_MOMENTS = 49, 7
+"""Number of poses of these phases."""
 SHOWN_S = {"winding": 3.0, "drop": 0.6, "push-off": 1.6, "flight": 2.4}
-"""How long each phase is shown; judgement: long enough for the eye."""
+"""Duration of each phase in the viewer; judgement: long enough to be seen."""
 FLIGHT_EVERY = 4
-"""Of the recorded moments of the flight every so many are kept: it is smooth."""
+"""Every fourth recorded moment of the flight is kept: it is smooth."""
 POSITION_DIGITS, TURN_DIGITS = 5, 5
-"""0.01 mm, and as fine a turn: what is drawn does not depend on the processor."""
+"""Decimals of positions (m) and quaternions: coarser than the differences between processors."""
 
 
 @dataclass(frozen=True)
 class Moment:
-    """A pose of the robot: poses of the bodies' frames (4, 4), angles of cam and cam gear from rest, real time."""
+    """One pose of the robot: the bodies' frames (4, 4) in the world (m), cam and cam gear from rest, time in phase."""
 
     phase: str
     time_s: float
@@ -40,12 +41,15 @@ class Moment:
 def motion(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> dict[str, Any]:
     """Return the motion as columns for the viewer; without a trajectory it ends with loaded springs.
 
+    `takeoff_s` is the time of take-off in the trajectory.
+
     Returns
     -------
     dict
-        `show_s` (n,) is the time at which each moment is shown, `time_s` (n,) that since its phase began, `phase`
-        (n,) its name, `phases` says of each how much slower or faster it is shown, `cam_rad` and `gear_rad` (n,),
-        `com_m` (n, 2) is the centre of mass in x and z, `frames` has (n, 7) position and quaternion xyzw by body.
+        `show_s` (n,) is the time at which each moment is shown, `time_s` (n,) the real time since the start of its
+        phase, `phase` (n,) the phase's name, `phases` the time scale of each phase in words, `cam_rad` and `gear_rad`
+        (n,) are angles from rest, `com_m` (n, 2) is the centre of mass in x and z, `frames` has position and quaternion
+        xyzw (n, 7) by body.
     """
     moments = list(_moments(robot, trajectory, takeoff_s))
     real, shown, shift = _times(moments)
@@ -62,7 +66,7 @@ def motion(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None)
 
 
 def _moments(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> Iterator[Moment]:
-    """Yield the moments of all phases; where two meet, the last of one is the first of the next."""
+    """Yield the moments of all phases; the last pose of a phase is the first of the next."""
     drive = robot.layout.drive
     law, speed = drive.cam.law, drive.train.cam_speed_rad_s
     lift, whole = law.lift_rad, robot.spring.wind_rad
@@ -79,11 +83,11 @@ def _moments(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | Non
     for moment, time_s in enumerate(trajectory.time_s.tolist()):
         flies = takeoff_s is not None and time_s > takeoff_s
         if not flies or moment % FLIGHT_EVERY == 0 or moment == len(trajectory.time_s) - 1:
-            yield Moment("flight" if flies else "push-off", time_s, _recorded(trajectory, moment), ahead, lift)
+            yield Moment("flight" if flies else "push-off", time_s, recorded_poses(trajectory, moment), ahead, lift)
 
 
 def _times(moments: list[Moment]) -> tuple[list[float], list[float], dict[str, str]]:
-    """Return real and shown times of the moments, and for each phase in words how its time is stretched."""
+    """Return real and shown times of the moments (s), and the time scale of each phase in words."""
     real: list[float] = []
     shown: list[float] = []
     words: dict[str, str] = {}
@@ -101,18 +105,15 @@ def _times(moments: list[Moment]) -> tuple[list[float], list[float], dict[str, s
     return real, shown, words
 
 
-def _recorded(trajectory: Trajectory, moment: int) -> dict[str, Array]:
-    poses = {}
+def recorded_poses(trajectory: Trajectory, moment: int) -> dict[str, Array]:
+    """Return the poses (4, 4) of the bodies' frames in the world at an index of a trajectory, by name (m)."""
     turns = Rotation.from_quat(trajectory.quaternion_xyzw[moment]).as_matrix()
-    for index, name in enumerate(trajectory.body_names):
-        pose = np.eye(4)
-        pose[:3, :3], pose[:3, 3] = turns[index], trajectory.position_m[moment, index]
-        poses[name] = pose
-    return poses
+    places = trajectory.position_m[moment]
+    return {name: pose_at(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)}
 
 
 def _com_m(robot: Robot, moment: Moment) -> list[float]:
-    """Return x and z of the robot's centre of mass."""
+    """Return x and z of the robot's centre of mass in the world (m)."""
     com = np.zeros(3)
     for name, body in robot.bodies.items():
         pose = moment.poses[name]

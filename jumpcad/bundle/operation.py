@@ -17,14 +17,17 @@ def charging(chosen: Chosen) -> str:
         )
     way = "Charge through the controller's USB socket, with the switch on and somebody beside it."
     if controller.charge_ma is None:
-        return f"{way} What its charger gives is not known: measure it, {battery.capacity_mah:.0f} mA at most (1 C)."
+        return f"{way} What its charger gives is not known: measure it, {battery.bears_ma:.0f} mA at most."
     rate = controller.charge_ma / battery.capacity_mah
     bears = (
         f"{way} Its charger gives {controller.charge_ma:.0f} mA, which cannot be set: {rate:.2f} C for this battery."
     )
     if rate <= 1.0:
         return bears
-    return f"{bears} More than 1 C: use a battery whose maker permits it, or charge outside the robot with 1 C."
+    return (
+        f"{bears} More than 1 C: read on the pack that its maker permits {controller.charge_ma:.0f} mA; otherwise "
+        "charge it outside the robot with 1 C."
+    )
 
 
 def charging_loaded(chosen: Chosen) -> str:

@@ -5,27 +5,32 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 
+from jumpcad.bundle.arrival import REAMED_MM
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.wiring import wires
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
+from jumpcad.parts.fittings import KNOB_MM, SWITCH_SCREWS_MM
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import Step
 
 ROD_M = (0.33, 0.5, 1.0)
 """Lengths in which shops sell rods of 2 to 4 mm."""
-REAMED_MM = 0.1
-"""Eyes of pins over their nominal diameter."""
 ROD_SHORT_MM = 0.3
 """By which a rod may be shorter; judgement, a saw and a file."""
 SAW_MM = 2.0
 """Lost at every cut; judgement."""
 STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
+SLIDER_MM = 1.5
+"""Of a switch's slider outside the plate, for a fingertip; judgement."""
 THREAD_MM = 6.0
 """Of a screw inside its standoff."""
-OTHER = "solder, silicone or lithium grease, alcohol, some more cable ties 2.5 mm wide"
+OTHER = (
+    "solder, silicone or lithium grease, alcohol, adhesive tape, a strip more of foam tape, some more cable ties "
+    "2.5 mm wide; two screws M2 x 6 and two nuts M2 if the switch's ears have no thread"
+)
 
 
 def order_lines(robot: Robot) -> Iterator[str]:
@@ -41,6 +46,7 @@ def order_lines(robot: Robot) -> Iterator[str]:
     lengths = ", ".join(f"{colour} {length / 1000.0:.2f} m" for colour, length in sorted(total.items()))
     yield f"- wire AWG 28, silicone: {lengths}, ends included; the bill has each rounded up to 0.1 m"
     yield from _tape(robot)
+    yield from _switch(robot)
     yield f"- besides: {OTHER}"
 
 
@@ -76,7 +82,8 @@ def print_lines(robot: Robot) -> Iterator[str]:
         yield f"| print/{plate.name}.3mf | {plate.material} | {named} |"
     yield from (
         "",
-        "Print `jumpcad coupon` first: it shows which diameters and clearances your printer makes. Put the seam of the "
+        "Where jumpcad is installed, print its fit coupon first (`jumpcad coupon -o coupon`): it shows which diameters "
+        "and clearances your printer makes. Put the seam of the "
         "cam where its drop is, not on the lift. Break the first layer's edge in bores.",
     )
 
@@ -126,6 +133,21 @@ def _tape(robot: Robot) -> Iterator[str]:
     boards = chosen_parts(robot.workshop).boards.items()
     pieces = ", ".join(f"{board.length_mm:g} x {board.width_mm:g} mm ({role})" for role, board in boards)
     yield f"- double-sided foam tape 1 mm thick: {pieces}"
+
+
+def _switch(robot: Robot) -> Iterator[str]:
+    """Yield what a slide switch must be like: shops sell many of one name."""
+    fittings, lateral = robot.layout.fittings, robot.layout.lateral
+    if fittings.switch is None or fittings.switch_mm is None:
+        return
+    switch, plate = fittings.switch, lateral.inside[0] - lateral.outside[0]
+    yield (
+        f"- slide switch: {2.0 * SWITCH_SCREWS_MM:g} mm between the holes of its ears, at most {switch.length_mm:g} x "
+        f"{switch.width_mm:g} mm, {switch.height_mm:g} mm high behind its ears, {switch.rated_a:g} A or more. Its "
+        f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it "
+        f"must stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No maker's article with all of it is known "
+        "here: compare the drawing before you order"
+    )
 
 
 def _strips(robot: Robot) -> Iterator[str]:

@@ -1,6 +1,6 @@
-"""report.html: one file, without network, on one robot: verdict, motion in 3-D, limits, energy, how to make it.
+"""report.html: a page on one robot, without network: verdict, motion in 3-D, limits, energy, printing, parts.
 
-HTML that is well-formed XML too. The same robot and jump give the same bytes.
+The HTML is well-formed XML too. The same robot and jump give the same bytes.
 """
 
 import base64
@@ -11,12 +11,14 @@ from urllib.parse import quote
 
 from jumpcad.bundle.bom import BillLine, bill_of_materials, euros
 from jumpcad.bundle.limits import limits, tightest
+from jumpcad.bundle.uncertainty import uncertainty
 from jumpcad.bundle.viewer import viewer
 from jumpcad.checks import quick_findings
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.templates import templates_folder
 from jumpcad.robot import Robot
 from jumpcad.simulation.jump import Jump
+from jumpcad.simulation.uncertain import Uncertainty
 from jumpcad.version import __version__
 
 NUMERIC = ("quantity", "g each", "€", "margin", "value", "mJ", "share")
@@ -39,19 +41,22 @@ def write_report(
     jump: Jump,
     glb: bytes | None = None,
     files: Iterable[str] = (),
+    sure: Uncertainty | None = None,
 ) -> str:
     """Return the page.
 
     Parameters
     ----------
     robot, jump
-        The robot and how it jumps, with its trajectory where the page shows the motion.
+        The robot and its jump, with its trajectory if the page shows the motion.
     pictures
-        PNG files by what they show; they become part of the page.
+        PNG files by title; they become part of the page.
     glb
         The robot's GLB file; without it there is no 3-D view.
     files
         Paths in the bundle that the page links to.
+    sure
+        How sure range and rise are.
     """
     name = escape(allowed(robot.name))
     style = (templates_folder() / "report" / "style.css").read_text(encoding="ascii")
@@ -63,11 +68,12 @@ def write_report(
             f"<title>{name}</title><style>{style}</style></head>",
             "<body>",
             f"<h1>{name}</h1>",
-            *_verdict(robot, jump),
+            *_verdict(robot, jump, sure),
             *(viewer(robot, jump, glb) if glb is not None else ()),
             *_pictures(pictures),
             *limits(quick_findings(robot)),
             *_energy(jump),
+            *(uncertainty(sure) if sure is not None else ()),
             *_printing(robot, files),
             *_parts(robot),
             *_downloads(files),
@@ -81,8 +87,8 @@ def write_report(
     )
 
 
-def _verdict(robot: Robot, jump: Jump) -> Iterator[str]:
-    """Yield whether the robot jumps and how far, its mass and price, and the limits that it comes nearest to."""
+def _verdict(robot: Robot, jump: Jump, sure: Uncertainty | None) -> Iterator[str]:
+    """Yield the range or the reason for no jump, the main figures, and the tightest limits."""
     if jump.ballistic_range_m is None or jump.com_rise_m is None:
         yield f'<p class="error">It does not jump: {escape(jump.verdict)}.</p>'
         shown = []
@@ -90,6 +96,9 @@ def _verdict(robot: Robot, jump: Jump) -> Iterator[str]:
         far, high = 1000.0 * jump.ballistic_range_m, 1000.0 * jump.com_rise_m
         yield f'<p class="verdict">It jumps {far:.0f} mm far; its centre of mass rises {high:.0f} mm.</p>'
         shown = [("range", f"{far:.0f} mm"), ("rise", f"{high:.0f} mm")]
+        if sure is not None:
+            low, _, most = sure.quantiles["ballistic_range_m"]
+            shown.insert(1, ("eight of ten ranges", f"{1000.0 * low:.0f} to {1000.0 * most:.0f} mm"))
     bill, train = bill_of_materials(robot), robot.layout.drive.train
     shown += [
         ("mass", f"{1000.0 * robot.mass_kg:.1f} g"),
@@ -106,7 +115,7 @@ def _verdict(robot: Robot, jump: Jump) -> Iterator[str]:
 
 
 def _energy(jump: Jump) -> Iterator[str]:
-    """Yield where the springs' energy is at take-off: a bar and a table."""
+    """Yield the energy account at take-off as a bar and a table."""
     account = jump.energy_account_j
     if account is None:
         return

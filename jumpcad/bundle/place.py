@@ -1,11 +1,10 @@
 """Replaces a folder atomically: all of it or nothing.
 
 The new folder is written beside the old one and exchanged with it in one step: whenever a build is killed, the name
-belongs to a whole folder, old or new, and at most a hidden folder is left over beside it. Where the system cannot
+is that of a complete folder, old or new, and at most a hidden folder is left over beside it. Where the system cannot
 exchange two folders (see `jumpcad.bundle.swap`) there are two renames, between which no folder has the name.
 
-What is kept of the old folder is linked into the new one before the exchange, so that the folder of that
-name is never incomplete.
+Files that are kept are linked into the new folder before the exchange, so that it is never incomplete.
 """
 
 import os
@@ -22,7 +21,7 @@ from jumpcad.errors import JumpcadError
 
 
 def write_in_place(target: Path, files: Mapping[str, bytes], there: Tree, kept: Tree) -> None:
-    """Write files, and what is kept of the target, to a folder beside it and put that in the target's place.
+    """Write files, and those that are kept, to a folder beside the target, and exchange the two.
 
     Parameters
     ----------
@@ -31,32 +30,33 @@ def write_in_place(target: Path, files: Mapping[str, bytes], there: Tree, kept: 
     files
         Path and content of all files that are written.
     there, kept
-        What the folder holds, and what of it stays: linked, not copied, with its date and permissions.
+        What the folder holds, and the part of it that is kept: linked, not copied, with its date and permissions.
 
     Raises
     ------
     OSError, JumpcadError
-        If the folder cannot be written, or something cannot be kept; nothing is changed then.
+        If the folder cannot be written, or something cannot be kept: nothing is changed then. `JumpcadError` also if a
+        file was changed during the exchange: the message says where it is.
     """
     target.parent.mkdir(parents=True, exist_ok=True)
-    workplace = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name[:32]}."))
+    temporary = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name[:32]}."))
     try:
-        fresh = workplace / "new"
+        fresh = temporary / "new"
         _fill(fresh, files, target, kept)
         _copy_modes(target, fresh, there, kept)
-        left = _change_places(fresh, target, workplace / "old")
+        left = _exchange(fresh, target, temporary / "old")
     except BaseException:
-        shutil.rmtree(workplace, ignore_errors=True)  # the target has all that is in there
+        shutil.rmtree(temporary, ignore_errors=True)  # the target still has everything
         raise
     _clear(left, there)
     try:
-        workplace.rmdir()
+        temporary.rmdir()
     except OSError:
         raise JumpcadError(f"{target}: is written, but what was changed in it meanwhile is in {left}") from None
 
 
 def _fill(fresh: Path, files: Mapping[str, bytes], target: Path, kept: Tree) -> None:
-    """Write files into a new folder and link there what is kept of the target."""
+    """Write files into a new folder and link the target's kept files into it."""
     fresh.mkdir()
     for path, data in files.items():
         file = fresh / PurePosixPath(path)
@@ -70,7 +70,13 @@ def _fill(fresh: Path, files: Mapping[str, bytes], target: Path, kept: Tree) -> 
 
 
 def _link(file: Path, place: Path) -> None:
-    """Give a file, or a link itself, a second name; copy it where that cannot be."""
+    """Make a hard link to a file or symbolic link; copy it if the file system has no hard links.
+
+    Raises
+    ------
+    JumpcadError
+        If it is neither a file nor a link, or cannot be copied.
+    """
     try:
         os.link(file, place, follow_symlinks=False)
     except (OSError, NotImplementedError):
@@ -91,8 +97,8 @@ def _copy_modes(target: Path, fresh: Path, there: Tree, kept: Tree) -> None:
         shutil.copymode(target, fresh)
 
 
-def _change_places(fresh: Path, target: Path, aside: Path) -> Path:
-    """Put a new folder in the target's place; return where the old one is then."""
+def _exchange(fresh: Path, target: Path, aside: Path) -> Path:
+    """Put a new folder in the target's place; return the path of the old one then."""
     if not os.path.lexists(target):
         os.rename(fresh, target)
         return fresh
@@ -109,7 +115,7 @@ def _change_places(fresh: Path, target: Path, aside: Path) -> Path:
 
 
 def _clear(folder: Path, known: Tree) -> None:
-    """Remove what is known of a folder, and the folder if nothing else is in it; what changed meanwhile stays."""
+    """Remove the known and unchanged files of a folder, and the folder if nothing else is in it."""
     with suppress(OSError):
         for place in (folder, *(folder / path for path, before in known.items() if stat.S_ISDIR(before.st_mode))):
             place.chmod(stat.S_IRWXU)

@@ -1,4 +1,4 @@
-"""What a manifest says of the release: figures, and what an independent simulation of it needs."""
+"""The manifest's entries about the release: results, and the inputs that an independent simulation needs."""
 
 import math
 from typing import Any
@@ -8,11 +8,11 @@ from jumpcad.drive.rolling import ReleaseParts
 
 
 def release_facts(release: Release) -> dict[str, Any]:
-    """Return plain data: angles in degrees, torques at the gear motor's output unless their name says at the cam.
+    """Return plain data: angles in degrees, torques at the gear motor's output or, if named so, at the cam.
 
-    `energy_ratio` leaves the lever's bending aside, `energy_ratio_rounded` too, with the corner rounded as the workshop
-    says; `energy_ratio_with_bending` is where the jump starts. Torques are the largest of both corners and of the two
-    motors of `assumed`, those at the ends of the workshop's ranges, the second one also slow.
+    `energy_ratio` and `energy_ratio_rounded` (with the workshop's corner radius) neglect the bending of the lever;
+    simulated jumps start with `energy_ratio_with_bending`. Torques are the largest of both corners and of the two
+    motors in `assumed`, which are at the ends of the workshop's ranges; the second one is computed at low speed too.
     """
     return {
         "energy_ratio": round(release.energy_ratio, 6),
@@ -34,7 +34,7 @@ def release_facts(release: Release) -> dict[str, Any]:
 
 
 def _assumed(parts: ReleaseParts) -> dict[str, float]:
-    """Return what takes part in a release, at the cam, rounded to nine digits."""
+    """Return inertias, stiffnesses and clearances of a release, referred to the cam, with nine significant digits."""
     values = {
         "cam_kg_m2": parts.cam_kg_m2,
         "gear_kg_m2": parts.gear_kg_m2,

@@ -1,12 +1,12 @@
-"""Pictures of a robot: at rest, springs loaded (`compressed`), exploded, steps of assembly, and its jump."""
+"""Pictures of a robot: at rest, loaded (`compressed` in file names), exploded, its assembly steps and its jump."""
 
 import io
 from collections.abc import Sequence
 
 import numpy as np
 from PIL import Image
-from scipy.spatial.transform import Rotation
 
+from jumpcad.bundle.motion import recorded_poses
 from jumpcad.bundle.step_pictures import step_pictures
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
@@ -16,7 +16,7 @@ from jumpcad.scene.floor import STRIPE_M, with_floor
 from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
-from jumpcad.transforms import Array, pose_at
+from jumpcad.transforms import Array, chained, pose_at
 
 RENDERS = ("rest", "compressed", "exploded")
 RENDER_SIZE = (600, 450)
@@ -25,30 +25,36 @@ JUMP_FRAMES = 36
 FRAME_MS = 50
 PALETTE = 64
 EXPLOSION = 2.4
-"""How far things move apart across the robot, over their distance from its middle plane."""
+"""Shift of a part along y in the exploded view, over the distance of its outer face from the middle plane."""
 CENTRED_M = 0.004
-"""A thing whose middle is within this of the middle plane is in the middle."""
+"""Parts whose centre is nearer to the middle plane are not shifted."""
 EXPLODED_VIEW = View(yaw_deg=-34.0, pitch_deg=24.0)
 JUMP_VIEW = View(yaw_deg=-80.0, pitch_deg=6.0)
 
 
 def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> dict[str, bytes]:
-    """Return the PNG files of a robot at rest, compressed and exploded, by name.
+    """Return the PNG files of a robot at rest, loaded and exploded, by their names in `RENDERS`.
 
     Raises
     ------
     JumpcadError
-        If the robot has no parts to be seen.
+        If the robot has no visible parts.
     """
     things = visuals(robot)
     return _renders(_renderer(things), robot, things, size)
 
 
 def rest_picture(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> bytes:
-    """Return the PNG file of a robot at rest. Raises as `renders`."""
+    """Return the PNG file of a robot at rest.
+
+    Raises
+    ------
+    JumpcadError
+        As `renders`.
+    """
     things = visuals(robot)
     poses = _poses(things, body_poses(robot))
-    return _png(_renderer(things).picture(poses, size, View(), _corners(things, poses)))
+    return _png(_renderer(things).picture(poses, size, View(), corners_of(things, poses)))
 
 
 def all_pictures(robot: Robot) -> dict[str, bytes]:
@@ -65,32 +71,32 @@ def all_pictures(robot: Robot) -> dict[str, bytes]:
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:
-    """Return an animated GIF of a recorded jump above a striped floor, at equal time steps from release on."""
+    """Return an animated GIF of a recorded jump on a striped floor, in equal time steps from the release on."""
     things = visuals(robot)
     times = np.linspace(trajectory.time_s[0], trajectory.time_s[-1], JUMP_FRAMES)
     moments = np.searchsorted(trajectory.time_s, times, side="right") - 1
-    frames = [_poses(things, _recorded(trajectory, moment)) for moment in moments]
-    corners = np.concatenate([_corners(things, poses) for poses in frames])
+    frames = [_poses(things, recorded_poses(trajectory, moment)) for moment in moments]
+    corners = np.concatenate([corners_of(things, poses) for poses in frames])
     scene = _renderer(things)
     camera = aimed(corners, JUMP_VIEW, size[0] / size[1])
     slower = 0.001 * FRAME_MS * (JUMP_FRAMES - 1) / (times[-1] - times[0])
     caption = f"slow motion, {slower:.0f} times; stripes of {1000.0 * STRIPE_M:.0f} mm"
     pictures = [scene.picture(poses, size, JUMP_VIEW, corners) for poses in frames]
-    return _gif([with_floor(picture, camera, corners, caption) for picture in pictures])
+    return gif([with_floor(picture, camera, corners, caption) for picture in pictures])
 
 
 def exploded(things: Sequence[Visual], poses: Sequence[Array]) -> list[Array]:
-    """Return poses with everything moved apart across the robot, by `EXPLOSION` times its outer face's distance.
+    """Return the poses of the exploded view: every part is shifted along y by `EXPLOSION` times a distance.
 
-    Distances are from the middle plane, those of what the toes carry at most the body's. What is centred on it stays:
-    legs, and what reaches from plate to plate.
+    The distance is that of the part's outer face from the middle plane, at most that of the body's outermost part.
+    Parts centred on the middle plane are not shifted: legs, and parts that go from plate to plate.
     """
     body = [(thing, pose) for thing, pose in zip(things, poses, strict=True) if thing.body == BODY]
-    widest = float(np.abs(_corners([thing for thing, _ in body], [pose for _, pose in body])[:, 1]).max())
+    widest = float(np.abs(corners_of([thing for thing, _ in body], [pose for _, pose in body])[:, 1]).max())
     moved = []
     for thing, pose in zip(things, poses, strict=True):
-        y = _corners([thing], [pose])[:, 1]
-        centre = float((pose[:3, :3] @ thing.mesh.centroid)[1] / 1000.0 + pose[1, 3])
+        y = corners_of([thing], [pose])[:, 1]
+        centre = float((pose[1, :3] * thing.mesh.centroid).sum() / 1000.0 + pose[1, 3])
         outer = (
             float(np.clip(y.max() if centre > 0.0 else y.min(), -widest, widest)) if abs(centre) > CENTRED_M else 0.0
         )
@@ -102,7 +108,7 @@ def _renders(scene: Renderer, robot: Robot, things: Sequence[Visual], size: tupl
     rest, loaded = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
     scenes = ((rest, View()), (loaded, View()), (exploded(things, rest), EXPLODED_VIEW))
     return {
-        name: _png(scene.picture(poses, size, view, _corners(things, poses)))
+        name: _png(scene.picture(poses, size, view, corners_of(things, poses)))
         for name, (poses, view) in zip(RENDERS, scenes, strict=True)
     }
 
@@ -112,23 +118,17 @@ def _renderer(things: Sequence[Visual]) -> Renderer:
 
 
 def _poses(things: Sequence[Visual], bodies: dict[str, Array]) -> list[Array]:
-    return [bodies[thing.body] @ thing.T_body_mesh for thing in things]
+    return [chained(bodies[thing.body], thing.T_body_mesh) for thing in things]
 
 
-def _recorded(trajectory: Trajectory, moment: int) -> dict[str, Array]:
-    turns = Rotation.from_quat(trajectory.quaternion_xyzw[moment]).as_matrix()
-    places = trajectory.position_m[moment]
-    return {name: pose_at(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)}
-
-
-def _corners(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
-    """Return the corners (8·n, 3) of the things' bounding boxes in the world (m)."""
-    corners = []
-    for thing, pose in zip(things, poses, strict=True):
-        low, high = thing.mesh.bounds / 1000.0
-        box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-        corners.append(box @ pose[:3, :3].T + pose[:3, 3])
-    return np.concatenate(corners)
+def corners_of(things: Sequence[Visual], poses: Sequence[Array]) -> Array:
+    """Return the corners (8·n, 3) of the parts' bounding boxes in the world (m)."""
+    return np.concatenate(
+        [
+            np.einsum("ni,ji->nj", thing.corners_m, pose[:3, :3]) + pose[:3, 3]
+            for thing, pose in zip(things, poses, strict=True)
+        ]
+    )
 
 
 def _png(picture: Image.Image) -> bytes:
@@ -137,7 +137,7 @@ def _png(picture: Image.Image) -> bytes:
     return stream.getvalue()
 
 
-def _gif(pictures: list[Image.Image]) -> bytes:
+def gif(pictures: list[Image.Image], frame_ms: int = FRAME_MS) -> bytes:
     """Return an endless GIF whose frames share one palette."""
     width, height = pictures[0].size
     sheet = Image.new("RGB", (width, height * len(pictures)))
@@ -146,5 +146,5 @@ def _gif(pictures: list[Image.Image]) -> bytes:
     palette = sheet.quantize(PALETTE, dither=Image.Dither.NONE)
     first, *rest = (picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures)
     stream = io.BytesIO()
-    first.save(stream, "GIF", save_all=True, append_images=rest, duration=FRAME_MS, loop=0)
+    first.save(stream, "GIF", save_all=True, append_images=rest, duration=frame_ms, loop=0)
     return stream.getvalue()

@@ -1,4 +1,4 @@
-"""A bundle's parts and plates as PrusaSlicer prints them, beside the printed-mass model."""
+"""Mass and printing time of a bundle's parts and plates by PrusaSlicer, compared with the printed-mass model."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator
@@ -25,13 +25,13 @@ from jumpcad.transforms import Array
 from jumpcad.workshop import Material, Workshop
 
 STRAIGHT_MM = 1e-4
-"""Corners nearer than this to a straight line come from the triangles of a wall."""
+"""Corners nearer than this to a straight line are dropped: they come from the triangles of a flat wall."""
 SMALLEST_MM2 = 1e-2
-"""Cross-sections that differ by less do so because STL files hold 32-bit floats."""
+"""Cross-sections that differ by less are the same: STL files hold 32-bit floats."""
 BOM, GUIDE = "bom.csv", "assembly.md"
 PLATE = re.compile(r"print/(plate-\d+-(.+))\.3mf")
 LARGEST_MM = 2000.0
-"""Largest coordinate of a part's file; a stranger's may hold any."""
+"""Largest coordinate that is accepted in a part's file; a changed file may have any."""
 
 
 @dataclass(frozen=True)
@@ -47,13 +47,13 @@ class SlicedPart:
 
     @property
     def difference(self) -> float:
-        """By what share of the sliced mass the model is heavier (lighter if negative)."""
+        """Modelled less sliced mass, over the sliced one."""
         return self.modelled_grams / self.grams - 1.0
 
 
 @dataclass(frozen=True)
 class SlicedPlate:
-    """A plate sliced as it lies: grams and seconds of all that is on it."""
+    """A print plate as sliced: grams and seconds of all parts on it."""
 
     name: str
     material: str
@@ -63,10 +63,10 @@ class SlicedPlate:
 
 @dataclass(frozen=True)
 class SlicedBundle:
-    """What PrusaSlicer says of a bundle printed in a workshop.
+    """A bundle's parts and plates as sliced by PrusaSlicer with the settings of a workshop.
 
     `billed` is true if the times belong in the bundle's bill of materials: it has one, and its own workshop was used.
-    `ignored` maps each setting that the slicer did not take over to what was asked for and what it used.
+    `ignored` maps each setting that the slicer did not accept to the requested and the used value.
     """
 
     bundle: Bundle
@@ -95,17 +95,17 @@ def slice_bundle(
     folder
         The bundle.
     workshop
-        How it is printed; as the bundle's own workshop says unless given.
+        With the print settings; by default the bundle's own.
     tell
-        Called with the name of what is sliced next.
+        Called with the name of each part and plate before it is sliced.
 
     Raises
     ------
     JumpcadError
-        If a file of the bundle is changed or missing, if it has no printed parts, or if PrusaSlicer is missing,
-        crashes, or is of another major version.
+        If a file of the bundle is changed or missing, if it has no printed parts, if the workshop lacks one of its
+        materials, or if PrusaSlicer is missing, crashes, or is of another major version.
     CannotBuildError
-        If PrusaSlicer refuses a part.
+        If PrusaSlicer rejects a part or finds nothing to print.
     """
     if wrong := verify(folder):
         raise JumpcadError(f"{folder} is not as it was built: {few(wrong)}; build it again with jumpcad build")
@@ -138,12 +138,12 @@ def slice_bundle(
 
 
 def write_times(found: SlicedBundle) -> Bundle:
-    """Write the printing times into a bundle's bill of materials and guide, and return the bundle as it is then.
+    """Write the printing times into a bundle's bill of materials and guide, and return the changed bundle.
 
     Raises
     ------
     JumpcadError
-        If the folder cannot be written.
+        If the guide is not text, a user's file would be lost, or the folder cannot be written.
     """
     bundle = found.bundle
     bill = bill_of_facts(bundle.manifest["masses"], found.workshop).sliced(
@@ -166,7 +166,7 @@ def _plates(bundle: Bundle) -> Iterator[tuple[Path, str, str]]:
 
 
 def _require_materials(names: Iterable[str], workshop: Workshop) -> None:
-    """Refuse a workshop that lacks a material that the bundle is printed in."""
+    """Raise `JumpcadError` if a workshop lacks a material of the bundle."""
     for name in names:
         if name not in workshop.materials:
             known = ", ".join(workshop.materials)
@@ -174,23 +174,29 @@ def _require_materials(names: Iterable[str], workshop: Workshop) -> None:
 
 
 def _grams(model: Path, sliced: Sliced) -> float:
-    """Return the mass of what was sliced (g); refuse nothing at all."""
+    """Return the sliced mass (g); raise `CannotBuildError` if it is zero."""
     if not sliced.grams > 0.0:
         raise CannotBuildError(f"{model.name}: the slicer found nothing to print: every wall is thinner than a line")
     return sliced.grams
 
 
 def _modelled_grams(stl: Path, workshop: Workshop, material: Material) -> float:
-    """Return what the printed-mass model makes of an STL file (g)."""
+    """Return the mass of an STL file by the printed-mass model (g)."""
     mass = mass_properties(_StlPart(stl), material.density_g_cm3, workshop.process, workshop.printer.nozzle_mm)
     return 1000.0 * mass.mass_kg
 
 
 class _StlPart:
-    """An STL file as the mass model sees parts (mm)."""
+    """An STL file with the interface of the mass model's shapes (mm).
+
+    Raises
+    ------
+    JumpcadError
+        If it is no closed solid, or has coordinates beyond `LARGEST_MM`.
+    """
 
     def __init__(self, stl: Path) -> None:
-        with np.errstate(all="ignore"):  # of figures that are refused below
+        with np.errstate(all="ignore"):  # from coordinates that are rejected below
             mesh = trimesh.load_mesh(stl, process=False)
         if not np.all(np.abs(mesh.vertices) <= LARGEST_MM):  # also false for NaN
             raise JumpcadError(f"{stl}: reaches further than {LARGEST_MM:g} mm, so it is no part; build it again")

@@ -1,6 +1,6 @@
-"""order/spring-*-hand.svg: one drawing for each hand of spring, for who winds it or finds it in a catalogue (mm).
+"""order/spring-*-hand.svg: a drawing of the left-hand and of the right-hand spring, for makers and dealers (mm).
 
-The relaxed spring seen along its axis and from the side, 3:1, with what counts: the rate.
+It shows the relaxed spring along its axis and from the side, 3:1, and a table of its requirements.
 """
 
 import math
@@ -66,7 +66,7 @@ def _requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> 
 
 
 def _end_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
-    """Yield the spring along its axis: from the nearer end a right-hand coil recedes clockwise."""
+    """Yield the view along the axis: a right-hand coil goes away from the viewer clockwise."""
     x, y = END_VIEW_MM
     mean, wire = SCALE * spring.arms.mean_mm, SCALE * spring.wire_mm
     yield f'<circle cx="{x:g}" cy="{y:g}" r="{mean / 2:.2f}" fill="none" stroke="#9aa0a8" stroke-width="{wire:.2f}"/>'
@@ -81,7 +81,7 @@ def _end_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
 
 
 def _arms(spring: TorsionSpring, hand: str) -> tuple[Array, Array]:
-    """Return farther and nearer arm, each from its tangent point to its end (2, 2), y down."""
+    """Return farther and nearer arm, each from its tangent point to its end (2, 2), from the axis, y down (mm)."""
     sense = -1.0 if hand == "right" else 1.0
     turn = 2.0 * math.pi * spring.turns
     radius, length = spring.arms.mean_mm / 2.0, spring.arm_length_mm
@@ -95,7 +95,7 @@ def _arms(spring: TorsionSpring, hand: str) -> tuple[Array, Array]:
 
 
 def _side_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
-    """Yield the body from the side: the wire in front, sloping as its hand says on an upright axis."""
+    """Yield the side view of the body, axis upright: in front the wire of a right-hand coil rises to the right."""
     x, y = SIDE_VIEW_MM
     wire, outer = SCALE * spring.wire_mm, SCALE * spring.outer_diameter_mm
     count = math.ceil(spring.turns)

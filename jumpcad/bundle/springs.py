@@ -1,4 +1,4 @@
-"""The springs of a robot in words, for who orders and fits them, and as facts of the manifest."""
+"""The springs of a robot: the guide's section on ordering them, and the manifest's entries."""
 
 import math
 from collections.abc import Iterator
@@ -11,9 +11,10 @@ DIGITS = 6
 
 
 def spring_facts(robot: Robot) -> list[dict[str, Any]]:
-    """Return what the manifest says of the left and the right spring; pins (x, z) from the hub in the rest pose (mm).
+    """Return the manifest's entries of the left and the right spring.
 
-    `turns` are those of the relaxed body; `arm_length_mm` is from the tangent point to the arm's end.
+    Pins are (x, z) from the hub in the rest pose (mm); `turns` are those of the relaxed body; `arm_length_mm` is from
+    the tangent point to the arm's end.
     """
     spring = robot.layout.drive.spring
     plate, leg = (
@@ -39,7 +40,7 @@ def spring_facts(robot: Robot) -> list[dict[str, Any]]:
 
 
 def spring_order(robot: Robot) -> Iterator[str]:
-    """Yield the guide's lines on the springs: what to order, and which one goes where."""
+    """Yield the guide's section on the springs: what to order, and on which side each one belongs."""
     spring = robot.layout.drive.spring
     yield from ("", "## Springs to order" if not spring.stock else "## Springs", "")
     yield from (_stock_lines if spring.stock else _made_lines)(robot, spring)

@@ -1,4 +1,4 @@
-"""The pictures of assembly: one a step with names and arrows, and closer looks where hands need them."""
+"""The pictures of assembly: one for each step with names and arrows, and details of some steps."""
 
 import io
 
@@ -19,13 +19,15 @@ MARGIN = 190
 """Pixels on either side, for names."""
 INSET_SIZE = (420, 360)
 ROOM = 1.12
+"""Size of the picture's frame over that of the view's."""
 COLOURS = 96
+"""Of the PNG files' palettes."""
 
 
 def step_pictures(robot: Robot, things: tuple[Visual, ...], scene: Renderer) -> dict[str, bytes]:
-    """Return the PNG files of all steps (`step-3`) and their closer looks (`step-3-springs`), by name.
+    """Return the PNG files of all steps (`step-3`) and their details (`step-3-springs`), by name.
 
-    `scene` renders `things`, in their order.
+    `scene` has the meshes of `things`, in their order.
     """
     number = {thing.name: index for index, thing in enumerate(things)}
     pictures = {}
@@ -35,7 +37,7 @@ def step_pictures(robot: Robot, things: tuple[Visual, ...], scene: Renderer) -> 
 
 
 def named_views(robot: Robot) -> list[tuple[str, StepView]]:
-    """Return the names of the pictures with what they show, in the order of the steps."""
+    """Return the names and views of the pictures, in the order of the steps."""
     views = step_views(robot)
     named = []
     for number, step in enumerate(assembly_steps(robot), start=1):

@@ -1,4 +1,4 @@
-"""The rest stop as facts of the manifest."""
+"""The manifest's entries about the rest stop."""
 
 import math
 from typing import Any
@@ -9,7 +9,7 @@ DIGITS = 6
 
 
 def stop_facts(robot: Robot) -> dict[str, Any]:
-    """Return what the manifest says of the stop: the leg's angle past rest, the blow, the pad and its give."""
+    """Return the stop's angle past rest, energy and torque of the leg's impact, and the pad with its compression."""
     stop, blow = robot.layout.stop, robot.stop_blow
     return {
         "angle_deg": round(math.degrees(stop.angle_rad), DIGITS),

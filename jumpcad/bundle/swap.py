@@ -12,7 +12,7 @@ _EXCHANGE = 2
 
 
 def exchanged(one: Path, other: Path) -> bool:
-    """Let two existing paths of one file system change places; return False, with nothing done, where none can."""
+    """Exchange two existing paths of one file system; return False, with nothing changed, if that is not possible."""
     if not sys.platform.startswith("linux"):
         return False
     try:

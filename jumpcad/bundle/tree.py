@@ -1,4 +1,4 @@
-"""Lists what is in a folder. No link is followed, no file is opened."""
+"""Lists a folder's contents. No link is followed, no file is opened."""
 
 import os
 import stat
@@ -10,18 +10,18 @@ from jumpcad.errors import JumpcadError
 NAMED = 3
 """Files that an error names; the others are counted."""
 Tree = dict[str, os.stat_result]
-"""All that lies in a folder by its path, written with '/', a folder before what is in it."""
+"""The `lstat` of everything below a folder by its path, written with '/'; a folder comes before its contents."""
 
 
 def tree(folder: Path) -> Tree:
-    """Return all that lies below a folder; links are not followed.
+    """Return everything below a folder; links are not followed.
 
     Raises
     ------
     OSError
         If a folder cannot be read.
     JumpcadError
-        If something lies on another disk than the folder.
+        If something is on another file system than the folder.
     """
     found: Tree = {}
     disk, waiting = folder.stat().st_dev, [""]
@@ -40,7 +40,7 @@ def tree(folder: Path) -> Tree:
 
 
 def trouble(folder: Path, path: str) -> str:
-    """Return why a path is not a plain file below a folder, or nothing."""
+    """Return why a path is not a plain file below a folder; empty if it is one."""
     place, mode = folder, stat.S_IFDIR
     for name in path.split("/"):
         place /= name
@@ -65,17 +65,17 @@ def is_safe(path: str) -> bool:
 
 
 def above(path: str) -> list[str]:
-    """Return the folders in which a path lies: `a/b` has `a`."""
+    """Return the folders of a path, the outermost first: `a/b/c` has `a` and `a/b`."""
     names = path.split("/")
     return ["/".join(names[:count]) for count in range(1, len(names))]
 
 
 def few(things: Sequence[str]) -> str:
-    """Return the first of several things, and how many more there are."""
+    """Return the first paths of several as text, and how many more there are."""
     more = f" and {len(things) - NAMED} more" if len(things) > NAMED else ""
     return ", ".join(map(shown, things[:NAMED])) + more
 
 
 def shown(path: str) -> str:
-    """Return a path as a terminal can show it, whatever its characters."""
+    """Return a path as text; with escapes if it has characters that cannot be printed."""
     return path if path.isprintable() else ascii(path)[1:-1]

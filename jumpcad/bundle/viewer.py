@@ -1,4 +1,4 @@
-"""The 3-D viewer of report.html: its data, the robot's GLB and the bundled program, as elements of the page."""
+"""The 3-D viewer of report.html: its data, the robot's GLB file and its program, as elements of the page."""
 
 import base64
 import json
@@ -18,8 +18,10 @@ from jumpcad.scene.assembly_steps import assembly_steps
 from jumpcad.scene.extent import extent_m
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Jump
+from jumpcad.transforms import chained
 
 MICRONS = 6
+"""Decimals of lengths in m."""
 CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <p><button type="button" id="play">Play</button>
 <label>motion <input type="range" id="scrub" min="0" max="1" step="0.001" value="0" /></label>
@@ -33,7 +35,7 @@ CONTROLS = """<div id="viewer-controls" hidden="hidden">
 
 
 def viewer(robot: Robot, jump: Jump, glb: bytes) -> Iterator[str]:
-    """Yield the viewer's elements: a box, its controls, and as scripts its data, its model and its program."""
+    """Yield the viewer's elements: a box, controls, and scripts with data, GLB file and program."""
     yield '<div id="viewer" aria-label="the robot in 3-D" role="img"></div>'
     yield '<p id="viewer-message">The robot is shown here in 3-D where the browser runs scripts and WebGL.</p>'
     yield CONTROLS
@@ -44,10 +46,10 @@ def viewer(robot: Robot, jump: Jump, glb: bytes) -> Iterator[str]:
 
 
 def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
-    """Return what the viewer needs beside the model: motion, what turns, parts, steps, distances when apart (SI)."""
+    """Return the viewer's data: motion, turning parts, parts' labels, assembly steps, offsets when exploded (SI)."""
     things = visuals(robot)
     bodies = body_poses(robot)
-    poses = [bodies[thing.body] @ thing.T_body_mesh for thing in things]
+    poses = [chained(bodies[thing.body], thing.T_body_mesh) for thing in things]
     apart = [after[:3, 3] - before[:3, 3] for before, after in zip(poses, exploded(things, poses), strict=True)]
     return motion(robot, jump.trajectory, jump.takeoff_time_s) | {
         "size_m": round(float(extent_m(robot).max()), MICRONS),
@@ -63,7 +65,7 @@ def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
 
 
 def _turning(robot: Robot) -> list[dict[str, Any]]:
-    """Return what turns in the body: node, axis (x, z; m) and its turns per turn of the cam."""
+    """Return the turning parts: node, axis (x, z) in the body's frame (m), turns per turn of the cam."""
     layout = robot.layout
     stages = layout.drive.train.stages
     turns = {"cam": (layout.cam_axis_mm, 1.0), "cam_gear": (layout.cam_axis_mm, 1.0)}
@@ -80,7 +82,7 @@ def _turning(robot: Robot) -> list[dict[str, Any]]:
 
 
 def _part(thing: Visual) -> dict[str, Any]:
-    """Return what a click on a part shows."""
+    """Return the data that a click on a part shows."""
     source = thing.source
     if isinstance(source, Part):
         words = {"label": source.name.replace("_", " "), "material": source.material, "file": f"stl/{source.name}.stl"}
@@ -90,6 +92,6 @@ def _part(thing: Visual) -> dict[str, Any]:
 
 
 def _embedded(data: dict[str, Any]) -> str:
-    """Return JSON that can stand in HTML and in XML: no `<`, `>` or `&`."""
+    """Return JSON that may be part of HTML and of XML: without `<`, `>` and `&`."""
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     return text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e")

@@ -5,25 +5,35 @@ from html import escape
 
 from jumpcad.bundle.electronics import jumps_per_charge
 from jumpcad.bundle.operation import charging
+from jumpcad.bundle.soldering import soldering_svg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
-from jumpcad.electronics.nets import LOWER_OHM, Net, Terminal, Wiring, wiring_of
+from jumpcad.electronics.nets import Net, Terminal, Wiring, wiring_of
 from jumpcad.parts.leads import lead_lengths
 from jumpcad.robot import Robot
 
 ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
-           ("controller", "sensor", "upper resistor", "lower resistor"))  # fmt: skip
+           ("controller", "sensor", "upper resistor", "lower resistor", "pull-up resistor"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
 STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}
 
-SENSOR_NOTES = (
-    "- sensor, by multimeter: COM and NO have contact only while the plunger is pressed, COM and NC only while it is",
-    "  not; use COM and NO. Switch: 1 and 2 are the two terminals that have contact in one position only",
-    "- known limit: the controller's own pull-up gives the sensor's contact less than 0.1 mA; small switches are rated",
-    "  from 1 mA at 5 V, so dirt may keep it open. With the sensor open, or a lead broken, the motor does not stop",
-    "  when ready: it releases the springs by itself and runs until the time-out. A resistor of 4.7 kΩ from the",
-    "  controller's pin of the sensor to 3V3 gives 0.7 mA: add it",
+BY_METER = (
+    "- sensor, by multimeter: COM and NC have contact only while the plunger is free, COM and NO only while it is",
+    "  pressed. Switch: 1 and 2 are the two terminals that have contact in one position only",
 )
+OPENS = (
+    "- use COM and NC: pressed, the contact opens and the pin goes high. A broken lead or a dirty contact reads as",
+    "  ready too, so the motor stops instead of releasing the springs by itself",
+)
+CLOSES = (
+    "- known limit: this sensor has no contact that opens. With a lead broken the motor does not stop when ready: it",
+    "  releases the springs by itself and runs until the time-out",
+)
+
+
+def drawings_of(robot: Robot) -> dict[str, str]:
+    """Return the drawings of the wiring by their files; an empty one is not written."""
+    return {"wiring.svg": wiring_svg(robot), "soldering.svg": soldering_svg(robot)}
 
 
 def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
@@ -38,6 +48,8 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
     yield from ("", "## Wiring", "", "![wiring](wiring.svg)", "", "| from | to | colour | mm |", "|---|---|---|--:|")
     for _, start, end, colour, length in wires(robot):
         yield f"| {start} | {end} | {colour} | {f'{length:.0f}' if length else 'none'} |"
+    if soldering_svg(robot):
+        yield from ("", "![soldering](soldering.svg)")
     yield from ("", *_notes(chosen, wiring), "")
     yield (
         f"One jump takes {train.electrical_j:.2f} J from the battery: {train.motor_j:.2f} J the motor, "
@@ -49,18 +61,24 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
 def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
     """Yield what a table does not say."""
     yield "- lengths follow the trays, those of sensor and motor pass the plates' holes; 30 mm are for bends and solder"
-    yield "- none: the part's own legs or leads; a piece of wire of the same colour where they are too short"
-    yield "- the capacitor at the driver's supply pins, with short legs; its minus is marked"
-    if wiring.upper_ohm is not None:
-        yield f"- resistors: upper {wiring.upper_ohm // 1000} kΩ, lower {LOWER_OHM // 1000} kΩ, 0.1 W or more"
+    yield "- none: the part's own legs or leads, each leg in a piece of heat-shrink tube"
+    yield "- capacitor: its wires start at the driver's supply pins; its minus is marked"
+    if wiring.resistors:
+        values = ", ".join(
+            f"{name.removesuffix(' resistor')} {ohm / 1000:g} kΩ" for name, ohm in wiring.resistors.items()
+        )
+        yield f"- resistors: {values}, 0.1 W or more; their bodies lie between controller and driver"
+    grounds = chosen.controller.with_function("ground")
+    if chosen.regulator is None and len(grounds) > 1:
+        yield f"- {' and '.join(grounds)} of the controller are connected on the board: use the one that is nearer"
     if chosen.regulator is None:
         yield f"- {charging(chosen)}"
     else:
         yield f"- {charging(chosen)} The controller's battery pads stay empty"
     if chosen.diode is not None:
-        yield "- diode: K is the end with the ring"
+        yield "- diode: K is the end with the ring, at the controller"
     if "sensor" in chosen.components:
-        yield from SENSOR_NOTES
+        yield from (*BY_METER, *(OPENS if wiring.ready_level else CLOSES))
     yield "- the driver's reverse input is at ground: the cam must not turn back against its drop"
     yield "- red and black wires may be joined at any terminal of theirs; the table starts each at its source"
     yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles (multimeter)"
@@ -74,7 +92,7 @@ def wiring_svg(robot: Robot) -> str:
     lanes = {net.name: index for index, net in enumerate(wiring.nets)}
     width = MARGIN_MM + COLUMN_MM * (len(COLUMNS) - 1) + BOX_MM + 4.0 * len(lanes) + 2.0 * MARGIN_MM
     width += 2.0 * 2.0 * len(lanes)
-    lines = [line for net in wiring.nets for line in _net_lines(net, ends, lanes[net.name], len(lanes))]
+    lines = [line for net in wiring.nets for line in _net_lines(net, ends, lanes[net.name])]
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.1f} {height:.1f}" width="{4 * width:.0f}" '
@@ -93,10 +111,7 @@ def _titles(chosen: Chosen, wiring: Wiring, robot: Robot) -> dict[str, str]:
     titles = {role: f"{role}: {board.name}" for role, board in chosen.boards.items()}
     titles |= {role: f"{role}: {part.name}" for role, part in chosen.components.items()}
     titles |= {"battery": f"battery: {chosen.battery.name}", "motor": f"motor: {robot.layout.drive.train.motor.name}"}
-    if wiring.upper_ohm is not None:
-        titles["upper resistor"] = f"upper resistor: {wiring.upper_ohm // 1000} kΩ"
-        titles["lower resistor"] = f"lower resistor: {LOWER_OHM // 1000} kΩ"
-    return titles
+    return titles | {name: f"{name}: {ohm / 1000:g} kΩ" for name, ohm in wiring.resistors.items()}
 
 
 def _boxes(
@@ -126,7 +141,7 @@ def _boxes(
     return boxes, ends, height + 4.0 * len(nets) + MARGIN_MM
 
 
-def _net_lines(net: Net, ends: dict[Terminal, tuple[float, float]], lane: int, lanes: int) -> Iterator[str]:
+def _net_lines(net: Net, ends: dict[Terminal, tuple[float, float]], lane: int) -> Iterator[str]:
     """Yield a net's lines: from each terminal to the right, down a track of its own, along a lane below all parts."""
     stroke = STROKES[net.colour]
     places = [ends[terminal] for terminal in net.terminals]

@@ -19,15 +19,12 @@ if TYPE_CHECKING:
     from jumpcad.calibration.settings_file import settings_toml as settings_toml
     from jumpcad.calibration.subject import Subject as Subject
     from jumpcad.calibration.subject import load_subject as load_subject
-    from jumpcad.calibration.uncertain import Uncertainty as Uncertainty
-    from jumpcad.calibration.uncertain import uncertain_jump as uncertain_jump
 
 _HOMES = {
     "Measurements": "measurements",
     "Model": "likelihood",
     "Posterior": "posterior",
     "Subject": "subject",
-    "Uncertainty": "uncertain",
     "calibrate": "posterior",
     "explanations": "prediction",
     "load_measurements": "measurements",
@@ -35,7 +32,6 @@ _HOMES = {
     "plots": "plots",
     "predicted_jump": "prediction",
     "settings_toml": "settings_file",
-    "uncertain_jump": "uncertain",
 }
 
 __all__ = list(_HOMES)

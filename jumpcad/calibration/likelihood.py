@@ -1,8 +1,8 @@
-"""How likely the measurements are under given parameters, for many sets of parameters at once.
+"""The likelihood of measurements for given parameters, for many sets of parameters at once.
 
 Parameters are shared by all robots (springs' efficiency, pins, release, drive), by a pair of springs (rate) or belong
-to one robot (mass, floor, travel after landing). Where it was not said what a length is of, every possibility counts
-alike before the data.
+to one robot (mass, floor, travel after landing). A length of which it is unknown what was measured has several readings
+(interpretations), equally probable before the data.
 """
 
 import math
@@ -21,24 +21,24 @@ from jumpcad.calibration.surface import JumpAt
 from jumpcad.transforms import Array
 
 JUMP_SHARE = 0.08
-"""Scatter of the range of single jumps; judgement."""
+"""Relative standard deviation of the range of single jumps; judgement."""
 MODEL_SHARE = 0.03
-"""Error of the model in range, rise and speed, which more jumps do not reduce; judgement."""
+"""Relative error of the model in range, rise and speed, which more jumps do not reduce; judgement."""
 HEIGHT_M = 0.015
-"""Error of a measured height."""
+"""Standard deviation of a measured height."""
 ENERGY_SHARE = 0.10
-"""Error of a measured energy from the battery."""
+"""Relative error of a measured energy from the battery."""
 ANGLE_DEG = 2.0
-"""Error of the model in the angle of take-off; judgement."""
+"""Error of the model in the take-off angle; judgement."""
 BODY_SPEED_SHARE, BODY_ANGLE_DEG = 0.05, 4.0
-"""Errors where a video shows the body instead of the centre of mass; judgement."""
-TAILS = 4.0
-"""Degrees of freedom of Student's t, by which a bad jump does less harm."""
+"""Relative error of speed, and error of angle, where a video shows the body, not the centre of mass; judgement."""
+STUDENT_T_DEGREES = 4.0
+"""Degrees of freedom of Student's t distribution of distances, so that outliers count less."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter: key, what people read, and its prior."""
+    """A parameter: its key, its name in plots and tables, its prior."""
 
     key: str
     label: str
@@ -47,9 +47,10 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Datum:
-    """One measurement that the jump must explain: in m, J, m/s or °; `count` jumps stand behind it.
+    """One measured value (m, J, m/s or °), the mean of `count` jumps.
 
-    `scatter` and `error` are standard deviations of one jump and of all together, shares where `relative`.
+    `what` is the quantity, a key of `Predicted.of`; `of` says what was measured of it (`DistanceOf`, `HeightOf`).
+    `scatter` is the standard deviation of one jump, `error` that common to all; relative to the value if `relative`.
     """
 
     subject: str
@@ -63,7 +64,7 @@ class Datum:
 
     @property
     def readings(self) -> tuple[str, ...]:
-        """What the value may be of."""
+        """The possible interpretations: `of`, or all if it is unknown."""
         if self.of != "unknown":
             return (self.of,)
         return DISTANCES if self.what == "distance" else HEIGHTS
@@ -71,7 +72,11 @@ class Datum:
 
 @dataclass(frozen=True, repr=False)
 class Predicted:
-    """What a robot does at n sets of parameters; each (n,)."""
+    """What a robot does at n sets of parameters.
+
+    `travel_m` (n,) is the travel after landing, `battery_j` (n,) the energy from the battery; `beyond_m` and
+    `standing_m` are those of `Subject`.
+    """
 
     jump: JumpAt
     travel_m: Array
@@ -80,7 +85,7 @@ class Predicted:
     standing_m: float
 
     def of(self, what: str, reading: str) -> Array:
-        """Return the value that a measurement would give without error."""
+        """Return the values (n,) that a measurement of a quantity would give without error, under a reading."""
         if what == "distance":
             touchdown: Array = self.jump.range_m + self.beyond_m[0]
             by_reading = {"centre-of-mass": self.jump.range_m, "first-touchdown": touchdown}
@@ -90,7 +95,7 @@ class Predicted:
         return {"battery": self.battery_j, "speed": self.jump.speed_m_s, "angle": self.jump.angle_deg}[what]
 
     def deviation(self, datum: Datum, reading: str, value: Array) -> Array:
-        """Return the standard deviation of a measurement about its value (n,)."""
+        """Return the standard deviations (n,) of a measurement about the predicted values (n,)."""
         single = math.hypot(datum.scatter / math.sqrt(datum.count), datum.error)
         if datum.what == "height":
             return np.hypot(HEIGHT_M / math.sqrt(datum.count), single * value)
@@ -158,7 +163,7 @@ class Model:
 
 
 def predict(subject: Subject, values: dict[str, Array]) -> Predicted:
-    """Return what a robot does at parameters by key, each (n,); the robot's own among them."""
+    """Return what a robot does at parameters by key, each (n,); the robot's own must be among them."""
     rate, mass = values[f"rate:{subject.pair}"], values[f"mass:{subject.name}"]
     energy = energy_per_mass(subject, values)
     jump = subject.surface.at(energy, values["pin_friction"], values[f"floor:{subject.name}"])
@@ -168,7 +173,7 @@ def predict(subject: Subject, values: dict[str, Array]) -> Predicted:
 
 
 def energy_per_mass(subject: Subject, values: dict[str, Array]) -> Array:
-    """Return the energy that the springs give over the robot's mass, over the model's (n,)."""
+    """Return the energy that the springs deliver per mass of the robot, over the model's (n,)."""
     kept = 1.0 if subject.measured.release == "dog" else priors.release_share(values["back_efficiency"])
     given: Array = values["spring_efficiency"] * values[f"rate:{subject.pair}"] * kept
     energy: Array = given / values[f"mass:{subject.name}"]
@@ -176,7 +181,7 @@ def energy_per_mass(subject: Subject, values: dict[str, Array]) -> Array:
 
 
 def data_of(subject: Subject) -> list[Datum]:
-    """Return what a robot's jumps and videos say; series are one datum, their mean."""
+    """Return the data from a robot's jumps and videos; a series of jumps is one datum, its geometric mean."""
     found = []
     for series in subject.measured.jumps:
         for what, of, values in (
@@ -208,8 +213,12 @@ def _log_density(datum: Datum, value: Array, deviation: Array) -> Array:
     if datum.what == "distance":
         share = deviation / safe
         off = np.log(datum.value / safe) / share
-        constant = gammaln((TAILS + 1.0) / 2.0) - gammaln(TAILS / 2.0) - 0.5 * math.log(TAILS * math.pi)
-        found = constant - (TAILS + 1.0) / 2.0 * np.log1p(off * off / TAILS) - np.log(share)
+        constant = (
+            gammaln((STUDENT_T_DEGREES + 1.0) / 2.0)
+            - gammaln(STUDENT_T_DEGREES / 2.0)
+            - 0.5 * math.log(STUDENT_T_DEGREES * math.pi)
+        )
+        found = constant - (STUDENT_T_DEGREES + 1.0) / 2.0 * np.log1p(off * off / STUDENT_T_DEGREES) - np.log(share)
     elif datum.what in ("battery", "speed"):
         share = deviation / safe
         off = np.log(datum.value / safe) / share

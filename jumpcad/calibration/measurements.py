@@ -1,7 +1,7 @@
 """What was measured on one built robot, as a TOML file: masses, spring rate, floor, jumps with what they are of.
 
-A length says what it is of, because the ways of measuring differ by more than the robots do: `unknown` is allowed and
-leaves each possibility open; silence is not. What does not go together is refused with what would be enough.
+Every length says what was measured, because ways of measuring differ by more than robots do; `unknown` is allowed and
+keeps all possibilities, a missing key is an error. Contradictory values are rejected, with what to add or change.
 """
 
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ HEIGHTS: tuple[HeightOf, ...] = ("rise", "absolute")
 
 
 class Weighed(TomlTable):
-    """Masses on a scale (g): the whole robot, ready to jump, and single printed parts by their names."""
+    """Masses on a scale (g): the whole robot, ready to jump, its error, and single printed parts by their names."""
 
     robot_g: Grams | None = None
     robot_error_g: Grams | None = None
@@ -34,7 +34,7 @@ class Weighed(TomlTable):
 
 
 class SpringRate(TomlTable):
-    """The springs' rate on a scale: of one spring or of both together. Robots with one `pair` have the same springs."""
+    """The measured rate of one spring or of both together. Robots with the same `pair` have the same springs."""
 
     pair: Name | None = None
     rate_nmm_per_deg: Annotated[float, Field(gt=0, le=1e6)] | None = None
@@ -48,14 +48,14 @@ class SpringRate(TomlTable):
 
 
 class FloorTest(TomlTable):
-    """Pulls (N) at which the standing robot began to slip, its weight on it; or slopes (°) on which it did."""
+    """Horizontal pulls (N), or slopes (°), at which the standing robot began to slip under its own weight."""
 
     pull_n: Forces = ()
     slope_deg: Degrees = ()
 
 
 class Jumps(TomlTable):
-    """Jumps from one floor: distances, heights, what they are of, and what the battery gave for each.
+    """Jumps from one floor: distances, heights, what was measured, and the battery's energy for each jump.
 
     `jumps` is their number where the lists hold means; else every value is one jump.
     """
@@ -69,7 +69,7 @@ class Jumps(TomlTable):
 
 
 class Video(TomlTable):
-    """Points of one flight, a CSV file of t (s), x and z (m), from take-off to before touchdown, and what they show."""
+    """A CSV file with points of one flight, t (s), x and z (m), after take-off and before touchdown; which point."""
 
     points: Text
     point: Literal["centre-of-mass", "body"]
@@ -78,7 +78,8 @@ class Video(TomlTable):
 class Measurements(Record):
     """Everything measured on one robot; paths are relative to its file.
 
-    `release` is `dog` for a robot as jumpcad builds it, `fixed` where the cam sits fast on its gear or shaft.
+    `release` is `dog` for a robot as jumpcad builds it, `fixed` where the cam is fixed to its gear or shaft. `unknown`
+    names what was not measured, in words.
     """
 
     design: Text
@@ -93,7 +94,7 @@ class Measurements(Record):
     videos: Annotated[tuple[Video, ...], Field(strict=False)] = ()
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield measurements whose method is not said."""
+        """Yield measurements that do not say how they were made, and values without the one that they belong to."""
         if self.spring.rate_nmm_per_deg is not None and self.spring.springs is None:
             reason = "of one spring or of both? say springs = 1 or springs = 2"
             yield ("spring", "rate_nmm_per_deg"), self.spring.rate_nmm_per_deg, reason

@@ -1,4 +1,4 @@
-"""Pictures of a calibration: prior against posterior, predicted against measured; of one jump's energy and floor."""
+"""Plots of a calibration: prior and posterior, predicted and measured; energy accounts; jumps over floor friction."""
 
 from collections.abc import Mapping, Sequence
 
@@ -51,7 +51,7 @@ def measurements(posterior: Posterior) -> Figure:
 
 
 def energy_accounts(accounts: Mapping[str, Mapping[str, float]]) -> Figure:
-    """Draw where the springs' energy is at take-off, one bar a robot, in shares of what was loaded."""
+    """Draw where the springs' energy is at take-off, one bar for each robot, as shares of the energy account."""
     figure, (axes,) = panels(1, 6.4, 0.9 + 0.5 * len(accounts))
     left = np.zeros(len(accounts))
     totals = np.array([sum(account.values()) for account in accounts.values()])

@@ -1,4 +1,4 @@
-"""The posterior of a calibration: sampled by emcee, judged by how far it moved from the prior."""
+"""The posterior of a calibration: sampled by emcee, and compared with the prior."""
 
 import math
 from collections.abc import Sequence
@@ -11,6 +11,7 @@ import numpy as np
 
 from jumpcad.arguments import typed
 from jumpcad.calibration.likelihood import Datum, Model, Parameter, Predicted, energy_per_mass, predict
+from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import load_subject, renamed
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array
@@ -18,23 +19,23 @@ from jumpcad.transforms import Array
 WALKERS_EACH = 6
 """Walkers for each parameter."""
 STEPS, MOST_STEPS = 1500, 12_000
-LENGTHS = 50
-"""Autocorrelation times that a chain must have (Foreman-Mackey et al. 2013; emcee's documentation)."""
+"""First length of the chains, and the length at which they are no longer extended."""
+AUTOCORRELATION_TIMES = 50
+"""Least length of a chain (Foreman-Mackey et al. 2013; emcee's documentation)."""
 KEPT = 20_000
 """Draws that are kept."""
-SHARES = (0.1, 0.5, 0.9)
 IDENTIFIED, PARTLY = 0.5, 0.85
-"""Deviation of the posterior over the prior's, in the prior's own scale, up to which data identify a parameter."""
-TOGETHER = 0.5
-"""Correlation from which on two parameters are known together."""
+"""Largest standard deviation of z at which a parameter is identified, or partly; 1 is the prior's."""
+CORRELATED = 0.5
+"""Least correlation that is reported."""
 
 
 @dataclass(frozen=True, repr=False)
 class Posterior:
     """Draws of a calibration's parameters.
 
-    `z` (draws, parameters) are standard normals under the prior; `autocorrelation` is the longest autocorrelation time,
-    `steps` the length of the chain without its beginning, `walkers` their number.
+    `z` (draws, parameters) are standard normals under the prior; `autocorrelation` is the longest autocorrelation time
+    (steps), `steps` the length of the chains without burn-in, `walkers` their number.
     """
 
     model: Model
@@ -55,23 +56,23 @@ class Posterior:
 
     @property
     def effective(self) -> float:
-        """Independent draws that the chains are worth."""
+        """Effective sample size."""
         return self.steps * self.walkers / self.autocorrelation
 
     @property
     def converged(self) -> bool:
         """Whether the chains are long enough."""
-        return self.steps >= LENGTHS * self.autocorrelation
+        return self.steps >= AUTOCORRELATION_TIMES * self.autocorrelation
 
     def summaries(self) -> list[dict[str, Any]]:
-        """Return each parameter's prior and posterior quantiles, and what the data say of it."""
+        """Return each parameter's prior and posterior quantiles (10, 50, 90 %), and if the data identify it."""
         deviation = self.z.std(axis=0)
         return [
             {
                 "key": one.key,
                 "label": one.label,
                 "prior": _quantiles(one),
-                "posterior": np.quantile(self.values[one.key], SHARES).tolist(),
+                "posterior": np.quantile(self.values[one.key], QUANTILES).tolist(),
                 "spread": float(deviation[index]),
                 "verdict": _verdict(float(deviation[index]), float(self.z[:, index].mean())),
                 "source": one.prior.source,
@@ -80,26 +81,26 @@ class Posterior:
         ]
 
     def energies(self) -> dict[str, list[float]]:
-        """Return, by robot, quantiles of the springs' energy over mass, over the model's: what a jump tells first."""
+        """Return, by robot, quantiles of the springs' energy per mass over the model's: jumps determine it best."""
         return {
-            subject.name: np.quantile(energy_per_mass(subject, self.values), SHARES).tolist()
+            subject.name: np.quantile(energy_per_mass(subject, self.values), QUANTILES).tolist()
             for subject in self.model.subjects
         }
 
-    def together(self) -> list[tuple[str, str, float]]:
-        """Return pairs of parameters that are known together rather than alone, with their correlation."""
+    def correlated(self) -> list[tuple[str, str, float]]:
+        """Return pairs of correlated parameters with their correlation, strongest first."""
         found = np.atleast_2d(np.corrcoef(self.z, rowvar=False))
         keys = [one.key for one in self.model.parameters]
         pairs = [
             (keys[i], keys[j], float(found[i, j]))
             for i in range(len(keys))
             for j in range(i + 1, len(keys))
-            if abs(found[i, j]) >= TOGETHER
+            if abs(found[i, j]) >= CORRELATED
         ]
         return sorted(pairs, key=lambda pair: -abs(pair[2]))
 
     def residuals(self) -> list[dict[str, Any]]:
-        """Return every measurement beside what the posterior predicts, and how likely each reading of it is."""
+        """Return every measurement with its predicted quantiles and the probability of each reading."""
         return [_residual(datum, self.predicted[datum.subject]) for datum in self.model.data]
 
 
@@ -130,14 +131,14 @@ def calibrate(files: Sequence[str | Path], seed: int = 0) -> Posterior:
 def sampled(
     model: Model, seed: int = 0, steps: int = STEPS, most_steps: int = MOST_STEPS, walkers_each: int = WALKERS_EACH
 ) -> Posterior:
-    """Sample the posterior of a model, with chains that are doubled until they are long enough, or too long.
+    """Sample the posterior of a model; chains are doubled until they have converged or have `most_steps`.
 
-    Many walkers on short chains cost less where much the same is sampled again and again.
+    `walkers_each` is the number of walkers per parameter; `steps` is the first length of the chains.
 
     Raises
     ------
     JumpcadError
-        If no measurement tells of a jump, or none of the priors explains them.
+        If a robot has no measured jump, if no draw from the priors explains the jumps, or if emcee is not installed.
     """
     require_data(model)
     emcee = _emcee()
@@ -155,27 +156,27 @@ def sampled(
     state = emcee.State(start, random_state=np.random.RandomState(seed).get_state())  # what emcee takes
     sampler.run_mcmc(state, steps)
     while True:
-        burnt = sampler.iteration // 3
-        length = float(np.max(sampler.get_autocorr_time(discard=burnt, tol=0)))
-        if not math.isfinite(length):
-            length = float(sampler.iteration)
-        left = sampler.iteration - burnt
-        if left >= LENGTHS * length or sampler.iteration >= most_steps:
+        burn_in = sampler.iteration // 3
+        autocorrelation = float(np.max(sampler.get_autocorr_time(discard=burn_in, tol=0)))
+        if not math.isfinite(autocorrelation):
+            autocorrelation = float(sampler.iteration)
+        left = sampler.iteration - burn_in
+        if left >= AUTOCORRELATION_TIMES * autocorrelation or sampler.iteration >= most_steps:
             break
         sampler.run_mcmc(None, sampler.iteration)
-    chain = sampler.get_chain(discard=burnt, flat=True)
-    # At random: even steps through the chain could meet the same walkers again and again.
+    chain = sampler.get_chain(discard=burn_in, flat=True)
+    # At random: every n-th draw could be from the same few walkers.
     chosen = np.sort(generator.choice(len(chain), min(KEPT, len(chain)), replace=False))
-    return Posterior(model, chain[chosen], length, left, walkers)
+    return Posterior(model, chain[chosen], autocorrelation, left, walkers)
 
 
 def require_data(model: Model) -> None:
-    """Refuse measurements that tell nothing of a jump.
+    """Require a measured jump or video of every robot.
 
     Raises
     ------
     JumpcadError
-        Saying what would be enough.
+        If a robot has none.
     """
     for subject in model.subjects:
         if not any(datum.subject == subject.name and datum.what != "battery" for datum in model.data):
@@ -207,18 +208,18 @@ def _emcee() -> Any:
 
 
 def _quantiles(parameter: Parameter) -> list[float]:
-    return list(parameter.prior.quantiles(SHARES))
+    return list(parameter.prior.quantiles(QUANTILES))
 
 
 def _verdict(spread: float, shift: float) -> str:
-    """Return what the data say of a parameter, from deviation and mean of its standard normals."""
+    """Return whether the data identify a parameter, from standard deviation and mean of its z."""
     if spread <= IDENTIFIED:
         return "identified"
     return "partly identified" if spread <= PARTLY or abs(shift) >= 1.0 else "stays at its prior"
 
 
 def _residual(datum: Datum, predicted: Predicted) -> dict[str, Any]:
-    """Return one measurement beside its prediction, under the reading that is likeliest."""
+    """Return one measurement with its predicted quantiles under the most probable reading."""
     chances = Model.log_readings(datum, predicted)
     share = np.exp(chances - np.logaddexp.reduce(chances, axis=0)).mean(axis=1)
     likeliest = datum.readings[int(np.argmax(share))]
@@ -230,7 +231,7 @@ def _residual(datum: Datum, predicted: Predicted) -> dict[str, Any]:
         "what": datum.what,
         "of": datum.of,
         "measured": datum.value,
-        "predicted": np.quantile(value, SHARES).tolist(),
+        "predicted": np.quantile(value, QUANTILES).tolist(),
         "as": likeliest,
         "readings": dict(zip(datum.readings, share.tolist(), strict=True)),
         "off_by_deviations": (datum.value - middle) / deviation,

@@ -1,4 +1,4 @@
-"""What a calibration says of a robot that it has not seen: its jump with an interval, beside what was measured."""
+"""Prediction for a robot that was not calibrated on: its jump with an interval, beside its measurements."""
 
 import math
 from dataclasses import dataclass
@@ -7,18 +7,23 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.calibration.likelihood import TAILS, Datum, Model, Predicted, energy_per_mass, predict
-from jumpcad.calibration.posterior import SHARES, Posterior
+from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, Datum, Model, Predicted, energy_per_mass, predict
+from jumpcad.calibration.posterior import Posterior
+from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import Subject
 from jumpcad.calibration.surface import ENERGY
 from jumpcad.transforms import Array
 
 FLOORS_TRIED = 101
+"""Coefficients of friction, of which one that explains a distance is chosen."""
 
 
 @dataclass(frozen=True, repr=False)
 class Prediction:
-    """A robot's jump at the draws of a calibration; what is the robot's own is drawn from its priors."""
+    """A robot's jump at the draws of a calibration; the robot's own parameters are drawn from their priors.
+
+    `values` has the parameters (draws,) by key, `generator` draws measurement errors.
+    """
 
     subject: Subject
     values: dict[str, Array]
@@ -26,44 +31,47 @@ class Prediction:
 
     @cached_property
     def predicted(self) -> Predicted:
-        """What it does at every draw."""
+        """What the robot does at every draw."""
         return predict(self.subject, self.values)
 
     @property
     def jumps_share(self) -> float:
-        """Share of the draws in which it jumps."""
+        """Share of the draws at which the robot jumps."""
         return float(np.isfinite(self.predicted.jump.range_m).mean())
 
     def quantiles(self) -> dict[str, list[float]]:
-        """Return quantiles of the jump itself, without errors of measuring; a draw without a jump counts 0."""
+        """Return quantiles (10, 50, 90 %) of the jump (m) without measurement error; no jump counts as 0."""
         found = {
             "ballistic_range_m": self.predicted.of("distance", "centre-of-mass"),
             "touchdown_distance_m": self.predicted.of("distance", "first-touchdown"),
             "com_rise_m": self.predicted.of("height", "rise"),
         }
-        return {name: np.quantile(np.nan_to_num(value), SHARES).tolist() for name, value in found.items()}
+        return {name: np.quantile(np.nan_to_num(value), QUANTILES).tolist() for name, value in found.items()}
 
     def beside(self) -> list[dict[str, Any]]:
-        """Return each measurement of the robot under each of its readings, with the interval predicted for it."""
+        """Return each measurement of the robot under each of its readings, with predicted quantiles, errors included.
+
+        Calls continue the generator: two calls differ.
+        """
         data = Model([self.subject]).data
         return [self._beside(datum, reading) for datum in data for reading in datum.readings]
 
     def _beside(self, datum: Datum, reading: str) -> dict[str, Any]:
         value = self.predicted.of(datum.what, reading)
-        noise = self.generator.standard_t(TAILS, len(value)) if datum.what == "distance" else None
+        noise = self.generator.standard_t(STUDENT_T_DEGREES, len(value)) if datum.what == "distance" else None
         noise = self.generator.standard_normal(len(value)) if noise is None else noise
         seen = np.nan_to_num(value + noise * self.predicted.deviation(datum, reading, value))
         return {
             "what": datum.what,
             "as": reading,
             "measured": datum.value,
-            "predicted": np.quantile(seen, SHARES).tolist(),
+            "predicted": np.quantile(seen, QUANTILES).tolist(),
             "below_share": float((seen < datum.value).mean()),
         }
 
 
 def predicted_jump(posterior: Posterior, subject: Subject, seed: int = 0) -> Prediction:
-    """Return the jump of a robot that was not calibrated on; only its priors count, not its jumps."""
+    """Return the predicted jump of a robot that was not calibrated on; its own measured jumps are not used."""
     generator = np.random.default_rng([seed, 1])
     draws = len(posterior.z)
     values = dict(posterior.values)
@@ -76,7 +84,7 @@ def predicted_jump(posterior: Posterior, subject: Subject, seed: int = 0) -> Pre
 
 @dataclass(frozen=True)
 class Explanation:
-    """A change of one property alone that makes a robot jump as far as measured; None where none does."""
+    """A property, its predicted value, and the value at which the robot jumps as far as measured (None: no value)."""
 
     what: str
     predicted: float
@@ -85,7 +93,7 @@ class Explanation:
 
 
 def explanations(prediction: Prediction, distance_m: float) -> list[Explanation]:
-    """Return what would have to differ for a robot to reach a distance, one property at a time, at the median draw."""
+    """Return the values of single properties at which a robot reaches a distance, all others at their medians."""
     subject, surface = prediction.subject, prediction.subject.surface
     values = {key: np.array([float(np.median(value))]) for key, value in prediction.values.items()}
     energy = float(energy_per_mass(subject, values)[0])
@@ -109,13 +117,13 @@ def explanations(prediction: Prediction, distance_m: float) -> list[Explanation]
 
 
 def growth(posterior: Posterior, name: str, prediction: Prediction) -> Array:
-    """Return how many times the range of a calibrated robot the predicted one jumps (draws,); NaN without a jump."""
+    """Return the predicted range over that of a robot that was calibrated on (draws,); NaN without a jump."""
     times: Array = prediction.predicted.jump.range_m / posterior.predicted[name].jump.range_m
     return times
 
 
 def _crossing(at: Array, values: Array, goal: float) -> float | None:
-    """Return where growing values pass a goal; None if they do not."""
+    """Return the first of `at` (n,) whose value (n,) reaches a goal; None if the goal is outside the values."""
     known = np.isfinite(values)
     if not known.any() or not values[known].min() <= goal <= values[known].max():
         return None

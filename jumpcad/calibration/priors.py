@@ -1,71 +1,37 @@
-"""What is believed of a robot before it jumps, and how it is sampled: every prior as a function of a standard normal.
+"""Prior distributions of calibrated parameters, each as a function of a standard normal variable z.
 
-The sampler works on z, one standard normal for each parameter; a parameter that the data say nothing of keeps z at
-mean 0 and deviation 1, whatever its unit.
+The sampler works on z; a parameter about which the data say nothing keeps z at mean 0 and standard deviation 1, in any
+unit.
 """
 
 import math
-from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
-from scipy.special import ndtr, ndtri
 
+from jumpcad.simulation.prior import PIN_FRICTION as PIN_FRICTION
+from jumpcad.simulation.prior import QUANTILES as QUANTILES
+from jumpcad.simulation.prior import SPRING_EFFICIENCY as SPRING_EFFICIENCY
+from jumpcad.simulation.prior import Prior as Prior
 from jumpcad.transforms import Array
 
-Shape = Literal["normal", "lognormal", "uniform", "half-normal"]
-EDGE = 1e-12
-"""Least probability that is turned back into a standard normal."""
-
-
-@dataclass(frozen=True)
-class Prior:
-    """A prior: `normal` (mean, deviation), `lognormal` (median, deviation of the logarithm), `uniform` (least, most).
-
-    `half-normal` is (0, scale): the absolute value of a normal. A normal one of a positive quantity ends at `least`.
-    """
-
-    shape: Shape
-    first: float
-    second: float
-    source: str
-    least: float = -math.inf
-
-    def at(self, z: Array) -> Array:
-        """Return the values at standard normals (...)."""
-        if self.shape == "normal":
-            return np.maximum(self.first + self.second * z, self.least)
-        if self.shape == "lognormal":
-            return self.first * np.exp(self.second * z)
-        share = np.asarray(ndtr(z))
-        if self.shape == "uniform":
-            return self.first + (self.second - self.first) * share
-        return self.second * np.asarray(ndtri(np.clip(0.5 * (1.0 + share), 0.5, 1.0 - EDGE)))
-
-    def quantiles(self, shares: tuple[float, ...]) -> tuple[float, ...]:
-        """Return quantiles."""
-        return tuple(float(value) for value in self.at(ndtri(np.array(shares))))
-
-
-SPRING_EFFICIENCY = Prior("normal", 0.95, 0.05, "judgement: coils rub on their mandrel and on each other", 0.3)
-PIN_FRICTION = Prior("lognormal", 0.25, 0.4, "judgement: dry plastic on steel")
 BACK_EFFICIENCY = Prior("uniform", 0.0, 1.0, "nothing is known of a release without a dog")
 DRIVE_EFFICIENCY = Prior("lognormal", 0.7, 0.4, "judgement: cam and lever rub, which the model of gears leaves out")
 FLOOR = Prior("uniform", 0.3, 1.0, "plastic on tile to rubber on concrete")
 TRAVEL_MM = Prior("half-normal", 0.0, 60.0, "judgement: after landing")
 MASS_SHARE = 0.2
-"""Deviation of a built robot's mass from the model's where nothing is weighed: other hands, other materials."""
+"""Relative deviation of a built robot's mass from the model's if nothing is weighed: other builders and materials."""
 WEIGHED_SHARE = 0.01
-"""Error of a mass on a kitchen scale."""
+"""Relative error of a mass on a kitchen scale."""
 FLOOR_TEST_SHARE = 0.1
-"""Scatter of single pulls or slopes on one floor; judgement."""
-KEPT_STANDING = 0.4
-"""Of the springs' energy that a release keeps whose cam does not turn back at all: 0.23 to 0.60 (bench review)."""
+"""Relative scatter of single pulls or slopes on one floor; judgement."""
+KEPT_WITHOUT_BACKDRIVE = 0.4
+"""Share of the springs' energy that is left by a release without a dog whose cam cannot be driven back: 0.23 to 0.60
+(bench review)."""
 
 
 def release_share(back_efficiency: Array) -> Array:
-    """Return the share of the springs' energy that a release without a dog keeps."""
-    kept: Array = KEPT_STANDING + (1.0 - KEPT_STANDING) * back_efficiency
+    """Return the share of the springs' energy that is left after a release without a dog."""
+    kept: Array = KEPT_WITHOUT_BACKDRIVE + (1.0 - KEPT_WITHOUT_BACKDRIVE) * back_efficiency
     return kept
 
 
@@ -76,11 +42,11 @@ def weighed_mass(weighed_g: float, model_g: float, error_g: float | None) -> Pri
 
 
 def modelled_mass(open_share: float) -> Prior:
-    """Return the prior of a mass over the model's, of which a share is not weighed."""
+    """Return the prior of a mass over the model's; `open_share` is the share of the mass that is not weighed."""
     return Prior("normal", 1.0, math.hypot(MASS_SHARE * open_share, WEIGHED_SHARE), "model of printed parts", 0.1)
 
 
 def tested_floor(found: list[float]) -> Prior:
-    """Return the prior of a floor's friction from single tests."""
+    """Return the prior of a floor's coefficient of friction from single tests."""
     mean = float(np.mean(found))
     return Prior("lognormal", mean, FLOOR_TEST_SHARE / math.sqrt(len(found)), "pulled or tilted")

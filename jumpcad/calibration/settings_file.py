@@ -1,4 +1,4 @@
-"""The calibrated settings as TOML: medians for a single jump, draws for `jumpcad simulate --uncertain`."""
+"""The calibrated settings as TOML: medians, for a single jump, and draws, for `jumpcad simulate --uncertain`."""
 
 import numpy as np
 
@@ -15,8 +15,8 @@ KEYS = ("spring_efficiency", "pin_friction")
 def settings_toml(posterior: Posterior) -> str:
     """Return the settings file of a calibration.
 
-    The friction of the floor is written where there was one robot and its floor was tested; mass and rate of the
-    springs belong to the workshop and the design.
+    The friction of the floor is written only if there was one robot and its floor was tested. Mass and rate of the
+    springs are not settings: they belong to workshop and design.
     """
     values = {key: np.clip(np.round(posterior.values[key], DIGITS), *_limits(key)) for key in KEYS}
     names = ", ".join(subject.name for subject in posterior.model.subjects)

@@ -1,4 +1,4 @@
-"""One measured robot: built in its workshop, with its measurements checked against what was built."""
+"""One measured robot: built in its workshop, and its measurements, checked against the built model."""
 
 import math
 from dataclasses import dataclass, replace
@@ -23,7 +23,7 @@ from jumpcad.simulation.mechanics import Mechanics, loaded_state
 from jumpcad.workshop import Workshop, load_workshop
 
 LANDINGS = (0.7, 0.85, 1.0, 1.2, 1.5)
-"""Springs' energies, over the model's, with which it is seen where the robot touches down."""
+"""Spring energies over the model's at which the touchdown is simulated."""
 UNITS = {
     "mass": ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?")),
     "rate": (
@@ -33,16 +33,16 @@ UNITS = {
     "length": ((1e-3, "is that m?"), (0.1, "is that cm?"), (10.0, "a digit too many?")),
     "energy": ((1e3, "is that mJ?"), (1.0 / 3600.0, "is that Wh?"), (10.0, "a digit too many?")),
 }  # fmt: skip
-"""What a wrong unit makes of a value: the factor, and the question."""
-MOST_OFF = {"mass": 2.5, "rate": 1.8, "length": 5.0, "energy": 5.0}
-"""Factors by which a value may differ from the model's."""
+"""The factor by which a mistake changes a value, and the question that the error asks."""
+LARGEST_FACTOR = {"mass": 2.5, "rate": 1.8, "length": 5.0, "energy": 5.0}
+"""By which a value may be larger or smaller than the model's."""
 MOST_ENERGY_SHARE = 1.1
-"""Useful energy over that of the springs above which measurements contradict each other: errors of both together."""
+"""Largest energy of a jump over that of the springs; above 1 because both have errors."""
 
 
 @dataclass(frozen=True, repr=False)
 class Subject:
-    """A robot with its measurements; `seen` are the take-offs of its videos."""
+    """A robot with its measurements; `seen` has the take-off of each of its videos."""
 
     name: str
     measured: Measurements
@@ -51,7 +51,7 @@ class Subject:
 
     @cached_property
     def surface(self) -> Surface:
-        """Its jump over what is calibrated."""
+        """The response surface of its jump over the calibrated parameters."""
         return surface_of(self.robot)
 
     @cached_property
@@ -61,7 +61,7 @@ class Subject:
 
     @cached_property
     def beyond_m(self) -> tuple[float, float]:
-        """How much farther than the ballistic range the body is at first touchdown: mean and deviation (m)."""
+        """Distance at first touchdown less ballistic range: mean and standard deviation over `LANDINGS` (m)."""
         flight, further = Settings(flight="simulated"), []
         for energy in LANDINGS:
             jump = simulate(with_spring_factor(self.robot, energy), flight, "planar")
@@ -70,7 +70,7 @@ class Subject:
         return (float(np.mean(further)), float(np.std(further))) if further else (0.0, 0.02)
 
     def remeasured(self, measured: Measurements, seen: tuple[TakeoffSeen, ...] = ()) -> "Subject":
-        """Return the same robot with other measurements, without letting it jump again; they are not checked."""
+        """Return the same robot with other measurements, which are not checked; its jumps are not simulated again."""
         other = replace(self, measured=measured, seen=seen)
         vars(other).update({name: getattr(self, name) for name in ("surface", "standing_m", "beyond_m")})
         return other
@@ -82,17 +82,17 @@ class Subject:
 
     @property
     def pair(self) -> str:
-        """Name of its pair of springs."""
+        """Name of its pair of springs: as measured, by default the robot's."""
         return self.measured.spring.pair or self.name
 
     @property
     def rate_nmm_per_deg(self) -> float:
-        """Rate of both springs together, by the design."""
+        """Rate of both springs together in the model."""
         return 1000.0 * math.radians(self.robot.spring.stiffness_nm_per_rad)
 
     @property
     def rate(self) -> Prior:
-        """Rate of the springs over the design's."""
+        """Prior of the springs' rate over the model's."""
         measured = self.measured.spring.both_nmm_per_deg
         if measured is None:
             scatter = self.robot.workshop.safety.spring_rate_scatter
@@ -102,7 +102,7 @@ class Subject:
 
     @property
     def mass(self) -> Prior:
-        """Mass over the model's."""
+        """Prior of the mass over the model's."""
         weighed = self.measured.mass
         if weighed.robot_g is not None:
             return weighed_mass(weighed.robot_g, 1000.0 * self.robot.mass_kg, weighed.robot_error_g)
@@ -113,7 +113,7 @@ class Subject:
 
     @property
     def floor(self) -> Prior:
-        """Friction of the feet on the floor."""
+        """Prior of the coefficient of friction between feet and floor."""
         weight_n = self.robot.mass_kg * self.mass.first * GRAVITY_M_S2
         tests = self.measured.floor
         found = [pull / weight_n for pull in tests.pull_n] + [
@@ -144,7 +144,7 @@ def load_subject(name_or_path: str | Path) -> Subject:
 
 
 def _beside(path: Path, name: str) -> str | Path:
-    """Return a file beside the measurements if there is one of that name, else the name."""
+    """Return the path of a TOML file relative to the measurements, or a template's name or absolute path as it is."""
     beside = path.parent / name
     return beside if name.endswith(".toml") and not Path(name).is_absolute() else name
 
@@ -157,7 +157,7 @@ def _with_weights(workshop: Workshop, parts_g: dict[str, float]) -> Workshop:
 
 
 def _require_plausible(subject: Subject, source: str) -> None:
-    """Refuse units that are off, and energies that contradict each other."""
+    """Reject values in a wrong unit, and energies that contradict each other (`JumpcadError`)."""
     measured, robot = subject.measured, subject.robot
     if measured.mass.robot_g is not None:
         _require_unit(source, "mass.robot_g", measured.mass.robot_g, 1000.0 * robot.mass_kg, "g", "mass")
@@ -188,8 +188,8 @@ def _require_plausible(subject: Subject, source: str) -> None:
 
 
 def _require_unit(source: str, key: str, value: float, expected: float, unit: str, kind: str) -> None:
-    """Refuse a value that differs from the model's by more than robots do, with the unit that would explain it."""
-    ratio, most = value / expected, MOST_OFF[kind]
+    """Reject a value that differs from the model's by more than `LARGEST_FACTOR`, naming the probable mistake."""
+    ratio, most = value / expected, LARGEST_FACTOR[kind]
     if 1.0 / most <= ratio <= most:
         return
     factor, hint = min(UNITS[kind], key=lambda unit: abs(math.log(ratio / unit[0])))
@@ -205,9 +205,9 @@ def _require_energy(
     heights_mm: tuple[float, ...],
     source: str,
 ) -> None:
-    """Refuse a flight that takes more energy than the springs have, where all of it is known.
+    """Reject a flight that needs more energy than the springs have, if range, rise and mass are all measured.
 
-    A flight of distance R and rise h takes at least m·g·(h + R²/16h).
+    A parabola of range R and rise h, from take-off to the same height, needs m·g·(h + R²/16h).
     """
     measured = subject.measured
     known = distance_of in ("centre-of-mass", "first-touchdown") and height_of == "rise"
@@ -225,7 +225,7 @@ def _require_energy(
 
 
 def renamed(subjects: list[Subject]) -> list[Subject]:
-    """Return subjects with different names: a number is added to a name that comes again."""
+    """Return the subjects with unique names: repeated names get a number."""
     names: dict[str, int] = {}
     found = []
     for subject in subjects:

@@ -1,9 +1,8 @@
-"""The jump of one robot over what a calibration varies: a response surface of the planar engine, with its error.
+"""Response surface of one robot's jump over the calibrated parameters, from the planar engine, with its error.
 
-The motion of a printed robot depends on the springs' energy over its mass, on the friction of its pins and on that of
-the floor, and on nothing else that is calibrated: a factor on all masses and on the springs' stiffness alike changes
-no path. So three coordinates are enough, and a grid of the engine's own jumps, interpolated, is cheap and exact at its
-nodes.
+Of the calibrated parameters, the motion of a printed robot depends on three numbers only: the springs' energy per mass,
+the friction of its pins and that of the floor (the same factor on all masses and on the springs' stiffness changes no
+path). Jumps of the engine on a grid of the three are interpolated.
 """
 
 from dataclasses import dataclass
@@ -21,18 +20,22 @@ from jumpcad.simulation import Jump, simulate
 from jumpcad.transforms import Array
 
 ENERGY = (0.3, 0.4, 0.5, 0.62, 0.8, 1.0, 1.3, 1.7, 2.3, 3.0)
-"""Springs' energy over mass, over the model's."""
+"""Springs' energy per mass over the model's."""
 PINS = (0.0, 0.25, 0.9)
 FLOORS = (0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 1.0, 1.3)
 Nodes = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
+"""Springs' energy per mass over the model's, coefficients of friction of pins and of floor; each ascending."""
 NODES: Nodes = (ENERGY, PINS, FLOORS)
 FINE = (81, 25, 67)
-"""Points along each axis between which the surface is linear."""
+"""Points along each axis of the refined grid, between which the surface is linear."""
 DT_S = 1e-3
-STICKS = 1e-4
-"""Share of the springs' energy lost on the ground below which more friction changes nothing."""
+"""Time step of the engine."""
+NO_SLIP_SHARE = 1e-4
+"""Energy lost by slipping, over that of the springs, below which the feet do not slip: more friction has no effect."""
 FIGURES = ("ballistic_range_m", "com_rise_m", "forward_m_s", "up_m_s")
-CHECKS = 12
+"""What the surface gives; the last two are the velocity of the centre of mass at take-off."""
+CHECKED_POINTS = 12
+"""Points at which `Surface.errors` compares the surface with the engine."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -58,9 +61,9 @@ class JumpAt:
 
 @dataclass(frozen=True, repr=False)
 class Surface:
-    """Figures (4, FINE) of a robot's jump over the logarithm of energy, pins and floor, on even points.
+    """`values` (4, *FINE): the `FIGURES` of a jump on even points of log energy, pins and floor.
 
-    `nodes` are those at which the engine jumped.
+    `nodes` are the grid points at which the engine simulated the jump.
     """
 
     mechanism: Mechanism
@@ -69,9 +72,9 @@ class Surface:
     values: Array
 
     def at(self, energy: Array, pins: Array, floor: Array) -> JumpAt:
-        """Return the jumps at points (n,); beyond its ends the surface stays as it is there.
+        """Return the jumps at points (n,); a friction beyond the nodes counts as the nearest node's.
 
-        An energy beyond the ends is no jump.
+        An energy beyond the nodes gives NaN.
         """
         shape = np.broadcast_shapes(np.shape(energy), np.shape(pins), np.shape(floor))
         log_energy = np.log(energy)
@@ -87,15 +90,15 @@ class Surface:
 
     @cached_property
     def error(self) -> float:
-        """Median difference of range from the engine's own at points between the nodes, as a share."""
+        """Median of `errors`."""
         return float(np.median(self.errors))
 
     @cached_property
     def errors(self) -> Array:
-        """Differences of range from the engine's own at points between the nodes, as shares; of those that jump."""
+        """Relative errors of range against the engine, at random points between the nodes at which the robot jumps."""
         rng = np.random.default_rng(12)
-        energy = np.exp(rng.uniform(np.log(0.6), np.log(2.0), CHECKS))
-        pins, floor = rng.uniform(0.1, 0.5, CHECKS), rng.uniform(0.3, 1.0, CHECKS)
+        energy = np.exp(rng.uniform(np.log(0.6), np.log(2.0), CHECKED_POINTS))
+        pins, floor = rng.uniform(0.1, 0.5, CHECKED_POINTS), rng.uniform(0.3, 1.0, CHECKED_POINTS)
         found = self.at(energy, pins, floor).range_m
         engine = [_jump(self.mechanism, self.settings, *point) for point in zip(energy, pins, floor, strict=True)]
         ranges = np.array([jump.ballistic_range_m or np.nan for jump in engine])
@@ -110,7 +113,7 @@ def surface_of(mechanism: Mechanism, settings: Settings | None = None, nodes: No
     Raises
     ------
     JumpcadError
-        If it jumps nowhere on it.
+        If the robot jumps at no node.
     """
     settings = (settings or Settings()).model_copy(update={"dt_s": DT_S})
     grid = np.full((len(FIGURES), *map(len, nodes)), np.nan)
@@ -119,7 +122,7 @@ def surface_of(mechanism: Mechanism, settings: Settings | None = None, nodes: No
             for k, floor in enumerate(nodes[2]):
                 jump = _jump(mechanism, settings, energy, pins, floor)
                 grid[:, i, j, k] = _figures(jump)
-                if jump.energy is not None and abs(jump.energy.slip_j) < STICKS * jump.spring_energy_j:
+                if jump.energy is not None and abs(jump.energy.slip_j) < NO_SLIP_SHARE * jump.spring_energy_j:
                     grid[:, i, j, k:] = grid[:, i, j, k, None]
                     break
     if np.isnan(grid).all():
@@ -145,7 +148,7 @@ def _figures(jump: Jump) -> tuple[float, ...]:
 
 
 def _refined(grid: Array, nodes: Nodes) -> Array:
-    """Return the grid on even points, by monotone cubics along one axis after the other."""
+    """Return the grid refined to even points, by monotone cubic interpolation along one axis after the other."""
     for axis, (known, count) in enumerate(zip(_axes(nodes), FINE, strict=True), start=1):
         grid = np.apply_along_axis(_line, axis, grid, known, np.linspace(known[0], known[-1], count))
     return grid
@@ -158,7 +161,7 @@ def _axes(nodes: Nodes) -> tuple[Array, Array, Array]:
 
 
 def _line(values: Array, nodes: Array, even: Array) -> Array:
-    """Return one line of figures on even points; NaN beyond the nodes with a jump."""
+    """Return values (k,) at nodes (k,) interpolated on even points; NaN outside the nodes at which there is a jump."""
     known = np.isfinite(values)
     if known.sum() < 2:
         return np.full(len(even), np.nan)

@@ -15,9 +15,9 @@ from jumpcad.transforms import Array
 
 COLUMNS = ("t", "x", "z")
 LEAST_POINTS = 6
-"""Points from which gravity, and with it the scale, can be told."""
+"""Least number of points from which gravity can be fitted."""
 GRAVITY_SHARE = 0.15
-"""By how much the gravity of the points may differ from that of the earth."""
+"""Largest relative difference of the fitted gravity from the earth's."""
 MISTAKES = (
     (1000.0, "x and z are in mm: divide them by 1000"),
     (100.0, "x and z are in cm: divide them by 100"),
@@ -25,7 +25,7 @@ MISTAKES = (
     (1e-6, "t is in ms: divide it by 1000"),
     (-1.0, "z points down: change its sign"),
 )
-"""Gravity of the points over that of the earth, and what was mistaken."""
+"""Fitted gravity over the earth's, and the probable mistake."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,8 @@ def read_points(path: Path) -> Array:
     Raises
     ------
     JumpcadError
-        Naming file and line of what is no number, or the columns that miss.
+        If the file cannot be read, a column is missing, a value is no finite number (with file and line), there are too
+        few points, or t does not increase.
     """
     rows = list(csv.reader(read_text(path, "a CSV file").splitlines()))
     head = [cell.strip() for cell in rows[0]] if rows else []
@@ -76,7 +77,8 @@ def seen_takeoff(points: Array, source: str) -> TakeoffSeen:
     Raises
     ------
     JumpcadError
-        If the points fall with another gravity than the earth's: a wrong scale, a wrong clock, or points on the ground.
+        If the fitted gravity is not the earth's (wrong scale, wrong clock, or points on the ground), or if x does not
+        point forwards or z upwards.
     """
     t, x, z = (points - points[0]).T
     fall = np.column_stack([np.ones_like(t), t, -0.5 * t * t])

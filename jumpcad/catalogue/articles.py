@@ -142,7 +142,7 @@ class Bearing(Article):
 
 
 class Battery(Article):
-    """A battery pack: length along the robot, width across it."""
+    """A battery pack: length along the robot, width across it; `charge_ma` is the largest charging current."""
 
     description: Source
     length_mm: Side
@@ -154,6 +154,7 @@ class Battery(Article):
     full_v: Positive | None = None
     empty_v: Positive | None = None
     discharge_a: Positive | None = None
+    charge_ma: Positive | None = None
     resistance_ohm: Positive | None = None
     plug: Text = ""
     confidence: Confidence = "stated"
@@ -173,6 +174,11 @@ class Battery(Article):
         """Internal resistance."""
         return self.resistance_ohm or self.cells * CELL_OHM
 
+    @property
+    def bears_ma(self) -> float:
+        """The largest charging current; where it is not given 1 C, which makers of small cells permit."""
+        return self.charge_ma or self.capacity_mah
+
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield voltages that are not in the order empty, nominal, full."""
         empty, full = self.range_v
@@ -190,7 +196,8 @@ class Board(Article):
     chip writes on it at start); of a driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs
     that need a series diode, `button` the pin of a push button on the board. `usb_mm` is the opening (width, height)
     that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
-    length. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma`
+    length. `left` and `right` are the pins along its sides, from that end on, as seen from above; others are
+    underneath. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma`
     the fixed current of its battery charger.
     """
 
@@ -201,6 +208,8 @@ class Board(Article):
     mass_g: Mass
     supply_v: dict[Name, Volts] = Field(default_factory=dict)
     pins: dict[Name, Annotated[tuple[Name, ...], Field(strict=False)]] = Field(default_factory=dict)
+    left: Annotated[tuple[Name, ...], Field(strict=False)] = ()
+    right: Annotated[tuple[Name, ...], Field(strict=False)] = ()
     diode_at: Annotated[tuple[Name, ...], Field(strict=False)] = ()
     button: OptionalName = ""
     usb_mm: Annotated[tuple[Side, Side], Field(strict=False)] | None = None
@@ -240,7 +249,8 @@ class Travel(TomlTable):
 class Component(Article):
     """A small electrical part: sensor, switch, plug, capacitor, diode or wire; `terminals` as its maker names them.
 
-    `rated_a` and `rated_v` are its ratings, `drop_v` its voltage drop. Length, width and height are those of its case
+    `rated_a` and `rated_v` are its ratings, `least_a` the least current that keeps a contact clean, `drop_v` its
+    voltage drop. Length, width and height are those of its case
     without terminals; `travel` is that of a sensor's plunger, in the middle of the case, along its height.
     """
 
@@ -253,6 +263,7 @@ class Component(Article):
     terminals: Annotated[tuple[Text, ...], Field(strict=False)] = ()
     rated_a: Positive | None = None
     rated_v: Positive | None = None
+    least_a: Positive | None = None
     drop_v: Annotated[float, Field(ge=0, le=5)] = 0.0
     confidence: Confidence
 

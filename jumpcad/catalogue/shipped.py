@@ -16,9 +16,10 @@ from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_
 
 
 class Screw(Record):
-    """A metric screw size with its heads and the lengths in stock."""
+    """A metric screw size with its heads and the lengths in stock; `norm` is that of its low head, the button."""
 
     name: str
+    norm: str = "ISO 7380-1"
     diameter_mm: PositiveFloat
     cylinder_head_mm: PositiveFloat
     cylinder_head_height_mm: PositiveFloat

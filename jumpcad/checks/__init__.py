@@ -9,7 +9,7 @@ eye_strength, foot_lug_strength, toe_strength, toe_landing, toe_joint_strength, 
 cam_dog_strength, toe_bar_strength; `steel` leg_axle_strength, cam_axle_strength, spring_pin_strength,
 leg_pin_strength, foot_pin_strength, roller_screw_strength, axle_retention, pin_retention, spring_fatigue,
 axle_fatigue, hub_bearing_load; `drive` spring_stress, cam_*, gear_*, motor_torque, release_*; `electronics`
-supply_voltage_*, motor_current_*, gearbox_torque, wiring_*; `sensor` sensor_press,
+supply_voltage_*, motor_current_*, gearbox_torque, charging_current, wiring_*; `sensor` sensor_press,
 sensor_overtravel, sensor_free, sensor_ready, sensor_open; `holding` electronics_hold; `leads` wires_clear;
 `ground` ground_clearance, foot_clearance; `sideways`
 sideways_tipping; `printability` bed_fit, walls, holes, pins, overhangs, bridges, solid; `interference` interference;

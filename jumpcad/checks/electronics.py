@@ -13,13 +13,14 @@ ROUND_OFF_V = 1e-9
 
 
 def electronics_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield `supply_voltage_*` of every link, `motor_current_*` of what carries it, `gearbox_torque`, `wiring_*`."""
+    """Yield `supply_voltage_*`, `motor_current_*`, `gearbox_torque`, `charging_current` and `wiring_*`."""
     chosen = chosen_parts(robot.workshop)
     supply = supply_of(chosen)
     for link in links(robot):
         yield _voltage(link)
     yield from _currents(robot, chosen, supply)
     yield _gearbox(robot, supply)
+    yield from _charging(chosen)
     yield from wiring_findings(chosen, wiring_of(chosen, robot.workshop.bought.pins))
 
 
@@ -62,6 +63,21 @@ def _currents(robot: Robot, chosen: Chosen, supply: Supply) -> Iterator[Finding]
                 f"{name} carries {stall:.2f} A while the motor is blocked; {allowed:g} A are allowed",
                 f"another bought.{role}, or a motor with a larger resistance",
             )  # fmt: skip
+
+
+def _charging(chosen: Chosen) -> Iterator[Finding]:
+    """Yield whether the battery bears what the controller charges it with; behind a regulator it is charged outside."""
+    battery, current = chosen.battery, chosen.controller.charge_ma
+    if chosen.regulator is not None or current is None:
+        return
+    rated = "by its charge_ma" if battery.charge_ma else "1 C, since its charge_ma is not given"
+    yield at_most(
+        "charging_current", current, battery.bears_ma, "mA",
+        f"{chosen.controller.name} charges {battery.name} with {current:.0f} mA; {battery.bears_ma:.0f} mA are "
+        f"allowed, {rated}",
+        "another bought.battery: of a larger capacity, or with the charge_ma that its maker permits; or another "
+        "bought.controller",
+    )  # fmt: skip
 
 
 def _gearbox(robot: Robot, supply: Supply) -> Finding:

@@ -1,7 +1,7 @@
-"""The command line: ready for an interrupt before anything else is loaded."""
+"""Entry point of the command line; it handles interrupts before any other module is imported."""
 
-# All of these are loaded when Python has started; `signal` would load much more before an interrupt could be answered,
-# and a handler that loads a module while another one is being loaded breaks that.
+# Python has these modules at its start. `signal` would import many more before an interrupt could be handled, and a
+# handler that imports a module during another import breaks that import.
 import _signal as signal  # type: ignore[import-not-found]
 import sys
 
@@ -11,13 +11,13 @@ if TYPE_CHECKING:
 
 INTERRUPTED = 130
 IMPORTING = "<frozen importlib._bootstrap>"
-"""Where Python's own code loads modules."""
+"""File name of the code of Python's import system."""
 _seen: list[int] = []
-"""Interrupts that came while a command ran."""
+"""Interrupts during the command."""
 
 
 def main() -> None:
-    """Run the command line; see `jumpcad.cli.commands.run` for the exit codes, besides 130 for an interrupt."""
+    """Run the command line; exit codes are those of `jumpcad.cli.commands.run`, and 130 for an interrupt."""
     _seen.clear()
     listening = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # nohup and & have it ignored
     if listening:
@@ -26,11 +26,11 @@ def main() -> None:
         from jumpcad.cli.commands import run
 
         code = run(sys.argv[1:])
-        _ignore_interrupts(listening)  # all is done: they would only be tracebacks
+        _ignore_interrupts(listening)  # the command is done: an interrupt would only print a traceback
     except KeyboardInterrupt:
         _ignore_interrupts(listening)
         code = INTERRUPTED
-    if _seen or code == INTERRUPTED:  # something may have taken the KeyboardInterrupt for an error of its own
+    if _seen or code == INTERRUPTED:  # a library may have caught the KeyboardInterrupt
         from jumpcad.cli.output import complain
 
         code = complain("interrupted", INTERRUPTED)
@@ -43,9 +43,9 @@ def _ignore_interrupts(listening: bool) -> None:
 
 
 def _interrupt(number: int, frame: "FrameType | None") -> None:
-    """Raise KeyboardInterrupt; while a module loads, as soon as it is loaded, in the code that asked for it.
+    """Raise KeyboardInterrupt; during an import, after it, in the code that imports.
 
-    Compiled modules abort the process, or take it for a failure of their own, when it is raised while they load.
+    Raised while a compiled module is imported it would abort the process, or look like a failure of the module.
     """
     _seen.append(number)
     outermost = None

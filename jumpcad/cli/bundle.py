@@ -1,7 +1,5 @@
 """`jumpcad build`, `jumpcad render`, `jumpcad verify`: bundles and their pictures."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,12 +11,12 @@ from jumpcad.cli.subjects import (
     PrinterOption,
     WorkshopOption,
     bundle_of,
-    completed,
+    completion,
     design_file,
-    designed,
-    tell_template,
+    note_template,
+    printed_robot,
 )
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import CannotBuildError, JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle
@@ -29,7 +27,7 @@ EXPORTS = Path("exports")
 PICTURES = "pictures"
 GIF = "jump.gif"
 WIDE = 140
-"""Width of a table that is not printed on a terminal."""
+"""Width of a table that is not printed on a terminal (characters)."""
 
 
 def register(app: typer.Typer) -> None:
@@ -45,7 +43,7 @@ def build(
         typer.Argument(
             help="A template's name, a design file, a bundle.",
             metavar="DESIGN|BUNDLE",
-            autocompletion=completed("robots"),
+            autocompletion=completion("robots"),
         ),
     ],
     workshop: WorkshopOption = None,
@@ -57,12 +55,14 @@ def build(
     pictures: Annotated[bool, typer.Option(help="Draw the robot.")] = True,
     step: Annotated[bool, typer.Option("--step", help="Write STEP files of the parts too.")] = False,
     ros2: Annotated[bool, typer.Option("--ros2", help="Write a ROS 2 description package too.")] = False,
+    anyway: Annotated[bool, typer.Option("--anyway", help="Write the files of a robot that does not jump.")] = False,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Build a robot: parts to print, files to simulate, what to buy, and how far it jumps.
 
-    In a folder that holds the robot already, its files are replaced and everything else stays.
+    In a folder that holds the robot already, its files are replaced and everything else stays. A robot that does not
+    jump is refused.
     """
     from jumpcad.bundle.export import export
     from jumpcad.files.outputs import require_apart
@@ -71,22 +71,24 @@ def build(
     from jumpcad.simulation.engines import default_engine
 
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
-    tell_template(design)
-    with progress(f"building {design}"):
-        robot = designed(design, workshop, printer, material)
+    note_template(design)
+    with status(f"building {design} …"):
+        robot = printed_robot(design, workshop, printer, material)
     folder = output or EXPORTS / robot.name
     if not force:
         _require_same_design_file(robot, design_file(design), folder)
-    with progress(f"writing {robot.name}"):
-        bundle = export(robot, folder, pictures, step, force, ros2)
-    with progress(f"simulating {robot.name}"):
+    with status(f"simulating {robot.name} …"):
         engine = default_engine()
         printed, capsule = (simulate(one, engine=engine) for one in (robot, capsule_robot(robot.design)))
+    if printed.verdict != "jump" and not anyway:
+        raise CannotBuildError(f"{robot.name} {_jump_in_words(printed.to_dict())}; --anyway writes its files")
+    with status(f"writing {robot.name} …"):
+        bundle = export(robot, folder, pictures, step, force, ros2)
     facts = _facts(robot, bundle, printed, capsule)
     if as_json:
         print_json(facts)
     else:
-        _tell(robot, facts)
+        _print_facts(facts)
 
 
 def render(
@@ -107,22 +109,22 @@ def render(
     from jumpcad.simulation.engines import default_engine
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
-    tell_template(subject)
+    note_template(subject)
     names = [*(f"{name}.png" for name in RENDERS), GIF]
     bundle = bundle_of(subject, workshop) if output is None else None
     if bundle:
         require_unedited(bundle, [f"{PICTURES}/{name}" for name in names], force)
-    with progress(f"building {subject}"):
-        robot = designed(subject, workshop)
+    with status(f"building {subject} …"):
+        robot = printed_robot(subject, workshop)
     folder = output or (Path(subject, PICTURES) if bundle else Path(f"{robot.name}-{PICTURES}"))
     if not bundle:
         for name in names:
             require_free(folder / name, force)
-    with progress(f"drawing {robot.name}"):
+    with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), default_engine())
     if jump.trajectory is not None:
-        with progress(f"drawing the jump of {robot.name}"):
+        with status(f"drawing the jump of {robot.name} …"):
             files[GIF] = jump_gif(robot, jump.trajectory)
     if bundle:
         change_files(bundle, {f"{PICTURES}/{name}": data for name, data in files.items()}, {}, force)
@@ -158,10 +160,10 @@ def verify(
 
 
 def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
-    """Refuse to replace a bundle of the robot's name that was made from another design file.
+    """Raise `JumpcadError` if a bundle of the robot's name was made from another design file.
 
-    A design file that says something else than the bundle was edited since the build, or is another one. As for make,
-    the dates decide: an edited file is younger than what was built from it.
+    A design file that differs from the bundle's was edited since the build, or is another one. The dates decide, as in
+    `make`: an edited file is newer than the bundle.
     """
     from jumpcad.bundle.inputs import DESIGN
     from jumpcad.bundle.manifest import open_bundle
@@ -172,7 +174,7 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
         edited = file.stat().st_mtime_ns >= kept.stat().st_mtime_ns
         same = kept.read_bytes() == robot.design.to_toml().encode()
     except (JumpcadError, OSError):
-        return  # no such bundle, or the writing says what is wrong
+        return  # no such bundle, or one that `export` rejects
     if edited or same or bundle.name != robot.name:
         return
     raise JumpcadError(
@@ -181,15 +183,8 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
     )
 
 
-@contextmanager
-def progress(doing: str) -> Iterator[None]:
-    """Show on standard error what is being done, if that is a terminal."""
-    with status(f"{doing} …"):
-        yield
-
-
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
-    """Return what `build` says at its end."""
+    """Return the figures that `build` prints."""
     from jumpcad.checks.engraving import engraving_findings
     from jumpcad.checks.strength import strength_findings
     from jumpcad.findings import errors
@@ -219,7 +214,7 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
     }
 
 
-def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
+def _print_facts(facts: dict[str, Any]) -> None:
     from rich.table import Table
 
     table = Table("part", "quantity", "material", "g each", "g", "mass from", box=None, pad_edge=False)
@@ -245,13 +240,13 @@ def _tell(robot: "Robot", facts: dict[str, Any]) -> None:
         print(f"too weak       {finding['message']}: {finding['remedy']}")
     for note in facts["notes"]:
         print(f"note           {note}")
-    print(f"printed robot  {_said(jump)}")
-    print(f"study's masses {_said(facts['capsule_jump'])}")
+    print(f"printed robot  {_jump_in_words(jump)}")
+    print(f"study's masses {_jump_in_words(facts['capsule_jump'])}")
     print(f"written        {len(facts['files']) + 1} files in {escaped(facts['folder'])}")
 
 
-def _said(jump: dict[str, Any]) -> str:
-    """Return a jump as half a line of text."""
+def _jump_in_words(jump: dict[str, Any]) -> str:
+    """Return range, rise and mass of a jump, or why there is none."""
     if jump["verdict"] == "jump":
         return (
             f"jumps {1000.0 * jump['ballistic_range_m']:.0f} mm far and {1000.0 * jump['com_rise_m']:.0f} mm high "

@@ -1,4 +1,4 @@
-"""`jumpcad calibrate`: what measured jumps say of springs, pins, release and drive, and what they leave open."""
+"""`jumpcad calibrate`: calibrates springs, pins, release and drive on measured jumps."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,7 +15,7 @@ SETTINGS = Path("my-settings.toml")
 UNITS = {"distance": (1000.0, "mm"), "height": (1000.0, "mm"), "battery": (1.0, "J"), "speed": (1.0, "m/s"),
          "angle": (1.0, "°")}  # fmt: skip
 FILES_HELP = "Measured robots: templates (kenan-1.0, kenan-2.0) or TOML files, one each."
-PREDICT_HELP = "Predict this measured robot, whose jumps are not calibrated on; may be repeated."
+PREDICT_HELP = "Predict this measured robot, without calibrating on its jumps; may be repeated."
 
 
 def register(app: typer.Typer) -> None:
@@ -35,7 +35,7 @@ def calibrate(
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Calibrate springs, pins, release and drive on measured jumps, and say what the data leave open."""
+    """Calibrate springs, pins, release and drive on measured jumps, and show what the data do not determine."""
     from jumpcad.calibration import calibrate as run
     from jumpcad.calibration import load_subject, predicted_jump, settings_toml
     from jumpcad.calibration.plots import PICTURES
@@ -47,7 +47,7 @@ def calibrate(
     for name in PICTURES if plots else ():
         require_free(Path(str(plots)) / f"{name}.svg", force)
     others = [load_subject(name) for name in predict or ()]
-    with status("builds the robots and lets them jump; samples"):
+    with status("simulating the robots, sampling the posterior …"):
         posterior = run(files, seed)
         predictions = [predicted_jump(posterior, other, seed) for other in others]
         document = _document(posterior, seed) | {
@@ -72,7 +72,7 @@ def _document(posterior: "Posterior", seed: int) -> dict[str, Any]:
         "robots": [subject.name for subject in posterior.model.subjects],
         "parameters": posterior.summaries(),
         "energy_per_mass": posterior.energies(),
-        "together": [list(pair) for pair in posterior.together()],
+        "together": [list(pair) for pair in posterior.correlated()],
         "residuals": posterior.residuals(),
         "model_error": {
             subject.name: {"median": subject.surface.error, "largest": float(subject.surface.errors.max())}
@@ -98,14 +98,14 @@ def _pictures(posterior: "Posterior", folder: Path) -> list[str]:
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
-    """Return what people read."""
-    lines = [f"{'parameter':<44}{'prior 10…50…90 %':<24}{'posterior':<24}what the data say"]
+    """Return the result as lines of text."""
+    lines = [f"{'parameter':<44}{'prior 10…50…90 %':<24}{'posterior':<24}from the data"]
     for one in document["parameters"]:
         lines.append(f"{one['label']:<44}{_three(one['prior']):<24}{_three(one['posterior']):<24}{one['verdict']}")
     for name, energy in document["energy_per_mass"].items():
         lines.append(f"{name + ': spring energy over mass / model':<68}{_three(energy)}")
     for first, second, correlation in document["together"]:
-        lines.append(f"known together, not alone: {first} and {second} (correlation {correlation:+.2f})")
+        lines.append(f"correlated, not determined alone: {first} and {second} ({correlation:+.2f})")
     for row in document["residuals"]:
         factor, unit = UNITS[row["what"]]
         predicted = _three([factor * value for value in row["predicted"]])
@@ -128,11 +128,11 @@ def _lines(document: dict[str, Any]) -> list[str]:
     errors = [error["largest"] for error in document["model_error"].values()]
     sampler = document["sampler"]
     lines.append(
-        f"{sampler['effective']:.0f} independent draws; interpolated jumps are within {100 * max(errors):.1f} % of the "
-        "engine's in range"
+        f"{sampler['effective']:.0f} independent draws; ranges of interpolated jumps are within "
+        f"{100 * max(errors):.1f} % of the engine's"
     )
     if not sampler["converged"]:
-        lines.append("the chains are too short for their correlation: quantiles are rough; give more measurements")
+        lines.append("the chains have not converged: quantiles are inaccurate; give more measurements")
     if "settings" in document:
         lines.append(f"{document['settings']}: jumpcad simulate DESIGN --uncertain --settings {document['settings']}")
     return lines

@@ -1,4 +1,4 @@
-"""`jumpcad check`: limits of printing, strength, drive and clearance; what fails first, then what is tight."""
+"""`jumpcad check`: limits of printing, strength, drive and clearance; violated ones first, then tight ones."""
 
 import math
 from typing import TYPE_CHECKING, Annotated
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from jumpcad.cli.output import JsonFlag, console, print_json
-from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completed, tell_template
+from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completion, note_template
 
 if TYPE_CHECKING:
     from jumpcad.findings import Finding
@@ -15,13 +15,13 @@ SEVERITIES = ("error", "warning", "info")
 STYLES = {"error": "bold red", "warning": "yellow", "info": "green"}
 WORDS = {"error": "error", "warning": "warning", "info": "holds"}
 TIGHT = 0.8
-"""Share of a limit from which a limit that holds is shown unasked."""
+"""Use of a limit from which it is shown also without --all."""
 SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), "J": ("mJ", 1000.0)}
-"""Units that people read instead of others, and their factors."""
+"""The unit that is printed for another one, and the factor."""
 COUNTED = "", "faults", "mm³"
-"""Units of what is counted or shall be nothing: a margin of 0 is no near miss."""
+"""Units of counts and of quantities that must be 0: a margin of 0 is not tight."""
 SMALL = 0.005
-"""A smaller margin, in the unit that is shown, is none."""
+"""Margins below this, in the printed unit, are "at the limit" or "just beyond"."""
 
 
 def register(app: typer.Typer) -> None:
@@ -33,20 +33,20 @@ def check(
     design: Annotated[
         str,
         typer.Argument(
-            help="A template's name or a design file.", metavar="DESIGN", autocompletion=completed("robots")
+            help="A template's name or a design file.", metavar="DESIGN", autocompletion=completion("robots")
         ),
     ],
     workshop: WorkshopOption = None,
     printer: PrinterOption = None,
     material: MaterialOption = None,
-    every: Annotated[bool, typer.Option("--all", help="Show every limit, also those that hold with room.")] = False,
+    every: Annotated[bool, typer.Option("--all", help="Show every limit, also those with a large margin.")] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Check the robot of a design: printing, strength, drive, clearances.
 
-    Shows what fails, and what is used by 80 % or more.
+    Shows violated limits, and those used by 80 % or more.
 
-    The exit code is 1 if a limit is violated that forbids the robot.
+    The exit code is 1 if a limit of severity "error" is violated.
     """
     from jumpcad.building import build
     from jumpcad.checks import check as check_robot
@@ -54,7 +54,7 @@ def check(
     from jumpcad.findings import errors
     from jumpcad.workshop import DEFAULT, load_workshop
 
-    tell_template(design)
+    note_template(design)
     robot = build(load_design(design), load_workshop(workshop or DEFAULT, printer, material))
     findings = sorted(check_robot(robot), key=_order)
     if as_json:
@@ -67,14 +67,14 @@ def check(
 
 
 def is_tight(finding: "Finding") -> bool:
-    """Tell whether a limit that holds is used so much that a user should know."""
+    """Tell whether a limit that holds is nearly reached: used by `TIGHT` or more, or without a margin."""
     if finding.use is not None:
         return finding.use >= TIGHT
     return margin_in_words(finding) == "at the limit"
 
 
 def margin_in_words(finding: "Finding") -> str:
-    """Return a margin in a unit that people read; next to nothing is "at the limit", or "just beyond" it."""
+    """Return a margin in its printed unit; below `SMALL` it is "at the limit" or "just beyond"."""
     unit, factor = SHOWN_AS.get(finding.unit, (finding.unit, 1.0))
     margin = factor * finding.margin
     if unit in COUNTED and margin == 0.0:
@@ -85,7 +85,7 @@ def margin_in_words(finding: "Finding") -> str:
 
 
 def _order(finding: "Finding") -> tuple[int, float]:
-    """Sort by severity, and within it by use, the most first."""
+    """Return the key by which findings are sorted: severity, then use, largest first."""
     use = finding.use
     return SEVERITIES.index(finding.severity), -(float(is_tight(finding)) if use is None else use)
 

@@ -1,4 +1,4 @@
-"""All commands, and how their errors are reported. Each command imports what it needs when it runs."""
+"""All commands, and how their errors are reported. Commands import most modules only when they run."""
 
 import os
 import sys
@@ -49,7 +49,7 @@ for module in COMMANDS:
     module.register(app)
 
 
-def _tell_version(wanted: bool) -> None:
+def _print_version(wanted: bool) -> None:
     if wanted:
         from jumpcad.version import __version__
 
@@ -60,17 +60,17 @@ def _tell_version(wanted: bool) -> None:
 @app.callback()
 def jumpcad(
     version: Annotated[
-        bool, typer.Option("--version", help="Show the version and exit.", callback=_tell_version, is_eager=True)
+        bool, typer.Option("--version", help="Show the version and exit.", callback=_print_version, is_eager=True)
     ] = False,
 ) -> None:
     """From eight numbers to a jumping robot that can be printed, simulated and trusted."""
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Carry out a command; return its exit code.
+    """Run a command; return its exit code.
 
-    0: done. A user's error is one line on standard error: 2 for a wrong request, 1 where the answer is no. Any other
-    exception is a bug: 3, with its traceback. If the reader of the output has closed it (`| head`): 141.
+    0: done. A user's error is one line on standard error: 2 for a wrong request, 1 if the answer is no. Any other
+    exception is a bug: 3, with its traceback. 141: the reader closed the output (`| head`).
     """
     try:
         with standard_output(coloured=any(word in arguments for word in HELP)):
@@ -84,13 +84,13 @@ def run(arguments: Sequence[str]) -> int:
         return complain(str(error), error.exit_code)
     except KeyboardInterrupt:
         raise
-    except BaseException:  # those of compiled libraries too, which are no Exception
+    except BaseException:  # exceptions of compiled libraries may not be derived from Exception
         print(traceback.format_exc(), end="", file=sys.stderr)
         return BUG
 
 
 def _usage(error: TyperException) -> str:
-    """Return what is wrong with the arguments, with the wrong value; empty if none were given and help was printed."""
+    """Return the error in the arguments, with the wrong value; empty if there were none and the help was printed."""
     usage = error.format_message().rstrip(".")
     if isinstance(error.__cause__, ValidationError):
         return f"{usage}, not {error.__cause__.errors()[0]['input']!r}"
@@ -98,7 +98,7 @@ def _usage(error: TyperException) -> str:
 
 
 def _carry_out(arguments: list[str]) -> int:
-    """Parse and call; not by `app()`, which has its own exit codes for interrupts and closed outputs."""
+    """Parse and run; not with `app()`, which has other exit codes for interrupts and closed outputs."""
     try:
         os.getcwd()
     except FileNotFoundError:

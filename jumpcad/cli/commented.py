@@ -1,4 +1,4 @@
-"""Design and workshop files that say in comments what their values mean."""
+"""Design and workshop files with a comment on every value."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -40,7 +40,7 @@ def commented_design(design: "Design", origin: str, file: str) -> str:
 
 
 def commented_workshop(workshop: "Workshop", origin: str) -> str:
-    """Return the TOML document of a workshop: that of the default one with its comments, and this one's values."""
+    """Return the TOML document of a workshop: the default workshop's file, comments included, with other values."""
     from jumpcad.files import find_template
 
     text = find_template("workshops", "default").read_text(encoding="utf-8")
@@ -55,13 +55,13 @@ def commented_workshop(workshop: "Workshop", origin: str) -> str:
     for section in sections:
         lines += _section(section, data)
     lines += [] if printer else ["", *_table("printer", data["printer"])]
-    for key, table in _others(workshop, data):
+    for key, table in _others(data):
         lines += ["", *_table(key, table)]
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
 def printer_name(workshop: "Workshop") -> str:
-    """Return the name of the shipped printer that a workshop has; empty for another one."""
+    """Return the name of a workshop's printer; empty if it is not shipped."""
     from jumpcad.files import find_template, read_toml, template_names
     from jumpcad.workshop import Printer
 
@@ -94,15 +94,15 @@ def _section(text: str, data: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _beyond_kit(bought: dict[str, Any]) -> dict[str, Any]:
-    """Return what a workshop says of bought parts besides the names that its kit gives."""
+    """Return the keys of `[bought]` whose values are not those of its kit."""
     from jumpcad.catalogue import load_catalogue
 
     kit = load_catalogue().kits[bought["kit"]].model_dump() if bought["kit"] else {}
     return {key: value for key, value in bought.items() if key not in kit or _plain(value) != _plain(kit[key])}
 
 
-def _others(workshop: "Workshop", data: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield the tables that the default workshop does not have: pins, materials of one's own, own parts."""
+def _others(data: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield the tables that the default workshop does not have: pins, changed materials, the user's own parts."""
     from jumpcad.files import find_template, read_toml, template_names
     from jumpcad.workshop import OWN_PARTS
 
@@ -120,7 +120,7 @@ def _others(workshop: "Workshop", data: Mapping[str, Any]) -> Iterator[tuple[str
 
 
 def _table(name: str, values: Mapping[str, Any]) -> list[str]:
-    """Return a table; tables in it follow under their own names."""
+    """Return the lines of a table, followed by those of its nested tables."""
     plain = {key: value for key, value in values.items() if not isinstance(value, dict)}
     lines = [f"[{name}]", *(f"{_written_key(key)} = {_written(value)}" for key, value in plain.items())]
     for key, value in values.items():

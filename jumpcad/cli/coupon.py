@@ -63,7 +63,7 @@ def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
 
 
 def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[str, Any]:
-    """Write the workshop with the fits that were read, complete; return what changed."""
+    """Write the complete workshop with the measured fits; return the changed ones."""
     from jumpcad.coupon.readings import Readings, measured_workshop
     from jumpcad.files.outputs import require_target, write_atomically
     from jumpcad.workshop import load_workshop

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
-from jumpcad.cli.subjects import MaterialOption, PrinterOption, completed
+from jumpcad.cli.subjects import MaterialOption, PrinterOption, completion
 from jumpcad.errors import JumpcadError
 
 TEMPLATE = "kenan-2.0"
@@ -15,14 +15,14 @@ FromOption = Annotated[
     str | None,
     typer.Option(
         "--from", help="Design to copy: a template's name or a file.", show_default=TEMPLATE,
-        autocompletion=completed("robots"),
+        autocompletion=completion("robots"),
     ),
 ]  # fmt: skip
 NewWorkshopOption = Annotated[
     str | None,
     typer.Option(
         help="Write a workshop file instead, copied from this one: a template's name or a file.",
-        autocompletion=completed("workshops"),
+        autocompletion=completion("workshops"),
     ),
 ]
 

@@ -77,7 +77,7 @@ def explore(
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
-    """Sweep parameters one at a time, find principal components and importance, or map what is rejected.
+    """Sweep parameters one at a time, find principal components and importance, or map rejected designs.
 
     With --study, evaluations are kept and not repeated.
     """
@@ -126,7 +126,7 @@ def explore(
 
 
 View = Callable[["Evaluator"], tuple[dict[str, Any], list[str], dict[str, Callable[[], Any]]]]
-"""Evaluates a view; returns data, lines of text, and by name functions that draw the pictures."""
+"""Evaluates the designs of a view; returns data for JSON, lines of text, and functions that draw pictures, by name."""
 
 
 def _swept(centre: "Design", points: int) -> View:

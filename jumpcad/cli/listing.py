@@ -28,7 +28,7 @@ USED_AS = {
 }
 """Every kind that is listed, and where its names are used."""
 FOLDERS = {"templates": "robots", "workshops": "workshops", "settings": "settings"}
-"""Kinds whose files begin with a comment that says what they are."""
+"""Kinds whose files begin with a comment that describes them, and their folders."""
 
 KindArgument = Annotated[
     str | None,
@@ -64,7 +64,7 @@ def list_names(kind: KindArgument = None, as_json: JsonFlag = False) -> None:
 
 
 def described(kind: str) -> dict[str, str]:
-    """Return the names of a kind, each with what it is."""
+    """Return the names of a kind, each with its description."""
     from jumpcad.files import find_template, read_toml, template_names
 
     if kind in FOLDERS:

@@ -52,6 +52,9 @@ UntilOption = Annotated[
 ]
 HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
 WidenFlag = Annotated[bool, typer.Option("--widen", help="Move bounds on which the best design lies, and go on.")]
+ScreenFlag = Annotated[
+    bool, typer.Option("--screen", help="For ga: leave out candidates that a quick guess finds too bad.")
+]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
@@ -77,6 +80,7 @@ def optimize(
     until: UntilOption = 0.0,
     hours: HoursOption = 0.0,
     widen: WidenFlag = False,
+    screen: ScreenFlag = False,
     output: OutputOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -102,7 +106,7 @@ def optimize(
     request = Request.make(
         space, robot, method, options.objective,
         evaluations=evaluations, seed=options.seed, preset=preset, batch=batch, prior=from_study,
-        until_percent=until, hours=hours, widen=widen,
+        until_percent=until, hours=hours, widen=widen, screen=screen,
     )  # fmt: skip
     path = options.study or Path(request.default_name())
     require_study(path)
@@ -139,7 +143,7 @@ def optimize(
 
 
 def _headed(heading: str, watch: "Watch") -> "Watch":
-    """Return a watch that prints a line before the first trial: the study then is what was asked for."""
+    """Return a watch that prints the heading before the first trial, when the study has been opened without error."""
     waiting = [heading]
 
     def headed(trial: "Trial", computed: bool) -> None:
@@ -181,7 +185,7 @@ def _print_result(result: "Result", design_file: Path) -> None:
             print(f"  {energy_j(trial.design):8.4f} J  {trial.score:10.4f}")
     print(f"\nbest {request.objective} {result.best.score:.4f}")
     if result.candidates:
-        print(f"score that nine of ten neighbours reach, parameters ±1 % and lengths ±{request.tolerance_mm:g} mm:")
+        print(f"score that nine of ten neighbours reach, parameters ±1 %, or {request.making.words}:")
         print(f"  {'itself':>10s}{'±1 %':>10s}{'lengths':>10s}  neighbours, rejected")
     for one in result.candidates[:SHOWN]:
         scores = (one.trial.score or 0.0, one.parameters_score, one.print_score)

@@ -35,7 +35,7 @@ class OutputClosed(Exception):
 
 
 def escaped(text: str) -> str:
-    """Return text on one line, its control characters as Python writes them: a line feed as \\n."""
+    """Return text on one line, its control characters as in a Python string: a line feed as \\n."""
     return re.sub(CONTROL_PATTERN, _escape, text)
 
 
@@ -56,8 +56,9 @@ def complain(message: str, exit_code: int) -> int:
 
 
 class Output:
-    """Standard output for a command: keeps its lines, escapes other control characters, so that no file
-    name controls the terminal. The colours of tables and of the help are kept where `coloured`.
+    """Standard output for a command, which escapes control characters, except line breaks and tabs.
+
+    So no file name controls the terminal. The colours of tables and of the help are kept if `coloured`.
 
     Raises
     ------
@@ -104,7 +105,13 @@ class Output:
 
 @contextlib.contextmanager
 def standard_output(coloured: bool = False) -> Iterator[None]:
-    """Print characters that the terminal's encoding lacks escaped, and raise at the end if not all was written."""
+    """Redirect standard output to `Output`; characters that the terminal's encoding lacks are escaped.
+
+    Raises
+    ------
+    OutputClosed, JumpcadError
+        As `Output`, at the latest at the end.
+    """
     _open_streams()
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
@@ -121,7 +128,7 @@ def standard_output(coloured: bool = False) -> Iterator[None]:
 
 
 def console(**options: Any) -> "Console":
-    """Return a console for tables, without markup; what users named must be escaped before it goes there."""
+    """Return a console for tables, without markup; text from users must be escaped before it is printed there."""
     from rich.console import Console
 
     if isinstance(sys.stdout, Output) and "stderr" not in options:
@@ -131,7 +138,7 @@ def console(**options: Any) -> "Console":
 
 @contextlib.contextmanager
 def status(doing: str) -> Iterator[Callable[[str], None]]:
-    """Show on standard error what is being done, if that is a terminal; yields a function that changes the text."""
+    """Show what is being done on standard error, if that is a terminal; yield a function that changes the text."""
     from rich.text import Text
 
     with console(stderr=True).status(Text(escaped(doing))) as shown:
@@ -144,7 +151,7 @@ def print_json(data: Any) -> None:
 
 
 def _plain(data: Any) -> Any:
-    """Return data that strict JSON can hold: numpy values become Python's, NaN and infinities become None."""
+    """Return data for strict JSON: numpy values become Python's, NaN and infinities become None."""
     if isinstance(data, dict):
         return {str(key): _plain(value) for key, value in data.items()}
     if isinstance(data, list | tuple):
@@ -161,7 +168,7 @@ def _escape(found: re.Match[str]) -> str:
 
 
 def _open_streams() -> None:
-    """Open descriptors 0, 1 and 2 if the caller closed them; else a file would get one, and what libraries print."""
+    """Open descriptors 0, 1 and 2 if the caller closed them; else libraries would print into a file that gets one."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -170,7 +177,7 @@ def _open_streams() -> None:
 
 
 def _discard(stream: TextIO) -> None:
-    """Drop what a stream has buffered; Python would try to write it again at exit, and print an error."""
+    """Discard a stream's buffer; Python would try to write it again at exit, and print an error."""
     with contextlib.suppress(OSError, ValueError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())

@@ -1,4 +1,4 @@
-"""Progress of a search on standard error: a bar on a terminal, elsewhere one line a minute."""
+"""Progress of a search on standard error: a bar on a terminal, otherwise one line per minute."""
 
 import sys
 import time
@@ -16,9 +16,9 @@ LINE_EVERY_S = 60.0
 
 
 class Tally:
-    """What is known of a running search: evaluations done, the best score, rate and time left.
+    """Progress of a search: evaluations done, best score, rate and time left.
 
-    Trials that are read from the study file count as done, but not for the rate.
+    Trials that are read from the study file count as done, but not for the rate. `clock` returns seconds.
     """
 
     def __init__(self, total: int, clock: Callable[[], float] = time.monotonic) -> None:
@@ -31,7 +31,7 @@ class Tally:
         self._computed = 0
 
     def add(self, trial: "Trial", computed: bool) -> None:
-        """Count a trial."""
+        """Count a trial, which was `computed` or read from the study file."""
         from jumpcad.search.trial import SEARCH_PHASES
 
         self.done += trial.cost
@@ -53,18 +53,18 @@ class Tally:
 
     @property
     def left_s(self) -> float | None:
-        """Time that the other evaluations take at this rate (s); None before the first."""
+        """Time for the remaining evaluations at this rate (s); None before the first."""
         return (self.total - self.done) / self.per_second if self.per_second else None
 
     def line(self) -> str:
-        """Return one line for people."""
+        """Return the progress as one line of text."""
         best = "–" if self.best is None else f"{self.best:.4g}"
         left = "" if self.left_s is None else f", about {duration(self.left_s)} left"
         return f"{self.phase}: {self.done} of {self.total} evaluations, best {best}, {self.per_second:.2g}/s{left}"
 
 
 def duration(seconds: float) -> str:
-    """Return a time in the unit that suits it."""
+    """Return a time in seconds, minutes or hours."""
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
@@ -72,9 +72,9 @@ def duration(seconds: float) -> str:
 
 @contextmanager
 def watching(total: int, quiet: bool, clock: Callable[[], float] = time.monotonic) -> Iterator["Watch"]:
-    """Show how far a search is, how fast, its best score and the time left, while it runs.
+    """Show the progress of a search while it runs; `total` is the number of evaluations.
 
-    When none of its first designs jumps, say so, with the reasons counted.
+    If none of its first designs jumps, print a warning with the numbers of reasons.
     """
     from rich.progress import BarColumn, Progress, TextColumn
 
@@ -83,26 +83,26 @@ def watching(total: int, quiet: bool, clock: Callable[[], float] = time.monotoni
     terminal = sys.stderr.isatty()
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[line]}"))
     with Progress(*columns, console=console(stderr=True), disable=quiet or not terminal) as progress:
-        tally, told_s, hopeless = Tally(total, clock), clock(), Hopeless()
+        tally, printed_s, hopeless = Tally(total, clock), clock(), Hopeless()
         task = progress.add_task("search", total=total, line="")
 
         def watch(trial: "Trial", computed: bool) -> None:
-            nonlocal told_s
+            nonlocal printed_s
             tally.add(trial, computed)
             warning = hopeless.warning(trial)
             if quiet:
                 return
             if warning:
-                progress.console.print(warning, markup=False) if terminal else _tell(warning)
+                progress.console.print(warning, markup=False) if terminal else _print_line(warning)
             if terminal:
                 line = tally.line().removeprefix(f"{tally.phase}: ")
-                progress.update(task, completed=tally.done, total=tally.total, description=tally.phase, line=line)
-            elif computed and clock() - told_s >= LINE_EVERY_S:
-                told_s = clock()
-                _tell(tally.line())
+                progress.update(task, completion=tally.done, total=tally.total, description=tally.phase, line=line)
+            elif computed and clock() - printed_s >= LINE_EVERY_S:
+                printed_s = clock()
+                _print_line(tally.line())
 
         yield watch
 
 
-def _tell(line: str) -> None:
+def _print_line(line: str) -> None:
     print(f"jumpcad: {line}", file=sys.stderr, flush=True)

@@ -1,13 +1,12 @@
-"""`jumpcad report`: one page that shows a robot moving, its limits and how to make it; or one of a study."""
+"""`jumpcad report`: a page with a robot's motion, limits and parts, or a page on a study."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from jumpcad.cli.bundle import progress
-from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
-from jumpcad.cli.subjects import WorkshopOption, bundle_of, designed, refuse_workshop, tell_template
+from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
+from jumpcad.cli.subjects import WorkshopOption, bundle_of, note_template, printed_robot, reject_workshop
 
 PAGE = "report.html"
 STUDY = ".db"
@@ -46,11 +45,11 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
     from jumpcad.search.store import StudyStore
     from jumpcad.search.study_page import write_study_page
 
-    refuse_workshop(workshop, f"{study} is a study, which keeps the workshop of its robots; leave --workshop out")
+    reject_workshop(workshop, f"{study} is a study, which keeps the workshop of its robots; leave --workshop out")
     page = output or Path(f"{study.stem}-{PAGE}")
     require_apart({"--output": page}, {"the study": study})
     require_target(page, (".html",), force)
-    with StudyStore.read(study) as store, progress(f"drawing {study}"):
+    with StudyStore.read(study) as store, status(f"drawing {study} …"):
         text = write_study_page(store, study.stem)
     write_atomically(page, sealed(text, "<!-- {} -->"))
     return page
@@ -63,18 +62,18 @@ def _robot_page(subject: str, output: Path | None, workshop: str | None, force: 
     from jumpcad.files.outputs import require_apart, require_target, write_files
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
-    tell_template(subject)
+    note_template(subject)
     bundle = bundle_of(subject, workshop) if output is None else None
     if bundle:
         require_unedited(bundle, [PAGE], force)
     elif output is not None:
         require_target(output, (".html",), force)
-    with progress(f"building {subject}"):
-        robot = designed(subject, workshop)
+    with status(f"building {subject} …"):
+        robot = printed_robot(subject, workshop)
     page = output or (bundle.folder / PAGE if bundle else Path(f"{robot.name}-{PAGE}"))
     if not bundle and output is None:
         require_target(page, (".html",), force)
-    with progress(f"drawing {robot.name}"):
+    with status(f"drawing {robot.name} …"):
         text = report_page(robot, bundle.files if bundle else ())
     if bundle:
         change_files(bundle, {PAGE: text}, {}, force)

@@ -1,4 +1,4 @@
-"""What `explore` and `optimize` share: their common options, checks of their files."""
+"""The common options of `explore` and `optimize`, and checks of their files."""
 
 import functools
 import inspect
@@ -85,7 +85,7 @@ class SearchOptions:
 
 
 def with_search_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Give a command that takes `options: SearchOptions` an option for each field, in place of that parameter."""
+    """Return a command with an option for each field of `SearchOptions` in place of its parameter `options`."""
     hints = get_type_hints(SearchOptions, include_extras=True)
     names = {field.name for field in fields(SearchOptions)}
     parameters: list[inspect.Parameter] = []
@@ -103,19 +103,19 @@ def with_search_options(command: Callable[..., None]) -> Callable[..., None]:
         common = {name: values.pop(name) for name in names}
         command(**values, options=SearchOptions(**common))
 
-    del unfolded.__wrapped__  # Typer reads the signature and the annotations of what it finds there
+    del unfolded.__wrapped__  # else Typer reads the signature and the annotations of that function
     unfolded.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     unfolded.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return unfolded
 
 
 def require_study(study: Path | None) -> None:
-    """Reject, before a search, a file that cannot be its study.
+    """Require, before a search, that a file can be its study.
 
     Raises
     ------
     JumpcadError
-        Naming the file and the way out.
+        If it does not end in .db, its folder is missing, or it is no file.
     """
     from jumpcad.files.outputs import require_folder
 
@@ -129,12 +129,12 @@ def require_study(study: Path | None) -> None:
 
 
 def require_plots(folder: Path | None, force: bool) -> None:
-    """Reject, before the work, a folder in which pictures cannot be written or would replace a user's own.
+    """Require, before a search, that pictures can be written to a folder without replacing a user's files.
 
     Raises
     ------
     JumpcadError
-        Naming the folder or picture and the way out.
+        If it is no folder, or has a file of a picture's name that jumpcad did not write (unless `force`).
     """
     from jumpcad.files.outputs import require_free
     from jumpcad.search.figures import PICTURES

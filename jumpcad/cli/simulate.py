@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json
-from jumpcad.cli.subjects import WorkshopOption, designed, refuse_workshop, tell_template, written_robot
+from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, reject_workshop, robot_from_file
 from jumpcad.errors import JumpcadError
 from jumpcad.simulation.engines import ENGINES, GENERAL, default_engine, engine_help, in_words
 
@@ -44,7 +44,7 @@ ACCOUNT = {
     "slip": "lost by slipping",
     "contact": "lost in contact (and numerics)",
 }
-"""What people read for the entries of `Jump.energy_account_j`."""
+"""Labels of the entries of `Jump.energy_account_j`."""
 
 
 def register(app: typer.Typer) -> None:
@@ -65,7 +65,8 @@ def simulate(
     flight: Annotated[bool, typer.Option("--flight", help="Simulate the flight up to the first touchdown.")] = False,
     trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
     uncertain: Annotated[
-        bool, typer.Option("--uncertain", help="Also what is not known: 10/50/90 % of range and rise, and why.")
+        bool,
+        typer.Option("--uncertain", help="Also the uncertainty: 10, 50, 90 % quantiles of range and rise, by source."),
     ] = False,
     seed: Annotated[int, typer.Option(help="Random seed of --uncertain.", min=0, max=2**32 - 1)] = 0,
     force: ForceFlag = False,
@@ -82,7 +83,7 @@ def simulate(
     if capsule and published:
         raise JumpcadError("--capsule and --published exclude each other: choose one model")
     if capsule or published:
-        refuse_workshop(workshop, "cannot apply to a robot that is not printed; leave it out")
+        reject_workshop(workshop, "cannot apply to a robot that is not printed; leave it out")
     if uncertain and (capsule or published):
         raise JumpcadError("--uncertain is for printed robots: leave --capsule and --published out")
     if published and (flight or trajectory):
@@ -90,8 +91,8 @@ def simulate(
     require_apart({"--trajectory": trajectory}, {"the design": design, "--workshop": workshop, "--settings": settings})
     if trajectory:
         require_target(trajectory, TRAJECTORY_SUFFIXES, force)
-    tell_template(design)
-    written = written_robot(design, workshop)
+    note_template(design)
+    written = robot_from_file(design, workshop)
     subject = written.design if written else load_design(design)
     if published:
         _published(subject, engine, as_json)
@@ -104,20 +105,20 @@ def simulate(
     if uncertain and Path(design).suffix == ".urdf":
         raise JumpcadError(f"{design}: --uncertain is for printed robots: give the design, or its bundle")
     asked = _settings(settings, flight, trajectory is not None)
-    robot = capsule_robot(subject) if capsule else written or designed(design, workshop)
+    robot = capsule_robot(subject) if capsule else written or printed_robot(design, workshop)
     model = "capsule" if capsule else "URDF" if written else "printed"
     heading = {"design": design, "model": model, "settings": settings}
     jumps = _jumps(robot, asked, engines)
     if trajectory:
         _write_trajectory(trajectory, jumps[0])
-    spread = _uncertain(designed(design, workshop), settings, engines[0], seed) if uncertain else None
+    spread = _uncertain(printed_robot(design, workshop), settings, engines[0], seed) if uncertain else None
     _report(heading, jumps, as_json, spread)
     if any(jump.verdict != "jump" for jump in jumps):
         raise typer.Exit(1)
 
 
 def _published(design: "Design", engine: str | None, as_json: bool) -> None:
-    """Print the quantities of the published study, which are not those of a `Jump`."""
+    """Print the quantities of the published study, which a `Jump` does not have."""
     if engine not in (None, "pybullet"):
         raise JumpcadError(f"--engine {engine}: the published simulation exists in pybullet alone")
     from jumpcad.paper import published

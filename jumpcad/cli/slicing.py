@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from jumpcad.bundle.sliced import SlicedBundle
 
 WIDE = 120
-"""Columns of a table that holds the longest names of parts."""
+"""Width of a table with the longest names of parts (characters)."""
 
 
 def register(app: typer.Typer) -> None:
@@ -34,7 +34,7 @@ def slice_command(
 ) -> None:
     """Slice a bundle with PrusaSlicer: masses beside the model's, printing times, settings that it ignored.
 
-    The times go into the bundle's bill of materials and guide, unless another workshop prints it.
+    The times are written into the bundle's bill of materials and guide, unless --workshop is given.
     """
     from jumpcad.bundle.sliced import slice_bundle, write_times
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
@@ -52,9 +52,9 @@ def slice_command(
     if found.billed:
         write_times(found)
     if as_json:
-        print_json(_facts(bundle, found) | {"workshop": write_masses and str(write_masses), "written": found.billed})
+        print_json(slice_facts(bundle, found, write_masses))
         return
-    _tell(found)
+    _print_sliced(found)
     if found.billed:
         print(f"written   the times, into bom.csv and assembly.md of {escaped(str(bundle))}")
     if write_masses is not None:
@@ -62,7 +62,8 @@ def slice_command(
         print(f"written   {name}: try jumpcad build DESIGN --workshop {name}")
 
 
-def _facts(bundle: Path, found: "SlicedBundle") -> dict[str, Any]:
+def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) -> dict[str, Any]:
+    """Return the JSON document of a sliced bundle."""
     return {
         "bundle": str(bundle),
         "slicer": found.version,
@@ -71,10 +72,12 @@ def _facts(bundle: Path, found: "SlicedBundle") -> dict[str, Any]:
         "plates": [vars(plate) for plate in found.plates],
         "grams": sum(plate.grams for plate in found.plates),
         "time_s": sum(plate.time_s for plate in found.plates),
+        "workshop": write_masses and str(write_masses),
+        "written": found.billed,
     }
 
 
-def _tell(found: "SlicedBundle") -> None:
+def _print_sliced(found: "SlicedBundle") -> None:
     from jumpcad.bundle.guide import duration
 
     _print_table(
@@ -105,7 +108,7 @@ def _tell(found: "SlicedBundle") -> None:
 
 
 def _print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table as wide as it needs to be; columns of figures are right-aligned."""
+    """Print a table; columns of figures are right-aligned."""
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)

@@ -26,7 +26,7 @@ def studio(
     workshop: WorkshopOption = None,
     port: Annotated[int, typer.Option(help="Port of the page, on this computer alone.", min=1, max=65535)] = PORT,
 ) -> None:
-    """Change the eight numbers in a browser and see the robot that follows (extra `studio`)."""
+    """Change the eight numbers in a browser and see the robot that they give (extra `studio`)."""
     from jumpcad.design import load_design
     from jumpcad.files.templates import template_names
     from jumpcad.workshop import DEFAULT
@@ -52,7 +52,7 @@ def studio(
 
 
 def _best(file: Path) -> "Design":
-    """Return the best design of a study."""
+    """Return the best design of a study; raise `JumpcadError` if none can be built."""
     from jumpcad.search.store import StudyStore
     from jumpcad.search.trial import feasible_trials, searched
 

@@ -1,4 +1,4 @@
-"""`jumpcad study`: what is in a study file, as figures, tables and pictures."""
+"""`jumpcad study`: the content of a study file as figures, tables and pictures."""
 
 import time
 from pathlib import Path
@@ -19,7 +19,9 @@ StudiesArgument = Annotated[
 ExportOption = Annotated[
     Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
 ]
-WatchFlag = Annotated[bool, typer.Option("--watch", help="Print how far the search is until it ends, then the study.")]
+WatchFlag = Annotated[
+    bool, typer.Option("--watch", help="Print the progress of the search until it ends, then the study.")
+]
 WATCH_S = 5.0
 ListOption = Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)]
 
@@ -72,14 +74,14 @@ def study(
 
 
 def _watch(file: Path) -> None:
-    """Print how far a search is whenever it has moved, until no search writes the study."""
+    """Print the progress of a search whenever it changes, until no search writes the study."""
     from jumpcad.search.database import is_written
     from jumpcad.search.store import StudyStore
     from jumpcad.search.trial import SEARCH_PHASES
 
-    told = ""
+    printed = ""
     while True:
-        running = is_written(file)  # before reading: what is written until then is read
+        running = is_written(file)  # before reading, so that the last trials are read too
         with StudyStore.read(file) as store:
             counts, best = store.progress()
             planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
@@ -87,9 +89,9 @@ def _watch(file: Path) -> None:
         around = sum(counts.values()) - searched
         line = f"{searched} of {planned} designs, best {'none' if best is None else f'{best:.4f}'}"
         line += f", {around} around the best" if around else ""
-        if line != told:
+        if line != printed:
             print(line, flush=True)
-            told = line
+            printed = line
         if not running:
             return
         time.sleep(WATCH_S)

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from jumpcad.robot import Robot
 
 
-def completed(kind: str) -> Callable[[str], list[str]]:
-    """Return a function that completes the names of a kind of templates."""
+def completion(kind: str) -> Callable[[str], list[str]]:
+    """Return the shell completion for the names of a kind of templates."""
 
     def names(incomplete: str) -> list[str]:
         from jumpcad.files import template_names
@@ -32,25 +32,25 @@ WorkshopOption = Annotated[
     typer.Option(
         help="Workshop of the printed robot: a template's name or a file.",
         show_default="default",
-        autocompletion=completed("workshops"),
+        autocompletion=completion("workshops"),
     ),
 ]
 PrinterOption = Annotated[
     str | None,
     typer.Option(
-        help="Printer instead of the workshop's: see jumpcad list printers.", autocompletion=completed("printers")
+        help="Printer instead of the workshop's: see jumpcad list printers.", autocompletion=completion("printers")
     ),
 ]
 MaterialOption = Annotated[
     str | None,
     typer.Option(
-        help="One material for all printed parts: see jumpcad list materials.", autocompletion=completed("materials")
+        help="One material for all printed parts: see jumpcad list materials.", autocompletion=completion("materials")
     ),
 ]
 
 
-def tell_template(subject: str) -> None:
-    """Print that a bare name means the template, if a bundle of that name is in this folder."""
+def note_template(subject: str) -> None:
+    """Print that a bare name means the template, if the working directory has a bundle of that name."""
     from jumpcad.bundle.manifest import MANIFEST
 
     folder = os.path.join(os.curdir, subject)
@@ -64,14 +64,14 @@ def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
     Raises
     ------
     JumpcadError
-        If the folder is not a bundle, or a workshop is given for one: it was built in its own.
+        If the folder is not a bundle, or a workshop is given for one: a bundle has its own.
     """
     from jumpcad.bundle.manifest import open_bundle
 
     if _is_template(subject) or not os.path.isdir(subject):
         return None
     bundle = open_bundle(subject)
-    refuse_workshop(
+    reject_workshop(
         workshop,
         f"{subject} is a bundle, built in a workshop of its own; "
         f"give {Path(subject, 'design.toml')} to build it in another",
@@ -79,8 +79,18 @@ def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
     return bundle
 
 
-def designed(subject: str, workshop: str | None, printer: str | None = None, material: str | None = None) -> "Robot":
-    """Return the printed robot of a bundle (from the inputs in it), of a template, or of a design file."""
+def printed_robot(
+    subject: str, workshop: str | None, printer: str | None = None, material: str | None = None
+) -> "Robot":
+    """Return the printed robot of a bundle (built again from its inputs), of a template, or of a design file.
+
+    Raises
+    ------
+    JumpcadError
+        If it cannot be read, or a workshop, printer or material is given for a bundle.
+    CannotBuildError
+        If the design cannot be built.
+    """
     from jumpcad.building import build as build_robot
     from jumpcad.bundle.inputs import kept_design, kept_workshop
     from jumpcad.design import load_design
@@ -105,20 +115,20 @@ def design_file(subject: str) -> Path:
     return bundle.file("design.toml") if bundle else find_template("robots", subject)
 
 
-def written_robot(subject: str, workshop: str | None) -> "Mechanism | None":
-    """Return the mechanism of a bundle or a URDF file, read from that file; None for anything else."""
+def robot_from_file(subject: str, workshop: str | None) -> "Mechanism | None":
+    """Return the mechanism of a URDF file, also that in a bundle; None for anything else."""
     from jumpcad.simulation.from_urdf import robot_from_urdf
 
     if bundle := bundle_of(subject, workshop):
         return robot_from_urdf(bundle.urdf)
     if Path(subject).suffix != ".urdf":
         return None
-    refuse_workshop(workshop, f"{subject} is simulated as it is written; leave --workshop out")
+    reject_workshop(workshop, f"{subject} is simulated as it is written; leave --workshop out")
     return robot_from_urdf(Path(subject))
 
 
-def refuse_workshop(workshop: str | None, reason: str) -> None:
-    """Refuse the option `--workshop`, if it is given, where it has nothing to build."""
+def reject_workshop(workshop: str | None, reason: str) -> None:
+    """Raise `JumpcadError` if the option `--workshop` is given, where it does not apply."""
     if workshop is not None:
         raise JumpcadError(f"--workshop {workshop}: {reason}")
 

@@ -1,1 +1,1 @@
-"""The fit coupon: what is printed, its readings, and the workshop with the measured fits."""
+"""The fit coupon: its printed pieces, its readings, and the workshop with the measured fits."""

@@ -1,6 +1,6 @@
-"""The fit coupon's folder: STL and 3MF files, how to use them, and a file for the readings.
+"""The fit coupon's folder: STL and 3MF files, instructions, and a file for the readings.
 
-It is a bundle like a robot's: with a manifest, and with the workshop that it was made for.
+It is a bundle like a robot's, with a manifest and with the workshop for which it was made.
 """
 
 from collections.abc import Iterator, Sequence
@@ -24,15 +24,15 @@ GUIDE = "guides/coupon.md"
 
 
 def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -> Bundle:
-    """Write the coupon of a workshop: a gauge in every material that a role uses, gears in that of the gears.
+    """Write the coupon of a workshop: a gauge in every material of the robot, gears in the gears' material.
 
     Raises
     ------
     JumpcadError
-        If the folder holds anything but a coupon, or one whose readings were filled in (unless forced), or cannot be
+        If the folder holds anything but a coupon, or one whose readings were filled in (unless `force`), or cannot be
         written.
     CannotBuildError
-        If a piece does not fit the bed.
+        If a piece does not fit the bed, or its file is not one closed solid.
     """
     holes = coupon_holes(workshop)
     made = pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
@@ -53,7 +53,7 @@ def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -
 
 
 def _contents(workshop: Workshop, holes: HoleSizes, made: Sequence[Piece]) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of every file but the manifest."""
+    """Yield path and content of every file, except the manifest."""
     yield "workshop.toml", workshop.to_toml()
     for piece in made:
         stl = write_stl(piece.mesh)
@@ -93,13 +93,13 @@ def _guide(workshop: Workshop, holes: HoleSizes) -> str:
 
 
 def _seat(workshop: Workshop) -> str:
-    """Return which bearing goes into the separate seats, in words."""
+    """Return the bearing for the separate seats, in words."""
     names = [bearing.name for bearing in seats(workshop)]
     return f"the bearing {names[0]}, for stronger designs" if names else "left out: there is no larger bearing"
 
 
 def _template(workshop: Workshop, holes: HoleSizes) -> str:
-    """Return the file for the readings: every key commented out, with the value that the workshop has now."""
+    """Return the file for the readings: every key as a comment, with the workshop's present value."""
     fits = workshop.fits
     lines = [
         "# Readings of the coupon; see coupon.md. Remove the # of a line and write what you found, in mm as engraved."

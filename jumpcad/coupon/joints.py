@@ -1,7 +1,7 @@
-"""The coupon's joints: what a robot's parts are held together by, each at several fits (mm).
+"""The coupon's joints: one of each kind in a robot, each with several fits (mm).
 
-Steps are engraved as in the gauge: per side, or a hole's diameter for screws. The dog's, the socket's and the trays'
-steps are those of a running fit.
+The offsets are engraved as in the gauge: per side, or a hole's diameter for screws. Dog, socket and trays have the
+offsets of a running fit.
 """
 
 import math
@@ -18,9 +18,9 @@ from jumpcad.coupon.pieces import (
     MARGIN_MM,
     STEP_MM,
     Piece,
+    centred,
     engraved,
     engraving,
-    middled,
 )
 from jumpcad.dimensions import AXLE_FLOOR_MM, SOCKET_WALL_MM, TAB_MM, TRAY_MM
 from jumpcad.parts.holes import HoleSizes
@@ -33,9 +33,9 @@ from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import Fits, Workshop
 
 THREE = (-1, 0, 1)
-"""Steps below and above a workshop's fit."""
+"""A workshop's fit, and a step below and above it."""
 TAP_STEP_MM, TAP_MM = 0.1, 8.0
-"""Between holes for a screw that cuts its thread, and their depth: that of an M2 x 8."""
+"""Difference of diameter between holes for a self-tapping screw, and their depth: that of an M2 x 8."""
 SOCKET_MM = 6.0
 """Height of the socket's rings."""
 JAW_DEG, JAW_PLAY_DEG = 40.0, 15.0
@@ -43,11 +43,11 @@ JAW_DEG, JAW_PLAY_DEG = 40.0, 15.0
 DOG_OUTER_MM, DOG_INNER_MM, DOG_RIM_MM = 14.0, 8.0, 2.0
 """Outside and inside of the jaws, and the wall around their pockets; judgement: as in robots."""
 LYING_MM = 10.0
-"""Height of the bar with lying holes, and their distance."""
+"""Height of the bar with lying holes (axis parallel to the bed), and their distance."""
 
 
 def joint_pieces(workshop: Workshop, holes: HoleSizes) -> list[Piece]:
-    """Return the pieces of a workshop's joints, each in the material of the parts that have it."""
+    """Return the pieces of a workshop's joints, each in the material of the robot's parts with this joint."""
     links, body, gears = (workshop.material_name(role) for role in ("links", "body", "gears"))
     motor, fits = _motor(workshop), workshop.fits
     sliding = steps_mm(fits.sliding_mm)
@@ -66,22 +66,22 @@ def joint_pieces(workshop: Workshop, holes: HoleSizes) -> list[Piece]:
 
 
 def seats(workshop: Workshop) -> list[Bearing]:
-    """Return the bearing that is tried beside the lightest: the next one that the workshop's hubs may have, if any."""
+    """Return the second lightest bearing of the workshop's hubs, if any; the gauge has the lightest."""
     return [bearing for bearing in hub_bearings(workshop)[1:2] if bearing is not None]
 
 
 def steps_mm(fit_mm: float, step_mm: float = STEP_MM) -> tuple[float, ...]:
-    """Return a fit with its neighbours."""
+    """Return a fit, and the offsets one step below and above it."""
     return tuple(round(fit_mm + number * step_mm, 3) for number in THREE)
 
 
 def rib_steps_mm(fits: Fits) -> tuple[float, ...]:
-    """Return how far the ribs of the three bores reach into the shaft: none may stay outside of it."""
+    """Return the overlaps of ribs and shaft in the three bores; none is negative."""
     return steps_mm(max(fits.rib_mm, STEP_MM))
 
 
 def _motor(workshop: Workshop) -> Motor:
-    """Return the motor whose shaft and body are tried: the first that the workshop allows."""
+    """Return the motor for which bores and sockets are made: the first that the workshop allows."""
     motors = workshop.catalogue.motors
     return motors[next(iter(workshop.bought.motors or motors))]
 
@@ -91,7 +91,7 @@ def _number(step_mm: float) -> str:
 
 
 def _row(cuts: Sequence[Region], labels: Sequence[str], height_mm: float) -> Stack:
-    """Return a plate with openings side by side, each with its label engraved in front of it."""
+    """Return a plate with openings side by side, each with its label engraved in front of it (towards -y)."""
     sizes = [np.array(cut.bounds()) for cut in cuts]
     across = max(size[2] - size[0] for size in sizes) + 2.0 * MARGIN_MM
     across = max(across, 4.0 * LETTERS_MM)
@@ -103,7 +103,7 @@ def _row(cuts: Sequence[Region], labels: Sequence[str], height_mm: float) -> Sta
     for number, (cut, label, size) in enumerate(zip(cuts, labels, sizes, strict=True)):
         middle = ((size[0] + size[2]) / 2.0, (size[1] + size[3]) / 2.0)
         moved.append(cut.translate((number * across - middle[0], -middle[1])))
-        letters.append(middled(label, LETTERS_MM).translate((number * across, front + MARGIN_MM)))
+        letters.append(centred(label, LETTERS_MM).translate((number * across, front + MARGIN_MM)))
     return Stack.of([(0.0, height_mm, plate - union(moved))]).minus([engraving(height_mm, union(letters))])
 
 
@@ -135,7 +135,7 @@ def _seats(bearing: Bearing, holes: HoleSizes) -> Stack:
 
 
 def _floor(holes: HoleSizes) -> Stack:
-    """Return a ring on which a blind bore's floor is at the bottom, as in a plate."""
+    """Return a disc with a blind bore for the axle, whose floor is as thick as in a plate."""
     around = disc(holes.axle_mm + 4.0 * SOCKET_WALL_MM)
     bore = hole(holes.running(holes.axle_mm))
     return Stack.of([(0.0, AXLE_FLOOR_MM, around), (AXLE_FLOOR_MM, FACE_MM, around - bore)])
@@ -155,7 +155,7 @@ def _pockets(holes: HoleSizes, step_mm: float) -> Stack:
     around = hole(DOG_OUTER_MM + 2.0 * step_mm) - disc(DOG_INNER_MM - 2.0 * step_mm)
     disc_region = disc(DOG_OUTER_MM + 2.0 * (MARGIN_MM + LETTERS_MM + DOG_RIM_MM)) - bore
     region = disc_region - (around ^ _sectors(JAW_DEG + JAW_PLAY_DEG))
-    label = middled(engraved(step_mm), LETTERS_MM).translate((0.0, -DOG_OUTER_MM / 2.0 - MARGIN_MM - LETTERS_MM))
+    label = centred(engraved(step_mm), LETTERS_MM).translate((0.0, -DOG_OUTER_MM / 2.0 - MARGIN_MM - LETTERS_MM))
     return Stack.of([(0.0, FACE_MM, region)]).minus([engraving(FACE_MM, label)])
 
 

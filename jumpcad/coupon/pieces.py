@@ -1,8 +1,8 @@
 """The fit coupon: a gauge of holes and pegs in every material, and a gear pair at several backlashes (mm).
 
-Every step is engraved with its offset as written in a workshop's fits: `.10` in the gauge is a hole 0.10 mm larger
-per side than what goes through it, `.15` on a pinion a circumferential backlash of 0.15 mm. Everything lies flat on the
-bed and narrows upwards, so that it prints without support.
+Engraved are the offsets as they are written in a workshop's fits: `.10` in the gauge is a hole 0.10 mm larger per side
+than its axle or bearing, `.15` on a pinion a circumferential backlash of 0.15 mm. All pieces lie flat on the bed, with
+no overhangs, so that they print without support.
 """
 
 import math
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     import trimesh
 
 STEP_MM = 0.05
-"""Between neighbours of a ladder: as fine as desktop printers repeat a hole (practice)."""
-LONGEST_LADDER = 15
+"""Between neighbours of a series: the repeatability of holes from desktop printers (practice)."""
+LONGEST_SERIES = 15
 BEYOND = 2
-"""Steps by which a ladder goes beyond the fits that it starts from."""
+"""Steps by which a series extends beyond the workshop's fits."""
 PEGS_MM = (4.0, 6.0, 8.0)
 PEG_HEIGHT_MM = 8.0
 GAUGE_MM = 3.0
@@ -41,7 +41,7 @@ LABEL_GAP_MM = 2.0
 TITLE_MM = 5.0
 ENGRAVED_MM = 0.6
 MODULE_MM, PINION_TEETH, WHEEL_TEETH, FACE_MM = 1.25, 15, 20, 5.0
-"""A gear pair as in robots: usual module and face, no undercut, room for letters inside the pinion's root."""
+"""A gear pair as in robots: usual module and face width, no undercut, space for letters inside the pinion's root."""
 PINION_LETTERS_MM = 3.0
 
 
@@ -61,13 +61,13 @@ class Piece:
 
     @property
     def look(self) -> "trimesh.Trimesh":
-        """The mesh for pictures: its engraved figures are seen."""
+        """The mesh for pictures, with the engraving."""
         return self.mesh
 
 
 @dataclass(frozen=True)
-class Ladders:
-    """What a coupon offers to try: offsets per side for axle and bearing, circumferential backlashes; ascending (mm).
+class Series:
+    """The offsets of a coupon: per side for axle and bearing, circumferential backlashes; each ascending (mm).
 
     `bearing_mm` is empty in a workshop whose legs have no bearing.
     """
@@ -77,22 +77,22 @@ class Ladders:
     backlash_mm: tuple[float, ...]
 
 
-def ladders(holes: HoleSizes) -> Ladders:
-    """Return the ladders around a workshop's fits."""
+def series_of(holes: HoleSizes) -> Series:
+    """Return the offsets around a workshop's fits."""
     fits = holes.fits
-    seats = _ladder(fits.press_mm, fits.press_mm) if holes.bearing else ()
+    seats = _offsets(fits.press_mm, fits.press_mm) if holes.bearing else ()
     backlash = fits.backlash_circumferential_mm
-    free = tuple(step for step in _ladder(backlash, backlash) if step >= 0.0)
-    return Ladders(_ladder(fits.press_mm, fits.loose_mm), seats, free)
+    free = tuple(step for step in _offsets(backlash, backlash) if step >= 0.0)
+    return Series(_offsets(fits.press_mm, fits.loose_mm), seats, free)
 
 
 def coupon_pair() -> GearPair:
-    """Return the coupon's gears without backlash; its pinions are the thinner ones of `pinion`."""
+    """Return the coupon's gears without backlash; the printed pinions are those of `pinion`, with thinner teeth."""
     return gear_pair(PINION_TEETH, WHEEL_TEETH, MODULE_MM, FACE_MM, 0.0)
 
 
 def pinion(backlash_mm: float) -> Gear:
-    """Return the pinion whose teeth alone make the pair's circumferential backlash."""
+    """Return the pinion whose thinner teeth give the pair its whole circumferential backlash."""
     return replace(coupon_pair().pinion, thinning_mm=backlash_mm)
 
 
@@ -102,13 +102,13 @@ def engraved(offset_mm: float) -> str:
 
 
 def coupon_holes(workshop: Workshop) -> HoleSizes:
-    """Return the bores that a workshop's coupon tests: with the lightest bearing that its hubs may have."""
+    """Return the bores of a workshop's coupon, with the lightest bearing of its hubs."""
     return HoleSizes.of(workshop, hub_bearings(workshop)[0])
 
 
 def pieces(holes: HoleSizes, materials: Sequence[str], gear_material: str) -> list[Piece]:
-    """Return all pieces: a gauge in every material, and in one a wheel, its holder, and a pinion for each backlash."""
-    steps, pair = ladders(holes), coupon_pair()
+    """Return all pieces: a gauge in every material; of the gears' material a wheel, a holder, and pinions."""
+    steps, pair = series_of(holes), coupon_pair()
     made = [Piece(f"gauge_{name}", name, holes.chamfered(gauge(holes, steps, name))) for name in materials]
     running = hole(holes.running(holes.axle_mm))
     wheel = Stack.of([(0.0, FACE_MM, polygon(pair.wheel.profile_mm) - running)])
@@ -116,7 +116,7 @@ def pieces(holes: HoleSizes, materials: Sequence[str], gear_material: str) -> li
     made.append(Piece("gear_wheel", gear_material, holes.chamfered(wheel)))
     for backlash in steps.backlash_mm:
         gear = Stack.of([(0.0, FACE_MM, polygon(pinion(backlash).profile_mm) - running)])
-        letters = middled(engraved(backlash), PINION_LETTERS_MM)
+        letters = centred(engraved(backlash), PINION_LETTERS_MM)
         middle = (holes.axle_mm + coupon_pair().pinion.root_radius_mm) / 2.0
         gear = gear.minus([engraving(FACE_MM, letters.translate((0.0, middle - PINION_LETTERS_MM / 2.0)))])
         made.append(Piece(f"pinion_{round(100.0 * backlash):02d}", gear_material, holes.chamfered(gear)))
@@ -125,30 +125,30 @@ def pieces(holes: HoleSizes, materials: Sequence[str], gear_material: str) -> li
 
 @dataclass(frozen=True)
 class GaugeRow:
-    """A row of holes or pegs: its letter, empty if it continues the row above, labels and diameters."""
+    """A row of holes or pegs: its letter, empty if it continues the row above, and (label, diameter) of each."""
 
     letter: str
-    rungs: tuple[tuple[str, float], ...]
+    places: tuple[tuple[str, float], ...]
     pegs: bool = False
 
     @property
     def size_mm(self) -> float:
         """The largest diameter."""
-        return max(diameter for _, diameter in self.rungs)
+        return max(diameter for _, diameter in self.places)
 
 
-def gauge_rows(holes: HoleSizes, steps: Ladders) -> list[GaugeRow]:
+def gauge_rows(holes: HoleSizes, steps: Series) -> list[GaugeRow]:
     """Return the rows of a gauge from the back: holes for the axle (A), for the bearing's outside (B), pegs (P)."""
     rows = []
     seat = holes.bearing.outer_mm if holes.bearing else 0.0
-    for letter, nominal, ladder in (("A", holes.axle_mm, steps.axle_mm), ("B", seat, steps.bearing_mm)):
-        for start in range(0, len(ladder), COLUMNS):
-            rungs = tuple((engraved(step), nominal + 2.0 * step) for step in ladder[start : start + COLUMNS])
-            rows.append(GaugeRow("" if start else letter, rungs))
+    for letter, nominal, offsets in (("A", holes.axle_mm, steps.axle_mm), ("B", seat, steps.bearing_mm)):
+        for start in range(0, len(offsets), COLUMNS):
+            places = tuple((engraved(step), nominal + 2.0 * step) for step in offsets[start : start + COLUMNS])
+            rows.append(GaugeRow("" if start else letter, places))
     return [*rows, GaugeRow("P", tuple((f"{peg:g}", peg) for peg in PEGS_MM), pegs=True)]
 
 
-def gauge(holes: HoleSizes, steps: Ladders, title: str) -> Stack:
+def gauge(holes: HoleSizes, steps: Series, title: str) -> Stack:
     """Return the plate with the material's name, the rows of holes and the row of pegs."""
     rows = gauge_rows(holes, steps)
     across = max(row.size_mm for row in rows) + 2.0 * MARGIN_MM
@@ -162,9 +162,9 @@ def gauge(holes: HoleSizes, steps: Ladders, title: str) -> Stack:
         middle, line = y - row.size_mm / 2.0, y - row.size_mm - LABEL_GAP_MM - LETTERS_MM
         if row.letter:
             letters.append(text(row.letter, TITLE_MM).translate((MARGIN_MM, middle - TITLE_MM / 2.0)))
-        for column, (label, diameter) in enumerate(row.rungs):
-            x = left + across * (column * (2 if row.pegs else 1) + 0.5)  # room for the jaws of callipers
-            letters.append(middled(label, LETTERS_MM).translate((x, line)))
+        for column, (label, diameter) in enumerate(row.places):
+            x = left + across * (column * (2 if row.pegs else 1) + 0.5)  # space for the jaws of callipers
+            letters.append(centred(label, LETTERS_MM).translate((x, line)))
             (pegs if row.pegs else cut).append((disc if row.pegs else hole)(diameter, (x, middle)))
         y = line - MARGIN_MM
     size = left + COLUMNS * across, -y
@@ -174,23 +174,26 @@ def gauge(holes: HoleSizes, steps: Ladders, title: str) -> Stack:
 
 
 def _holder(holes: HoleSizes, centre_distance_mm: float) -> Stack:
-    """Return the bar that holds two axles firmly at a centre distance."""
+    """Return the bar with press fits for two axles at a centre distance."""
     ends = (0.0, 0.0), (centre_distance_mm, 0.0)
     bar = stadium(*ends, holes.press(holes.axle_mm) + 4.0 * holes.fits.wall_mm)
     return Stack.of([(0.0, HOLDER_MM, bar)]).through(*(hole(holes.press(holes.axle_mm), end) for end in ends))
 
 
-def _ladder(low_mm: float, high_mm: float) -> tuple[float, ...]:
-    """Return multiples of a step from below the lowest fit to above the highest; the step doubles if they are many."""
+def _offsets(low_mm: float, high_mm: float) -> tuple[float, ...]:
+    """Return multiples of a step from `BEYOND` steps below a fit to as many above another.
+
+    The step is `STEP_MM`, doubled until there are at most `LONGEST_SERIES`.
+    """
     step = STEP_MM
-    while (count := round((high_mm - low_mm) / step) + 1 + 2 * BEYOND) > LONGEST_LADDER:
+    while (count := round((high_mm - low_mm) / step) + 1 + 2 * BEYOND) > LONGEST_SERIES:
         step *= 2.0
     first = math.floor(low_mm / step + 0.5) - BEYOND
     return tuple(round((first + number) * step, 3) for number in range(count))
 
 
-def middled(label: str, height_mm: float) -> Region:
-    """Return letters with their middle at x = 0."""
+def centred(label: str, height_mm: float) -> Region:
+    """Return letters of a height, centred at x = 0."""
     letters = text(label, height_mm)
     left, _, right, _ = letters.bounds()
     return letters.translate((-(left + right) / 2.0, 0.0))

@@ -1,17 +1,17 @@
-"""The fit coupon: printed once, tested with the bought parts, and read back into a workshop's fits.
+"""Readings of the fit coupon, printed once and tested with the bought parts, and the fits that follow (mm).
 
-A fit in a workshop is what a hole must be drawn larger per side so that, printed, it fits: shrinkage is included. So
-the hole of a ladder that fits *is* the fit, and its engraved offset is taken over as it stands. Where several readings
-give one fit, the value is taken that still works for all of them:
+A workshop's fit is the offset per side with which a hole is drawn, so that it fits when printed: it includes shrinkage.
+So the engraved offset of the hole that fits *is* the fit. If several readings determine one fit, the value is taken
+that works for all of them:
 
-- `press_mm`: the smallest. A seat that is a step too tight still takes its part, one that is too wide drops it.
+- `press_mm`: the smallest. A seat that is a step too tight still takes its part, one that is too wide does not hold it.
 - `sliding_mm`, `loose_mm`: the largest. A running fit that is a step too wide runs, one that is too tight seizes.
-- `hole_allowance_diameter_mm`: a hole that just holds a part has, once printed, the part's own diameter, so printing
-  narrows holes by twice the press fit; the largest reading counts, for such holes must not be too small.
-- `backlash_circumferential_mm`: of the tightest pinion that turns freely. Where the gears were not tried it follows
-  from the pegs, since teeth are outer surfaces too: pegs that came out g larger in diameter have every flank g/2
-  further out, which takes g/cos 20° from each gear's gaps along the pitch circle and 2·g/cos 20° from the pair's
-  backlash; the drawn backlash is that plus the least play. Lengths in mm.
+- `hole_allowance_diameter_mm`: a hole that just holds a part has, when printed, the part's own diameter, so printing
+  narrows holes by twice the press fit; the largest reading counts, because such holes must not be too small.
+- `backlash_circumferential_mm`: that of the tightest pinion that turns freely. Without this reading it follows from the
+  pegs, because teeth are outer surfaces too: if pegs are printed g larger in diameter, every flank is g/2 further out,
+  which takes g/cos 20° from each gear's gaps along the pitch circle and 2·g/cos 20° from the pair's backlash; the drawn
+  backlash is that plus the least play.
 """
 
 import itertools
@@ -22,7 +22,7 @@ from typing import Annotated
 from pydantic import Field
 
 from jumpcad.coupon.joints import TAP_STEP_MM, rib_steps_mm, steps_mm
-from jumpcad.coupon.pieces import PEGS_MM, STEP_MM, coupon_holes, ladders
+from jumpcad.coupon.pieces import PEGS_MM, STEP_MM, coupon_holes, series_of
 from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
 from jumpcad.errors import JumpcadError
@@ -34,14 +34,14 @@ from jumpcad.workshop import Workshop
 LEAST_PLAY_MM = 0.05
 """Circumferential play that keeps printed gears from binding where they run eccentrically (judgement)."""
 PEG_ERROR_MM = 0.5
-"""A peg further than this from its diameter was misread, or its printer's error is too large for any fit."""
+"""Largest error of a peg's diameter; beyond, it was misread, or the printer is too inaccurate for any fit."""
 
 
 AXLE_KEYS = ("axle_press_mm", "axle_sliding_mm", "axle_loose_mm")
 
 
-class Tried(TomlTable):
-    """Readings of one material's gauge; what was not tried is left out."""
+class GaugeReadings(TomlTable):
+    """Readings of one material's gauge; a missing one was not made."""
 
     axle_press_mm: float | None = None
     axle_sliding_mm: float | None = None
@@ -51,11 +51,11 @@ class Tried(TomlTable):
 
     @property
     def peg_growth_mm(self) -> float:
-        """By how much the pegs came out larger in diameter than drawn."""
+        """Mean diameter of the printed pegs less that of the drawn ones."""
         return sum(self.pegs_mm) / len(self.pegs_mm) - sum(PEGS_MM) / len(PEGS_MM)
 
 
-class TriedGears(TomlTable):
+class GearReadings(TomlTable):
     """Reading of the gears: the backlash engraved on the tightest pinion that turns freely all round."""
 
     turns_freely_mm: float | None = None
@@ -70,10 +70,10 @@ JOINT_KEYS = {
     "tray_sliding_mm": ("sliding_mm", STEP_MM),
     "seat_press_mm": ("press_mm", STEP_MM),
 }
-"""Readings of the joints: the fit that each is of, and the step between its three."""
+"""Readings of the joints: the fit that each determines, and the step between its three offsets."""
 
 
-class TriedJoints(TomlTable):
+class JointReadings(TomlTable):
     """Readings of the joints, as engraved; `floor_n` is the force that broke the floor of a blind bore."""
 
     m2_tap_mm: float | None = None
@@ -94,12 +94,12 @@ class TriedJoints(TomlTable):
 class Readings(Record):
     """Everything read from a coupon: gauges by material, joints and gears."""
 
-    gauge: dict[Name, Tried] = Field(default_factory=dict)
-    joints: TriedJoints = TriedJoints()
-    gears: TriedGears = TriedGears()
+    gauge: dict[Name, GaugeReadings] = Field(default_factory=dict)
+    joints: JointReadings = JointReadings()
+    gears: GearReadings = GearReadings()
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield pegs that were misread, and fits that are tighter than the one before them."""
+        """Yield implausible pegs, and sliding or loose fits that are tighter than a tighter kind of fit."""
         for name, tried in self.gauge.items():
             place = ("gauge", name)
             if tried.pegs_mm and len(tried.pegs_mm) != len(PEGS_MM):
@@ -117,14 +117,14 @@ class Readings(Record):
 
 
 def measured_workshop(readings: Readings, workshop: Workshop, source: str = "readings") -> Workshop:
-    """Return the workshop with the fits that were read from its coupon, and nothing else changed but a weak floor.
+    """Return the workshop with the fits that were read from its coupon.
 
-    A floor that broke below what its material's strength says lowers that strength.
+    A floor that broke below its computed strength lowers the strength of the body's material; nothing else changes.
 
     Parameters
     ----------
     readings
-        Of the coupon that this workshop gives.
+        Of this workshop's coupon.
     workshop
         The base.
     source
@@ -133,8 +133,8 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
     Raises
     ------
     JumpcadError
-        If there is no reading, one lies outside of its ladder or contradicts another, or the fits contradict each
-        other.
+        If there is no reading, one is outside of the coupon's offsets or contradicts another, or the fits contradict
+        each other.
     """
     if wrong := list(_complaints(readings, workshop)):
         raise JumpcadError("; ".join(f"{source}: {complaint}" for complaint in wrong))
@@ -151,13 +151,13 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
 
 
 def _floor_mpa(force_n: float, workshop: Workshop) -> float:
-    """Return the strength that a floor had which was sheared off around the axle."""
+    """Return the strength (MPa, von Mises) of a blind bore's floor that was sheared off around the axle by a force."""
     sheared = math.pi * workshop.bought.axle_mm * AXLE_FLOOR_MM
     return round(VON_MISES * force_n / sheared, 1)
 
 
 def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
-    """Return the fits that the readings decide."""
+    """Return the fits that follow from the readings, by key."""
     tried, joints = list(readings.gauge.values()), readings.joints
     press = _given(value for gauge in tried for value in (gauge.axle_press_mm, gauge.bearing_press_mm))
     press += _given([joints.seat_press_mm])
@@ -171,7 +171,7 @@ def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
         fits["sliding_mm"] = max(sliding)
     if loose:
         fits["loose_mm"] = max(loose)
-    teeth = readings.gauge.get(workshop.material_name("gears"), Tried())
+    teeth = readings.gauge.get(workshop.material_name("gears"), GaugeReadings())
     if readings.gears.turns_freely_mm is not None:
         fits["backlash_circumferential_mm"] = readings.gears.turns_freely_mm
     elif teeth.pegs_mm:
@@ -185,26 +185,26 @@ def _given(values: Iterable[float | None]) -> list[float]:
 
 
 def _complaints(readings: Readings, workshop: Workshop) -> Iterator[str]:
-    """Yield complaints about readings that a workshop's coupon cannot give."""
-    steps = ladders(coupon_holes(workshop))
+    """Yield the errors of readings that a workshop's coupon cannot give."""
+    steps = series_of(coupon_holes(workshop))
     for name, tried in readings.gauge.items():
         if name not in workshop.materials:
             yield f"gauge.{name}: the workshop prints in {', '.join(workshop.materials)}"
         for key in AXLE_KEYS:
-            yield from _off_ladder(f"gauge.{name}.{key}", getattr(tried, key), steps.axle_mm)
-        yield from _off_ladder(f"gauge.{name}.bearing_press_mm", tried.bearing_press_mm, steps.bearing_mm)
+            yield from _out_of_range(f"gauge.{name}.{key}", getattr(tried, key), steps.axle_mm)
+        yield from _out_of_range(f"gauge.{name}.bearing_press_mm", tried.bearing_press_mm, steps.bearing_mm)
     for key, (fit, step) in JOINT_KEYS.items():
         around = rib_steps_mm(workshop.fits) if key == "rib_mm" else steps_mm(getattr(workshop.fits, fit), step)
-        yield from _off_ladder(f"joints.{key}", getattr(readings.joints, key), around)
-    yield from _off_ladder("gears.turns_freely_mm", readings.gears.turns_freely_mm, steps.backlash_mm)
+        yield from _out_of_range(f"joints.{key}", getattr(readings.joints, key), around)
+    yield from _out_of_range("gears.turns_freely_mm", readings.gears.turns_freely_mm, steps.backlash_mm)
 
 
-def _off_ladder(key: str, value: float | None, ladder: tuple[float, ...]) -> Iterator[str]:
-    """Yield a complaint about a reading outside of its ladder; between two steps is allowed."""
+def _out_of_range(key: str, value: float | None, offsets: tuple[float, ...]) -> Iterator[str]:
+    """Yield the error of a reading outside of the offsets; between two of them is allowed."""
     if value is None:
         return
-    if not ladder:
+    if not offsets:
         yield f"{key} = {value:g}: the workshop's legs have no bearing; leave it out"
-    elif not ladder[0] <= value <= ladder[-1]:
-        limits = f"{ladder[0]:.2f}…{ladder[-1]:.2f}"
+    elif not offsets[0] <= value <= offsets[-1]:
+        limits = f"{offsets[0]:.2f}…{offsets[-1]:.2f}"
         yield f"{key} = {value:g}: must be {limits} as engraved; if nothing fits, set the fit by hand and print again"

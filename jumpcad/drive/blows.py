@@ -10,6 +10,7 @@ Two words for the torque peaks: a blow is the one in the dog, a kick the one at 
 """
 
 import math
+from functools import lru_cache
 
 STEP_SHARE = 0.01
 """Time step, in radians of the fastest oscillation; with a quarter of it the torques change by 0.5 %."""
@@ -22,6 +23,7 @@ HALVINGS = 40
 """Bisection steps."""
 
 
+@lru_cache(maxsize=8)
 def damping_share(rebound: float) -> float:
     """Return the damping ratio z with which a contact has a coefficient of restitution `rebound`.
 
@@ -74,12 +76,17 @@ def largest_torques_nm(
             step += _flight_s(dog, cam - gear, head, gear - rotor, backlash_rad)
             if math.isinf(step) or moving_j < 0.5 * kick**2 / k:  # no later impact can be stronger
                 break
-        at_dog = max(k * dog + dog_damping * (cam - gear), 0.0) if dog > 0.0 else 0.0
-        at_head = max(k * head + head_damping * (gear - rotor), 0.0) if head > 0.0 else 0.0
-        blow, kick = max(blow, at_dog), max(kick, at_head)
+        # comparisons instead of `max`, whose calls took half of the time
+        at_dog = k * dog + dog_damping * (cam - gear) if dog > 0.0 else 0.0
+        at_head = k * head + head_damping * (gear - rotor) if head > 0.0 else 0.0
+        at_dog = at_dog if at_dog > 0.0 else 0.0
+        at_head = at_head if at_head > 0.0 else 0.0
+        blow = at_dog if at_dog > blow else blow
+        kick = at_head if at_head > kick else kick
         cam -= step * at_dog / cam_kg_m2
         gear += step * (at_dog - at_head) / gear_kg_m2
-        rotor = max(rotor + step * at_head / rotor_kg_m2, motor_rad_s)
+        rotor += step * at_head / rotor_kg_m2
+        rotor = motor_rad_s if motor_rad_s > rotor else rotor
         dog, head = dog + step * (cam - gear), head + step * (gear - rotor)
         if head < -backlash_rad:  # the other end of the backlash, where the gear rebounds
             head, gear = -backlash_rad, rotor + rebound * abs(gear - rotor)

@@ -40,7 +40,7 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
         search.allow_for(shape, margins[:, 0])
     margin = np.minimum.reduceat(margins[:, 0], FIRST_ROWS)
     if not fine:
-        raise CannotBuildError(_refusal(law, margin))
+        raise CannotBuildError(_refusal(law, margin), "cam", (margin / SCALES[FIRST_ROWS]).min(), "")
     geometry = _geometry(law, limits, shape, outer)
     outline = geometry.outline_mm()
     radii = np.hypot(*outline.T)

@@ -58,8 +58,9 @@ def fitted_spring(
         raise CannotBuildError(
             f"bought.spring = {stock.name!r}: when loaded, its coil leaves room for a bushing of "
             f"{spring.mandrel_mm:.2f} mm; the axle needs one of {limits.mandrel_min_mm:.2f} mm: choose one with "
-            "a larger inside diameter, or lower compression_ratio"
-        )
+            "a larger inside diameter, or lower compression_ratio",
+            "spring_bushing", spring.mandrel_mm - limits.mandrel_min_mm,
+        )  # fmt: skip
     return spring
 
 

@@ -103,8 +103,9 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     if compression < LEAST_COMPRESSION_RAD:
         raise CannotBuildError(
             f"the springs are loaded by {math.degrees(compression):.2f}°, less than "
-            f"{math.degrees(LEAST_COMPRESSION_RAD):g}°: raise compression_ratio, rest_angle_deg or c_coef"
-        )
+            f"{math.degrees(LEAST_COMPRESSION_RAD):g}°: raise compression_ratio, rest_angle_deg or c_coef",
+            "compression", math.degrees(compression - LEAST_COMPRESSION_RAD), "°",
+        )  # fmt: skip
     spring = _spring(design, limits, catalogue)
     stiffness = 2.0 * spring.stiffness_nm_per_rad
     law = CamLaw(compression, stiffness, limits.cam.lift_rad, limits.cam.ramp_rad, spring.preload_rad)
@@ -134,8 +135,9 @@ def _spring(design: Design, limits: DriveLimits, catalogue: Catalogue) -> Torsio
         raise CannotBuildError(
             f"bought.spring = {stock.name!r}: its arms need the leg's pin {spring.pin_radius_mm:.1f} mm from the axle; "
             f"in a leg of {design.l2_mm:.1f} mm at most {reach:.1f} mm is possible: choose a smaller spring, or raise "
-            "carrying_link_mm"
-        )
+            "carrying_link_mm",
+            "spring_pin", reach - spring.pin_radius_mm,
+        )  # fmt: skip
     return replace(spring, findings=(*spring.findings, rate_finding(design, stock)))
 
 

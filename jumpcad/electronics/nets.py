@@ -14,11 +14,20 @@ from jumpcad.catalogue import Board
 from jumpcad.electronics.chain import supply_pin
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, at_least
 
 LOWER_OHM = 200_000
 UPPER_OHMS = (200_000, 470_000, 680_000, 1_000_000)
 """Resistors of the divider that measures the battery, below and above the pin; values of the E12 series."""
+PULL_UP_OHMS = (1_000, 1_500, 2_200, 3_300, 4_700, 10_000)
+"""Resistors from the sensor's pin to the logic supply; values of the E6 series."""
+PULL_UP_MORE = 1.1
+"""Current of the sensor's contact over the least that it is rated for: resistors of 5 %, and the supply's 5 %."""
+AT = {"upper resistor": "controller", "lower resistor": "controller", "pull-up resistor": "controller",
+      "diode": "controller", "capacitor": "driver"}  # fmt: skip
+"""Small parts, and the board at which they are soldered where a net has a terminal of it."""
+OWN_PULL_UP_OHM = 45_000
+"""Of a pin of the ESP32 family; its data sheet."""
 SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": ""}
 """Signals of the controller in the order in which they get their pins, and what a pin must be able to do."""
 AVOIDED = ("strapping", "boot_log")
@@ -53,25 +62,42 @@ class Net:
 
     @property
     def wires(self) -> Iterator[tuple[Terminal, Terminal]]:
-        """Both ends of every wire: from the first terminal, or from the plug that comes after it."""
+        """Both ends of every wire: from the first terminal, the plug that comes after it, or a small part's board."""
         start, *others = self.terminals
         for end in others:
-            yield start, end
+            board = (terminal for terminal in self.terminals if terminal.part == AT.get(end.part))
+            yield next(board, start), end
             start = end if end.part == "plug" else start
 
 
 @dataclass(frozen=True)
 class Wiring:
-    """All nets; `pins` are the controller's by signal (absent where none is left), `upper_ohm` is of the divider."""
+    """All nets; `pins` are the controller's by signal (absent where none is left), `upper_ohm` is of the divider.
+
+    `pull_up_ohm` is that of the sensor's pin, `contact` the sensor's terminal there.
+    """
 
     nets: tuple[Net, ...]
     pins: dict[str, str]
     upper_ohm: int | None
+    pull_up_ohm: int | None = None
+    contact: str = ""
 
     @property
     def divider(self) -> float:
         """The battery's voltage over that at the controller's pin."""
         return 1.0 if self.upper_ohm is None else (LOWER_OHM + self.upper_ohm) / LOWER_OHM
+
+    @property
+    def ready_level(self) -> int:
+        """Level of the sensor's pin at the ready position: 1 with a contact that opens there."""
+        return int(self.contact == "NC")
+
+    @property
+    def resistors(self) -> dict[str, int]:
+        """The resistors by their parts' names (ohm)."""
+        divider = {} if self.upper_ohm is None else {"upper resistor": self.upper_ohm, "lower resistor": LOWER_OHM}
+        return divider | ({} if self.pull_up_ohm is None else {"pull-up resistor": self.pull_up_ohm})
 
 
 def wiring_of(chosen: Chosen, named: Mapping[Any, str]) -> Wiring:
@@ -81,8 +107,10 @@ def wiring_of(chosen: Chosen, named: Mapping[Any, str]) -> Wiring:
     wanted = [s for s in wanted if not (s == "sleep" and not chosen.driver.with_function("sleep"))]
     wanted = [s for s in wanted if not (s == "ready" and "sensor" not in chosen.components)]
     pins = _pins(chosen.controller, wanted, named)
-    nets = (*_power_nets(chosen, pins, upper), _ground_net(chosen, pins), *_signal_nets(chosen, pins, upper))
-    return Wiring(tuple(net for net in nets if len(net.terminals) > 1), pins, upper if "battery" in pins else None)
+    pull_up, contact = _pull_up_ohm(chosen) if "ready" in pins else None, _contact(chosen)
+    nets = (*_power_nets(chosen, pins, upper), _ground_net(chosen, pins), *_signal_nets(chosen, pins, contact, pull_up))
+    nets = tuple(net for net in nets if len(net.terminals) > 1)
+    return Wiring(nets, pins, upper if "battery" in pins else None, pull_up, contact)
 
 
 def gpio(board: Board, pin: str) -> int:
@@ -100,9 +128,10 @@ def gpio(board: Board, pin: str) -> int:
 
 
 def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
-    """Yield `wiring_pins`, `wiring_strapping`, `wiring_ground` and `wiring_capacitor`."""
+    """Yield `wiring_pins`, `wiring_strapping`, `wiring_contact`, `wiring_ground` and `wiring_capacitor`."""
     yield _enough_pins(chosen, wiring)
     yield _fit_pins(chosen, wiring)
+    yield from _contact_current(chosen, wiring)
     grounded = {terminal.part for net in wiring.nets if net.kind == "ground" for terminal in net.terminals}
     lacking = [role for role in ("battery", *chosen.boards) if role not in grounded]
     yield _yes_or_no(
@@ -135,7 +164,8 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
     lost = [f for f in ("forward", "motor+", "motor-") if not chosen.driver.with_function(f)]
     twice = [pin for pin, count in Counter(wiring.pins.values()).items() if count > 1]
     if missing:
-        message = f"{chosen.controller.name} has no pin left for {' and '.join(missing)}"
+        wanted = len(have) + len(missing)
+        message = f"{chosen.controller.name} has no pin left for {' and '.join(missing)}: {len(have)} of {wanted} suit"
         return _yes_or_no(
             "wiring_pins", False, "error", message, "choose a controller with more pins, or give its pins"
         )
@@ -161,6 +191,21 @@ def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:
             wrong.append(f"{pin} ({signal}) has no {needed}")
     message = "; ".join(wrong) or "no strapping pin is used, and every pin does what its signal needs"
     return _yes_or_no("wiring_strapping", not wrong, "error", message, "name another pin in [bought.pins]")
+
+
+def _contact_current(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
+    """Yield whether the sensor's contact gets the current that keeps it clean."""
+    sensor, volts = chosen.components.get("sensor"), chosen.controller.logic_v
+    if sensor is None or sensor.least_a is None or volts is None:
+        return
+    ohm = wiring.pull_up_ohm or OWN_PULL_UP_OHM
+    by = f"{ohm / 1000:g} kOhm to {volts:g} V" if wiring.pull_up_ohm else "the controller's own pull-up"
+    current, needed = 1000.0 * volts / ohm, 1000.0 * sensor.least_a
+    yield at_least(
+        "wiring_contact", current, needed, "mA",
+        f"{by} gives the contact of {sensor.name} {current:.2g} mA; it is rated from {needed:g} mA",
+        'give the controller a pin with "out" at its logic_v: a pull-up resistor is connected to it', "warning",
+    )  # fmt: skip
 
 
 def _yes_or_no(name: str, good: bool, severity: str, message: str, remedy: str) -> Finding:
@@ -194,6 +239,25 @@ def _upper_ohm(chosen: Chosen) -> int | None:
     full = chosen.battery.range_v[1]
     fits = (r for r in UPPER_OHMS if full * LOWER_OHM / (LOWER_OHM + r) <= chosen.controller.adc_max_v)
     return next(fits, None)
+
+
+def _pull_up_ohm(chosen: Chosen) -> int | None:
+    """Return the largest resistor that gives the sensor's contact its least current; None without one, or a supply."""
+    sensor, volts = chosen.components.get("sensor"), chosen.controller.logic_v
+    if sensor is None or volts is None or not chosen.controller.with_function("out"):
+        return None
+    most = PULL_UP_OHMS[-1] if sensor.least_a is None else volts / (PULL_UP_MORE * sensor.least_a)
+    return max((ohm for ohm in PULL_UP_OHMS if ohm <= most), default=None)
+
+
+def _contact(chosen: Chosen) -> str:
+    """Return the sensor's terminal at the controller.
+
+    A contact that opens at the ready position is wanted: a broken lead, a missing ground or a dirty contact then reads
+    as ready, and the motor stops.
+    """
+    sensor = chosen.components.get("sensor")
+    return "" if sensor is None else "NC" if "NC" in sensor.terminals else "NO"
 
 
 def _logic_range(chosen: Chosen) -> tuple[float, float]:
@@ -243,7 +307,7 @@ def _ground_net(chosen: Chosen, pins: dict[str, str]) -> Net:
     return Net("ground", "ground", tuple(ends))
 
 
-def _signal_nets(chosen: Chosen, pins: dict[str, str], upper: int | None) -> Iterator[Net]:
+def _signal_nets(chosen: Chosen, pins: dict[str, str], contact: str, pull_up: int | None) -> Iterator[Net]:
     """Yield the wires between controller, driver, sensor, divider and motor."""
     driver = chosen.driver
     for signal, function in (("motor", "forward"), ("sleep", "sleep")):
@@ -254,7 +318,11 @@ def _signal_nets(chosen: Chosen, pins: dict[str, str], upper: int | None) -> Ite
             )
             yield Net(signal, "signal", ends)
     if "ready" in pins:
-        yield Net("ready", "signal", (Terminal("controller", pins["ready"]), Terminal("sensor", "NO")))
+        ends = (Terminal("controller", pins["ready"]), Terminal("sensor", contact))
+        yield Net("ready", "signal", ends if pull_up is None else (*ends, Terminal("pull-up resistor", "1")))
+    if "ready" in pins and pull_up is not None:
+        out = Terminal("controller", chosen.controller.with_function("out")[0])
+        yield Net("logic supply", "logic", (out, Terminal("pull-up resistor", "2")))
     if "battery" in pins:
         middle = (Terminal("upper resistor", "2"), Terminal("lower resistor", "1"))
         yield Net("battery measured", "signal", (Terminal("controller", pins["battery"]), *middle))

@@ -1,6 +1,6 @@
 """Animations in a GLB file: the jump, and the same at a tenth of its speed (glTF 2.0, 3.11).
 
-They move the frames of the four bodies, so that every part goes with its body.
+They move the frames of the four bodies, whose nodes hold the parts.
 """
 
 import json
@@ -13,18 +13,20 @@ import numpy as np
 from jumpcad.transforms import Array
 
 ANIMATIONS = {"jump": 1.0, "jump, a tenth of the speed": 10.0}
-"""Names, and how much longer than in reality each takes."""
+"""Names, and each duration over the real one."""
 JSON, BINARY = 0x4E4F534A, 0x004E4942
 """Kinds of chunks of a GLB file (glTF 2.0, 4.4.3)."""
 MAGIC, VERSION = 0x46546C67, 2
+"""First two words of a GLB file (glTF 2.0, 4.4.2)."""
 FLOAT = 5126
+"""Component type of 32-bit floats (glTF 2.0, 3.6.2.2)."""
 DIGITS = 6
 """Decimals of metres, seconds and quaternions: simulated figures differ beyond them from processor to processor."""
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Poses of bodies over time: `time_s` (n,), and by body `position_m` (n, 3) and `quaternion_xyzw` (n, 4)."""
+    """Bodies' frames in the world: `time_s` (n,), and by body `position_m` (n, 3) and `quaternion_xyzw` (n, 4)."""
 
     time_s: Array
     position_m: dict[str, Array]
@@ -32,7 +34,7 @@ class Motion:
 
 
 def animated(glb: bytes, motion: Motion) -> bytes:
-    """Return the GLB file of a robot with its motion, which the nodes `BODY_frame` follow."""
+    """Return the GLB file of a robot with animations that move the nodes `BODY_frame`."""
     tree, binary = _chunks(glb)
     names = [node.get("name") for node in tree["nodes"]]
     moving = {body: names.index(f"{body}_frame") for body in motion.position_m}
@@ -40,7 +42,7 @@ def animated(glb: bytes, motion: Motion) -> bytes:
     for body, node in moving.items():
         places = _rounded(motion.position_m[body])
         turns = _rounded(_continuous(motion.quaternion_xyzw[body]))
-        _take_matrix(tree["nodes"][node])
+        _split_matrix(tree["nodes"][node])
         for path, kind, values in (("translation", "VEC3", places), ("rotation", "VEC4", turns)):
             binary, accessor = _appended(tree, binary, values, kind)
             paths.append((node, path, accessor))
@@ -57,9 +59,9 @@ def animated(glb: bytes, motion: Motion) -> bytes:
 
 
 def _continuous(quaternions: Array) -> Array:
-    """Return quaternions (n, 4) of which neighbours have the same sign: viewers take the straight way between them."""
-    turned = np.cumprod(np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))
-    continuous: Array = quaternions * np.append(1.0, turned)[:, None]
+    """Return quaternions (n, 4) without jumps of sign (q and -q are one rotation): viewers interpolate linearly."""
+    signs = np.cumprod(np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))
+    continuous: Array = quaternions * np.append(1.0, signs)[:, None]
     return continuous
 
 
@@ -68,8 +70,8 @@ def _rounded(values: Array) -> Array:
     return rounded
 
 
-def _take_matrix(node: dict[str, Any]) -> None:
-    """Replace a node's matrix by translation and rotation, the only ones that an animation can move."""
+def _split_matrix(node: dict[str, Any]) -> None:
+    """Replace a node's matrix by translation and rotation: animations cannot change a matrix (glTF 2.0, 3.11)."""
     matrix = np.array(node.pop("matrix", np.eye(4).ravel())).reshape(4, 4).T
     angle = np.arctan2(matrix[0, 2], matrix[0, 0])  # bodies turn about y alone
     node["translation"] = _rounded(matrix[:3, 3]).tolist()
@@ -96,7 +98,7 @@ def _chunks(glb: bytes) -> tuple[dict[str, Any], bytes]:
 
 
 def _packed(tree: dict[str, Any], binary: bytes) -> bytes:
-    """Return a GLB file; chunks are filled up to whole words, the document with blanks."""
+    """Return a GLB file; chunks are padded to multiples of 4 bytes, the document with blanks."""
     text = json.dumps(tree, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     binary += b"\0" * (-len(binary) % 4)

@@ -1,6 +1,6 @@
-"""Shapes that stand for a robot in other people's simulations: boxes and capsules, beside its contact spheres.
+"""Simple collision shapes for simulations by others: capsules and a box, in addition to the contact spheres.
 
-They are slimmer than the robot where it stands, so that only its spheres carry it there.
+They end above the ground where the robot stands, so that it stands on its spheres alone.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,7 +18,7 @@ SLIM = 0.6
 SLIM_TOE = 0.8
 """Radius of the toes' capsules over that of their spheres; judgement."""
 CLEAR_M = 0.001
-"""How far above the ground the body's box ends in the loaded pose; judgement."""
+"""Clearance between the body's box and the ground in the loaded pose; judgement."""
 
 
 @dataclass(frozen=True)
@@ -50,9 +50,9 @@ def capsules(mechanism: Mechanism, body: str) -> Iterator[Capsule]:
 
 
 def body_box(mechanism: Mechanism, visible: Sequence[Visual]) -> Box | None:
-    """Return a box about the body's parts, or None where none are seen or nothing of it is left.
+    """Return a box around the body's parts, or None without visible parts or if no height is left.
 
-    It ends above the ground in the loaded pose, which its lower corners, where the body is rounded off, may not.
+    Its lower face is raised until it is clear of the ground in the loaded pose: the body is round at its lower corners.
     """
     corners = [_corners_m(shape) for shape in visible if shape.body == BODY]
     if not corners:
@@ -70,8 +70,7 @@ def _is_toe(contact: ContactSphere) -> bool:
 
 
 def _corners_m(shape: Visual) -> Array:
-    """Return the corners (8, 3) of a thing's bounding box in its body's frame."""
-    low, high = shape.mesh.bounds / 1000.0
-    ends = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    placed: Array = (shape.T_body_mesh[:3, :3] * ends[:, None, :]).sum(axis=2) + shape.T_body_mesh[:3, 3]
+    """Return the corners (8, 3) of a part's bounding box in its body's frame (m)."""
+    T_body_mesh = shape.T_body_mesh
+    placed: Array = (T_body_mesh[:3, :3] * shape.corners_m[:, None, :]).sum(axis=2) + T_body_mesh[:3, 3]
     return placed

@@ -1,8 +1,8 @@
 """Straight lines, arcs and circles recovered from polygons (mm).
 
-Parts are drawn with polygons fine enough to print (`jumpcad.solids.outline`). CAD programs want the curves that they
-stand for. A chain of corners that lie on one circle, close together, is an arc. Inside corners are holes and hollows,
-whose sides touch the circle; outside corners lie on it.
+Parts are drawn with polygons fine enough to print (`jumpcad.solids.outline`); CAD programs need the curves that these
+approximate. A chain of corners on one circle, close together, is an arc. The sides of holes touch their circle; the
+corners of outer contours lie on it.
 """
 
 import math
@@ -14,9 +14,9 @@ import numpy.typing as npt
 from jumpcad.transforms import Array
 
 ON_CIRCLE_MM = 2e-3
-"""How far corners may be from their circle: outlines are cut and grown on a grid of about a tenth of that."""
+"""Largest distance of a corner from its circle: outlines are cut and offset on a grid of about a tenth of that."""
 SAME_MM = 1e-6
-"""Corners closer than this are one: CAD kernels allow no shorter edge (1e-7 mm in Open CASCADE)."""
+"""Corners closer than this are merged: CAD kernels have a shortest edge (1e-7 mm in Open CASCADE)."""
 LEAST_SIDES = 6
 """Fewer sides are corners, not an arc."""
 WIDEST_SIDE_RAD = math.radians(12.0)
@@ -24,6 +24,7 @@ WIDEST_SIDE_RAD = math.radians(12.0)
 
 
 FULLEST_RAD = math.radians(350.0)
+"""Largest angle of an arc, whose ends must be apart; a full circle is found before."""
 STRAIGHT = 1e-3
 """Sine of the angle up to which three points count as collinear."""
 
@@ -38,7 +39,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Arc:
-    """An arc by start, a point on the way, and end, each (2,)."""
+    """An arc by its start, a point in between, and its end, each (2,)."""
 
     start: Array
     middle: Array
@@ -57,10 +58,10 @@ Curve = Line | Arc | Circle
 
 
 def curves_of(polygon: npt.ArrayLike) -> list[Curve]:
-    """Return the curves of a closed polygon (n, 2), counter-clockwise round material and clockwise round holes.
+    """Return the curves of a closed polygon (n, 2), counter-clockwise around material and clockwise around holes.
 
-    Each starts where the last one ends. They are nowhere further from the polygon than it is from the curves that
-    it was drawn for.
+    Each starts where the last one ends. Their distance from the polygon is at most that of the curves from which it
+    was drawn.
     """
     points = np.asarray(polygon, dtype=float)
     points = points[np.hypot(*(np.roll(points, -1, axis=0) - points).T) > SAME_MM]
@@ -83,7 +84,7 @@ def curves_of(polygon: npt.ArrayLike) -> list[Curve]:
 
 
 def _circle(points: Array) -> Circle | None:
-    """Return the circle that a whole polygon stands for, if any."""
+    """Return the circle that a whole polygon approximates, if any."""
     sides = np.roll(points, -1, axis=0) - points
     if len(points) < 2.0 * math.pi / WIDEST_SIDE_RAD:
         return None

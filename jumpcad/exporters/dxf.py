@@ -1,7 +1,7 @@
-"""DXF of the body plates: flat sheets can be cut by laser instead of printed. Lengths in mm, seen from the outside.
+"""DXF of the body plates, to cut them by laser instead of printing them. Lengths in mm, seen from the outside.
 
-Layer `CUT` holds the outline and every hole, `ENGRAVE` the name. What stands on a plate (the motor's socket) is not in
-a flat drawing; it is printed and glued onto a cut plate.
+Layer `CUT` holds the outline and every hole, `ENGRAVE` the name. What is higher than a plate (the motor's socket) is
+not in a flat drawing; it is printed and glued onto a cut plate.
 """
 
 import io
@@ -32,7 +32,7 @@ def dxf_files(robot: Robot) -> Iterator[tuple[str, str]]:
 
 
 def write_dxfs(robot: Robot) -> dict[str, str]:
-    """Return the DXF document of every body plate by the part's name."""
+    """Return the DXF document of every body plate, by the part's name."""
     layout = robot.layout
     thickness = dict(zip(PLATES, (layout.lateral.left_plate, layout.lateral.right_plate), strict=True))
     return {

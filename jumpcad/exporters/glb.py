@@ -14,11 +14,11 @@ from trimesh.visual.material import PBRMaterial
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.shading import creased
+from jumpcad.scene.shading import with_normals
 from jumpcad.scene.visuals import Colour, Visual, visuals
 
 Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
-"""From the robot's z up to y up."""
+"""Rotation (4, 4) from the robot's axes, z up, to glTF's, y up."""
 FRAME = "robot"
 ROUGHNESS = 0.6
 VERTICES, INDICES = 34962, 34963
@@ -45,7 +45,7 @@ def write_glb(robot: Robot) -> bytes:
 
 
 def _finish(tree: dict[str, Any], colours: dict[str, Colour]) -> None:
-    """Write colours as they are, where trimesh has 256 steps, and say which data are vertices and which are indices."""
+    """Write exact colours (trimesh's have 256 levels), and mark buffer views as vertices or indices."""
     for material in tree["materials"]:
         linear = [round(linear_light(part), 6) for part in colours[material["name"]]]
         material["pbrMetallicRoughness"]["baseColorFactor"] = [*linear, 1.0]
@@ -61,18 +61,18 @@ def _target(tree: dict[str, Any], accessor: int, target: int) -> None:
 
 
 def linear_light(part: float) -> float:
-    """Return a part of an sRGB colour, 0 to 1, as linear light (IEC 61966-2-1)."""
+    """Return one component of an sRGB colour, 0 to 1, as linear light, 0 to 1 (IEC 61966-2-1)."""
     return part / 12.92 if part <= 0.04045 else math.pow((part + 0.055) / 1.055, 2.4)
 
 
 def frame_name(body: str) -> str:
-    """Return the name of a body's node; the main part of a body may have the name of the body."""
+    """Return the name of a body's node; not the body's own, which is also the name of a part (`foot`)."""
     return f"{body}_frame"
 
 
 def _in_metres(shape: Visual) -> trimesh.Trimesh:
-    """Return a mesh (m) with a vertex per face and corner where the surface is creased."""
-    vertices, normals, faces = creased(shape.mesh)
+    """Return a mesh with normals and material (m)."""
+    vertices, normals, faces = with_normals(shape.mesh)
     material = PBRMaterial(name=shape.mesh_name, metallicFactor=0.0, roughnessFactor=ROUGHNESS)
     visual = trimesh.visual.TextureVisuals(material=material)
     return trimesh.Trimesh(vertices * 0.001, faces, vertex_normals=normals, visual=visual, process=False)

@@ -1,15 +1,16 @@
 """MJCF: bodies, joints, loop and springs for MuJoCo, and the model above a floor that the project's own engine runs.
 
-The files of a bundle are made of the same elements, see `mjcf_robot`; here five spheres touch one ground, and nothing
-else touches anything.
+The files of a bundle are made of the same elements, see `mjcf_robot`. In this model only the contact spheres touch the
+ground, and nothing else touches anything.
 
-Loading a key frame and stepping is the whole jump: from `wound` the cam lets go at once; `released`, which only robots
-with a cam have, is the moment when the roller has left it, with all velocities. MuJoCo's constraints are springs; here
-contacts and the loop are as stiff as the time step allows, and the time step is a fraction of that in the settings.
+To simulate a jump, load a key frame and step: from `wound` the springs are released at once; `released`, which only
+robots with a cam have, is the moment when the roller has left it, with all velocities. MuJoCo's constraints are soft;
+here contacts and the loop are as stiff as the time step allows, and the time step is a fraction of that in the
+settings.
 
-Springs that only push are a tendon along the leg joint whose length may be anything beyond the angle where they are
-free. The stop is the leg joint's limit, with the stiffness of its pad and critical damping for the inertia that the leg
-has in flight. Pin friction is one dry torque at the leg joint.
+Springs that only push are a tendon along the leg joint that is slack beyond the angle at which they are relaxed. The
+stop is the leg joint's limit, with the stiffness of its pad and critical damping for the leg's inertia in flight. Pin
+friction is one dry torque at the leg joint.
 """
 
 import math
@@ -26,27 +27,27 @@ from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import rotation_about_y
 
 Dress = Callable[[ET.Element, Body], None]
-"""Gives a body's element what is seen of it and what touches."""
+"""Appends a body's visible and collision geometry to its element."""
 
 SUBSTEPS = 4
 """MuJoCo's own steps per step of the settings; its stiffest constraints are then as exact as Bullet's rigid ones."""
 SOFTNESS_STEPS = 2.0
 """Time constant of the constraints over MuJoCo's own step: the least that MuJoCo keeps stable."""
 IMPEDANCE = [0.99, 0.9999, 0.0001, 0.5, 2.0]
-"""Share of a constraint that is enforced, and how it grows with penetration (MuJoCo's `solimp`)."""
+"""MuJoCo's `solimp`: impedance from 0.99 to 0.9999 over a penetration of 0.1 mm (or rad)."""
 FREE_RAD = 10.0
-"""How far springs that only push let the leg go on: more than any leg turns."""
+"""Range in which springs that only push are slack: more than any leg turns."""
 CONTACT_IMPEDANCE = [0.0, 0.95, 0.0001, 0.5, 1.0]
-"""The same of contacts: growing from nothing over 0.1 mm, or a sliding foot chatters and gains energy (ranges of
-slipping jumps up to 9 % too long; with it within 1 % of rigid contacts)."""
+"""`solimp` of contacts: it starts at 0, otherwise a sliding foot chatters and gains energy (ranges of slipping jumps up
+to 9 % too long; with it within 1 % of rigid contacts)."""
 FRICTION_STIFFNESS = 100.0
-"""Of friction over normal force (MuJoCo's `impratio`): at 1 a foot that sticks creeps by 1 % of the range."""
+"""Of friction over normal constraints (MuJoCo's `impratio`): at 1 a sticking foot creeps by 1 % of the range."""
 LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100
-"""Solver iterations: fewer do not reach the tolerance; and MuJoCo's default."""
+"""Solver iterations: least number that reaches the tolerance; MuJoCo's default."""
 
 
 def write_mjcf(mechanism: Mechanism, settings: Settings | None = None) -> str:
-    """Return the document that the engine runs, with the settings' time step, friction and damping."""
+    """Return the document that the engine runs, with the time step, friction and damping of the settings."""
     settings = settings or Settings()
     rubs = coefficients(mechanism, settings)
     root = ET.Element("mujoco", model=mechanism.name)
@@ -84,7 +85,7 @@ def add_options(root: ET.Element, settings: Settings) -> None:
 def add_bodies(
     world: ET.Element, mechanism: Mechanism, settings: Settings, dress: Dress
 ) -> tuple[ET.Element, list[str]]:
-    """Append the tree of bodies, standing at rest; return its root, and its joints as MuJoCo numbers them."""
+    """Append the tree of bodies, standing at rest; return its root and the names of its joints in MuJoCo's order."""
     rest = body_poses(mechanism)[BODY]
     base = add(world, "body", name=BODY, pos=rest[:3, 3], quat=wxyz(rest[:3, :3]))
     add(base, "freejoint", name="free")
@@ -148,9 +149,9 @@ def _limit(joint: Joint, mechanism: Mechanism) -> dict[str, Value]:
 
 
 def add_springs(tendons: ET.Element, spring: Spring) -> None:
-    """Append springs that only push; those that also pull are the leg joint's own.
+    """Append springs that only push; those that also pull are an attribute of the leg joint.
 
-    A tendon along the leg joint pushes below the angle where the springs are free, and rests beyond.
+    A tendon along the leg joint pushes below the angle at which the springs are relaxed, and is slack beyond.
     """
     if not spring.one_sided:
         return
@@ -213,7 +214,7 @@ def add_loop(root: ET.Element, equality: ET.Element, mechanism: Mechanism, setti
 
 
 def add_key(keys: ET.Element, name: str, release: Release, order: list[str], **more: Value) -> None:
-    """Append a key frame with the pose and the rates of a release."""
+    """Append a key frame with the pose and the velocities of a release; `order` names the joints in MuJoCo's order."""
     attitude = wxyz(rotation_about_y(release.body_pitch_rad))
     angles = [release.joint_rad[name] for name in order]
     key = add(keys, "key", name=name, qpos=(*release.body_position_m, *attitude, *angles), **more)
@@ -223,5 +224,5 @@ def add_key(keys: ET.Element, name: str, release: Release, order: list[str], **m
 
 
 def stiff(settings: Settings) -> dict[str, Sequence[float]]:
-    """Return the stiffness of contacts and loop, the same as in the project's own MuJoCo runs."""
+    """Return `solref` and `solimp` of contacts and loop."""
     return {"solref": (SOFTNESS_STEPS * settings.dt_s / SUBSTEPS, 1.0), "solimp": IMPEDANCE}

@@ -1,11 +1,12 @@
-"""MJCF for other people's simulations: the robot alone, a scene with a floor, and how to use both.
+"""MJCF for simulations by others: the robot alone, a scene with a floor, and a README on how to use both.
 
 Names and classes follow MuJoCo Menagerie: class `visual` in group 2, `collision` in group 3, sites in group 5, the
-floor in `scene.xml` alone. The robot touches whatever the scene has, with its own friction and stiffness (priority 1):
-spheres where it stands, capsules along the links, and a box about the body. Its own parts do not touch each other.
+floor in `scene.xml` alone. The robot collides with everything in a scene, with its own friction and stiffness (priority
+1): spheres where it stands, capsules along the links, and a box around the body. Its bodies do not collide with each
+other.
 
-The motor `cam` holds the loaded leg against a limit and releases it; the equality `latch` does the same for those who
-switch constraints. MuJoCo's key frames hold no switched constraints, so `wound` comes with the motor.
+The motor `cam` holds the loaded leg against a limit and releases it; the equality `latch` does the same as a constraint
+that is switched off. MuJoCo's key frames do not store whether a constraint is active, so `wound` uses the motor.
 """
 
 import xml.etree.ElementTree as ET
@@ -36,7 +37,7 @@ from jumpcad.settings import Settings, coefficients
 STEP_S = 0.00025
 """Time step: twice that of the project's own runs; four templates jump as far within 0.06 %, at 1 ms within 2 %."""
 TOUCH = 1.2
-"""Radius of a touch sensor's volume over that of the sphere in it."""
+"""Radius of a touch sensor's volume over that of the contact sphere in it."""
 
 
 def mjcf_files(robot: Robot) -> Iterator[tuple[str, str]]:
@@ -75,7 +76,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = ()) -> str:
     base.set("childclass", "robot")
     base.insert(1, ET.Element("site", name="imu", size="0.005"))
     contact = add(root, "contact")
-    for one, other in _apart(mechanism):
+    for one, other in _excluded(mechanism):
         add(contact, "exclude", body1=one, body2=other)
     tendons, spring = add(root, "tendon"), mechanism.spring
     add_springs(tendons, spring)
@@ -99,7 +100,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = ()) -> str:
 
 
 def _assets(root: ET.Element, visible: Sequence[Visual]) -> None:
-    """Append one material a colour, and the meshes."""
+    """Append one material for each colour, and the meshes."""
     asset = add(root, "asset")
     for colour in dict.fromkeys(shape.colour for shape in visible):
         add(asset, "material", name=_material(colour), rgba=(*colour, 1.0))
@@ -108,7 +109,7 @@ def _assets(root: ET.Element, visible: Sequence[Visual]) -> None:
 
 
 def _defaults(root: ET.Element, mechanism: Mechanism, settings: Settings) -> None:
-    """Append the classes of what is seen and what touches; `grip` is what of the latter stands on pads."""
+    """Append the classes `visual`, `collision`, and `grip`: collision geometry with the friction of the foot's pads."""
     rubs = coefficients(mechanism, settings)
     whole = add(add(root, "default"), "default", class_="robot")
     add(whole, "site", group="5")
@@ -134,15 +135,15 @@ def _material(colour: Colour) -> str:
     return "colour_" + "".join(f"{round(255.0 * part):02x}" for part in colour)
 
 
-def _apart(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
-    """Yield the pairs of bodies without a common joint, which MuJoCo would let touch."""
+def _excluded(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
+    """Yield the pairs of bodies without a common joint: between others MuJoCo has no contacts anyway."""
     joined = {frozenset((joint.parent, joint.child)) for joint in mechanism.joints}
     for index, one in enumerate(BODY_NAMES):
         yield from ((one, other) for other in BODY_NAMES[index + 1 :] if frozenset((one, other)) not in joined)
 
 
 def _sensors(root: ET.Element, mechanism: Mechanism) -> None:
-    """Append what a robot could measure, and the motion of the centre of mass."""
+    """Append sensors that a robot could have, and position and velocity of the centre of mass."""
     sensor = add(root, "sensor")
     for kind in ("accelerometer", "gyro"):
         add(sensor, kind, name=kind, site="imu")

@@ -1,4 +1,4 @@
-"""MJCF: a scene about the robot, with floor, light and sky, and notes for those who put it into their own."""
+"""MJCF: a scene around the robot, with floor, light and sky, and a README on how to use it in other scenes."""
 
 import xml.etree.ElementTree as ET
 
@@ -56,7 +56,7 @@ elsewhere. Springs that only push are the tendon `springs`; the rest stop is the
 loop is the equality `loop`. The motor, its gears and the cam's turn are not modelled: winding takes no time here.
 """
 HOLD = 1.25
-"""Torque with which the motor holds the leg against its limit, over the springs' in the loaded pose; judgement."""
+"""Torque of the motor that holds the leg against its limit, over that of the loaded springs; judgement."""
 MUJOCO = "3.3.7 and 4.0.0"
 """Versions that the notes' code runs with."""
 
@@ -83,7 +83,7 @@ def write_scene(robot: Robot) -> str:
 
 
 def readme(robot: Robot) -> str:
-    """Return the notes."""
+    """Return the text of README.md."""
     released = ", `released` (the moment when the roller leaves the cam)" if robot.roller_off else ""
     rubs = coefficients(robot, Settings())
     return NOTES.format(

@@ -1,4 +1,4 @@
-"""The registry of file formats: a new one is a module of its own and a line in `EXPORTERS`."""
+"""The registry of file formats; a new one is a module and a line in `EXPORTERS`."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -22,7 +22,8 @@ Files = Iterable[tuple[str, str | bytes]]
 class Exporter:
     """An entry of the registry: a name, and the function that makes files from a robot.
 
-    An `optional` one writes only where it is asked for by name; `require` raises `JumpcadError` if it cannot.
+    An `optional` one writes only on request, by name; `require` raises `JumpcadError` if a library that it needs is
+    missing.
     """
 
     name: str

@@ -1,7 +1,7 @@
 """ROS 2: a description package, for `colcon build` in a workspace; written on request.
 
-Unlike the URDF of a bundle it begins with `base_link`, without mass, as ROS expects and PyBullet does not: there such a
-link weighs 1 kg. Joints that the loop ties to the leg mimic it by a straight line.
+Unlike the URDF of a bundle it begins with a link without mass, `base_link`, as ROS expects; PyBullet would give it a
+mass of 1 kg. The loop's dependent joints mimic the leg's by a linear approximation.
 """
 
 import math
@@ -35,18 +35,18 @@ TEMPLATES = {
     "controllers.yaml": "config/controllers.yaml",
     "view.rviz": "rviz/view.rviz",
 }
-"""Shipped texts with @WORDS@ to fill in, and where they go in the package."""
+"""Templates with @WORDS@ to be replaced, and their paths in the package."""
 BASE = "base_link"
 XACRO = "http://www.ros.org/wiki/xacro"
 MESHES = "meshes"
 MIMIC_POINTS = 65
-"""Leg angles at which the straight lines are fitted."""
+"""Number of leg angles at which a linear approximation is fitted."""
 MIMIC_DIGITS = 6
 
 
 @dataclass(frozen=True)
 class Mimic:
-    """A joint's angle as `slope`·leg + `offset_rad`, wrong by at most `error_rad` over the leg's travel."""
+    """A joint's angle as `slope`·leg + `offset_rad`, with an error of at most `error_rad` over the leg's travel."""
 
     slope: float
     offset_rad: float
@@ -86,7 +86,7 @@ def model_name(name: str) -> str:
 
 
 def mimicked(mechanism: Mechanism) -> dict[str, Mimic]:
-    """Return how front and ankle joint follow the leg's, fitted by least squares over its travel."""
+    """Return front and ankle angle as linear functions of the leg's, fitted by least squares over its travel."""
     leg = np.linspace(-mechanism.spring.wind_rad, 0.0, MIMIC_POINTS)
     pose = mechanism.linkage.pose(leg)
     return {"front": _line(leg, pose.front_rad), "ankle": _line(leg, pose.ankle_rad)}
@@ -114,7 +114,7 @@ def _top(model: str) -> str:
 
 
 def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], meshes: str) -> str:
-    """Return the bodies with what is seen and what touches, and the joints of the tree."""
+    """Return the bodies with visible meshes and collision shapes, and the joints of the tree."""
     root = _root()
     add(root, "link", name=BASE)
     base = add(root, "joint", name="base", type="fixed")
@@ -139,10 +139,11 @@ def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], me
 
 
 def _cylinder(link: ET.Element, name: str, capsule: Capsule) -> None:
-    """Append a capsule as a cylinder, which URDF knows; spheres stand where its ends touch the ground."""
+    """Append a capsule as a cylinder: URDF has no capsules; contact spheres are where its ends touch the ground."""
     along = capsule.end_m - capsule.start_m
     length = math.hypot(*along)
-    turns = 0.0, math.atan2(math.hypot(along[0], along[1]), along[2]), math.atan2(along[1], along[0])  # of z to it
+    # roll, pitch, yaw that turn the cylinder's axis, z, to the capsule's
+    turns = 0.0, math.atan2(math.hypot(along[0], along[1]), along[2]), math.atan2(along[1], along[0])
     collision = add(link, "collision", name=name)
     add(collision, "origin", xyz=(capsule.start_m + capsule.end_m) / 2.0, rpy=turns)
     add(add(collision, "geometry"), "cylinder", radius=capsule.radius_m, length=length)
@@ -165,7 +166,7 @@ def _control(robot: Robot) -> str:
 
 
 def _gazebo(robot: Robot) -> str:
-    """Return what only Gazebo reads: friction of the bodies, the springs, and the plugin of ros2_control."""
+    """Return the elements for Gazebo alone: friction of the bodies, the springs, and the plugin of ros2_control."""
     root, rubs = _root(), coefficients(robot, Settings())
     for body in robot.bodies.values():
         node = add(root, "gazebo", reference=body.name)

@@ -1,8 +1,8 @@
 """SDF 1.9: the robot for Gazebo, the loop as a joint of its own, the spring on its hinge.
 
 The model stands with springs at rest. Links' frames are the body frames of `Robot`. The leg's limit is the stop, with
-the stiffness of its pad and critical damping. SDF has no spring that only pushes: beyond rest, in flight, the hinge's
-pulls the leg back. Pin friction is one dry torque at the leg joint.
+the stiffness of its pad and critical damping. SDF has no spring that only pushes: beyond rest, in flight, that of the
+hinge pulls the leg back. Pin friction is one dry torque at the leg joint.
 """
 
 import math
@@ -31,7 +31,7 @@ def sdf_files(robot: Robot) -> Iterator[tuple[str, str]]:
 
 
 def write_config(name: str, file: str) -> str:
-    """Return the `model.config` of a folder that has the SDF document of a robot in a file."""
+    """Return the `model.config` of a folder whose `file` is the SDF document of the robot `name`."""
     root = ET.Element("model")
     add(root, "name", name)
     add(root, "version", "1.0")
@@ -49,7 +49,7 @@ def write_sdf(
 ) -> str:
     """Return the SDF document of a robot, with the settings' friction and damping.
 
-    `meshes` is the folder of the visible meshes, seen from the document's.
+    `meshes` is the folder of the visible meshes, relative to the document's.
     """
     settings = settings or Settings()
     rubs = coefficients(mechanism, settings)

@@ -53,7 +53,7 @@ def write_step(drawing: Drawing) -> bytes:
     Raises
     ------
     CannotBuildError
-        If its faces do not close.
+        If its faces do not make one valid solid.
     """
     from build123d import export_step
 
@@ -68,7 +68,7 @@ def write_step(drawing: Drawing) -> bytes:
 
 
 def _stacked(stack: Stack) -> "Iterator[Shape[Any]]":
-    """Yield a stack as one solid of flat and cylindrical faces, with growing tolerance for faces that nearly meet."""
+    """Yield a stack as one solid of flat and cylindrical faces, once for each tolerance of `FUZZY_MM`."""
     first, *others = (solid for slab in stack.slabs for solid in _extruded(slab))
     if not others:
         yield first

@@ -1,4 +1,4 @@
-"""STL: one file per printed part, in printing orientation, mm; also of pads that are printed of a soft material."""
+"""STL: one file per printed part, in printing orientation, mm; also for pads that are printed of a soft material."""
 
 from collections.abc import Iterator
 

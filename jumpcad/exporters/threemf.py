@@ -1,8 +1,8 @@
-"""3MF: one plate per file, every part a named object (3MF Core Specification 1.3), with a picture and print settings.
+"""3MF: one print plate per file, every part a named object (3MF Core Specification 1.3), picture and print settings.
 
-Written here and not by a library: fixed dates and a fixed order give the same bytes, and strict readers report nothing.
-The settings lie in the two files in which PrusaSlicer keeps a project's. Other slicers read the geometry alone, so
-`print/README.md` says the settings in words.
+Written without a library: fixed dates and a fixed order give the same bytes, and strict readers report nothing. The
+settings are in the two files in which PrusaSlicer keeps those of a project. Other slicers read the geometry alone, so
+`print/README.md` has the settings in words.
 """
 
 import io
@@ -46,12 +46,12 @@ RELATIONSHIPS = (
 
 
 def threemf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of every print plate, the parts packed on the workshop's bed, and of their settings."""
+    """Yield path and content of every print plate, packed on the workshop's bed, and of `print/README.md`."""
     yield from plate_files(robot.parts, robot.workshop)
 
 
 def plate_files(parts: Iterable[Printable], workshop: Workshop) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of the print plates of parts, and of the settings in words."""
+    """Yield path and content of the print plates of parts, and of `print/README.md`."""
     printer, process = workshop.printer, workshop.process
     plates = packed(parts, printer.bed_mm, process.part_spacing_mm)
     for plate in plates:
@@ -123,7 +123,7 @@ def _objects(plate: PrintPlate) -> str:
 
 
 def _in_words(plates: Sequence[PrintPlate], workshop: Workshop) -> str:
-    """Return how the plates are printed, for every slicer."""
+    """Return the text of `print/README.md`."""
     lines = [
         "# How to print the plates",
         "",
@@ -145,7 +145,7 @@ def _in_words(plates: Sequence[PrintPlate], workshop: Workshop) -> str:
 
 
 def _lines(line: str, rows: npt.NDArray[np.generic]) -> str:
-    """Return a line for every row of three numbers, all formatted at once, which is faster than one by one."""
+    """Return a line for every row (n, 3), all formatted at once, which is faster than one by one."""
     return line * len(rows) % tuple(rows.ravel().tolist())
 
 

@@ -1,4 +1,4 @@
-"""The picture that file managers and slicers show of a print plate: its parts on the bed."""
+"""The thumbnail of a print plate for file managers and slicers: its parts on the bed."""
 
 import io
 from collections.abc import Sequence

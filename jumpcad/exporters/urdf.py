@@ -2,9 +2,9 @@
 
 The leg's upper limit is the stop. Pin friction is one dry torque at the leg joint; the JSON file has its coefficient.
 
-Link frames are the body frames of `Robot`. Inertial frames lie along the principal axes, because PyBullet turns any
-other tensor to them with an error of 1e-5. What is seen are the parts' meshes (`meshes/NAME.stl`, in mm, scaled to
-metres); what touches the ground are spheres.
+Link frames are the body frames of `Robot`. Inertial frames are along the principal axes, because PyBullet's own
+diagonalisation has an error of 1e-5. Visible are the parts' meshes (`meshes/NAME.stl`, in mm, scaled to metres); the
+collision shapes are the contact spheres.
 """
 
 import json
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 OWN = "stop", "roller_off", "friction"
-"""What only printed robots have, by its name in `Mechanism` and in the file."""
+"""Attributes of `Mechanism` that only printed robots have, and their names in the JSON file."""
 
 
 def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
@@ -61,7 +61,7 @@ def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
 
 
 def write_loop(mechanism: Mechanism) -> str:
-    """Return the JSON document beside the URDF: loop closure, spring, pose at release, what may touch the ground."""
+    """Return the JSON document beside the URDF: loop closure, spring, pose at release, surfaces of the spheres."""
     release = release_pose(mechanism)
     loop, spring = mechanism.loop, mechanism.spring
     data = {
@@ -94,7 +94,7 @@ def write_loop(mechanism: Mechanism) -> str:
 
 
 def add_link(root: ET.Element, body: Body, visible: "list[Visual]", meshes: str) -> ET.Element:
-    """Append a body with its visible meshes, which lie at the path or URI `meshes`, and its contact spheres."""
+    """Append a body with its visible meshes, which are at the path or URI `meshes`, and its contact spheres."""
     link = add(root, "link", name=body.name)
     moments, axes = principal_axes(body.inertia_kg_m2)
     inertial = add(link, "inertial")

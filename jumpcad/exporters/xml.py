@@ -1,4 +1,4 @@
-"""Shared by the XML formats: elements whose numbers are written so that they read back as the same doubles."""
+"""Elements and documents of the XML formats; numbers are written so that they read back as the same doubles."""
 
 import re
 import xml.etree.ElementTree as ET
@@ -40,7 +40,7 @@ def written(value: Value) -> str:
 
 
 def shorten(root: ET.Element) -> None:
-    """Write the numbers of attributes with `DIGITS` digits, and those that are nothing beside their neighbours as 0."""
+    """Round the numbers in attributes to `DIGITS` digits, and to 0 below 10^-DIGITS of the attribute's largest."""
     for node in root.iter():
         for key, text in node.attrib.items():
             if key not in NAMES and NUMBERS.fullmatch(text):

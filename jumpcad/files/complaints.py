@@ -1,4 +1,4 @@
-"""Messages about wrong values in users' files: one clause a bad key, and not more than `MOST_NAMED`."""
+"""Error messages about wrong values in users' files: one clause per key, `MOST_NAMED` at most."""
 
 import difflib
 import re
@@ -8,9 +8,9 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 MOST_NAMED = 10
-"""Bad keys that are named; the others are counted."""
+"""Largest number of keys that are named; the others are counted."""
 LONGEST = 60
-"""Characters of a value that are shown."""
+"""Largest number of characters of a value that are shown."""
 LIMITS = {
     "greater_than": ("must be more than", "gt"),
     "greater_than_equal": ("must be at least", "ge"),
@@ -22,16 +22,16 @@ OF_A_LIST = ("tuple_type", "list_type")
 
 
 def complaints(error: ValidationError, model: type[BaseModel], source: str = "", text: str = "") -> list[str]:
-    """Return one clause a bad key, `file:line: key = value: what is wrong`, for the first ten of them.
+    """Return one clause per wrong key, `file:line: key = value: what is wrong`, for the first ten of them.
 
     Parameters
     ----------
     error
-        What validation found.
+        The validation's error.
     model
-        What was validated.
+        The validated model.
     source
-        Where the values come from: a file, or nothing.
+        The file of the values, if any.
     text
         The TOML text of the file, in which the lines of the keys are looked up.
     """
@@ -49,24 +49,24 @@ def complaints(error: ValidationError, model: type[BaseModel], source: str = "",
 
 
 def place(source: str, text: str, key: str) -> str:
-    """Return where a dotted key stands in a TOML text that came from `source`: `file:line`, or the file alone."""
+    """Return the place of a dotted key in the TOML text of the file `source`: `file:line`, or the file alone."""
     line = _lines(text).get(key)
     return source if line is None else f"{source}:{line}"
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return a hint at the nearest known word, or nothing."""
+    """Return a hint at the most similar known word, or nothing."""
     near = difflib.get_close_matches(word[:LONGEST], list(known), n=1, cutoff=0.6)
     return f" (did you mean {near[0]}?)" if near else ""
 
 
 def shown(value: Any) -> str:
-    """Return a value as it is shown in one line: without control characters, and shortened."""
+    """Return a value as text for one line: quoted if it is text, without control characters, and shortened."""
     try:
         text = " ".join(repr(value).split()) if not isinstance(value, str) else repr(value)
-    except (ValueError, RecursionError):  # more than 4300 digits, or a value within itself
+    except (ValueError, RecursionError):  # more than 4300 digits, or a value that contains itself
         return "a value too long to show"
-    except Exception:  # of a class of the user's
+    except Exception:  # from a user's class
         return "a value that cannot be shown"
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
 
@@ -76,12 +76,16 @@ def described(value: Any) -> str:
     return f"{shown(value)} ({type(value).__name__[:LONGEST]})" if value is not None else "None"
 
 
+MISSING = {"source": ": say where the figures come from", "mass_g": ": weigh it, or take the maker's figure"}
+"""What to do about keys that own parts need most."""
+
+
 def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:
     key = ".".join(_step(step) for step in location) or model.__name__
     if item["type"] == "extra_forbidden":
         return f"{key}: unknown key{did_you_mean(location[-1], _known_keys(model, location[:-1]))}"
     if item["type"] == "missing":
-        return f"{key}: missing"
+        return f"{key}: missing{MISSING.get(location[-1], '')}"
     if not location:  # a validator of the whole record
         return _reason(item, location, model)
     if item["loc"][-1] == "[key]":
@@ -90,7 +94,7 @@ def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str
 
 
 def _step(name: str) -> str:
-    """Return a key's name as it is shown: without quotes where it is short and plain."""
+    """Return a key's name as text: without quotes if it is short and printable."""
     return name if name and name.isprintable() and len(name) <= LONGEST else shown(name)
 
 
@@ -132,7 +136,7 @@ def _is_model(annotation: Any) -> bool:
 
 
 def _lines(text: str) -> dict[str, int]:
-    """Return the line of each key of a TOML text, as far as keys are written one a line."""
+    """Return the line number of each key of a TOML text, for keys that begin a line."""
     section = ""
     found: dict[str, int] = {}
     for number, line in enumerate(text.split("\n"), start=1):

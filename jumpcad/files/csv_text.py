@@ -1,21 +1,32 @@
-"""Tables as CSV text in which no cell is a formula, whatever program opens them."""
+"""Tables as CSV text in which no cell is a formula for a spreadsheet."""
 
 import csv
-import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from jumpcad.errors import without_controls
 
 FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
-"""First characters of cells that spreadsheets compute (OWASP, CSV injection), also in full-width form."""
+"""First characters of formulas (OWASP, CSV injection), also in full-width form."""
 
 
 def to_csv(rows: Iterable[Sequence[object]]) -> str:
-    """Return rows as CSV, the first of them the heading; text that would be a formula gets an apostrophe before it."""
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
-    return stream.getvalue()
+    """Return rows as CSV; the first is the heading. Text that would be a formula is preceded by an apostrophe."""
+    return "".join(csv_lines(rows))
+
+
+def csv_lines(rows: Iterable[Sequence[object]]) -> Iterator[str]:
+    """Yield the rows of `to_csv` one by one, for a table that is longer than memory."""
+    writer = csv.writer(_Returned(), lineterminator="\n")
+    for row in rows:
+        yield writer.writerow([_cell(value) for value in row])
+
+
+class _Returned:
+    """A file whose `write` returns the text."""
+
+    def write(self, text: str) -> str:
+        return text
 
 
 def _cell(value: object) -> object:

@@ -1,4 +1,4 @@
-"""Names and free text from users and their files: what they may contain, as they get into files and terminals."""
+"""Names and free text from users and their files: the characters that they may have."""
 
 import re
 import unicodedata
@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 from jumpcad.errors import CONTROL_CATEGORIES
 
 NAME = re.compile(r"\w[\w .,()+-]{0,49}")
-"""Pattern of a name: it begins neither a formula nor a hidden file, and has no path separator and no markup."""
+"""Pattern of a name: no formula, no hidden file, no path separator, no markup."""
 NAME_RULE = "a name has 1 to 50 letters, digits, spaces and . , + - _ ( ), and begins with a letter, a digit or _"
 LONGEST_TEXT = 1000
 
@@ -23,7 +23,7 @@ def control_character(text: str) -> str:
 
 
 def composed(data: Any) -> Any:
-    """Return texts, and those of nested lists and tables, with their letters composed (NFC).
+    """Return texts, also in nested lists and tables, in Unicode's composed form (NFC).
 
     Some systems write ä as a and a combining diaeresis; both are the same name.
     """
@@ -52,6 +52,6 @@ def _text(value: str) -> str:
 Name = Annotated[str, AfterValidator(_name)]
 """A name that may become part of a file's name."""
 OptionalName = Annotated[str, AfterValidator(lambda value: value and _name(value))]
-"""A name, or empty where there is none."""
+"""A name, or empty."""
 Text = Annotated[str, AfterValidator(_text)]
 """A line of free text."""

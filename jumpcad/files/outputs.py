@@ -1,8 +1,8 @@
-"""Files that are written where a user says: whole or not at all, and never over what is the user's own.
+"""Writes files at a user's path: completely or not at all, and never over the user's own files.
 
-One rule holds for every command: what is there already is replaced only if jumpcad wrote it and nobody has changed it
-since, or with `--force`. A bundle's manifest lists its files; a text file that is rewritten often ends with
-a seal, the checksum of its lines; any other file counts as the user's own.
+For every command, a file is replaced only if jumpcad wrote it and nobody has changed it since, or with `--force`. A
+bundle's manifest lists its files; other text files and pictures that jumpcad may replace end with a seal, a checksum
+of their content; any other file counts as the user's own.
 """
 
 import hashlib
@@ -12,7 +12,7 @@ import shutil
 import stat
 import struct
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -23,8 +23,8 @@ PNG_END = 12
 """Bytes of the chunk that ends a PNG file."""
 
 
-def write_atomically(path: Path, data: str | bytes) -> None:
-    """Write a file so that `path` holds all of it or what it held before; text is written in UTF-8.
+def write_atomically(path: Path, data: str | bytes | Iterator[str]) -> None:
+    """Write a file so that `path` has either the new or the old content; text, also in parts, is written in UTF-8.
 
     Raises
     ------
@@ -60,12 +60,12 @@ def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
 
 
 def require_path(path: Path) -> None:
-    """Refuse a text that cannot be a path: with a NUL, or a character that no file's name can have.
+    """Require that a path is possible.
 
     Raises
     ------
     JumpcadError
-        Naming it.
+        If it has a NUL, or a character that a file's name cannot have.
     """
     if "\0" in str(path):
         raise JumpcadError(f"{path}: cannot be a path: it has a NUL")
@@ -77,17 +77,17 @@ def require_path(path: Path) -> None:
 
 
 def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str | Path | None]) -> None:
-    """Refuse, before any work, an output that is another output or an input, by whatever way, or lies below one.
+    """Require that no output is another output or an input, or below one, also through links.
 
     Parameters
     ----------
     outputs, inputs
-        By their options; None where there is none. Inputs that are no files, templates and bundles, do not count.
+        Paths by their options; None if not given. Inputs that are templates or bundles do not count.
 
     Raises
     ------
     JumpcadError
-        Naming both options.
+        If two are the same, or one is below another; it names both options.
     """
     there = {name: path for name, path in outputs.items() if path is not None}
     read = {name: Path(path) for name, path in inputs.items() if path is not None and _is_file(path)}
@@ -102,12 +102,12 @@ def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str |
 
 
 def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -> None:
-    """Refuse an output file with another suffix, in a missing folder, or that would replace a user's own.
+    """Require that an output file can be written.
 
     Raises
     ------
     JumpcadError
-        Naming the path and what is wrong.
+        If it has another suffix, its folder is missing, or it would replace a user's file (unless `force`).
     """
     require_path(path)
     if path.suffix not in suffixes:
@@ -117,24 +117,24 @@ def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -
 
 
 def require_folder(path: Path) -> None:
-    """Refuse an output file in a missing folder.
+    """Require that the folder of an output file exists.
 
     Raises
     ------
     JumpcadError
-        Naming both.
+        If it does not.
     """
     if not os.path.isdir(path.parent):
         raise JumpcadError(f"{path}: cannot be written: there is no folder {path.parent}")
 
 
 def require_free(path: Path, force: bool = False) -> None:
-    """Refuse to write over a file that is not sealed by jumpcad, unless forced, and over anything but a plain file.
+    """Require that a path is free, or a file that may be replaced.
 
     Raises
     ------
     JumpcadError
-        Naming the path and the way out.
+        If it is a file without jumpcad's seal (unless `force`), or no plain file, or cannot be read.
     """
     require_path(path)
     try:
@@ -150,14 +150,14 @@ def require_free(path: Path, force: bool = False) -> None:
 
 
 def sealed(text: str, comment: str = "# {}") -> str:
-    """Return text with a last line by which `require_free` recognises it, as long as nobody changes it.
+    """Return text with a seal as its last line, by which `require_free` recognises unchanged files.
 
     Parameters
     ----------
     text
         Ends with a line break.
     comment
-        How the file's format writes a comment.
+        The format of a comment in the file.
     """
     return f"{text}{comment.format(SEAL + _sha256(text.encode()))}\n"
 
@@ -170,7 +170,7 @@ def sealed_png(png: bytes) -> bytes:
 
 
 def same_file(one: Path, other: Path) -> bool:
-    """Tell whether two paths lead to one file, also by links, and also if it is not there yet."""
+    """Tell whether two paths are the same file, also through links, and also if it does not exist yet."""
     if os.path.realpath(one) == os.path.realpath(other):
         return True
     try:
@@ -180,7 +180,7 @@ def same_file(one: Path, other: Path) -> bool:
 
 
 def _is_file(named: str | Path) -> bool:
-    """Tell whether an input is a file: no template's name, and no bundle, whose files its manifest protects."""
+    """Tell whether an input is a file: not a template's name, and not a bundle, which its manifest protects."""
     return not os.path.isdir(named) and (isinstance(named, Path) or named.endswith((".toml", ".urdf")))
 
 
@@ -204,13 +204,14 @@ def _sha256(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def _write_all(files: Mapping[Path, str | bytes]) -> None:
+def _write_all(files: Mapping[Path, str | bytes | Iterator[str]]) -> None:
     """Write files under temporary names in the same folders, then rename them all."""
     waiting = {path: path.parent / f".jumpcad-{secrets.token_hex(8)}" for path in files}
     try:
         for path, data in files.items():
             with waiting[path].open("xb") as stream:  # with the permissions that the user's umask allows
-                stream.write(data.encode() if isinstance(data, str) else data)
+                parts = [data] if isinstance(data, str | bytes) else data
+                stream.writelines(part.encode() if isinstance(part, str) else part for part in parts)
             if path.exists():
                 shutil.copymode(path, waiting[path])
         for path in files:

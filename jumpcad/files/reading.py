@@ -1,4 +1,4 @@
-"""Reads files that may come from strangers: regular files of limited size and depth, errors in one line."""
+"""Reads files that need not be trusted: regular files of limited size and depth; errors are one line."""
 
 import json
 import os
@@ -15,7 +15,7 @@ from jumpcad.files.complaints import shown
 LARGEST_BYTES = 1 << 20
 """Size of the largest file that is read; those of this program have some kilobytes."""
 DEEPEST = 20
-"""Levels of tables and lists that a file may have; those of this program have four."""
+"""Largest number of nested tables and lists; files of this program have four."""
 NESTED = f"nested deeper than {DEEPEST} levels"
 MOST_DOTS = 200
 
@@ -46,12 +46,13 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
 
 
 def read_json(path: Path) -> Any:
-    """Return the content of a JSON file; NaN and infinity, which JSON does not have, are refused.
+    """Return the content of a JSON file.
 
     Raises
     ------
     JumpcadError
-        If it is no regular file, cannot be read, is too large, is no JSON, or is nested too deep.
+        If it is no regular file, cannot be read, is too large, is no JSON (NaN and infinity are not), or is nested too
+        deep.
     """
     try:
         data = json.loads(read_text(path, "a JSON file"), parse_constant=_no_constant)
@@ -65,7 +66,13 @@ def read_json(path: Path) -> Any:
 
 
 def read_text(path: Path, kind: str = "a text file") -> str:
-    """Return the text of a file in UTF-8; for `kind` see `read_bytes`."""
+    """Return the text of a file in UTF-8, with line feeds as line breaks; for `kind` see `read_bytes`.
+
+    Raises
+    ------
+    JumpcadError
+        As `read_bytes`, or if it is not text in UTF-8.
+    """
     try:
         return read_bytes(path, kind).decode("utf-8").replace("\r\n", "\n")
     except UnicodeDecodeError:
@@ -75,12 +82,12 @@ def read_text(path: Path, kind: str = "a text file") -> str:
 def read_bytes(path: Path, kind: str = "a file") -> bytes:
     """Return the content of a regular file of moderate size; `kind` says what it should be, such as `a TOML file`.
 
-    The opened file is checked, so nobody can exchange it in between; a pipe or a device does not block.
+    The opened file is checked, so it cannot be exchanged between check and reading; a pipe or a device does not block.
 
     Raises
     ------
     JumpcadError
-        If it is no such file, or cannot be read.
+        If it is no regular file, is too large, or cannot be read.
     """
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     try:
@@ -117,7 +124,7 @@ def _no_constant(name: str) -> None:
 
 
 def _require_characters(data: Any, path: Path) -> None:
-    """Refuse texts with lone surrogates, which JSON can hold, but no file and no terminal."""
+    """Raise `JumpcadError` for texts with lone surrogates: JSON allows them, but they cannot be written or printed."""
     try:
         json.dumps(data, ensure_ascii=False).encode()
     except UnicodeEncodeError:
@@ -125,7 +132,7 @@ def _require_characters(data: Any, path: Path) -> None:
 
 
 def _require_shallow(data: Any, path: Path) -> None:
-    """Refuse data that are nested deeper than any file of this program; functions that use them may be recursive."""
+    """Raise `JumpcadError` for data that are nested deeper than `DEEPEST`: recursive functions use them."""
     level = [data]
     for _ in range(DEEPEST):
         level = [
@@ -139,12 +146,12 @@ def _require_shallow(data: Any, path: Path) -> None:
 
 
 def real_path(path: str | Path) -> Path:
-    """Return where a path leads, all links followed; it need not exist.
+    """Return the absolute path with all links followed; it need not exist.
 
     Raises
     ------
     JumpcadError
-        If nothing can ever lie there: a loop of links, a name that is too long or has a NUL.
+        If the path is impossible: a loop of links, a name that is too long or has a NUL.
     """
     try:
         real = Path(path).resolve()

@@ -12,7 +12,7 @@ from jumpcad.files.complaints import complaints, described
 from jumpcad.files.reading import read_toml
 
 Contradiction = tuple[tuple[str, ...], Any, str]
-"""Where a value stands, the value, and what is wrong with it."""
+"""The keys down to a value, the value, and what is wrong with it."""
 
 
 class TomlTable(BaseModel):
@@ -39,7 +39,7 @@ class Record(TomlTable):
             raise JumpcadError("; ".join(complaints(error, type(self)))) from error
 
     def contradictions(self) -> Iterable[Contradiction]:
-        """Return values that are allowed alone but not together."""
+        """Return values that are each allowed, but not together."""
         return ()
 
     def revalidated(self) -> Self:
@@ -54,13 +54,25 @@ class Record(TomlTable):
 
     @classmethod
     def from_toml(cls, path: Path) -> Self:
-        """Read a record from a TOML file; every bad key is named with its line, all at once."""
+        """Read a record from a TOML file.
+
+        Raises
+        ------
+        JumpcadError
+            If the file cannot be read, or with every wrong key and its line.
+        """
         data, text = read_toml(path)
         return cls.from_data(data, source=str(path), text=text)
 
     @classmethod
     def from_data(cls, data: dict[str, Any], source: str, text: str = "") -> Self:
-        """Validate parsed data that came from `source`; `text` is searched for the lines of bad keys."""
+        """Validate data parsed from the file `source`; `text` is its content, for the line numbers of wrong keys.
+
+        Raises
+        ------
+        JumpcadError
+            With every wrong key and its line.
+        """
         try:
             return cls(**data)
         except JumpcadError as error:

@@ -1,4 +1,4 @@
-"""The shipped templates, and what a name or a path on the command line stands for."""
+"""The shipped templates, and the file for a name or path from the command line."""
 
 import importlib.resources
 import os
@@ -23,9 +23,14 @@ def template_names(kind: str) -> list[str]:
 
 
 def find_template(kind: str, name_or_path: str | Path) -> Path:
-    """Return the TOML file that a template's name or a path stands for.
+    """Return the TOML file of a template's name, or a path; a path to a TOML file need not exist.
 
-    A template's name without suffix or folder is the template, whatever lies in the current folder.
+    A template's name without suffix or folder is always the template, also if the working directory has such a file.
+
+    Raises
+    ------
+    JumpcadError
+        If it is neither, or no possible path.
     """
     text = str(name_or_path)
     if "\0" in text:

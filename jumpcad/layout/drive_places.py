@@ -98,8 +98,9 @@ def require_shaft(motor: Motor, lateral: Lateral) -> None:
     if motor.shaft_length_mm < needed - 1e-9:
         raise CannotBuildError(
             f"the shaft of motor {motor.name} is {motor.shaft_length_mm:g} mm long; it needs {needed:.1f} mm to pass "
-            f"its cap and reach {motor.shaft_mm:g} mm into its pinion: allow a motor with a longer shaft"
-        )
+            f"its cap and reach {motor.shaft_mm:g} mm into its pinion: allow a motor with a longer shaft",
+            "shaft", motor.shaft_length_mm - needed,
+        )  # fmt: skip
 
 
 def require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y: Interval) -> None:
@@ -108,8 +109,9 @@ def require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y:
     if room < 0:
         raise CannotBuildError(
             f"the cam gear's tip radius of {tip_mm:.1f} mm is {-room:.1f} mm too large beside the leg's axle: "
-            "allow a stronger motor (a smaller ratio), or a smaller gear module"
-        )
+            "allow a stronger motor (a smaller ratio), or a smaller gear module",
+            "gear_room", room,
+        )  # fmt: skip
 
 
 def train_places(

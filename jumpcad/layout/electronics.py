@@ -26,14 +26,19 @@ from jumpcad.transforms import Array
 ABOVE_BATTERY_MM = 3.8
 """Gap above the battery: its strap, 2.5 mm where hook lies on loop, and under the upper tray ties of 1.1 mm, which
 cross the strap; judgement: 0.2 mm more."""
-TRAY_MORE_MM = 2.0
-"""By how much a tray is longer than its battery; judgement: an edge of 1 mm at either end."""
 TAPE_MM = 1.0
 """Foam tape under boards: solder joints sink into it."""
 SEAT_PLAY_MM, RIM_MM, RIM_HEIGHT_MM = 0.2, 1.2, 1.6
 """Play of a board in its seat, and the rims at its ends: three lines wide, up to the middle of the board."""
 TIE_END_MM = 1.6
 """From a tie's slot to the end of a tray; judgement: four lines of a 0.4 mm nozzle."""
+SMALL_MM = (2.3, 6.3, 2.3)
+"""Room for the body of a resistor of 0.25 W or of a diode of 1 A: along the robot, across it, and up; usual sizes."""
+BATTERY_PLAY_MM, STOP_HEIGHT_MM = 0.5, 2.0
+"""Play of a battery between the stops at its ends, and their height; judgement: packs differ, leads pass over, and with
+its strap open a battery can be lifted over them below the upper tray's ties."""
+BALANCE_MM = 10.0
+"""Room across for a balance lead under its tie, ahead of the battery; judgement: three wires beside their plug."""
 USB_BESIDE_MM, BESIDE_PLATE_MM = 0.9, 0.6
 """From a board's end to the plate, which keeps it there: of the controller, whose USB socket stands into the plate's
 opening, and of the others; judgement."""
@@ -99,7 +104,36 @@ class Electronics:
     def length_mm(self) -> float:
         """Along x: the battery, or all boards one behind the other with the slots of their ties."""
         boards = self.boards_mm + 2.0 * (SEAT_PLAY_MM + TIE_SLOT_MM[0] + TIE_END_MM)
-        return max(self.battery.length_mm + TRAY_MORE_MM, boards, TRAY_LENGTH_MIN_MM)
+        return max(2.0 * self._stopped_mm + self._balance_room_mm, boards, TRAY_LENGTH_MIN_MM)
+
+    @property
+    def battery_mm(self) -> float:
+        """The battery's middle from that of the trays: behind it where its balance lead needs the room in front."""
+        return min(0.0, self.length_mm / 2.0 - self._stopped_mm - self._balance_room_mm)
+
+    @property
+    def _stopped_mm(self) -> float:
+        """Half of the battery's length with its stop, which keeps away from the strap."""
+        return max(self.battery.length_mm / 2.0 + BATTERY_PLAY_MM, STRAP_SLOT_MM[1] / 2.0 + TIE_END_MM) + RIM_MM
+
+    @property
+    def _balance_room_mm(self) -> float:
+        return TIE_SLOT_MM[1] + 2.0 * TIE_END_MM if self.balanced else 0.0
+
+    @property
+    def balanced(self) -> bool:
+        """Tell whether the battery has several cells, and so a balance lead."""
+        return self.battery.cells > 1
+
+    @property
+    def stop_mm(self) -> float:
+        """From the battery's middle to that of the stops at its ends."""
+        return self._stopped_mm - RIM_MM / 2.0
+
+    @property
+    def balance_mm(self) -> float:
+        """From the battery's middle to that of the tie over its balance lead, forwards."""
+        return self._stopped_mm + TIE_END_MM + TIE_SLOT_MM[1] / 2.0
 
     @property
     def boards_mm(self) -> float:
@@ -156,7 +190,7 @@ class Electronics:
         # as near to the legs' plane as strap and plates let it: the robot tips less sideways
         strap = battery.width_mm / 2.0 + 1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM
         y = min(max(0.0, low + strap), high - strap)
-        seats = {"battery": Seat(0.0, y, TRAY_MM, size)}
+        seats = {"battery": Seat(self.battery_mm, y, TRAY_MM, size)}
         start = -self.boards_mm / 2.0
         for role, board in self.boards.items():
             x, reach = start + board.width_mm / 2.0, _from_plate_mm(role) + board.length_mm / 2.0
@@ -188,9 +222,38 @@ class Electronics:
                 slots[role] = [(seat.x_mm, seat.y_mm + side * reach, size) for side in (-1.0, 1.0)]
         return slots
 
+    def small_seats(self, inside: Interval) -> list[Seat]:
+        """Return places for resistors and diode, nearest to the controller first: between it and the next board.
+
+        Two lie side by side; they keep away from the ties of both boards and from what lies beside them.
+        """
+        seats = self.seats(inside)
+        controller = seats["controller"]
+        x = controller.x_mm + (controller.size_mm[0] + TIES_APART_MM) / 2.0
+        ties = [y for role in list(self.boards)[:2] for _, y, _ in self.tie_slots(inside)[role]]
+        low, high = inside[0] + TRAY_SIDE_MM, inside[1] - TRAY_SIDE_MM
+        free: list[float] = []
+        length = SMALL_MM[1] + 2.0 * SEAT_PLAY_MM
+        for start in np.arange(low, high - length, 0.5):
+            apart = all(abs(start + length / 2.0 - y) >= (length + TIE_SLOT_MM[1]) / 2.0 for y in ties)
+            if apart and (not free or start >= free[-1] + length):
+                free.append(float(start))
+        free.sort(key=lambda y: abs(y + length / 2.0 - controller.y_mm))
+        beside = [seat for role, seat in seats.items() if role in self.tied]
+        free = [y for y in free if all(_apart(seat, x, y, length) for seat in beside)]
+        bottom = self.upper_tray_mm + TRAY_MM
+        lanes = (-SMALL_MM[0] / 2.0, SMALL_MM[0] / 2.0)
+        return [Seat(x + lane, y + length / 2.0, bottom, SMALL_MM) for y in free for lane in lanes]
+
     def middle_mm(self, tray_mm: Array) -> Array:
         """Return the middle (2,) of trays and boards, given that of the lower tray's underside."""
         return np.asarray(tray_mm + np.array([0.0, self.half_mm[1]]))
+
+
+def _apart(seat: Seat, x_mm: float, start_mm: float, length_mm: float) -> bool:
+    """Tell whether a seat is clear of two bodies side by side that begin at a place across the robot."""
+    along = abs(seat.x_mm - x_mm) >= seat.size_mm[0] / 2.0 + SMALL_MM[0]
+    return along or abs(seat.y_mm - start_mm - length_mm / 2.0) >= (seat.size_mm[1] + length_mm) / 2.0
 
 
 def _from_plate_mm(role: str) -> float:

@@ -244,8 +244,9 @@ def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
     if room < 0:
         raise CannotBuildError(
             f"main leg and front link come {-room:.1f} mm nearer than the {GAP_MM:g} mm that they need between them: "
-            "lower compression_ratio, or raise d_coef or rest_angle_deg"
-        )
+            "lower compression_ratio, or raise d_coef or rest_angle_deg",
+            "legs_apart", room,
+        )  # fmt: skip
 
 
 def _hub_obstacles(hub: Array, drive: Drive, lateral: Lateral, gap_mm: float = CLEAR_MM) -> list[Obstacle]:

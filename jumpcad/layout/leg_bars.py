@@ -52,6 +52,7 @@ def bar_place(what: str, bar: LegBar, first_mm: float, least_mouth_mm: float, la
     if far - mouth < FREE_MM:
         raise CannotBuildError(
             f"bought.leg = {bar.name!r}: {far - mouth:.1f} mm of the {what} are free between the bar's sockets; "
-            f'{FREE_MM:g} mm are needed: bought.leg = "", a larger carrying_link_mm, or a lower bar'
-        )
+            f'{FREE_MM:g} mm are needed: bought.leg = "", a larger carrying_link_mm, or a lower bar',
+            "leg_bar", far - mouth - FREE_MM,
+        )  # fmt: skip
     return BarPlace(bar, first_mm, mouth, far, last_mm)

@@ -69,5 +69,6 @@ def best_place(
     here, turn = centres_mm[best : best + 1], angles[best : best + 1]
     blocker = min(obstacles, key=lambda obstacle: clearance([obstacle], here, half_mm, turn, y_mm)[0])
     raise CannotBuildError(
-        f"no room for the {what}: {-free[best]:.1f} mm too little beside the {blocker.name}: {remedy}"
-    )
+        f"no room for the {what}: {-free[best]:.1f} mm too little beside the {blocker.name}: {remedy}",
+        f"room_{what.replace(' ', '_')}", free[best],
+    )  # fmt: skip

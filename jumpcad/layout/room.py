@@ -107,18 +107,21 @@ class Cloud:
 
     def near(self, centres_mm: Array, half_mm: npt.ArrayLike, within_mm: float = 0.0) -> "Cloud":
         """Return the discs that can be within a distance of boxes of half sizes (2,), however turned, at (k, 2)."""
-        reach = np.hypot(*np.asarray(half_mm, dtype=float)) + within_mm + self.radii_mm[:, None]
-        low, high = centres_mm.min(axis=0), centres_mm.max(axis=0)
-        kept = ((self.points_mm > low - reach) & (self.points_mm < high + reach)).all(axis=1)
+        reach = np.hypot(*np.asarray(half_mm, dtype=float)) + within_mm + self.radii_mm
+        (low_x, low_z), (high_x, high_z) = centres_mm.min(axis=0), centres_mm.max(axis=0)
+        x, z = self.points_mm[:, 0], self.points_mm[:, 1]
+        kept = (x > low_x - reach) & (x < high_x + reach) & (z > low_z - reach) & (z < high_z + reach)
         return Cloud(self.points_mm[kept], self.radii_mm[kept])
 
     def clearance(self, centres_mm: Array, half_mm: npt.ArrayLike, angles_rad: Array) -> Array:
         """Return the smallest distance (k,) from k boxes to any disc; negative inside, infinite where there is none."""
         half_u, half_v = np.asarray(half_mm, dtype=float)
-        offset = self.points_mm[None, :, :] - centres_mm[:, None, :]
-        cos, sin = np.cos(angles_rad)[:, None], np.sin(angles_rad)[:, None]
-        beyond_u = np.abs(cos * offset[..., 0] + sin * offset[..., 1]) - half_u
-        beyond_v = np.abs(cos * offset[..., 1] - sin * offset[..., 0]) - half_v
+        x = self.points_mm[:, 0] - centres_mm[:, 0, None]
+        z = self.points_mm[:, 1] - centres_mm[:, 1, None]
+        if angles_rad.any():
+            cos, sin = np.cos(angles_rad)[:, None], np.sin(angles_rad)[:, None]
+            x, z = cos * x + sin * z, cos * z - sin * x
+        beyond_u, beyond_v = np.abs(x) - half_u, np.abs(z) - half_v
         outside = np.hypot(np.maximum(beyond_u, 0.0), np.maximum(beyond_v, 0.0))
         distance = outside + np.minimum(np.maximum(beyond_u, beyond_v), 0.0) - self.radii_mm
         return np.asarray(distance.min(axis=1, initial=np.inf))

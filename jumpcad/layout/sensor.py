@@ -36,7 +36,7 @@ OPENING_MM = 0.4
 MOUNT_WALL_MM, MOUNT_PLAY_MM = 1.2, 0.2
 """Wall of the mount, and play around the case in it, either side; judgement."""
 EAR_RADIUS_MM, HEAD_RADIUS_MM = 2.6, 1.9
-"""Of the mount's ears, and room for its screws' heads: M2 button heads of 3.5 mm (ISO 7380)."""
+"""Of the mount's ears, and room for its screws' heads: M2 heads of 3.8 mm (ISO 14580)."""
 TERMINALS_MM = 6.0
 """Room beyond the mount for terminals and the bend of their wires; judgement."""
 PLACE_WANTED_MM = np.array([0.0, 14.0])
@@ -187,8 +187,9 @@ def sensor_place(
     if thickness - depth < WEB_MIN_MM:
         raise CannotBuildError(
             f"no room for the sensor's groove: {depth:.1f} mm deep, it leaves {thickness - depth:.1f} of the cam "
-            f"gear's {thickness:g} mm; {WEB_MIN_MM:g} mm are needed: choose a bought.sensor with less travel"
-        )
+            f"gear's {thickness:g} mm; {WEB_MIN_MM:g} mm are needed: choose a bought.sensor with less travel",
+            "sensor_groove", thickness - depth - WEB_MIN_MM,
+        )  # fmt: skip
     y = (lateral.gears[0][1], lateral.left_plate[1] + half[1])
     seat = axle_mm / 2.0 + PAD_WALL_MM
     kept = [disc(f"{name} axle's seat", place, seat, y) for name, place in axles.items()]
@@ -255,8 +256,9 @@ def _track_mm(drive: Drive, needs: SensorNeeds) -> tuple[float, float, float]:
         raise CannotBuildError(
             f"no room for the sensor's track on the cam gear: {width - (outer - inner):.1f} mm too little between its "
             f"dog of {drive.dog.outer_mm:.1f} mm and its teeth, {2.0 * wheel.root_radius_mm:.1f} mm at their roots: "
-            "allow a motor that needs a larger cam gear, or choose bought.sensor with a thinner plunger"
-        )
+            "allow a motor that needs a larger cam gear, or choose bought.sensor with a thinner plunger",
+            "sensor_track", outer - inner - width,
+        )  # fmt: skip
     return inner + width / 2.0, outer - width / 2.0, width
 
 

@@ -32,6 +32,8 @@ TAB_MM = (5.0, 4.0)
 bar's edge nearest to the hub, so that the plates reach down no further than the bar."""
 EAR_MM = 16.0
 """Width of the plates' ears at the pivots' line, from the leg's axle forwards; judgement: the impact bends them."""
+KNOWN_MM = 3.0
+"""The stop's room is known up to this; more does not matter."""
 NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.25
 """Distances of the pad's middle from the hub, along the leg; judgement: a pad near the hub lets the leg turn far."""
 
@@ -54,6 +56,8 @@ class StopPlace:
         Of the bar, in the direction of the impact.
     pad
         The pad that is glued on.
+    room_mm
+        How far the freest place for it is from everything else, at most `KNOWN_MM`.
     """
 
     angle_rad: float
@@ -63,6 +67,7 @@ class StopPlace:
     face_mm: Array
     depth_mm: float
     pad: Pad
+    room_mm: float
 
     @property
     def reach_rad(self) -> float:
@@ -120,24 +125,26 @@ def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> f
     least = math.radians(LEAST_DEG)
     angle = wanted_rad
     while True:
-        missing = _missing(linkage, sections, angle + GIVE_ROOM_RAD)
+        missing, short = _missing(linkage, sections, angle + GIVE_ROOM_RAD)
         if not missing:
             return angle
         if angle <= least:
             raise CannotBuildError(
                 f"no rest stop: {missing} with the leg {math.degrees(angle + GIVE_ROOM_RAD):.1f}° past rest, which a "
-                f"stop at {LEAST_DEG:g}° and its pad's deflection need: lower rest_angle_deg, or raise d_coef or c_coef"
-            )
+                f"stop at {LEAST_DEG:g}° and its pad's deflection need: lower rest_angle_deg, or raise d_coef or "
+                "c_coef",
+                "stop_reach", -short,
+            )  # fmt: skip
         angle = max(angle - math.radians(STEP_DEG), least)
 
 
-def _missing(linkage: Linkage, sections: Sections, reach_rad: float) -> str:
-    """Return what prevents the links from turning that far past rest; empty if nothing does."""
+def _missing(linkage: Linkage, sections: Sections, reach_rad: float) -> tuple[str, float]:
+    """Return what prevents the links from turning that far past rest, and by how much (mm); empty if nothing does."""
     short = float(linkage.diagonal_mm(reach_rad)) - linkage.l3 - linkage.l4
     if short > 0.0:
-        return f"foot and front link are {short:.1f} mm too short to close the loop"
+        return f"foot and front link are {short:.1f} mm too short to close the loop", short
     room = legs_apart_mm(linkage, sections, reach_rad) - GAP_MM
-    return f"the gap of main leg and front link is {-room:.1f} mm less than {GAP_MM:g} mm" if room < 0.0 else ""
+    return f"the gap of main leg and front link is {-room:.1f} mm less than {GAP_MM:g} mm" if room < 0.0 else "", -room
 
 
 def stop_place(
@@ -168,17 +175,27 @@ def stop_place(
     radii = radii[np.argsort(np.abs(radii - WANTED_MM), kind="stable")]
     faces = linkage.back_pivot_mm + radii[:, None] * along + heel * behind
     half = (STOP_PAD_MM / 2.0, (pad.thickness_mm - STOP_SEAT_MM + sections.stop_mm) / 2.0)
-    room = clearance(obstacles, faces + half[1] * behind, half, -below, inside)
+    room = clearance(obstacles, faces + half[1] * behind, half, -below, inside, KNOWN_MM)
     slots = faces + (pad.thickness_mm - STOP_SEAT_MM) * behind + tab_offset_mm(along, behind)
     edge = (TAB_MM[0] / 2.0 + STOP_EDGE_MM, TAB_MM[1] / 2.0 + STOP_EDGE_MM)
-    room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate))
+    room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate, KNOWN_MM))
     if not (room >= 0.0).any():
         raise CannotBuildError(
             f"no room for the rest stop behind the main leg: {-room.max():.1f} mm too little: lower compression_ratio, "
-            "or raise rest_angle_deg"
-        )
+            "or raise rest_angle_deg",
+            "stop_room", room.max(),
+        )  # fmt: skip
     best = int(np.argmax(room >= 0.0))
-    return StopPlace(angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), sections.stop_mm, pad)
+    return StopPlace(
+        angle_rad,
+        below,
+        float(radii[best]),
+        heel,
+        np.round(faces[best], 6),
+        sections.stop_mm,
+        pad,
+        min(float(room.max()), KNOWN_MM),
+    )
 
 
 def stop_obstacles(stop: StopPlace, inside: Interval) -> Iterable[Obstacle]:

@@ -5,15 +5,17 @@ becomes zero. In flight momentum and angular momentum of the links are conserved
 so that the impact is not underestimated. Points in x-z are complex numbers x + iz; angles are below x.
 """
 
+import cmath
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism.linkage import Complex, Linkage
 from jumpcad.mechanism.model import BODY_NAMES, FOOT, Body, ContactSphere, Spring
-from jumpcad.mechanism.planar import about_common_centre, dot, seen_from_foot
+from jumpcad.mechanism.planar import about_common_centre, seen_from_foot
 from jumpcad.transforms import Array
 
 POSITIONS = 241
@@ -72,6 +74,19 @@ class _State:
     pivot: ContactSphere
 
 
+class _Equations(NamedTuple):
+    """Inertia of leg and foot, the torques on them, and the ground's force: by each acceleration, and without them."""
+
+    leg: float
+    mixed: float
+    foot: float
+    leg_nm: float
+    foot_nm: float
+    up_by_leg: float
+    up_by_foot: float
+    up: float
+
+
 class _Chain:
     """The bodies' centres and angles by leg angle, in the foot's frame."""
 
@@ -82,65 +97,61 @@ class _Chain:
         self.leg = np.linspace(linkage.travel_rad[0], stop_rad, POSITIONS)
         self.place, turns = seen_from_foot(bodies, linkage, self.leg)
         self.place1, self.place2 = self._rates(self.place)
-        rates, rates_2 = self._rates(turns.astype(complex))
-        self.turn1, self.turn2 = rates.real, rates_2.real
+        self.turn1, self.turn2 = self._rates(turns)
+        self._table = np.stack([self.place, self.place1, self.place2, self.turn1, self.turn2], axis=1)
+        self._bodies = list(zip(self.mass.tolist(), self.inertia.tolist(), strict=True))
 
-    def _rates(self, values: Complex) -> tuple[Complex, Complex]:
+    def _rates(self, values: Complex | Array) -> tuple[Complex, Complex]:
         first = np.asarray(np.gradient(values, self.leg, axis=0, edge_order=2))
         return first, np.asarray(np.gradient(first, self.leg, axis=0, edge_order=2))
 
-    def at(self, leg_rad: float) -> tuple[Complex, Complex, Complex, Array, Array]:
-        """Return place, its two rates, and the two rates of the turn, (4,) each, at a leg angle."""
+    def at(self, leg_rad: float) -> Complex:
+        """Return place, its two rates, and the two rates of the turn, (5, 4), at a leg angle."""
         steps = (leg_rad - self.leg[0]) / (self.leg[1] - self.leg[0])
         low = min(max(int(steps), 0), POSITIONS - 2)
         share = steps - low
+        return np.asarray((1.0 - share) * self._table[low] + share * self._table[low + 1])
 
-        def here(table: Complex) -> Complex:
-            return np.asarray((1.0 - share) * table[low] + share * table[low + 1])
-
-        turns = here(self.turn1 + 1j * self.turn2)
-        return here(self.place), here(self.place1), here(self.place2), turns.real, turns.imag
-
-    def equations(self, state: _State) -> tuple[Array, Array, tuple[Complex, Complex, Complex]]:
-        """Return inertia (2, 2) and force (2,) for leg and foot, and the terms of the accelerations: by each, rest."""
-        place, place1, place2, turn1, turn2 = self.at(state.leg_rad)
-        spin = np.exp(-1j * state.foot_rad)
-        centre = state.pivot.centre_m
-        arm = (place - complex(centre[0], centre[2])) * spin
-        by_leg, by_foot = place1 * spin, state.pivot.radius_m - 1j * arm
-        leg, foot = state.leg_rad_s, state.foot_rad_s
-        rest = (place2 * leg**2 - 2j * place1 * leg * foot) * spin - arm * foot**2
-        pull = -1j * GRAVITY_M_S2 - rest
-        mass, inertia = self.mass, self.inertia
-        mixed = float((mass * dot(by_leg, by_foot) + inertia * turn1).sum())
-        matrix = np.array(
-            [
-                [float((mass * dot(by_leg, by_leg) + inertia * turn1**2).sum()), mixed],
-                [mixed, float((mass * dot(by_foot, by_foot) + inertia).sum())],
-            ]
-        )
-        swing = inertia * turn2 * leg**2
-        torque = self.spring.torque_nm(state.leg_rad)
-        force = np.array(
-            [
-                torque + float((mass * dot(by_leg, pull) - swing * turn1).sum()),
-                float((mass * dot(by_foot, pull) - swing).sum()),
-            ]
-        )
-        return matrix, force, (by_leg, by_foot, rest)
+    def equations(self, state: _State) -> _Equations:
+        """Return the equations of motion for leg and foot; numbers, which is quicker than arrays for four bodies."""
+        spin = cmath.exp(-1j * state.foot_rad)
+        pivot = complex(state.pivot.centre_m[0], state.pivot.centre_m[2])
+        leg, foot, radius = state.leg_rad_s, state.foot_rad_s, float(state.pivot.radius_m)
+        by_both = [0.0] * 8
+        for (mass, inertia), (place, place1, place2, turn1, turn2) in zip(
+            self._bodies, self.at(state.leg_rad).T.tolist(), strict=True
+        ):
+            arm = (place - pivot) * spin
+            by_leg, by_foot = place1 * spin, radius - 1j * arm
+            rest = (place2 * leg**2 - 2j * place1 * leg * foot) * spin - arm * foot**2
+            pull = -1j * GRAVITY_M_S2 - rest
+            turn, swing = turn1.real, inertia * turn2.real * leg**2
+            terms = (
+                mass * (by_leg.real**2 + by_leg.imag**2) + inertia * turn**2,
+                mass * (by_leg.real * by_foot.real + by_leg.imag * by_foot.imag) + inertia * turn,
+                mass * (by_foot.real**2 + by_foot.imag**2) + inertia,
+                mass * (by_leg.real * pull.real + by_leg.imag * pull.imag) - swing * turn,
+                mass * (by_foot.real * pull.real + by_foot.imag * pull.imag) - swing,
+                mass * by_leg.imag,
+                mass * by_foot.imag,
+                mass * (rest.imag + GRAVITY_M_S2),
+            )
+            by_both = [total + term for total, term in zip(by_both, terms, strict=True)]
+        by_both[3] += float(self.spring.torque_nm(state.leg_rad))
+        return _Equations(*by_both)
 
     def about_common(self, state: _State) -> tuple[float, float]:
         """Return angular momentum and kinetic energy of all bodies about their common centre."""
         place, place1, _, turn1, _ = self.at(state.leg_rad)
         velocity = place1 * state.leg_rad_s - 1j * place * state.foot_rad_s
-        rate = turn1 * state.leg_rad_s + state.foot_rad_s
+        rate = turn1.real * state.leg_rad_s + state.foot_rad_s
         momentum, double, _ = about_common_centre(self.mass, self.inertia, place, velocity, rate)
         return momentum, 0.5 * double
 
     def in_flight(self, leg_rad: float) -> tuple[float, float]:
         """Return the effective inertia of the leg in free flight, and that of all bodies about their common centre."""
         place, place1, _, turn1, _ = self.at(leg_rad)
-        momentum, double, whole = about_common_centre(self.mass, self.inertia, place, place1, turn1)
+        momentum, double, whole = about_common_centre(self.mass, self.inertia, place, place1, turn1.real)
         return double - momentum**2 / whole, whole
 
 
@@ -159,9 +170,9 @@ def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:
         state = _moved(state, rates, STEP_S, half)
         lifted = state.foot_rad if state.pivot is nose else -state.foot_rad
         if not flat and lifted < 0.0:  # the foot comes down flat, its other end without rebound
-            matrix, _, _ = chain.equations(state)
-            leg = state.leg_rad_s + matrix[0, 1] / matrix[0, 0] * state.foot_rad_s
-            state, flat = _State(state.leg_rad, 0.0, float(leg), 0.0, toe), True
+            found = chain.equations(state)
+            leg = state.leg_rad_s + found.mixed / found.leg * state.foot_rad_s
+            state, flat = _State(state.leg_rad, 0.0, leg, 0.0, toe), True
     return state
 
 
@@ -169,23 +180,22 @@ def _on_the_sole(chain: _Chain, state: _State, nose: ContactSphere, toe: Contact
     """Return a standing foot's state with the end on which it stays, and whether the other end stays too."""
     for pivot, sign in ((toe, 1.0), (nose, -1.0)):
         tried = _State(state.leg_rad, 0.0, state.leg_rad_s, 0.0, pivot)
-        matrix, force, _ = chain.equations(tried)
-        if sign * (matrix[0, 1] * force[0] / matrix[0, 0] - force[1]) > 0.0:  # the other end would need tension
+        found = chain.equations(tried)
+        if sign * (found.mixed * found.leg_nm / found.leg - found.foot_nm) > 0.0:  # the other end would need tension
             return tried, False
     return state, True
 
 
 def _accelerations(chain: _Chain, state: _State, flat: bool) -> tuple[tuple[float, float], float]:
     """Return leg's and foot's acceleration, and the ground's normal force."""
-    matrix, force, (by_leg, by_foot, rest) = chain.equations(state)
+    found = chain.equations(state)
     if flat:
-        leg, foot = float(force[0] / matrix[0, 0]), 0.0
+        leg, foot = found.leg_nm / found.leg, 0.0
     else:
-        size = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] ** 2
-        leg = float((matrix[1, 1] * force[0] - matrix[0, 1] * force[1]) / size)
-        foot = float((matrix[0, 0] * force[1] - matrix[0, 1] * force[0]) / size)
-    up = (by_leg * leg + by_foot * foot + rest).imag + GRAVITY_M_S2
-    return (leg, foot), float((chain.mass * up).sum())
+        size = found.leg * found.foot - found.mixed**2
+        leg = (found.foot * found.leg_nm - found.mixed * found.foot_nm) / size
+        foot = (found.leg * found.foot_nm - found.mixed * found.leg_nm) / size
+    return (leg, foot), found.up_by_leg * leg + found.up_by_foot * foot + found.up
 
 
 def _moved(start: _State, rates: tuple[float, float], time_s: float, at: _State) -> _State:

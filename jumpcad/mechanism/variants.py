@@ -1,4 +1,4 @@
-"""The same robot a little different: other springs, or links of other lengths."""
+"""The same robot or design a little different: other springs, or links of other lengths."""
 
 import math
 from collections.abc import Callable
@@ -7,9 +7,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from jumpcad.design import Design
+from jumpcad.design import PARAMETERS, Design, limits_of
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, Body, ContactSphere, Mechanism, five_bar
+from jumpcad.transforms import Array
 
 Robot = TypeVar("Robot", bound=Mechanism)
 
@@ -53,6 +54,18 @@ def with_lengths(mechanism: Robot, design: Design) -> Robot:
         spring=replace(spring, wind_rad=design.compression_rad),
         roller_off=off and replace(off, leg_rad=off.leg_rad + spring.wind_rad - design.compression_rad),
     )
+
+
+def with_length_errors(design: Design, error_mm: Array) -> Design:
+    """Return the design whose links l2…l5 are longer by errors (4,) (mm)."""
+    l2, l3, l4, l5 = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm]) + error_mm
+    return design_within_limits(np.array([l2, l3 / l2, l4 / l2, l5 / l2, *design.to_vector()[4:]]))
+
+
+def design_within_limits(vector: Array) -> Design:
+    """Return the design nearest to a vector (8,)."""
+    limits = np.array([limits_of(name) for name in PARAMETERS])
+    return Design.from_vector(np.clip(vector, limits[:, 0], limits[:, 1]).tolist())
 
 
 def _moved(body: Body, by_mm: Callable[[ContactSphere], float]) -> Body:

@@ -159,8 +159,9 @@ def _clevis(place: Place, diameter_mm: float, catalogue: Catalogue) -> Iterator[
     if length is None:
         raise CannotBuildError(
             f"no clevis pin of {needed:.1f} mm for the {place.name.replace('_', ' ')}; the longest is "
-            f'{pin.lengths_mm[-1]:g} mm: choose bought.retention = "clips"'
-        )
+            f'{pin.lengths_mm[-1]:g} mm: choose bought.retention = "clips"',
+            "clevis_pin", pin.lengths_mm[-1] - needed,
+        )  # fmt: skip
     head, cotter = high + AXLE_END_PLAY_MM, pin.cotter_mm
     begin, end = pin.end_mm - cotter / 2.0 - COTTER_ROOM_MM, pin.end_mm + cotter / 2.0 + COTTER_ROOM_MM
     slabs = [

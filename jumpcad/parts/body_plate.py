@@ -52,7 +52,7 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
 
     Without a name nothing is engraved; letters that the engraving's font lacks are left out.
     """
-    label = engravable(name).strip()
+    label = engravable(name).strip() if name else ""
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm
     outline = _outline(layout)

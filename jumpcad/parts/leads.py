@@ -7,14 +7,14 @@ from collections import defaultdict
 import numpy as np
 
 from jumpcad.dimensions import TRAY_MM
-from jumpcad.electronics.nets import Terminal, Wiring
+from jumpcad.electronics.nets import AT, Terminal, Wiring
 from jumpcad.layout.layout import Layout
 from jumpcad.transforms import Array
 
 SLACK_MM = 30.0
 """Added to a wire's way for bends and two soldered ends; judgement."""
-OWN_LEGS = ("upper resistor", "lower resistor", "diode")
-"""Parts whose own legs, 25 mm or more, are soldered to the board beside them: no wire is cut for them."""
+OWN_LEGS = ("upper resistor", "lower resistor", "pull-up resistor", "diode")
+"""Parts whose own legs, 25 mm or more, reach every terminal of the board beside them: no wire is cut for those."""
 STEP_MM = 10.0
 """Lengths are rounded up to whole steps."""
 BESIDE_MM = 2.0
@@ -40,7 +40,8 @@ def metres_by_colour(layout: Layout, wiring: Wiring) -> dict[str, float]:
 
 def lead_mm(layout: Layout, one: str, other: str) -> float:
     """Return the length to cut between two parts: outside straight, inside along the trays, with slack; 0 for none."""
-    if one in OWN_LEGS or other in OWN_LEGS or {one, other} == {"battery", "plug"}:
+    own = any(part in OWN_LEGS and board == AT[part] for part, board in ((one, other), (other, one)))
+    if own or {one, other} == {"battery", "plug"}:
         return 0.0
     way, length = (way_in(layout, one), way_in(layout, other)), SLACK_MM
     for outside in way:

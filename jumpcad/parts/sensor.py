@@ -31,7 +31,7 @@ THREAD_MIN_MM = 1.6
 EDGE_MM = 2.0
 """Material of the plate around the switch's opening and its screws; judgement."""
 SCREWS_MM = (4.0, 5.0, 6.0)
-"""Lengths of M2 screws (ISO 7380-1)."""
+"""Lengths of M2 screws (ISO 14580)."""
 
 
 def sensor_mount(layout: Layout, holes: HoleSizes) -> Iterator[Drawing]:
@@ -104,8 +104,9 @@ def _require_base(layout: Layout, holes: HoleSizes) -> None:
         raise CannotBuildError(
             f"no room for the sensor's mount: the base of its switch is {base:.2f} mm outside the left plate, which is "
             f"{plate:.1f} mm thick, {least:.2f} mm are needed: choose a thinner body.plate_mm, a stiffer material of "
-            "the plates, or a taller bought.sensor"
-        )
+            "the plates, or a taller bought.sensor",
+            "sensor_mount", base - least,
+        )  # fmt: skip
 
 
 def screw_mm() -> float:

@@ -9,9 +9,9 @@ import numpy as np
 from jumpcad.catalogue import Battery, Bearing, Board, Catalogue, Component, Screw
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.electronics.chosen import chosen_of
-from jumpcad.electronics.nets import LOWER_OHM, wiring_of
+from jumpcad.electronics.nets import wiring_of
 from jumpcad.layout.drive_places import arm_line
-from jumpcad.layout.electronics import TAPE_MM
+from jumpcad.layout.electronics import BALANCE_MM, TAPE_MM
 from jumpcad.layout.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM
 from jumpcad.layout.lateral import Interval
 from jumpcad.layout.layout import Layout
@@ -37,7 +37,11 @@ SWITCH_EAR_MM = 0.5
 """Thickness of the ears of a slide switch, tapped M2; usual."""
 STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm", (10.0, 1.0), 0.8
 TIE, TIE_MM, TIE_G = "cable tie 2.5 x 100 mm, polyamide", (2.5, 1.1), 0.3
+BALANCE_HEIGHT_MM = 6.0
+"""Of a balance lead's plug, which lies under its tie; judgement."""
 TAPE, TAPE_G_CM3 = "double-sided foam tape 1 mm", 0.5
+SMALL = ("resistor", "diode")
+"""What lies between the boards, by the beginnings of its names."""
 HEAT_SHRINK, HEAT_SHRINK_G, RESISTOR_G, WIRE_LENGTH_MM = "heat-shrink tube 2 mm, 0.3 m", 0.4, 0.2, 500.0
 """What holds battery and boards: order text, width and thickness, mass or density; what is soldered; from memory."""
 
@@ -197,6 +201,9 @@ def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> I
         yield _box(role, item.description, *at, z + seat.bottom_mm, length, width, height, item.mass_g)
         if role == "battery":
             yield _box("strap_battery", STRAP, *at, top, STRAP_MM[0], width, STRAP_MM[1], STRAP_G)
+            if electronics.balanced:
+                ahead, above = at[0] + electronics.balance_mm, z + seat.bottom_mm + BALANCE_HEIGHT_MM
+                yield _box("tie_balance_lead", TIE, ahead, at[1], above, TIE_MM[0], BALANCE_MM, TIE_MM[1], TIE_G)
         elif role in electronics.boards:
             yield _box(f"tie_{role}", TIE, *at, top, length, TIE_MM[0], TIE_MM[1], TIE_G)
             mass = TAPE_G_CM3 * length * width * TAPE_MM / 1000.0
@@ -205,8 +212,15 @@ def _electronics(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> I
             yield _box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
     yield from _switch(layout, catalogue)
     placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
-    soldered = list(_soldered(layout, catalogue, chosen, placed))
-    # Wire, and what is soldered into it, is everywhere: flat in the gap above the battery its mass is about right.
+    small = layout.electronics.small_seats(inside)
+    soldered = []
+    for name, article, mass_g in _soldered(layout, catalogue, chosen, placed):
+        if name.startswith(SMALL) and small:
+            seat = small.pop(0)
+            yield _box(f"wiring_{name}", article, x + seat.x_mm, seat.y_mm, z + seat.bottom_mm, *seat.size_mm, mass_g)
+        else:
+            soldered.append((name, article, mass_g))
+    # Wire is everywhere: flat in the gap above the battery its mass is about right.
     size = electronics.battery.length_mm / max(1, len(soldered))
     above = z + electronics.upper_tray_mm - 0.5
     for number, (name, article, mass_g) in enumerate(soldered):
@@ -237,9 +251,9 @@ def _soldered(
             yield "heat_shrink", HEAT_SHRINK, HEAT_SHRINK_G
         elif role not in placed and (role != "diode" or parts.regulator is not None):
             yield role, part.description, part.mass_g
-    if wiring.upper_ohm is not None:
-        for name, ohm in (("upper", wiring.upper_ohm), ("lower", LOWER_OHM)):
-            yield f"resistor_{name}", f"resistor {ohm // 1000} kOhm 0.25 W, 1 %", RESISTOR_G
+    for name, ohm in wiring.resistors.items():
+        which = name.removesuffix(" resistor").replace("-", "_")
+        yield f"resistor_{which}", f"resistor {ohm / 1000:g} kOhm 0.25 W, 1 %", RESISTOR_G
 
 
 def _switch(layout: Layout, catalogue: Catalogue) -> Iterator[BoughtPart]:
@@ -293,4 +307,4 @@ def _screw(
     volume_mass = catalogue.rod_mass_g(screw.diameter_mm, length) + catalogue.rod_mass_g(width, 0.7 * height)
     slabs = [(0.0, length, _round(screw.diameter_mm)), (seat, seat + height, _round(width))]
     at = (centre[0], shank[0], centre[1])
-    return bought(name, f"screw {screw.name} x {length:g} ISO 7380-1", body, volume_mass, slabs, at)
+    return bought(name, f"screw {screw.name} x {length:g} {screw.norm}", body, volume_mass, slabs, at)

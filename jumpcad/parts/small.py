@@ -16,9 +16,9 @@ from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z
 from jumpcad.workshop import Workshop
 
-CAP_HEAD_MM = 3.9
-"""Counterbore for an M2 button head of 3.5 mm (ISO 7380)."""
-CAP_HEAD_DEPTH_MM = 1.4
+CAP_HEAD_MM = 4.0
+"""Counterbore for an M2 head of 3.8 mm (ISO 14580)."""
+CAP_HEAD_DEPTH_MM = 1.6
 
 
 def motor_cap(layout: Layout, holes: HoleSizes) -> Drawing:

@@ -7,6 +7,7 @@ axle. The boss ends beside the gear and holds it in its plane.
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -61,9 +62,8 @@ def gears(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     stages, motor = layout.drive.train.stages, layout.drive.train.motor
     cam_y, motor_y = layout.lateral.gears[0], layout.lateral.gears[-1]
     turns = gear_turns(layout)
-    track = None if layout.sensor is None else _track_mm(layout.sensor)
-    cam_gear = _cam_gear(stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes, _hub_mm(layout), track)
-    cam_gear = _with_track(cam_gear, layout)
+    shape = (stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes, _hub_mm(layout))
+    cam_gear = _cam_gear(*shape, None) if layout.sensor is None else _grooved(*shape, _track(layout, layout.sensor))
     pinion = _motor_pinion(stages[0].pinion, motor.shaft_mm, motor.shaft_flat_mm, holes)
     made = [
         Drawing("cam_gear", "gears", cam_gear, (Placement(BODY, lying_on_right(cam_y[0], *layout.cam_axis_mm)),)),
@@ -130,31 +130,42 @@ def _hub_mm(layout: Layout) -> float:
     return GAP_MM - GEAR_PLAY_MM if layout.idler_mm is None else 0.0
 
 
-def _track_mm(sensor: SensorPlace) -> tuple[float, float]:
-    """Return the smallest and largest radius of the sensor's groove."""
-    return sensor.radius_mm - sensor.half_width_mm, sensor.radius_mm + sensor.half_width_mm
-
-
 def _annulus(inner_mm: float, outer_mm: float) -> Region:
     return ring(2.0 * outer_mm, 2.0 * inner_mm)
 
 
-def _with_track(gear: Stack, layout: Layout) -> Stack:
-    """Return the cam gear with the sensor's groove and, in it, the land, whose ramps rise at 45° a layer a step."""
-    sensor = layout.sensor
-    if sensor is None:
-        return gear
+@dataclass(frozen=True)
+class Track:
+    """The sensor's groove in the cam gear, and the steps (bottom, top, begin, end) of the land in it."""
+
+    radii_mm: tuple[float, float]
+    bottom_mm: float
+    top_mm: float
+    steps: tuple[tuple[float, float, float, float], ...]
+
+
+def _track(layout: Layout, sensor: SensorPlace) -> Track:
+    """Return the sensor's groove and, in it, the land, whose ramps rise at 45° a layer a step."""
     top, lift = layout.lateral.gears[0][1] - layout.lateral.gears[0][0], layout.drive.cam.law.lift_rad
     low, step = top - sensor.depth_mm, sensor.needs.layer_mm
-    groove = _annulus(*_track_mm(sensor))
+    steps = tuple(
+        (low + n * step, low + (n + 1) * step, *sensor.land_rad((n + 0.5) * step, lift))
+        for n in range(round(sensor.depth_mm / step))
+    )
+    return Track((sensor.radius_mm - sensor.half_width_mm, sensor.radius_mm + sensor.half_width_mm), low, top, steps)
 
-    def land(above_mm: float) -> Region:
-        sector = _sectors([sensor.land_rad(above_mm, lift)], 2.0 * (sensor.radius_mm + sensor.half_width_mm))
-        return (groove ^ sector).mirror((1.0, 0.0))
 
-    steps = round(sensor.depth_mm / step)
-    rising = [(low + n * step, low + (n + 1) * step, land((n + 0.5) * step)) for n in range(steps)]
-    return gear.minus([(low, top, groove)]).plus(rising)
+@lru_cache(maxsize=8)
+def _grooved(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes, hub_mm: float, track: Track) -> Stack:
+    """Return the cam gear with the sensor's track: often that of the round of growth before."""
+    groove = _annulus(*track.radii_mm)
+
+    def land(begin_rad: float, end_rad: float) -> Region:
+        return (groove ^ _sectors([(begin_rad, end_rad)], 2.0 * track.radii_mm[1])).mirror((1.0, 0.0))
+
+    rising = [(low, high, land(begin, end)) for low, high, begin, end in track.steps]
+    stack = _cam_gear(gear, dog, axle_mm, holes, hub_mm, track.radii_mm)
+    return stack.minus([(track.bottom_mm, track.top_mm, groove)]).plus(rising)
 
 
 def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:

@@ -1,10 +1,11 @@
 """The electronics' trays between the plates: the battery's below, that of the boards above it (mm).
 
-Both print as they stand on the robot. Boards lie on foam tape between a plate and a rim, each under a cable tie.
+Both print as they stand on the robot. The battery lies between two stops. Boards lie on foam tape between a plate and a
+rim, each under a cable tie.
 """
 
-from jumpcad.dimensions import STRAP_SLOT_MM, TAB_MM, TRAY_MM
-from jumpcad.layout.electronics import RIM_HEIGHT_MM, RIM_MM, SEAT_PLAY_MM
+from jumpcad.dimensions import STRAP_SLOT_MM, TAB_MM, TIE_SLOT_MM, TRAY_MM
+from jumpcad.layout.electronics import BALANCE_MM, RIM_HEIGHT_MM, RIM_MM, SEAT_PLAY_MM, STOP_HEIGHT_MM
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.body_plate import tray_slots
@@ -15,6 +16,10 @@ from jumpcad.solids.stack import Stack
 
 EDGE_MM, LEDGE_MM = 5.0, 2.0
 """Of the battery's window: distance from the tray's ends, and width left under the battery."""
+STOP_FOOT_MM = 1.0
+"""Floor left before a stop of the battery."""
+STOP_MIN_MM = 4.0
+"""Least length of a stop across; judgement."""
 BOARD_LEDGE_MM = 4.0
 """Width left under a board for its tape; judgement."""
 WINDOW_MIN_MM = 4.0
@@ -27,10 +32,21 @@ def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
     """Return the lower and the upper tray."""
     electronics, inside = layout.electronics, layout.lateral.inside
     battery, middle = electronics.battery, sum(inside) / 2.0
-    strap_y, at = battery.width_mm / 2.0 + STRAP_SLOT_MM[0], electronics.seats(inside)["battery"].y_mm - middle
-    straps = [rectangle(STRAP_SLOT_MM[::-1], (0.0, at + side * strap_y)) for side in (-1.0, 1.0)]
-    window = _window(electronics.length_mm - 2.0 * EDGE_MM, battery.width_mm - 2.0 * LEDGE_MM)
-    lower = _floor(layout, holes, 0) - union([*straps, *(region.translate((0.0, at)) for region in window)])
+    strap_y, seat = battery.width_mm / 2.0 + STRAP_SLOT_MM[0], electronics.seats(inside)["battery"]
+    x, at = seat.x_mm, seat.y_mm - middle
+    straps = [rectangle(STRAP_SLOT_MM[::-1], (x, at + side * strap_y)) for side in (-1.0, 1.0)]
+    between = 2.0 * (electronics.stop_mm - RIM_MM / 2.0 - STOP_FOOT_MM)
+    window = _window(min(electronics.length_mm - 2.0 * (EDGE_MM - x), between), battery.width_mm - 2.0 * LEDGE_MM)
+    if electronics.balanced:
+        reach = (BALANCE_MM + TIE_SLOT_MM[0]) / 2.0
+        straps += [
+            rectangle(TIE_SLOT_MM[::-1], (x + electronics.balance_mm, at + side * reach)) for side in (-1.0, 1.0)
+        ]
+    lower = _floor(layout, holes, 0) - union([*straps, *(region.translate((x, at)) for region in window)])
+    stops = [
+        rectangle((RIM_MM, max(RIM_SHARE * battery.width_mm, STOP_MIN_MM)), (x + end * electronics.stop_mm, at))
+        for end in (-1.0, 1.0)
+    ]
     floor = _floor(layout, holes, 1)
     cuts, rims = [], []
     for slots in electronics.tie_slots(inside).values():
@@ -46,9 +62,10 @@ def trays(layout: Layout, holes: HoleSizes) -> list[Drawing]:
         end, inwards = length / 2.0 + SEAT_PLAY_MM + RIM_MM / 2.0, 1.0 if role == "controller" else -1.0
         rims.append(rectangle((RIM_SHARE * width, RIM_MM), (x, y + inwards * end)))
     upper = floor - union(cuts)
+    low = [(0.0, TRAY_MM, lower), (TRAY_MM, TRAY_MM + STOP_HEIGHT_MM, union(stops) ^ lower)]
     slabs = [(0.0, TRAY_MM, upper), (TRAY_MM, TRAY_MM + RIM_HEIGHT_MM, union(rims) ^ upper)]
     return [
-        _drawing(layout, "electronics_tray_lower", [(0.0, TRAY_MM, lower)], 0.0),
+        _drawing(layout, "electronics_tray_lower", low, 0.0),
         _drawing(layout, "electronics_tray_upper", slabs, electronics.upper_tray_mm),
     ]
 

@@ -57,8 +57,9 @@ def require_bed(name: str, bounds_mm: Array, outline: Callable[[], Array], bed_m
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
         raise CannotBuildError(
             f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle: "
-            "choose a larger printer in the workshop or a shorter carrying_link_mm"
-        )
+            "choose a larger printer in the workshop, a shorter carrying_link_mm, or a smaller battery or boards",
+            "bed", found.margin_mm,
+        )  # fmt: skip
     return found
 
 

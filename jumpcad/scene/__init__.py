@@ -1,4 +1,4 @@
-"""The visible robot: meshes in their places, cameras, shading, the renderer, steps of assembly."""
+"""Pictures of a robot: placed meshes with colours, cameras, shading, the renderer, the assembly steps."""
 
 from typing import TYPE_CHECKING
 

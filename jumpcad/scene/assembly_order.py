@@ -1,7 +1,7 @@
-"""The order of assembly as data: in every step which things move where, by which tool they are fastened, and words.
+"""The order of assembly as data: for every step the parts, their direction of assembly, the tool, and the texts.
 
-Names are patterns of things' names; what a robot lacks is left out, and so are words that `need` it. Lengths and
-diameters of tools are those of a usual screwdriver, key or pair of pliers.
+Parts are named by regular expressions. Parts that a robot lacks are left out, and so are the texts that need them.
+Lengths and diameters of tools are those of a usual screwdriver, key or pair of pliers.
 
 The pin in the leg that the springs push comes late: without it they are slack, so that both plates stand before
 anything is loaded, the cam can be turned by hand, and the motor turns it for the first time without springs.
@@ -12,12 +12,12 @@ from typing import Literal
 
 ROBOT, LEG, FOOT, STOP = "robot", "leg", "foot", "rest stop"
 LOWER, UPPER, LEFT = "lower tray", "upper tray", "left plate"
-"""Assemblies: the robot grows on the right plate, the others on the bench."""
+"""Assemblies: the robot is built up on the right plate, the others on the bench."""
 
 
 @dataclass(frozen=True)
 class Tool:
-    """A straight tool: a cylinder that must be free from a fastener's end on, along its axis (mm)."""
+    """A straight tool: the cylinder along the fastener's axis, from its end outwards, that must be free (mm)."""
 
     name: str
     diameter_mm: float
@@ -26,7 +26,8 @@ class Tool:
 
 HEX_M3 = Tool("hex key 2 mm, long end", 3.0, 50.0)
 """ISO 2936: 2.3 mm across corners, long arm 50 mm."""
-HEX_M2 = Tool("hex key 1.3 mm, long end", 2.0, 40.0)
+TORX_M2 = Tool("screwdriver T6", 3.0, 50.0)
+"""Socket 6 of ISO 14580; a blade of 3 mm."""
 HEX_AXLE = Tool("hex key 2.5 mm, long end", 3.5, 50.0)
 NUT_M3 = Tool("nut driver 5.5 mm", 9.0, 40.0)
 PLIERS = Tool("needle-nose pliers", 4.0, 40.0)
@@ -47,18 +48,19 @@ class Move:
         A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`, or
         `sideways` for a clip: from any side that is free.
     way
-        `straight`, checked on the shapes; `bent`, also straight, around things of `past`; `snapped`, by their own size
-        only, sideways onto a groove; `laid` for what is soldered or flexible, which has no path to check.
+        How the path is checked. `straight`: along its whole length, on the shapes; `bent`: likewise, for what is bent
+        around parts of `past`; `snapped`: sideways onto a groove, over the part's own size only; `laid`: not at all,
+        for what is soldered or flexible.
     past
-        Pattern of things that may be in the way, since one of the two gives.
+        Pattern of parts that may be in the way, because one of the two yields.
     tool, reach
-        What fastens them, and the side from which it reaches them: that of their path, or one as in `along`.
+        What fastens them, and the side from which the tool comes: by default `along`, else one of its values.
     trial
-        It is taken off again at the end of the step.
+        Whether it is taken off again at the end of the step.
     brings
         An assembly of an earlier step that is put on as one piece.
     retention
-        The kinds of axles that are put on here; all where empty.
+        The kinds of axle retention with which this move is needed; empty: all.
     """
 
     parts: str
@@ -83,7 +85,7 @@ class Words:
 
 @dataclass(frozen=True)
 class Plan:
-    """A step before it meets a robot: its moves onto an assembly; words on what to do, heed, and check afterwards."""
+    """A step for any robot: its moves onto an assembly, and its texts: instructions, warnings, checks afterwards."""
 
     key: str
     title: str
@@ -169,18 +171,18 @@ ORDER: tuple[Plan, ...] = (
             Move("standoff_\\d+"),
             Move("standoff_\\d+_screw_right", "from the right", tool=HEX_M3),
             Move("switch"),
-            Move("switch_screw_\\d+", "head last", tool=HEX_M2),
+            Move("switch_screw_\\d+", "head last", tool=TORX_M2),
             Move("motor|motor_shaft"),
             Move("motor_cap"),
-            Move("cap_screw_.*", "from the left", tool=HEX_M2),
+            Move("cap_screw_.*", "from the left", tool=TORX_M2),
         ),
         (
             Words("Solder the motor's two wires first ({motor_wire} mm each): its terminals are behind the plate's "
                   "window later. The terminal with the mark is motor +."),
             Words("Screw the standoffs to the right plate, the one with the motor's socket, from outside: "
                   "{torque_plastic} N·m. Then lay it on the bench, outside down: up is the robot's left from now on."),
-            Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside.",
-                  needs="switch"),
+            Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside. Ears "
+                  "without thread: screws 2 mm longer, and an M2 nut behind each ear.", needs="switch"),
             Words("Lead the wires through the window and push the motor into its socket from above, its shaft up, its "
                   "shorter side as the socket's. Put the cap on and turn its two screws into the plastic, in turns, "
                   "until the motor has no play: {torque_m2} N·m."),
@@ -192,11 +194,16 @@ ORDER: tuple[Plan, ...] = (
         (
             Move("electronics_tray_lower"),
             Move("battery", "from above"),
-            Move("strap_battery", way="laid"),
+            Move("strap_battery|tie_balance_lead", way="laid"),
         ),
         (
-            Words("Lay the battery on the lower tray and close its strap: tight enough that it does not slide, not so "
-                  "tight that it dents. Do not plug it in yet."),
+            Words("Lay the battery on the lower tray, between the two stops at its ends, its leads to the front, over "
+                  "the stop. Close its strap: tight enough that it does not slide, not so tight that it dents. Gaps to "
+                  "the stops of more than 1 mm are filled with foam tape on the stop. Do not plug it in yet. Later it "
+                  "leaves the finished robot to the front: strap open, lifted over the stop."),
+            Words("The plug of the balance lead lies ahead of the battery under its cable tie, its open end covered "
+                  "with adhesive tape: its pins must touch nothing. To charge, pull it out from under the tie.",
+                  needs="tie_balance_lead"),
         ),
         (
             Words("A lithium battery that is dented, swollen or shorted can burn: do not use it, and keep tools off "
@@ -212,9 +219,12 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Solder first, with the boards loose: pads may be on a board's underside (BAT+ and BAT- often are) "
-                  "or under its tie. Solder every wire of the table under Wiring to its boards, the shortest first, "
-                  "and slide heat-shrink tube over each joint. The motor's wires go to the driver last; the sensor's "
-                  "ends stay free until step {step_left}."),
+                  "or under its tie. First what is soldered by its own legs: bend the legs as soldering.svg shows "
+                  "(under Wiring), a piece of heat-shrink tube over each leg, and lay the bodies where the "
+                  "picture shows them, on a strip of foam tape."),
+            Words("Then solder every wire of the table under Wiring to its boards, the shortest first, and slide "
+                  "heat-shrink tube over each joint. The motor's wires go to the driver last; the sensor's ends stay "
+                  "free until step {step_left}."),
             Words("Then lay every board on its piece of foam tape, in its place, against the tray's rim where there is "
                   "one, the controller's USB socket to the right, and pull a cable tie over it. Plug and capacitor get "
                   "a tie too: the plug opens forwards. Tie the wires together beside the boards, so that no joint "
@@ -234,30 +244,35 @@ ORDER: tuple[Plan, ...] = (
             Move("body_plate_left"),
             Move("sensor", "from the left"),
             Move("sensor_mount", "from the left"),
-            Move("sensor_screw_\\d+", "head last", tool=HEX_M2),
+            Move("sensor_screw_\\d+", "head last", tool=TORX_M2),
             Move("tie_sensor_leads", way="laid"),
         ),
         (
             Words("The mount is closed all round, so the leads go through it first: lead the free ends of the sensor's "
                   "two leads through the plate's wire hole to the outside, then through the mount's window towards the "
-                  "plate, and only then solder them to COM and NO (table and notes under Wiring).", needs="sensor"),
+                  "plate, and only then solder them to COM and {contact} (table and notes under Wiring).",
+                  needs="sensor"),
             Words("Put the sensor into the plate's opening from outside, its plunger through to the "
                   "inside, push the mount along the leads over it, and turn the two screws into the plastic: "
                   "{torque_m2} N·m. Tie the leads at the hole so that its terminals bear no pull.", needs="sensor"),
         ),
         checks=(Words("Pressed on the inside, the plunger clicks and comes out again. Multimeter between the "
-                      "controller's ground and its pin of the sensor: no contact; pressed, contact. If it is the other "
-                      "way round, a lead is at NC: `wind` would say `ready` at once.", needs="sensor"),),
+                      "controller's ground and its pin of the sensor, battery unplugged: {free}; pressed, {pressed}. "
+                      "The other way round a lead is at the wrong terminal.", needs="sensor"),),
     ),
     Plan(
         "power", "First power-up, on the bench", ROBOT, (),
         (
-            Words("Nothing is on the motor's shaft yet. Lay right plate and trays side by side, switch off; plug the "
-                  "battery in, switch on."),
+            Words("Nothing is on the motor's shaft yet. Lay right plate, left plate and both trays side by side as "
+                  "wired, switch off; plug the battery in, switch on. Connect the computer by USB, open the console "
+                  "(firmware/README.md)."),
             Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
                   "and Enter, and let go at once, within {release_ms} ms: the motor stops {after_ms} ms later and the "
                   "count is 1. Held longer it says `fault`: press the sensor, `wind`, and try again."),
+            Words("Press and hold the sensor, wait 2 s, type `wind`: the motor must not turn, and the answer is "
+                  "`fault` right after a jump, else `ready`. A broken lead reads the same.",
+                  needs="wiring_resistor_pull_up"),
             Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
                   "not, exchange its two wires at the driver."),
         ),
@@ -333,8 +348,9 @@ ORDER: tuple[Plan, ...] = (
             Words("Push the stop's tab into the right plate behind the leg, its pad towards the leg."),
             Words("Grease the jaws, the roller's path and the teeth thinly (silicone or lithium grease). On the cam "
                   "axle go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
-            Words("The gear fits the jaws in one position only: where its pockets do not take both jaws, turn it by "
-                  "half a turn."),
+            Words("The gear's face with the pockets goes towards the cam, the face with the sensor's ring groove to "
+                  "the left, up. It fits the jaws in one position only: where its pockets do not take both jaws, turn "
+                  "it by half a turn."),
             Words("Then the idler, its small wheel down.", needs="idler"),
         ),
         checks=(
@@ -355,8 +371,9 @@ ORDER: tuple[Plan, ...] = (
         ),
         checks=(
             Words("The cam lifts the leg by {stroke}° over {lift}° of its turn; then the leg falls. Nothing rubs."),
-            Words("The sensor clicks {ready_deg}° before the drop, not earlier: otherwise the gear is half a turn "
-                  "wrong.", needs="sensor"),
+            Words("The sensor clicks {ready_deg}° before the drop, and again after it; nowhere else. Otherwise take "
+                  "the plate off: is the gear on both jaws, its groove to the left, the sensor's base against its "
+                  "mount?", needs="sensor"),
         ),
     ),
     Plan(
@@ -372,14 +389,14 @@ ORDER: tuple[Plan, ...] = (
                   "damages the gearhead."),
             Words("Put the left plate on with its screws. The springs are slack: the leg has no pin yet that they "
                   "could push. Hold the robot upright by the plates, its leg hanging, plug the battery in, switch on, "
-                  "type `wind`, then `jump`; ten times."),
+                  "USB cable in, type `wind`, then `jump`; ten times."),
             Words("Switch off, unplug, lay the robot on its right plate and take the left one off again."),
         ),
         (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),
         (
             Words("It winds in about {dry_s} s with about {dry_ma} mA and stops by itself, ready. After `jump` the leg "
-                  "falls within {release_ms} ms. A motor that runs for {wind_max} s and says `fault` had no signal: "
-                  "mend the sensor before the springs are armed."),
+                  "falls within {release_ms} ms. A motor that runs for {wind_max} s and says `fault` had no signal, "
+                  "one that is `ready` at once has a broken lead: mend the sensor before the springs are armed."),
         ),
     ),
     Plan(
@@ -456,6 +473,9 @@ ORDER: tuple[Plan, ...] = (
             Words("Wound springs stay loaded when the battery is empty or unplugged. To slacken them, hold the robot "
                   "by its plates, feet away from you and free, and release: `jump`. Never take it apart while the leg "
                   "is off its stop."),
+            Words("`fault: sensor pressed too early`: a lead of the sensor is broken, the springs may be partly "
+                  "loaded. Nothing in the leg's way, type `wind`, then `jump`, until the leg falls: each turns the cam "
+                  "a little. Then mend the lead.", needs="wiring_resistor_pull_up"),
             Words("Battery low while it winds: the springs are partly loaded and cannot be released. {charge_loaded} "
                   "Then `wind` again, and `jump`."),
         ),

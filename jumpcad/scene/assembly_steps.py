@@ -1,7 +1,7 @@
-"""The steps of assembly of one robot: which things are put on, from where, with which tool, and what to heed.
+"""The assembly steps of one robot: which parts are put on, from which side, with which tool, and the texts.
 
-The order is data (`assembly_order`). Here it meets a robot: its things are found by their names, and words about things
-that it does not have are left out.
+The order is data (`assembly_order`). Here it is applied to a robot: its parts are found by their names, and texts about
+parts that it does not have are left out.
 """
 
 import re
@@ -23,13 +23,13 @@ SIDES = {
     "from the front": np.array([-1.0, 0.0, 0.0]),
     "from behind": np.array([1.0, 0.0, 0.0]),
 }
-"""Directions of travel."""
+"""Directions of travel, unit vectors in the world (x forwards, y to the left, z up)."""
 REST = "Everything else"
 
 
 @dataclass(frozen=True)
 class Placed:
-    """Things that take their place together, each with its pose, by one move."""
+    """The parts of one move."""
 
     move: Move
     things: tuple[Visual, ...]
@@ -68,7 +68,7 @@ def assembly_steps(robot: Robot) -> list[Step]:
         placed = tuple(_placed(plan, robot, left, built))
         if not placed and plan.moves:
             continue
-        texts = (_said(words, names) for words in (plan.text, plan.warnings, plan.checks))
+        texts = (_texts(words, names) for words in (plan.text, plan.warnings, plan.checks))
         steps.append(Step(plan.key, plan.title, plan.onto, placed, *texts))
     if left:
         rest = Placed(Move(".*", way="laid"), tuple(left))
@@ -77,9 +77,15 @@ def assembly_steps(robot: Robot) -> list[Step]:
 
 
 def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Array:
-    """Return the direction (3,) in the world in which a thing moves to its place on the standing robot.
+    """Return the direction (3,) in the world in which a part moves to its place on the standing robot.
 
-    Toes come from outside onto the foot's stubs, their screws with their heads last.
+    `T_world_body` (4, 4) is the pose of the part's body. Toes come from outside onto the foot's stubs, their screws
+    with their heads last.
+
+    Raises
+    ------
+    ValueError
+        If `move.along` is no known direction.
     """
     if move.along in SIDES:
         return SIDES[move.along]
@@ -97,7 +103,7 @@ def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Arra
 
 
 def _head_up(thing: Visual) -> bool:
-    """Tell whether the head of a screw or pin is at the upper end in its own frame."""
+    """Tell whether a screw's or pin's head is at the upper end of its mesh: the end that is wider along x."""
     low, high = thing.mesh.bounds[:, 2]
     ends = thing.mesh.vertices
     width = [np.ptp(ends[np.abs(ends[:, 2] - z) < 1e-3][:, 0]) for z in (low, high)]
@@ -105,7 +111,7 @@ def _head_up(thing: Visual) -> bool:
 
 
 def _placed(plan: Plan, robot: Robot, left: list[Visual], built: dict[str, list[Visual]]) -> Iterator[Placed]:
-    """Yield a plan's moves with the robot's things, which go from those that are left to what is built."""
+    """Yield a step's moves with the robot's parts; they are taken from `left` and added to `built`, by assembly."""
     there = built.setdefault(plan.onto, [])
     for move in plan.moves:
         if move.retention and robot.layout.retention not in move.retention:
@@ -120,12 +126,10 @@ def _placed(plan: Plan, robot: Robot, left: list[Visual], built: dict[str, list[
             yield Placed(move, tuple(things))
 
 
-def _said(words: Iterable[Words], names: list[str]) -> tuple[str, ...]:
-    """Return what is said of a robot with things of some names."""
+def _texts(words: Iterable[Words], names: list[str]) -> tuple[str, ...]:
+    """Return the texts that apply to a robot with parts of these names."""
 
     def has(pattern: str) -> bool:
         return any(re.fullmatch(pattern, name) for name in names)
 
-    return tuple(
-        said.text for said in words if (not said.needs or has(said.needs)) and not (said.lacks and has(said.lacks))
-    )
+    return tuple(one.text for one in words if (not one.needs or has(one.needs)) and not (one.lacks and has(one.lacks)))

@@ -1,4 +1,4 @@
-"""The camera of a picture: its place, its axes, and the projection of points."""
+"""The camera of a picture: its position, its axes, and the perspective projection of points."""
 
 import math
 from dataclasses import dataclass
@@ -10,8 +10,9 @@ from jumpcad.transforms import Array
 FIELD_OF_VIEW_DEG = 14.0
 """Small, so that the projection is nearly parallel."""
 SLOPE = math.tan(math.radians(FIELD_OF_VIEW_DEG / 2.0))
-"""Half the height of what is seen, over its distance."""
+"""Half the visible height over the distance."""
 MARGIN = 1.06
+"""Visible extent over that of the framed points."""
 
 
 @dataclass(frozen=True)
@@ -33,16 +34,18 @@ class View:
 
 @dataclass(frozen=True)
 class Camera:
-    """A camera at a place (3,) in m, with the axes (3, 3) of its view."""
+    """A camera at a point (3,) in the world (m), with the axes (3, 3) of its view."""
 
     eye_m: Array
     axes: Array
 
     def seen(self, points_m: Array, size: tuple[int, int]) -> tuple[Array, Array]:
-        """Return where points (…, 3) lie on a picture of some width and height, and how far away they are.
+        """Project points (…, 3) in the world (m) onto a picture of `size`, width and height in pixels.
 
-        Pixels (…, 2) count from the upper left corner, x to the right and y down; the distance (…, in m) is that along
-        the view.
+        Returns
+        -------
+        pixels, distance_m
+            Pixels (…, 2) from the upper left corner, x to the right and y down; distance (…) along the view.
         """
         right, up, back = np.moveaxis(turned(points_m - self.eye_m, self.axes), -1, 0)
         scale = size[1] / 2.0 / SLOPE / -back
@@ -50,7 +53,7 @@ class Camera:
 
 
 def aimed(frame_m: Array, view: View, aspect: float) -> Camera:
-    """Return the camera that sees points (n, 3) in a picture of an aspect ratio, width over height."""
+    """Return the camera that has points (n, 3) in the world (m) in its picture; `aspect` is width over height."""
     along = turned(frame_m, view.axes)
     low, high = along.min(axis=0), along.max(axis=0)
     half_width, half_height, half_depth = MARGIN * (high - low) / 2.0
@@ -60,6 +63,6 @@ def aimed(frame_m: Array, view: View, aspect: float) -> Camera:
 
 
 def turned(vectors: Array, rotation: Array) -> Array:
-    """Return vectors (…, 3) turned by a matrix (3, 3), the same on every processor."""
+    """Return vectors (…, 3) rotated by a matrix (3, 3), without BLAS: the same on every processor."""
     result: Array = np.einsum("...j,kj->...k", vectors, rotation)
     return result

@@ -1,4 +1,4 @@
-"""How large a robot is where it stands."""
+"""Length, width and height of a standing robot."""
 
 import numpy as np
 
@@ -7,20 +7,37 @@ from jumpcad.parts.part import Shape
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array, chained, in_metres
 
+ROUND_OFF_M = 1e-9
+"""Larger than the error of a placed bounding box."""
+
 
 def extent_m(robot: Robot) -> Array:
     """Return length, width and height (3,) of a robot that stands with its springs at rest, bought parts included (m).
 
-    It is that of every part's outline over its whole height: exact for parts of one outline, else never too small;
-    0.006 mm too large in the templates, where a pad at the nose is the farthest point.
+    Every part counts with its whole outline over its whole height: exact for a part of one outline, an upper bound for
+    others; 0.006 mm too large in the templates, where a pad at the nose is the farthest point.
     """
     poses = body_poses(robot)
     pieces: list[tuple[Shape, str, Array]] = [(item.shape, item.body, item.T_body_part) for item in robot.hardware]
     for part in robot.parts:
         pieces += [(part.drawing.shape, place.body, place.T_body_part) for place in part.placements]
-    corners = [_corners_m(shape, chained(poses[body], in_metres(pose))) for shape, body, pose in pieces]
-    low, high = np.min([one[0] for one in corners], axis=0), np.max([one[1] for one in corners], axis=0)
+    placed = [(shape, chained(poses[body], in_metres(pose))) for shape, body, pose in pieces]
+    boxes = _boxes_m(np.array([shape.bounds_mm for shape, _ in placed]), np.array([pose for _, pose in placed]))
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for index in (*boxes[:, 0].argmin(axis=0), *boxes[:, 1].argmax(axis=0), *range(len(placed))):
+        if (boxes[index, 0] < low).any() or (boxes[index, 1] > high).any():  # few parts reach beyond the others
+            corners = _corners_m(*placed[index])
+            low, high = np.minimum(low, corners[0]), np.maximum(high, corners[1])
     return np.asarray(high - low)
+
+
+def _boxes_m(bounds_mm: Array, T_world_part: Array) -> Array:
+    """Return boxes (n, 2, 3) in the world (m) that contain bounding boxes (n, 2, 3) (mm) in poses (n, 4, 4)."""
+    middle, half = bounds_mm.mean(axis=1) / 1000.0, (bounds_mm[:, 1] - bounds_mm[:, 0]) / 2000.0
+    rotation = T_world_part[:, :3, :3]
+    centre = T_world_part[:, :3, 3] + np.einsum("nij,nj->ni", rotation, middle)
+    reach = np.einsum("nij,nj->ni", np.abs(rotation), half) + ROUND_OFF_M
+    return np.stack([centre - reach, centre + reach], axis=1)
 
 
 def _corners_m(shape: Shape, T_world_part: Array) -> Array:

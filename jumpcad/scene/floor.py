@@ -1,4 +1,4 @@
-"""A floor with stripes of a known width under a drawn robot, and a caption: how large things are, and how slow."""
+"""A floor with stripes of a known width, as a scale, under a picture of a robot, and a caption."""
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
@@ -10,21 +10,21 @@ STRIPE_M = 0.1
 STRIPES = (232, 234, 237), (212, 215, 220)
 INK = (70, 74, 80)
 BESIDE_M = 0.03
-"""How far the floor reaches beyond what stands on it."""
+"""How far the floor extends beyond what stands on it."""
 LETTERS = 20
-"""Height of a picture over that of its letters."""
+"""Height of a picture over its font size."""
 WHITE = 255
 
 
 def with_floor(picture: Image.Image, camera: Camera, frame_m: Array, caption: str) -> Image.Image:
-    """Return a picture with a floor behind what is drawn and a caption above it.
+    """Return a picture with a floor behind the robot and a caption in its upper left corner.
 
     Parameters
     ----------
     picture
-        On a white ground, as seen by the camera.
+        On a white background, as seen by the camera.
     camera
-        What the picture was drawn with.
+        The picture's camera.
     frame_m
         Points (n, 3) that the picture shows; the floor lies below them at z = 0.
     caption

@@ -1,6 +1,6 @@
-"""Labels and arrows over a picture: words in its margins, each with a line to what it names, in letters as polygons.
+"""Labels and arrows over a picture: names in its margins, each with a leader line to its part.
 
-The letters are outlines of one font that the package ships with its plotting library: the same pixels everywhere.
+Letters are drawn as polygons, the outlines of a font that comes with the plotting library: the same pixels everywhere.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from jumpcad.solids.text import text
 from jumpcad.transforms import Array
 
 FINE = 3
-"""Letters and lines are drawn this much larger and scaled down."""
+"""Letters and lines are drawn this many times larger and scaled down."""
 CAPITAL_PX, ROW_PX, EDGE_PX = 9.0, 22.0, 8.0
 INK, LINE, ARROW = (25, 28, 33), (120, 125, 132), (200, 40, 30)
 HEAD_PX = 9.0
@@ -34,14 +34,14 @@ def labelled(
     picture
         Without margins.
     names
-        What stands in the margins.
+        One for each part (n).
     at_px, place_px
-        Where each named thing is, and where it goes (n, 2), in pixels of the picture; an arrow joins them where they
-        differ.
+        Where each part is drawn, and where it goes (n, 2), in pixels of the picture; an arrow joins them where they
+        are apart.
     margin_px
         Width of either margin.
     turns_px
-        Lines (n, 2) along which something turns, drawn as arrows.
+        Curves (k, 2), drawn as arrows: senses of rotation.
     """
     size = (picture.width + 2 * margin_px, picture.height)
     sheet = Image.new("RGB", size, (255, 255, 255))
@@ -69,7 +69,7 @@ def labelled(
 def _rows(
     names: Sequence[str], ends: Array, size: tuple[int, int]
 ) -> list[tuple[str, Array, tuple[float, float], bool]]:
-    """Return each name with its end, the point where its words meet their line, and whether it stands on the left."""
+    """Return for each name the end of its leader line at the part, its end at the text, and if it is on the left."""
     order: list[int] = np.argsort(ends[:, 0], kind="stable").tolist()
     half = len(order) // 2
     rows = []
@@ -83,7 +83,7 @@ def _rows(
 
 
 def _spread(wanted: list[float], height: int) -> list[float]:
-    """Return heights at least a row apart, near those wanted (in ascending order)."""
+    """Return y coordinates (px) at least a row apart, near those wanted (in ascending order)."""
     placed: list[float] = []
     for want in wanted:
         placed.append(max(want, placed[-1] + ROW_PX if placed else ROW_PX))
@@ -103,7 +103,7 @@ def _width(name: str) -> float:
 
 
 def _words(draw: ImageDraw.ImageDraw, name: str, x: float, y: float, left: bool) -> None:
-    """Draw words that end (on the left) or begin (on the right) at a point, centred in height."""
+    """Draw a text that ends (on the left) or begins (on the right) at a point, centred in height."""
     start = x - _width(name) if left else x
     outlines = [
         FINE * np.column_stack([start + contour[:, 0], y + CAPITAL_PX / 2.0 - contour[:, 1]])

@@ -11,7 +11,7 @@ from jumpcad.mechanism.planar import points
 
 WIDTH_PX, HEIGHT_PX = 1000, 330
 PANEL_PX = 230.0
-"""Width of what is drawn in a panel."""
+"""Width of the largest drawing in a panel."""
 BASE_PX = 270.0
 """Height of the ground line, below the picture's upper edge."""
 BODY, LEG, FRONT, FOOT, INK, GHOST = "#4a4f57", "#1f6fb2", "#c8641a", "#2f8f4e", "#22262b", "#9aa1aa"
@@ -45,7 +45,7 @@ def parameter_drawing(design: Design) -> str:
 
 
 def _standing(linkage: Linkage, leg_rad: float) -> Points:
-    """Return the joints seen from the flat foot, as x + iz in mm; the toes' tip is seen from the side."""
+    """Return the joints in the frame of the ankle with the foot flat, as x + iz (mm); the toes' tip from the side."""
     pose = linkage.pose([leg_rad])
     turn = cmath.exp(1j * float(pose.foot_rad[0]))
     ankle, eye = (complex(points(joint)[0]) for joint in (pose.ankle_mm, pose.front_eye_mm))
@@ -65,7 +65,7 @@ def _at_rest(design: Design, joints: Points, scale: float) -> list[str]:
     leg = cmath.phase(joints["ankle"] - joints["back"])
     return [
         _ground(at),
-        *_links(at, 1.0),
+        *_links(at),
         _arc(at["back"], 34.0, leg, body),
         _coil(at["back"]),
         _label(_middle(at["back"], at["ankle"]) + complex(-10, -8), "end", "carrying_link_mm",
@@ -91,7 +91,7 @@ def _with_springs_loaded(design: Design, linkage: Linkage, joints: Points, scale
     return [
         _ground(at),
         _line(at["back"], ghost, GHOST, 2.0, dashed=True),
-        *_links(at, 1.0),
+        *_links(at),
         _arc(at["back"], 60.0, before, leg),
         _label(at["back"] + complex(0, -38), "middle", "compression_ratio",
                f"{design.compression_ratio:.3g} of the way to a flat leg: {degrees:.1f}°", INK),
@@ -116,12 +116,12 @@ def _foot(design: Design, scale: float) -> list[str]:
 
 
 def _placed(joints: Points, scale: float) -> Points:
-    """Return where joints are drawn, x to the right and y down, relative to a panel's lower left corner."""
+    """Return where joints are drawn: x to the right, y down, from the lower left corner of a panel's drawing (px)."""
     left = min(joint.real for joint in joints.values())
     return {name: scale * (joint - left).conjugate() for name, joint in joints.items()}
 
 
-def _links(at: Points, opacity: float) -> list[str]:
+def _links(at: Points) -> list[str]:
     pairs = (("ankle", "toe", FOOT, 3.0), ("ankle", "eye", FOOT, 6.0), ("front", "eye", FRONT, 5.0),
              ("back", "ankle", LEG, 6.0), ("back", "front", BODY, 9.0))  # fmt: skip
     lines = [_line(at[one], at[other], colour, width) for one, other, colour, width in pairs]

@@ -1,7 +1,7 @@
-"""Triangles to pixels: at every pixel the nearest triangle that faces the camera.
+"""Rasterization of triangles: at every pixel the nearest triangle that faces the camera.
 
-Row by row, all triangles at once: every triangle is cut into the spans that it covers of each row, every span into its
-pixels. An edge that two triangles share is cut at the same place in both, so that there are neither gaps nor overlaps.
+All triangles at once: every triangle is cut into the span that it covers of each row, every span into its pixels. An
+edge that two triangles share is cut at the same points in both, so that there are neither gaps nor overlaps.
 """
 
 import numpy as np
@@ -15,15 +15,15 @@ X, Y, NEARNESS, SHADE = range(4)
 """Columns of a corner's data."""
 
 
-def drawn(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Array]:
-    """Return what is seen at every pixel of a picture of some width and height.
+def rasterized(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Array]:
+    """Return the visible triangle at every pixel, with its nearness and shade there.
 
     Parameters
     ----------
     corners
         The corners (n, 3, 4) of triangles, counter-clockwise as seen from outside: x (pixels, to the right), y (pixels,
-        down), nearness (1 over the distance, 1/m), shade. A triangle that reaches behind the camera, where nearness is
-        negative, is left out.
+        down), nearness (1 over the distance, 1/m), shade. A triangle with a corner behind the camera, where nearness
+        is negative, is left out.
     size
         Width and height in pixels.
 
@@ -53,7 +53,7 @@ def drawn(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Array]:
 
 
 def _spans(corners: Array, height: int) -> tuple[Ints, Array, Array]:
-    """Return for every row that a triangle (n, 3, 4) covers its number and the span's left and right end (m, 4)."""
+    """Return the spans of triangles (n, 3, 4) on the rows that they cover: triangle (m,), left and right end (m, 4)."""
     order = np.argsort(corners[:, :, Y], axis=1, kind="stable")
     top, middle, bottom = np.moveaxis(np.take_along_axis(corners, order[:, :, None], axis=1), 1, 0)
     number, row = _centres(top[:, Y], bottom[:, Y], height)

@@ -1,7 +1,7 @@
 """Shaded pictures of meshes with their visible edges.
 
-Everything is drawn twice as large as asked and scaled down. An edge is a visible crease of a mesh, or
-a border between two things.
+Pictures are drawn at twice their size and scaled down. An edge is a visible crease of a mesh, or a border between two
+meshes.
 """
 
 import math
@@ -14,8 +14,8 @@ import numpy.typing as npt
 from PIL import Image
 
 from jumpcad.scene.camera import Camera, View, aimed, turned
-from jumpcad.scene.raster import drawn
-from jumpcad.scene.shading import CREASE_RAD, creased
+from jumpcad.scene.raster import rasterized
+from jumpcad.scene.shading import CREASE_RAD, with_normals
 from jumpcad.scene.visuals import Colour
 from jumpcad.transforms import Array
 
@@ -26,20 +26,23 @@ Mask = npt.NDArray[np.bool_]
 
 SUPERSAMPLING = 2
 EDGE_DEPTH_M = 0.0006
-"""An edge is still drawn this far behind the surface beside it."""
+"""An edge is drawn if it lies at most this far behind the surface beside it."""
 EDGE_COLOUR = np.array([30.0, 32.0, 36.0])
 EDGE_STRENGTH = 0.7
+"""Opacity of an edge."""
 BACKGROUND = 255
 PALE: Colour = (0.90, 0.90, 0.91)
 LIGHT = np.array([-0.5, -1.2, 1.6]) / math.hypot(-0.5, -1.2, 1.6)
+"""Unit vector towards the light, in the world."""
 AMBIENT, DIFFUSE = 0.6, 0.45
-"""Brightness of an unlit face, and what light at a right angle adds."""
+"""Brightness of a face turned away from the light, and what perpendicular light adds."""
 MM = 0.001
+"""In metres."""
 
 
 @dataclass(frozen=True)
-class Thing:
-    """A visible thing: corners (n, 3) in m, their normals (n, 3), faces (m, 3), creases (k, 2, 3) in m, a colour."""
+class ShadedMesh:
+    """A mesh to draw: vertices (n, 3) in m, normals (n, 3), faces (m, 3), ends of creases (k, 2, 3) in m, a colour."""
 
     vertices_m: Array
     normals: Array
@@ -49,10 +52,10 @@ class Thing:
 
 
 class Renderer:
-    """Things, each a mesh (mm) and a colour, to be seen in several poses and views."""
+    """Draws meshes (mm), each of one colour, in any poses and views."""
 
     def __init__(self, things: Sequence[tuple["trimesh.Trimesh", Colour]]) -> None:
-        self._things = [_thing(mesh, colour) for mesh, colour in things]
+        self._things = [_shaded(mesh, colour) for mesh, colour in things]
 
     def picture(
         self,
@@ -67,22 +70,21 @@ class Renderer:
         Parameters
         ----------
         poses
-            The pose (4, 4) of every thing in the world, translations in m, meshes in mm; None leaves it out.
+            The pose (4, 4) of every mesh in the world, translation in m; None leaves it out.
         size
             Width and height in pixels.
         view
             Direction of view.
         frame_m
-            Points (n, 3) that the picture must contain.
+            Points (n, 3) in the world (m) that the picture must contain.
         pale
-            Which things are drawn in pale grey.
+            Which meshes are drawn in pale grey; by default none.
         """
         large = (SUPERSAMPLING * size[0], SUPERSAMPLING * size[1])
         camera = aimed(frame_m, view, size[0] / size[1])
-        hinted = pale or [False] * len(poses)
-        rows = zip(self._things, poses, hinted, strict=True)
-        there = [(thing, pose, PALE if hint else thing.colour) for thing, pose, hint in rows if pose is not None]
-        number, nearness, shade = drawn(
+        rows = zip(self._things, poses, pale or [False] * len(poses), strict=True)
+        there = [(thing, pose, PALE if grey else thing.colour) for thing, pose, grey in rows if pose is not None]
+        number, nearness, shade = rasterized(
             np.concatenate([_corners(thing, pose, camera, large) for thing, pose, _ in there]), large
         )
         owners = np.repeat(np.arange(len(there)), [len(thing.faces) for thing, _, _ in there])
@@ -100,37 +102,37 @@ class Renderer:
 
 
 def creases(mesh: "trimesh.Trimesh") -> Array:
-    """Return the ends (n, 2, 3) of the edges at which a mesh is creased (mm)."""
+    """Return the ends (n, 2, 3) of the edges whose faces meet at more than the crease angle (mm)."""
     sharp = mesh.face_adjacency_angles > CREASE_RAD
     return np.asarray(mesh.vertices[mesh.face_adjacency_edges[sharp]], dtype=float)
 
 
 def borders(owner: npt.NDArray[np.int_]) -> Mask:
-    """Return the pixels at which one thing (or the background) ends and another begins."""
+    """Return the pixels (height, width) whose left or upper neighbour shows another mesh, or the background."""
     mask = np.zeros(owner.shape, dtype=bool)
     mask[:, 1:] |= owner[:, 1:] != owner[:, :-1]
     mask[1:, :] |= owner[1:, :] != owner[:-1, :]
     return mask
 
 
-def _thing(mesh: "trimesh.Trimesh", colour: Colour) -> Thing:
-    vertices, normals, faces = creased(mesh)
-    return Thing(vertices * MM, normals, faces, creases(mesh) * MM, colour)
+def _shaded(mesh: "trimesh.Trimesh", colour: Colour) -> ShadedMesh:
+    vertices, normals, faces = with_normals(mesh)
+    return ShadedMesh(vertices * MM, normals, faces, creases(mesh) * MM, colour)
 
 
 def _placed(points_m: Array, pose: Array) -> Array:
     return turned(points_m, pose[:3, :3]) + pose[:3, 3]
 
 
-def _corners(thing: Thing, pose: Array, camera: Camera, size: tuple[int, int]) -> Array:
-    """Return the corners (n, 3, 4) of a placed thing's triangles as `drawn` takes them."""
+def _corners(thing: ShadedMesh, pose: Array, camera: Camera, size: tuple[int, int]) -> Array:
+    """Return the corners (n, 3, 4) of a placed mesh's triangles for `rasterized`."""
     pixels, distance = camera.seen(_placed(thing.vertices_m, pose), size)
     lit = np.maximum(turned(turned(thing.normals, pose[:3, :3]), LIGHT[None])[:, 0], 0.0)
     return np.column_stack([pixels, 1.0 / distance, AMBIENT + DIFFUSE * lit])[thing.faces]
 
 
 def _least_beside(values: Array) -> Array:
-    """Return for every pixel the least value within one pixel of it."""
+    """Return for every pixel the least value among it and its eight neighbours."""
     for _ in range(2):
         wide = values.copy()
         np.minimum(wide[1:], values[:-1], out=wide[1:])
@@ -140,7 +142,11 @@ def _least_beside(values: Array) -> Array:
 
 
 def _draw(ink: Mask, pixel: Array, distance_m: Array, seen_m: Array) -> None:
-    """Ink the pixels of edges, whose ends lie at pixels (n, 2, 2) and distances (n, 2), where nothing hides them."""
+    """Set the pixels of visible edges in `ink` (height, width).
+
+    Edges have their ends at pixels (n, 2, 2) and distances (n, 2); `seen_m` (height, width) is the distance of what is
+    seen there.
+    """
     height, width = ink.shape
     before = (distance_m > 0.0).all(axis=1)
     pixel, distance_m = pixel[before], distance_m[before]

@@ -14,17 +14,18 @@ if TYPE_CHECKING:
 
 
 CREASE_RAD = 0.5
-"""Faces that meet at a smaller angle look smooth."""
-SCENE = 128
-"""How many meshes stay in the cache: those of a robot, which its scene file and its pictures both show."""
+"""Faces that meet at a smaller angle are shaded smoothly."""
+CACHED_MESHES = 128
+"""More than a robot has; its GLB file and its pictures use the same meshes."""
 
 
-@lru_cache(maxsize=SCENE)
-def creased(mesh: "trimesh.Trimesh") -> tuple[Array, Array, npt.NDArray[np.int64]]:
-    """Return vertices (n, 3), their normals (n, 3) and faces (m, 3): one vertex for every normal that a corner needs.
+@lru_cache(maxsize=CACHED_MESHES)
+def with_normals(mesh: "trimesh.Trimesh") -> tuple[Array, Array, npt.NDArray[np.int64]]:
+    """Return vertices (n, 3), their normals (n, 3) and faces (m, 3); a vertex on a crease is repeated for each normal.
 
-    A corner's normal is the mean of the faces around it that meet its own face at less than the crease angle, weighted
-    by area. trimesh's `smooth_shade` numbers its vertices in the order of a sort whose ties depend on the processor.
+    A corner's normal is the mean, weighted by area, of the faces around its vertex that meet its own face at less than
+    the crease angle. trimesh's `smooth_shade` is not used: it orders vertices by a sort whose ties depend on the
+    processor.
     """
     seen = mesh.face_normals.any(axis=1)  # without faces of no area
     normal, area, ends = mesh.face_normals[seen], mesh.area_faces[seen], mesh.faces[seen].ravel()

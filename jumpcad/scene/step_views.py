@@ -1,33 +1,35 @@
-"""What the picture of a step shows: what is there, what is put on, how far it stands before its place, and labels."""
+"""The pictures of assembly steps: parts in place, parts put on (drawn apart from their places), labels, view."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order import LEFT, LOWER, UPPER
 from jumpcad.scene.assembly_steps import Placed, Step, assembly_steps, travel
 from jumpcad.scene.camera import View
 from jumpcad.scene.visuals import Visual
 from jumpcad.transforms import Array, chained, pose_at
 
 FROM_LEFT = View(yaw_deg=62.0, pitch_deg=28.0)
-"""From the left, from where things are put on the axles."""
+"""From the left, from where parts are put on the axles."""
 FROM_RIGHT = View(yaw_deg=-118.0, pitch_deg=28.0)
 APART_M = 0.006
-"""Least distance between things that stand before their places; judgement."""
+"""Least distance between parts that are drawn apart; judgement."""
 NEAREST_M = 0.03
-"""At least this much is shown around what a step puts on."""
+"""Least half size of the frame around what a step puts on."""
 DIGITS = 8
 """Of lengths in m: the last digits of sums and sines differ between processors."""
 FARTHEST_M = 0.11
-"""From its place, of anything; judgement: otherwise the picture becomes small."""
+"""Largest distance from its place at which a part is drawn; judgement: beyond, the picture becomes too small."""
 
 
 @dataclass(frozen=True)
 class Label:
-    """Words at a point (3,) in the world, and where that point will be when everything is in its place (m)."""
+    """A text for a part whose middle is drawn at `at_m` (3,) and belongs at `place_m` (3,), in the world (m)."""
 
     text: str
     at_m: Array
@@ -36,9 +38,9 @@ class Label:
 
 @dataclass(frozen=True)
 class StepView:
-    """A picture: things with their poses (4, 4) in the world (m), which of them are pale, labels, and its frame.
+    """A picture: parts with their poses (4, 4) in the world (m), which of them are pale, labels, direction of view.
 
-    `turns_m` are curves (n, 3) along which something turns.
+    `frame_m` (n, 3) are points that it must contain; `turns_m` are curves (k, 3) that show a sense of rotation.
     """
 
     name: str
@@ -54,7 +56,10 @@ class StepView:
 
 @dataclass(frozen=True)
 class Inset:
-    """A closer look within a step: the things that are shown, those that are framed, the direction of view."""
+    """A detail of a step: patterns of the parts that are shown and of those that are framed, the direction of view.
+
+    `room` is the size of the frame over that of the framed parts.
+    """
 
     step: str
     name: str
@@ -71,23 +76,35 @@ INSETS = (
     Inset("foot", "pads", "Pads from below", "foot|toe_.*|nose_pad_.*", "nose_pad_.*", View(35.0, -30.0), room=2.6),
     Inset("arm", "springs", "Springs, seen from the left: arms and pins",
           "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_(left|right).*|leg_spring_pin", View(75.0, 12.0)),
+    Inset("cam", "gear", "Cam gear from the right: the face with the pockets, towards the cam", "cam_gear", "cam_gear",
+          View(-60.0, 15.0)),
+    Inset("boards", "small", "Resistors and diode between the boards",
+          "electronics_tray_upper|tape_(controller|driver)|wiring_(res|dio).*", "wiring_(res|dio).*", View(62.0, 50.0),
+          room=2.4),
     Inset("cam", "dog", "Dog: jaws of the cam, pockets of the gear", "cam|cam_gear|cam_axle", "cam|cam_gear",
           View(24.0, 20.0)),
 )  # fmt: skip
 
 
 TURNS = {"power": ("motor_shaft", 0), "trial": ("cam_gear", 1)}
-"""What turns in a step, and its sense about +y; 0: that of the motor, which follows from the pairs of gears."""
+"""What turns in a step, and its sense about +y; 0: the motor's, see `motor_sense`."""
 TURN_M = 0.008
+"""Least radius of an arrow that shows a sense of rotation."""
+NAMELESS = ("motor_shaft", "wiring_wire", "wiring_heat")
+"""Parts without a label, by the beginnings of their names: the motor's shaft, and wires."""
+BENCH = {"power": (LEFT, UPPER, LOWER)}
+"""Assemblies that lie on the bench beside the step's own, connected by wires, by the step's key."""
+BENCH_M = 0.012
+"""Distance between them."""
 
 
 def motor_sense(robot: Robot) -> int:
-    """Return the sense in which the motor turns about +y: against the cam over one pair of gears, with it over two."""
+    """Return the motor's sense of rotation about +y, where the cam's is +1: -1 with one gear stage, +1 with two."""
     return -1 if len(robot.layout.drive.train.stages) == 1 else 1
 
 
 def step_views(robot: Robot) -> dict[str, list[StepView]]:
-    """Return the pictures of every step by its key: the step first, then closer looks."""
+    """Return the pictures of every step by its key: the step first, then its details."""
     poses = body_poses(robot)
     built: dict[str, list[Visual]] = {}
     views: dict[str, list[StepView]] = {}
@@ -101,7 +118,8 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
         if not before and not step.placed:
             continue
         moved = _apart(robot, step, poses, bool(before))
-        views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot))]
+        beside = {name: built.get(name, []) for name in BENCH.get(step.key, ())}
+        views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot), beside)]
         for inset in INSETS:
             if inset.step == step.key and any(re.fullmatch(inset.framed, thing.name) for thing in there):
                 views[step.key].append(_view(inset.name, inset.title, step, before, moved, poses, inset))
@@ -109,7 +127,7 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
 
 
 def label_of(thing: Visual) -> str:
-    """Return what a thing is called in words."""
+    """Return a part's name as it is written on pictures."""
     name = re.sub(r"^wiring_", "", thing.name)
     if name.startswith("spring_left") or name.startswith("spring_right"):
         side = "left" if "left" in name else "right"
@@ -121,11 +139,16 @@ def label_of(thing: Visual) -> str:
 
 def _view(
     name: str, title: str, step: Step, before: list[Visual], moved: dict[str, Array], poses: dict[str, Array],
-    inset: Inset | None, motor: int = 1,
+    inset: Inset | None, motor: int = 1, beside: Mapping[str, list[Visual]] | None = None,
 ) -> StepView:  # fmt: skip
-    """Return the picture of a step, or of an inset within it."""
+    """Return the picture of a step, or of a detail of it.
+
+    `before` are the parts in place, `moved` the offsets (3,) of those drawn apart, `motor` is `motor_sense`,
+    `beside` the assemblies beside it on the bench.
+    """
     added = [thing for placed in step.placed for thing in placed.things]
-    things = [*before, *added]
+    moved, beside = moved | _on_bench(before, beside or {}, poses), beside or {}
+    things = [*before, *added, *(thing for others in beside.values() for thing in others)]
     if inset is not None:
         things = [thing for thing in things if re.fullmatch(inset.shown, thing.name)]
     new = {thing.name for thing in added}
@@ -141,6 +164,9 @@ def _view(
         corners = np.concatenate([corners, *places, [middle - NEAREST_M, middle + NEAREST_M]])
     pale = tuple(thing.name not in new and bool(new) for thing in things)
     labels = _labels(things, at, poses, new if not inset else {things[i].name for i in framed}, step)
+    if any(beside.values()):
+        labels += tuple(_bench_label(name, others, moved, poses) for name, others in beside.items() if others)
+        labels += (_bench_label("right plate", before, moved, poses),)
     view = inset.view if inset else _direction(step)
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
     corners = middle + (inset.room if inset else 1.0) * (corners - middle)
@@ -153,28 +179,55 @@ def _view(
     return StepView(name, title, tuple(things), tuple(at), pale, labels, corners, view, tuple(turns))
 
 
-def _turn(thing: Visual, pose: Array, senses: int) -> Array:
-    """Return three quarters of a circle around a thing's end on the left, in the sense in which it turns."""
+def _on_bench(before: list[Visual], beside: Mapping[str, list[Visual]], poses: dict[str, Array]) -> dict[str, Array]:
+    """Return the offsets (3,) of the assemblies `beside` the parts `before`, by part: one behind, the others below."""
+    moved: dict[str, Array] = {}
+    if not before or not beside:
+        return moved
+    there = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in before])
+    ahead, bottom = float(there[:, 0].max()), float(there[:, 2].min()) - BENCH_M
+    behind = float(there[:, 0].min()) - BENCH_M
+    for index, others in enumerate(filter(None, beside.values())):
+        corners = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in others])
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        if index == 0:
+            by = np.array([behind - high[0], 0.0, 0.0])
+        else:
+            by = np.array([ahead - high[0], 0.0, bottom - high[2]])
+            ahead -= float(high[0] - low[0]) + 2.0 * BENCH_M
+        moved |= {thing.name: np.round(by, DIGITS) for thing in others}
+    return moved
+
+
+def _bench_label(name: str, others: list[Visual], moved: dict[str, Array], poses: dict[str, Array]) -> Label:
+    """Return the label of an assembly on the bench, at its first part: its plate or tray."""
+    first = others[0]
+    middle = np.round(_corners(first, _at_place(first, poses)).mean(axis=0) + moved.get(first.name, 0.0), DIGITS)
+    return Label(name, middle, middle)
+
+
+def _turn(thing: Visual, pose: Array, sense: int) -> Array:
+    """Return three quarters of a circle (40, 3) around a part's left end, in its sense about +y, in the world (m)."""
     low, high = thing.mesh.bounds / 1000.0
     radius = max(TURN_M, 1.15 * float(high[0] - low[0]) / 2.0)
     corners = _corners(thing, pose)
     middle = corners.mean(axis=0)
-    angle = senses * np.linspace(0.0, 1.5 * np.pi, 40)
+    angle = sense * np.linspace(0.0, 1.5 * np.pi, 40)
     y = np.full_like(angle, corners[:, 1].max() + 0.001)
     # about +y from z towards x: counter-clockwise as seen from the left
     return np.column_stack([middle[0] + radius * np.sin(angle), y, middle[2] + radius * np.cos(angle)])
 
 
 def _direction(step: Step) -> View:
-    """Return the side from which most things of a step come."""
+    """Return the view from the right if most moves of a step come from there, else from the left."""
     right = sum(placed.move.along == "from the right" for placed in step.placed)
     return FROM_RIGHT if right > len(step.placed) / 2 else FROM_LEFT
 
 
 def _apart(robot: Robot, step: Step, poses: dict[str, Array], onto: bool) -> dict[str, Array]:
-    """Return by how much (3,) everything of a step is moved back on its path, so that those of one path are apart.
+    """Return the offsets (3,) by which parts of a step are drawn back along their paths, by name (m).
 
-    The first thing stays where it is, unless there is something `onto` which it is put.
+    Parts on one path are apart. Those of the first move stay in place, unless there are parts before them (`onto`).
     """
     moved: dict[str, Array] = {}
     stacked: list[tuple[Array, Array, float]] = []
@@ -219,11 +272,11 @@ def _shifted(pose: Array, by_m: Array | None) -> Array:
 def _labels(
     things: list[Visual], at: list[Array], poses: dict[str, Array], wanted: set[str], step: Step
 ) -> tuple[Label, ...]:
-    """Return one label for all things of one name that stand together, and one for a whole assembly."""
+    """Return one label for all parts of one name, and one for a whole assembly."""
     brought = {thing.name: placed.move.brings for placed in step.placed for thing in placed.things}
     found: dict[str, list[tuple[Array, Array]]] = {}
     for thing, pose in zip(things, at, strict=True):
-        if thing.name in wanted and not thing.name.startswith("motor_shaft"):
+        if thing.name in wanted and not thing.name.startswith(NAMELESS):
             text = brought.get(thing.name, "") or label_of(thing)
             ends = (_corners(thing, one).mean(axis=0) for one in (pose, _at_place(thing, poses)))
             here, there = (np.round(end, DIGITS) for end in ends)
@@ -236,12 +289,10 @@ def _labels(
 
 
 def _corners(thing: Visual, pose: Array) -> Array:
-    """Return the corners (8, 3) of a thing's bounding box in the world (m)."""
-    low, high = thing.mesh.bounds / 1000.0
-    box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    return np.asarray(np.round(np.einsum("ij,nj->ni", pose[:3, :3], box) + pose[:3, 3], DIGITS))
+    """Return the corners (8, 3) of a part's bounding box in the world (m)."""
+    return np.asarray(np.round(np.einsum("ij,nj->ni", pose[:3, :3], thing.corners_m) + pose[:3, 3], DIGITS))
 
 
 def _at_place(thing: Visual, poses: dict[str, Array]) -> Array:
-    """Return the pose (4, 4) in the world of a thing at its place (m)."""
+    """Return the pose (4, 4) in the world of a part in its place on the standing robot (m)."""
     return chained(poses[thing.body], thing.T_body_mesh)

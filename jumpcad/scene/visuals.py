@@ -1,4 +1,4 @@
-"""The visible things of a robot: every copy of every part with its mesh, its place and its colour.
+"""The visible parts of a robot: every copy of every part with its mesh, its pose and its colour.
 
 Every picture and every exported file takes its meshes and colours from here.
 """
@@ -6,6 +6,8 @@ Every picture and every exported file takes its meshes and colours from here.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
@@ -44,7 +46,7 @@ STEEL: Colour = (0.62, 0.64, 0.67)
 
 @dataclass(frozen=True)
 class Visual:
-    """One thing on the robot.
+    """One printed or bought part on the robot.
 
     `name` is unique; `mesh_name` names its mesh, which copies share. `T_body_mesh` (4, 4) is the pose of the mesh (mm)
     in the frame of `body`, its translation in metres. `source` is the printed or bought part.
@@ -61,6 +63,12 @@ class Visual:
     def mesh(self) -> "trimesh.Trimesh":
         """The mesh in its own frame (mm), as detailed as a picture needs."""
         return self.source.drawing.look if isinstance(self.source, Part) else self.source.look
+
+    @property
+    def corners_m(self) -> Array:
+        """The corners (8, 3) of the mesh's bounding box in its own frame (m)."""
+        low, high = self.mesh.bounds / 1000.0
+        return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
 
 
 def visuals(robot: Robot) -> tuple[Visual, ...]:

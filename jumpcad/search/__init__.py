@@ -1,7 +1,7 @@
 """Search for designs: a study file of trials, the methods that propose designs, the robust pick, views of the space.
 
 `optimize` does all of it in one call. The other names are its parts: `run_study` runs a `Request` on a `Pool` into a
-`StudyStore`; an `Evaluator` evaluates designs for a method, or for a view like `sweep`. They load when first used.
+`StudyStore`; an `Evaluator` evaluates designs for a method, or for a view like `sweep`.
 """
 
 from typing import TYPE_CHECKING

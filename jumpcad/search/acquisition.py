@@ -13,17 +13,22 @@ from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
 
 CANDIDATES = 1024
+"""Points spread over the space."""
 LOCAL = 128
+"""Points near each of the best designs."""
 STARTS = 6
+"""Points from which the acquisition is maximised locally."""
 REDRAWN = 0.3
-"""How often a name is drawn anew near a good design."""
+"""Probability with which a name is drawn again near a good design."""
 _STEP = 1e-6
+"""Of the numerical gradient."""
 _STEPS = 40
+"""Most iterations of a local maximisation."""
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """What to evaluate, its point (d,), and the logarithms of its EI and its probability of feasibility."""
+    """A variant to evaluate, its point (d,), and the logarithms of its expected improvement and P(feasible)."""
 
     variant: Variant
     unit: Array
@@ -31,7 +36,7 @@ class Proposal:
     log_feasible: float
 
     def note(self) -> dict[str, float]:
-        """Return the figures that the study file keeps."""
+        """Return both logarithms, for the study file."""
         return {"log_improvement": self.log_improvement, "log_feasible": self.log_feasible}
 
 
@@ -49,11 +54,11 @@ def propose(
     Parameters
     ----------
     space, posterior
-        Where to look, and the surrogates that were fitted there.
+        The space, and the surrogates that were fitted in it.
     best
-        The score to improve upon.
+        The score to be improved.
     elite
-        Points (k, d) near which to look more closely: the best designs so far.
+        Points (k, d) near which more candidates are drawn: the best designs so far.
     admits
         Whether a variant may be proposed: it is new, and the model admits it.
     generator
@@ -90,7 +95,7 @@ def propose(
 
 
 def _apart(points: Array, order: npt.NDArray[np.intp], count: int) -> list[int]:
-    """Return the first `count` of an order whose points are not near each other, so that climbs differ."""
+    """Return the first `count` indices of an order whose points are at least 0.05 apart along some axis."""
     chosen: list[int] = []
     for index in order[:256]:
         if all(np.abs(points[index] - points[other]).max() > 0.05 for other in chosen):
@@ -101,7 +106,7 @@ def _apart(points: Array, order: npt.NDArray[np.intp], count: int) -> list[int]:
 
 
 def _climb(space: Space, function: Callable[[Array], Array], start: Array) -> Array:
-    """Return the local maximum (d,) near a point, choices kept as they are; bounds may become active."""
+    """Return the local maximum (d,) from a starting point within the unit cube; choices keep their values."""
     moving = [index for index, parameter in enumerate(space.free) if not parameter.choices]
     if not moving:
         return start

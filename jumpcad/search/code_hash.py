@@ -1,7 +1,8 @@
-"""A hash of a user's function: equal in every run for the same code and values, another one for any other.
+"""A hash of a user's function: equal in every run for the same code and values, different for all others.
 
-Own code is walked: functions with the names that they look up, classes, and objects as `pickle` would take them apart.
-What an installed library holds counts by its name, what cannot be taken apart (a lock, an open file) by its type.
+The user's code is followed: functions with the names that they use, classes, and objects by their parts as for
+`pickle`. Objects of installed libraries count by their names, objects without parts (a lock, an open file) by their
+types.
 """
 
 import copyreg
@@ -18,13 +19,13 @@ from typing import Any
 from jumpcad.errors import JumpcadError
 
 MOST = 200_000
-"""Values that a function may use; an array counts as one."""
+"""Largest number of values that a function may use; an array counts as one."""
 PLAIN = (type(None), bool, int, float, complex, str, bytes, type(Ellipsis), type(NotImplemented))
 UNSAID = {
     "__annotations__", "__builtins__", "__dict__", "__doc__", "__firstlineno__", "__module__", "__qualname__",
     "__static_attributes__", "__weakref__", "_abc_impl",
 }  # fmt: skip
-"""Of a class: what does not say what it does."""
+"""Attributes of a class that do not change what it does."""
 
 
 def code_hash(function: FunctionType) -> str:
@@ -35,25 +36,25 @@ def code_hash(function: FunctionType) -> str:
     Raises
     ------
     JumpcadError
-        If it uses more than `MOST` values, or one of them cannot be looked at.
+        If it uses more than `MOST` values, or one of them cannot be read.
     """
     try:
         return _Walk([0]).digest(function)
     except JumpcadError:
         raise
-    except Exception as error:  # by a method of a user's class
+    except Exception as error:  # raised by a method of a user's class
         raise JumpcadError(
             f"a value that the own objective uses cannot be looked at ({type(error).__name__}); make it in the function"
         ) from None
 
 
 class _Walk:
-    """Goes through a value and all that it holds, each once; `count` is shared by the walks of one function."""
+    """Visits a value and all its parts, each once; `count` is shared by all walks of one function."""
 
     def __init__(self, count: list[int]) -> None:
         self._count = count
         self._seen: dict[int, int] = {}
-        self._kept: list[Any] = []  # so that no other object gets the number of one that is gone
+        self._kept: list[Any] = []  # so that no later object gets the `id` of one that was deleted
 
     def digest(self, value: Any) -> str:
         found, waiting = hashlib.sha256(), [value]
@@ -80,7 +81,7 @@ class _Walk:
         return found.hexdigest()
 
     def _taken_apart(self, value: Any) -> tuple[str, list[Any]]:
-        """Return what a value is, and what it holds."""
+        """Return a value's kind as text, and its parts."""
         if isinstance(value, set | frozenset):
             return f"set {sorted(_Walk(self._count).digest(one) for one in value)}", []
         if type(value) is list:
@@ -110,7 +111,7 @@ class _Walk:
 
 
 def _used(function: FunctionType) -> list[Any]:
-    """Return names and values that a function looks up: globals, also those of own modules, and its closure's."""
+    """Return names and values that a function uses: globals, also those of the user's modules, and its closure's."""
     names = sorted(set(_names(function.__code__)))
     used = [(name, function.__globals__[name]) for name in names if name in function.__globals__]
     modules = [module for _, module in used if isinstance(module, ModuleType) and not _is_library(module.__name__)]
@@ -119,7 +120,7 @@ def _used(function: FunctionType) -> list[Any]:
 
 
 def _names(code: CodeType) -> Iterator[str]:
-    """Yield the names that a piece of code, and those within it, look up."""
+    """Yield the names that a code object and those within it use."""
     waiting = [code]
     while waiting:
         one = waiting.pop()
@@ -135,7 +136,7 @@ def _content(cell: Any) -> Any:
 
 
 def _reduced(value: Any) -> list[Any]:
-    """Return the parts of which a copy of an object would be made: its class or function, arguments and state."""
+    """Return the parts from which a copy of an object would be made: class or function, arguments and state."""
     try:
         registered = copyreg.dispatch_table.get(type(value))
         parts = registered(value) if registered else value.__reduce_ex__(4)
@@ -147,7 +148,7 @@ def _reduced(value: Any) -> list[Any]:
 
 
 def _library_name(value: Any) -> str:
-    """Return the name under which an installed library holds a function or a class; nothing of others."""
+    """Return the full name of a function or class of an installed library; empty for others."""
     module, name = getattr(value, "__module__", None), getattr(value, "__qualname__", None)
     named = isinstance(module, str) and isinstance(name, str)
     return f"{module}.{name}" if named and _is_library(str(module)) else ""
@@ -155,7 +156,7 @@ def _library_name(value: Any) -> str:
 
 @functools.cache
 def _is_library(module: str) -> bool:
-    """Tell whether a module is Python's, installed, or of this program."""
+    """Tell whether a module is part of Python, of an installed package, or of jumpcad."""
     if module.partition(".")[0] in (*sys.builtin_module_names, "jumpcad"):
         return True
     loaded = sys.modules.get(module)

@@ -11,11 +11,11 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_path
 
 PATIENCE_S = 5.0
-"""How long a reader or writer waits for another one (s)."""
+"""Time for which a reader or writer waits for another one."""
 
 
 def connect(target: str) -> sqlite3.Connection:
-    """Return a connection to a path, or to a `file:` address, that runs no code that the file defines."""
+    """Return a connection to a path or `file:` URI that does not run functions from the file's schema."""
     connection = sqlite3.connect(target, uri=target.startswith("file:"), isolation_level=None, timeout=PATIENCE_S)
     connection.execute("PRAGMA trusted_schema = OFF")
     return connection
@@ -24,8 +24,8 @@ def connect(target: str) -> sqlite3.Connection:
 def open_to_read(path: Path) -> sqlite3.Connection:
     """Return a connection to a file that may be read.
 
-    It is opened for writing if that is allowed: the last one to close then merges the log beside the file into it. What
-    may not be written to is read with the log, or, where there is none, as a file that does not change.
+    It is opened for writing if that is permitted: the last program to close it then merges the log beside the file into
+    it. A file without this permission is read with its log, or, without a log, as a file that does not change.
     """
     log = path.with_name(f"{path.name}-wal")
     ways = ["mode=rw", "mode=ro"]
@@ -47,6 +47,11 @@ def lock(path: Path) -> int:
     """Lock a study file for this process until the returned descriptor is closed, or the process ends.
 
     SQLite's own locks, for readers and a writer, are independent of this one.
+
+    Raises
+    ------
+    JumpcadError
+        If the file cannot be written, is a pipe or a device, or is locked by another process.
     """
     import fcntl
 
@@ -67,7 +72,7 @@ def lock(path: Path) -> int:
 
 
 def is_written(path: Path) -> bool:
-    """Whether a running search has locked a study file."""
+    """Tell whether a running search has locked a study file."""
     import fcntl
 
     try:
@@ -85,12 +90,12 @@ def is_written(path: Path) -> bool:
 
 @contextmanager
 def plain_errors(path: Path | None) -> Iterator[None]:
-    """Raise errors of SQLite as one line about the file."""
+    """Raise `JumpcadError` of one line for an error of SQLite."""
     try:
         yield
     except sqlite3.IntegrityError:
         raise
-    except UnicodeDecodeError:  # in a message of SQLite's about a damaged file
+    except UnicodeDecodeError:  # from SQLite's message about a damaged file
         raise JumpcadError(f"{path}: is damaged, or is not a study file (invalid text)") from None
     except sqlite3.DatabaseError as error:
         name, text = _name(error), without_controls(str(error))[:200]

@@ -6,7 +6,7 @@ from typing import Any
 from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.search.objective import QUARANTINED, Model, Objective
+from jumpcad.search.objective import QUARANTINED, Evaluation, Model, Objective
 from jumpcad.search.pool import Pool
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
@@ -85,6 +85,10 @@ class Evaluator:
         variant = Variant.of(one)
         return variant.key not in self._seen and self.model.admits(variant.design)
 
+    def holds(self, variant: Variant) -> bool:
+        """Whether a trial of a variant is there, in this run or in the study file."""
+        return variant.key in self._finished
+
     def finished(self, phase: str, step: int, count: int) -> list[Trial] | None:
         """Read a whole step of `count` trials from the study file; None if one of them is missing."""
         trials = sorted(
@@ -104,8 +108,11 @@ class Evaluator:
         step: int,
         limit: int | None = None,
         proposals: Sequence[Mapping[str, Any]] | None = None,
+        left_out: Mapping[Key, Evaluation] | None = None,
     ) -> list[Trial | None]:
         """Return the trials of designs, computing those that are not finished; at most `limit` new ones.
+
+        Of variants that are `left_out`, by their keys, the outcome is given: a screen has seen them.
 
         Trials are kept in one transaction; if the run is interrupted or fails meanwhile, the finished ones are kept.
 
@@ -124,8 +131,14 @@ class Evaluator:
             raise JumpcadError(
                 f"{self.store.path}: this search proposes other designs than the study holds; start a new study"
             )
-        missing = [key for key in fresh if key not in self._finished]
-        computed: list[Trial] = []
+        new = [key for key in fresh if key not in self._finished]
+        left_out = left_out or {}
+        missing = [key for key in new if key not in left_out]
+        computed = [
+            Trial(*places[key], variants[fresh[key]].design, left_out[key], None, self.model.digest, 0.0, {},
+                  variants[fresh[key]].workshop)
+            for key in new if key in left_out
+        ]  # fmt: skip
         try:
             for outcome in self._pool.evaluate(self.model, [variants[fresh[key]] for key in missing]):
                 key = missing[outcome.index]
@@ -142,7 +155,7 @@ class Evaluator:
         self._require_a_working_model(computed)
         self._commit(computed)
         for key in fresh:
-            self._add(self._finished[key], computed=key in missing)
+            self._add(self._finished[key], computed=key in new)
         return [self._seen.get(variant.key) for variant in variants]
 
     def _commit(self, trials: list[Trial]) -> None:

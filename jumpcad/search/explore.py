@@ -19,11 +19,14 @@ from jumpcad.workshop import load_workshop, workshop_value
 from jumpcad.workshop.varied import Value
 
 ELITE_SHARE = 0.1
+"""Share of the feasible designs whose components are compared with those of all."""
 ELITE_LEAST = 20
 FOLDS = 5
+"""Of the cross-validation."""
 REPEATS = 10
+"""Permutations of each parameter."""
 LEAST_R_SQUARED = 0.5
-"""Below it the surrogate predicts too badly to say which parameter matters; judgement."""
+"""Least R² at which importances are meaningful; judgement."""
 
 UNIFORM_NOTE = (
     "Components of evenly sampled parameters are equal apart from chance: they say nothing about the robot. "
@@ -33,7 +36,7 @@ UNIFORM_NOTE = (
 
 @dataclass(frozen=True)
 class Sweep:
-    """One parameter varied alone, with one trial for each of its values; of names, ``values`` are their numbers."""
+    """One parameter varied alone, with one trial for each of its values; for names, ``values`` are their indices."""
 
     parameter: str
     values: Array
@@ -56,7 +59,7 @@ class Components:
 
 @dataclass(frozen=True)
 class Importance:
-    """Fall of the R² on held-out designs when a parameter is shuffled: mean and standard deviation.
+    """Decrease of R² on held-out designs when a parameter is permuted: mean and standard deviation.
 
     ``r_squared`` is the R² before; ``designs`` the number of designs that jump.
     """
@@ -85,7 +88,12 @@ class FeasibilityMap:
 def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     """Vary each free parameter alone, over `points` values of its range (or over its choices).
 
-    The others are as in a design, and as in the model's workshop.
+    The others have the values of `around` and of the model's workshop.
+
+    Raises
+    ------
+    JumpcadError
+        If there are fewer than two points.
     """
     if points < 2:
         raise JumpcadError(f"points = {points} must be at least 2")
@@ -99,7 +107,13 @@ def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
 
 @typed
 def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
-    """Evaluate `count` designs spread evenly over the space."""
+    """Evaluate `count` designs spread evenly over the space.
+
+    Raises
+    ------
+    JumpcadError
+        If there are fewer than 20.
+    """
     if count < 20:
         raise JumpcadError(f"samples = {count} must be at least 20")
     points = evaluator.space.spread(count, np.random.default_rng([seed, 5]))
@@ -108,7 +122,13 @@ def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
 
 @typed
 def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
-    """Return the principal components of the free parameters of some trials."""
+    """Return the principal components of the free parameters of some trials.
+
+    Raises
+    ------
+    JumpcadError
+        If there are fewer than three trials.
+    """
     from sklearn.decomposition import PCA
 
     if len(trials) < 3:
@@ -130,7 +150,12 @@ def elite(trials: Sequence[Trial]) -> list[Trial]:
 def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Importance:
     """Return the permutation importance of the free parameters for the score of designs that jump.
 
-    A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is shuffled there.
+    A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is permuted there.
+
+    Raises
+    ------
+    JumpcadError
+        If too few designs jump.
     """
     feasible = [trial for trial in trials if trial.score is not None]
     if len(feasible) < 2 * FOLDS:
@@ -158,7 +183,13 @@ def importance(evaluator: Evaluator, trials: Sequence[Trial], seed: int) -> Impo
 
 @typed
 def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: str, points: int) -> FeasibilityMap:
-    """Evaluate a grid over two free parameters, the others as in a design."""
+    """Evaluate a grid over two free parameters; the others have the values of `around`.
+
+    Raises
+    ------
+    JumpcadError
+        If one of the two is not free, or both are the same.
+    """
     parameters = {parameter.name: parameter for parameter in evaluator.space.free}
     for name in (x_name, y_name):
         if name not in parameters:

@@ -35,7 +35,7 @@ MEANINGS = {
     "longer than its error does not.",
     "feasibility": "What rejects a design over two parameters, the others as in the centre design, which is ringed.",
 }
-"""What a picture means, by its name in `PICTURES`."""
+"""Explanation below each picture, by its name in `PICTURES`."""
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#d9822b", "#8a8f98", "#b3322b"
 INK = "#4a4f57"
@@ -66,9 +66,14 @@ def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4
 
 @typed
 def save_figure(figure: Figure, folder: str | Path, name: str) -> Path:
-    """Write a figure as `folder/name.svg` and `folder/name.png`, marked as jumpcad's; return the first path.
+    """Write a figure as `folder/name.svg` and `folder/name.png`, with a seal; return the first path.
 
-    What a picture of `PICTURES` means is written below it.
+    A picture of `PICTURES` has its explanation below it.
+
+    Raises
+    ------
+    JumpcadError
+        If the folder cannot be written.
     """
     pixels = io.BytesIO()
     if name in MEANINGS:
@@ -93,7 +98,7 @@ def svg_text(figure: Figure) -> str:
 
 
 def heat(figure: Figure, axes: Axes, x: Any, y: Any, values: Any, label: str) -> None:
-    """Draw values (len(y), len(x)) as a colour map with its scale."""
+    """Draw values (len(y), len(x)) as a colour map with a colour bar."""
     image = axes.pcolormesh(x, y, values, shading="nearest", cmap="viridis", rasterized=True)
     axes.grid(False)
     figure.colorbar(image, ax=axes, label=label)

@@ -12,7 +12,7 @@ from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 REFERENCE_ENERGY_J = 1.5
-"""Energy of the reference point of the hypervolume; its score is 0."""
+"""Energy of the hypervolume's reference point, whose score is 0."""
 
 
 @typed
@@ -30,7 +30,7 @@ def energies_j(values: Array) -> Array:
     rest, l3, l4 = np.radians(rest_deg), c * l2, d * l2
     rise, surplus = (l3 - l2) * np.sin(rest), l3 - l2
     assembled = l4 > np.maximum(np.abs(rise), surplus)
-    # numpy's own arcsine has another last digit on other processors.
+    # not numpy's arcsine, whose last digit differs between processors
     beta = np.array([math.asin(sine) for sine in np.where(assembled, rise / l4, 0.0).tolist()])
     stiffness = stiffness_nmm_per_deg * 180.0 / np.pi / 1000.0
     energies: Array = np.where(assembled, 0.5 * stiffness * (ratio * (rest + beta)) ** 2, np.inf)
@@ -39,7 +39,7 @@ def energies_j(values: Array) -> Array:
 
 @typed
 def front(trials: Sequence[Trial]) -> list[Trial]:
-    """Return the trials with a positive score that no other one reaches with less energy, sorted by energy."""
+    """Return the trials whose positive score no other trial reaches with less energy, sorted by energy."""
     scored = [trial for trial in trials if trial.score is not None]
     best, chosen = 0.0, []
     for trial in sorted(scored, key=lambda trial: (energy_j(trial.design), -(trial.score or 0.0))):

@@ -43,7 +43,10 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
     _, elite = incumbent(space, trials)
     fixed = [parameter for parameter in space.parameters if not parameter.free]
     known = [
-        one for one in evaluator.trials if all(fix.number(one.variant.value(fix.name)) == fix.lower for fix in fixed)
+        one
+        for one in evaluator.trials
+        if list(one.workshop) == [parameter.name for parameter in space.of_workshop]  # not on another floor
+        and all(fix.number(one.variant.value(fix.name)) == fix.lower for fix in fixed)
     ]
     thetas: dict[str, Any] = next(
         (

@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib.metadata
+import importlib.util
 import json
 import math
 from collections.abc import Mapping
@@ -19,10 +20,13 @@ from jumpcad.files import Record, did_you_mean, templates_folder
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import COST, QUANTILE, Evaluation, Objective, find_objective
-from jumpcad.search.tolerances import tenth, varied_lengths, varied_parameters
-from jumpcad.search.variant import NOTHING
+from jumpcad.search.refusal import CANNOT_BUILD, refusal_findings, room_findings
+from jumpcad.search.stand_in import figures_of
+from jumpcad.search.tolerances import FRICTIONS, Making, tenth, varied_parameters
+from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
+from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE
 from jumpcad.version import __version__
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 from jumpcad.workshop.varied import Value
@@ -30,7 +34,7 @@ from jumpcad.workshop.varied import Value
 NEIGHBOURS = 10
 """Neighbours of a design that the objective p10 looks at, half of each kind."""
 MODELS = ("printed", "capsule", "published")
-PRESENTATION = ("bundle", "calibration", "cli", "coupon")
+PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio")
 """The packages of jumpcad that do not affect the trials of a study."""
 
 
@@ -50,6 +54,8 @@ class RobotModel:
     neighbours_of
         An objective by name: of a design that jumps, neighbours are evaluated too, and the figure `p10` is that score
         of the worst of them. The design is rejected with the first neighbour that is.
+    screened
+        Whether the evaluation of a printed robot has the figures that a `Screen` learns from.
     """
 
     name: str
@@ -57,6 +63,7 @@ class RobotModel:
     settings: Settings | None = None
     engine: str = "pybullet"
     neighbours_of: str = ""
+    screened: bool = False
 
     def __repr__(self) -> str:
         return f"<RobotModel {self.name}, {self.describe()['engine']}>"
@@ -85,13 +92,14 @@ class RobotModel:
         """
         generators = (np.random.default_rng(kind) for kind in (0, 1))
         kinds = (
-            varied_parameters(design, next(generators)),
-            varied_lengths(design, self.tolerance_mm, next(generators)),
+            [Variant(one) for one in varied_parameters(design, next(generators))],
+            self.making.neighbours(Variant(design), next(generators)),
         )
         objective, scores = find_objective(self.neighbours_of), []
         neighbours = [one for pair in zip(*kinds, strict=True) for one in pair][:NEIGHBOURS]
         for number, neighbour in enumerate(neighbours, start=1):
-            beside = self._alone(neighbour)
+            model = self.varied(neighbour.workshop) if neighbour.workshop else self
+            beside = model._alone(neighbour.design)
             score = objective.score(beside)
             if score is None:
                 reasons = ", ".join(beside.reasons)
@@ -115,7 +123,7 @@ class RobotModel:
         try:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:
-            return Evaluation("cannot_build", detail=str(error))
+            return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
 
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
         """Return the model of the robot that is built in the workshop with other values."""
@@ -123,11 +131,24 @@ class RobotModel:
 
     @property
     def tolerance_mm(self) -> float:
-        """Error of a printed link's length (mm): both its ends have the play of a sliding fit.
+        """Error of a link's length (mm).
 
         A capsule or published robot is made in no workshop; for it this is 0.2 mm (judgement).
         """
-        return 0.2 if self.workshop is None else 2.0 * self.workshop.fits.sliding_mm
+        return 0.2 if self.workshop is None else self.workshop.fits.link_tolerance_mm
+
+    @property
+    def making(self) -> Making:
+        """How far what is made of a design differs from it; of a robot that is made in no workshop, in lengths alone.
+
+        Springs from stock keep their rate here: a design for them has that rate and no other.
+        """
+        if self.workshop is None or self.name != "printed":
+            return Making(self.tolerance_mm)
+        workshop, (with_pad, bare) = self.workshop, FRICTIONS
+        rate = 0.0 if workshop.bought.spring else workshop.safety.spring_rate_scatter / 2.0
+        key = with_pad if workshop.ground.pad else bare
+        return Making(self.tolerance_mm, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, workshop.ground.foot_friction, key)
 
     @property
     def default_objective(self) -> str:
@@ -163,13 +184,19 @@ class RobotModel:
         except JumpcadError:
             return found.metrics["fitness"]
 
+    @property
+    def screen_engine(self) -> str:
+        """The engine of a screen: the planar one where it is compiled, else the model's own."""
+        return "planar" if importlib.util.find_spec("numba") else self.engine
+
     def describe(self) -> dict[str, Any]:
         """Return all that decides an evaluation, as plain data."""
         record: dict[str, Any] = {"name": self.name, "engine": "pybullet" if self.name == "published" else self.engine}
         for key in ("workshop", "settings"):
             value = getattr(self, key)
             record[key] = None if value is None else value.model_dump(mode="json")
-        return record | ({"neighbours_of": self.neighbours_of} if self.neighbours_of else {})
+        record |= {"neighbours_of": self.neighbours_of} if self.neighbours_of else {}
+        return record | ({"screened": self.screen_engine} if self.screened else {})
 
     @cached_property
     def digest(self) -> str:
@@ -186,7 +213,9 @@ class RobotModel:
         from jumpcad.evaluation import evaluate
 
         result = evaluate(design, self.workshop, self.settings, self.engine)
-        return Evaluation(result.verdict, _figures(result.jump) | result.metrics, tuple(result.findings))
+        findings = (*result.findings, *room_findings(result.robot.layout))
+        figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.screened else {})
+        return Evaluation(result.verdict, figures, findings)
 
     def _capsule(self, design: Design) -> Evaluation:
         from jumpcad.mechanism.capsule import capsule_robot

@@ -8,7 +8,7 @@ from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-from jumpcad.findings import Finding, errors
+from jumpcad.findings import Finding, bare, errors
 from jumpcad.search.code_hash import code_hash
 from jumpcad.search.own_objective import SUFFIX, checked, load_function, name_of, require_function
 
@@ -16,6 +16,8 @@ COST = "evaluations"
 """Figure of an evaluation that took several robots: how many."""
 QUANTILE = "p10"
 """Figure, and objective: the score that nine of ten neighbours reach."""
+SCREENED, GUESSED = "screened", "guessed_score"
+"""Verdict of a candidate that a screen left out, and the figure that it had for its score."""
 QUARANTINED = "quarantined"
 """Verdict of a design whose evaluation failed twice: ended its worker, or ran past its limit."""
 
@@ -55,7 +57,7 @@ class Evaluation:
 
         Forty findings with their texts are 12 kB; who wants to read them evaluates the design again.
         """
-        findings = tuple(Finding(one.name, one.severity, one.margin, one.unit, "", "") for one in self.findings)
+        findings = tuple(bare(one.name, one.severity, one.margin, one.unit) for one in self.findings)
         return replace(self, findings=findings)
 
     def __repr__(self) -> str:

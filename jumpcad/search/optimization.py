@@ -45,6 +45,7 @@ def optimize(
     until_percent: float | int = 0.0,
     hours: float | int = 0.0,
     widen: bool = False,
+    screen: bool = False,
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -56,7 +57,7 @@ def optimize(
         `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), `paper` (the published study's stages), or
         `pareto` and `nsga2` for a front.
     evaluations
-        How many designs are evaluated, those of the robust pick included: a quarter of them, at most 160.
+        How many designs are evaluated, those of the robust pick included: a quarter of them, at most 200.
     seed
         Random seed: the same call gives the same result.
     objective
@@ -87,6 +88,9 @@ def optimize(
     widen
         Move bounds on which the best design lies, as far as a design or workshop can be, and go on; `Result.widened`
         has what each bound costs.
+    screen
+        For `ga` on the printed robot: leave out candidates that, by a quick guess, fail or are worse than the best
+        known by more than the guess's own error. They count as evaluations.
 
     Returns
     -------
@@ -104,7 +108,7 @@ def optimize(
     request = Request.make(
         space, robot, method, objective,
         evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
-        until_percent=until_percent, hours=hours, widen=widen,
+        until_percent=until_percent, hours=hours, widen=widen, screen=screen,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, None if study is None else Path(study), pool)

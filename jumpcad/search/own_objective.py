@@ -26,7 +26,7 @@ from jumpcad.files.outputs import require_path
 
 SUFFIX = ".py"
 LARGEST = 1e12
-"""Greatest score by amount; study files hold no greater figure."""
+"""Largest absolute score; study files hold no larger figure."""
 REMEDY = "mend it; what a study file holds is kept, and `--from-study` takes it over into a new study"
 
 
@@ -58,12 +58,12 @@ def load_function(place: str) -> Callable[..., Any]:
 
 
 def require_function(function: Any) -> FunctionType:
-    """Return a function; refuse what has no code of its own, of which a hash could be kept.
+    """Return a function made by `def` or `lambda`, whose code can be hashed.
 
     Raises
     ------
     JumpcadError
-        Saying what to give instead.
+        If it is anything else, a generator or a coroutine.
     """
     if not isinstance(function, FunctionType):
         raise JumpcadError(f"an own objective takes a function made by `def` or `lambda`, not {described(function)}")
@@ -78,12 +78,9 @@ def name_of(function: FunctionType) -> str:
 
 
 def checked(function: FunctionType) -> Callable[[Mapping[str, float]], float]:
-    """Return the function with its errors in one line, and refusing what is no finite number.
+    """Return the function with its errors as one line.
 
-    Raises
-    ------
-    JumpcadError
-        From the returned function: how the own one fails.
+    The returned function raises `JumpcadError` if the user's raises anything or returns no finite number.
     """
 
     def refused(reason: str) -> JumpcadError:
@@ -121,10 +118,10 @@ def _number(value: Any) -> float | None:
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Run own code so that neither output nor search depend on what it does besides.
+    """Run a user's code without its side effects on output and search.
 
-    What it prints goes to standard error; the current folder and the state of random numbers, which the genetic
-    algorithm uses, are as they were.
+    Its prints go to standard error; the working directory and the state of random numbers, which the genetic algorithm
+    uses, are restored.
     """
     here, drawn, drawn_by_numpy = os.getcwd(), random.getstate(), np.random.get_state()  # noqa: NPY002
     try:
@@ -141,6 +138,6 @@ def _told(error: BaseException) -> str:
     """Return an error in one line."""
     try:
         text = f"{type(error).__name__}: {error}".removesuffix(": ")
-    except Exception:  # of a class whose text fails too
+    except Exception:  # from the exception's own __str__
         text = type(error).__name__
     return without_controls(text)[:120]

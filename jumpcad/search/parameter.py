@@ -1,4 +1,4 @@
-"""One parameter of a search: free in a range, free among choices, or fixed; and changes of it that users ask for.
+"""One parameter of a search: free in a range, free among choices, or fixed; and the changes that users request.
 
 A parameter is one of a design's eight, or a value of the workshop by its dotted key.
 """
@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.design import PARAMETERS, Design
+from jumpcad.design import PARAMETERS, limits_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
@@ -22,15 +22,15 @@ from jumpcad.workshop.varied import Value
 
 Kind = Literal["fix", "bound", "choose"]
 FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
-"""Of a change on the command line: what follows `NAME=`, and what separates its numbers."""
+"""Form of a change on the command line after `NAME=`, and the separator of its values."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """What a search may do with one parameter, in the parameter's own unit.
+    """The values of one parameter in a search, in the parameter's own unit.
 
-    ``lower == upper`` means fixed; ``choices``, sorted, lists the only values allowed. Where the values are names,
-    ``names`` lists them, and ``choices`` are their numbers from 0; they have no order.
+    ``lower == upper`` means fixed; ``choices``, sorted, are the only values allowed. If the values are names, ``names``
+    lists them, and ``choices`` are their indices from 0; names have no order.
     """
 
     name: str
@@ -57,11 +57,11 @@ class Parameter:
 
     @property
     def levels(self) -> tuple[float, ...]:
-        """Places of the choices in the unit interval."""
+        """Positions of the choices in the unit interval."""
         return tuple((choice - self.lower) / self.width for choice in self.choices)
 
     def at(self, units: npt.ArrayLike) -> Array:
-        """Return the values (n,) at places (n,) in the unit interval; of choices, the nearest ones."""
+        """Return the values (n,) at positions (n,) in the unit interval; with choices, the nearest ones."""
         values = np.clip(self.lower + np.asarray(units) * self.width, self.lower, self.upper)
         if not self.choices:
             return values
@@ -70,11 +70,11 @@ class Parameter:
         return nearest
 
     def value(self, number: float) -> Value:
-        """Return a value as users know it: of names, the one with this number."""
+        """Return the value of a number: the number itself, or the name with this index."""
         return self.names[round(number)] if self.names else float(number)
 
     def number(self, value: Value) -> float:
-        """Return the number of a value; NaN for a name that is none of its values."""
+        """Return the number of a value: the value itself, or the index of a name; NaN for an unknown name."""
         if not self.names:
             return value if isinstance(value, int | float) else float("nan")
         return float(self.names.index(value)) if value in self.names else float("nan")
@@ -89,7 +89,7 @@ class Parameter:
 
     @classmethod
     def from_record(cls, name: str, record: Mapping[str, Any]) -> "Parameter":
-        """Return the parameter that `describe` described."""
+        """Return the parameter of a record that `describe` returned."""
         values = record.get("choices", [record["fixed"]] if "fixed" in record else [])
         if any(isinstance(value, str) for value in values):
             return cls.of_names(name, list(map(str, values)))
@@ -100,7 +100,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Change:
-    """What a user asks for one parameter: its value, its two bounds, or its choices."""
+    """A user's change of one parameter: its value, its two bounds, or its choices."""
 
     kind: Kind
     name: str
@@ -108,20 +108,23 @@ class Change:
 
 
 def physical_limits(name: str) -> tuple[float, float]:
-    """Return the least and the greatest value that a design can have in a parameter.
+    """Return the least and the largest value of a design's parameter.
 
-    Those of a workshop's value are found when the workshop is made.
+    For a value of the workshop they are infinite: the workshop checks its values itself.
     """
     if name not in PARAMETERS:
         return -math.inf, math.inf
-    limits = Design.model_fields[name].metadata
-    lower = next(limit.ge for limit in limits if hasattr(limit, "ge"))
-    upper = next(limit.le for limit in limits if hasattr(limit, "le"))
-    return float(lower), float(upper)
+    return limits_of(name)
 
 
 def read_change(kind: Kind, text: str) -> Change:
-    """Return the change that a text of the command line stands for."""
+    """Return the change of a text such as `NAME=VALUE` from the command line.
+
+    Raises
+    ------
+    JumpcadError
+        If the text has another form.
+    """
     form, separator = FORMS[kind]
     name, equals, value = text.partition("=")
     if not equals:
@@ -142,7 +145,13 @@ def _number(text: str, whole: str) -> float:
 
 
 def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = None) -> dict[str, Parameter]:
-    """Return the changed parameters by name; those of the workshop are checked in it."""
+    """Return the changed parameters by name; values of the workshop are checked by it.
+
+    Raises
+    ------
+    JumpcadError
+        If a name is unknown or given twice, or a value is impossible.
+    """
     changed: dict[str, Parameter] = {}
     for change in changes:
         name = change.name
@@ -160,9 +169,9 @@ def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = No
 
 
 def _of_workshop(change: Change, workshop: Workshop) -> Parameter:
-    """Return a parameter that is a value of the workshop; every value is tried in it.
+    """Return a parameter that is a value of the workshop, which checks every value.
 
-    What the workshop holds as a whole number is chosen among whole numbers.
+    If the workshop's own value is a whole number, the parameter's choices are whole numbers.
     """
     name, held = change.name, workshop_value(workshop, change.name)
     values = [_tried(workshop, name, value) for value in change.values]
@@ -179,7 +188,7 @@ def _of_workshop(change: Change, workshop: Workshop) -> Parameter:
 
 
 def _tried(workshop: Workshop, name: str, value: Any) -> Value:
-    """Return a value that the workshop can have: a name as it is, else the number that a text stands for."""
+    """Return a value that the workshop accepts: a text as a name, else as a number."""
     if not isinstance(value, int | float | str | np.integer | np.floating):
         raise JumpcadError(f"{name} = {described(value)} is neither a number nor a name")
     tried: list[Value] = [value] if isinstance(value, str) else [float(value)]
@@ -214,7 +223,7 @@ def _parameter(change: Change, values: Sequence[float]) -> Parameter:
 
 
 def several(name: str, values: Any) -> tuple[Any, ...]:
-    """Return the numbers that a caller gives for one parameter."""
+    """Return a caller's values for one parameter; raises `JumpcadError` for a single number."""
     try:
         return tuple(values)
     except TypeError:

@@ -25,7 +25,7 @@ from jumpcad.transforms import Array
 COLOURS = (BLUE, ORANGE, "#4f9d69", "#8d5fa8", "#c2b23e", RED, "#5bb5c4", GREY, "#6b4a2f", "#d47fa6")
 ACQUISITION = "log10 of EI × P(feasible)"
 MOST_DRAWN = 2000
-"""Trials that are drawn as shapes of their own; more of them are one image, or the best of them are drawn."""
+"""Largest number of trials that are drawn as single shapes; more are drawn as one image, or only the best."""
 BEST: dict[str, Any] = {"marker": "*", "ms": 10, "mfc": RED, "mec": "white", "mew": 0.6, "ls": "", "label": "best"}
 CENTRE: dict[str, Any] = {
     "marker": "o", "ms": 9, "mfc": "none", "mec": "black", "mew": 1.2, "ls": "", "label": "centre design",
@@ -77,7 +77,7 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
 
 @typed
 def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
-    """Draw feasible designs as lines over the free parameters, the better the darker; at most the best `MOST_DRAWN`."""
+    """Draw the best feasible designs, at most `MOST_DRAWN`, as lines over the free parameters, better ones darker."""
     figure, (axes,) = panels(1, 1.2 + 1.2 * space.dimension, 3.6)
     feasible = feasible_trials(trials)[:MOST_DRAWN][::-1]
     ranks = np.linspace(0.0, 1.0, len(feasible))
@@ -245,13 +245,13 @@ def _end(parameter: Parameter, number: float) -> str:
 
 
 def _name_ticks(axes: Axes, names: Sequence[str]) -> None:
-    """Mark the numbers of names with the names."""
+    """Label the indices of names with the names."""
     if names:
         axes.set_xticks(range(len(names)), names, rotation=30, ha="right", fontsize=7)
 
 
 def _at(value: float, values: Array, scores: Array) -> float:
-    """Return the score between two neighbours of a sweep; 0, where crosses are, if one of them is rejected."""
+    """Return the score interpolated between two neighbours of a sweep; 0, as crosses, if one of them is rejected."""
     return float(np.nan_to_num(np.interp(value, values, scores)))
 
 

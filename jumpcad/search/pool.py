@@ -1,8 +1,8 @@
-"""Evaluations on many processes or machines, under supervision.
+"""Evaluations on many processes or machines, repeated if a worker is lost.
 
-Any `concurrent.futures.Executor` can do the work: local processes (loky), a Dask cluster, or the calling process
-itself. When a worker is lost, the designs that it was given are repeated one at a time; a design that fails again is
-quarantined, with the reason. Neither ends the run.
+Any `concurrent.futures.Executor` can be used: local processes (loky), a Dask cluster, or the calling process. If a
+worker is lost, the designs of its task are evaluated again, one at a time; a design that fails again is quarantined,
+with the reason. The run continues in both cases.
 """
 
 import importlib
@@ -27,14 +27,14 @@ from jumpcad.search.variant import Variant
 from jumpcad.search.worker import Failure, evaluate_task, start_worker
 
 TASK_S = 0.1
-"""Evaluations are sent in tasks of up to this length (s); sending one takes 0.3 ms."""
+"""Longest duration of a task, which has several evaluations; sending one takes 0.3 ms."""
 
 ANSWER_S = 10.0
-"""Timeout for a Dask scheduler's answer (s)."""
+"""Timeout for a Dask scheduler's answer."""
 
 MOST_WORKERS = 256
 SHORTEST_S, LONGEST_S = 0.1, 86400.0
-"""The shortest timeout per evaluation (s), below which none can end, and the longest."""
+"""Least timeout per evaluation, below which no evaluation could end, and largest."""
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 """Environment of a local worker: as many workers as cores, one thread each."""
@@ -50,16 +50,16 @@ class Outcome:
 
 
 class Pool:
-    """Runs evaluations on an executor, and repeats what it loses.
+    """Runs evaluations on an executor, and repeats those of lost workers.
 
     Parameters
     ----------
     open_executor
-        Makes the executor; called again when its processes were lost.
+        Makes the executor; called again after its processes were lost.
     end_executor
         Ends it without waiting for running evaluations.
     workers
-        How many evaluations it runs at a time.
+        Number of evaluations at a time.
     limit_s
         Timeout per evaluation (s), after which its worker is ended; 0 for none.
     notice
@@ -174,6 +174,11 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of processes on this machine, by default one for each core that this process may use.
 
     With 0 workers, designs are evaluated in the calling process, without a timeout.
+
+    Raises
+    ------
+    JumpcadError
+        If the number of workers or the timeout is out of range.
     """
     if workers is None:
         workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -198,7 +203,13 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
 
 @typed
 def open_pool(workers: int | None = None, dask: str | None = None, limit_s: float = 60.0) -> Pool:
-    """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`."""
+    """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`.
+
+    Raises
+    ------
+    JumpcadError
+        As these, or if both `workers` and `dask` are given.
+    """
     if dask is not None and workers is not None:
         raise JumpcadError("workers and dask exclude each other: a Dask cluster has its own workers")
     return local_pool(workers, limit_s) if dask is None else dask_pool(dask, limit_s)
@@ -214,14 +225,21 @@ def _require_limit(limit_s: float) -> None:
 
 @typed
 def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
-    """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad)."""
+    """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad).
+
+    Raises
+    ------
+    JumpcadError
+        If Dask is not installed, no scheduler answers at the address, it has no workers, or the timeout is out of
+        range.
+    """
     _require_limit(limit_s)
     try:
         distributed: Any = importlib.import_module("distributed")  # its annotations are incomplete
     except ImportError:
         raise JumpcadError("Dask is not installed: pip install 'jumpcad[dask]', or use --workers") from None
     try:
-        # First, since a client with a wrong address complains again when it is collected.
+        # First, because a client with a wrong address prints an error again when it is garbage-collected.
         distributed.comm.resolve_address(address)
         client = distributed.Client(address, timeout=ANSWER_S, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:

@@ -10,12 +10,13 @@ from typing import Any
 
 from jumpcad.design import Design
 from jumpcad.search.evaluator import Evaluator, ignore
-from jumpcad.search.objective import Objective, described_objective
+from jumpcad.search.objective import Evaluation, Objective, described_objective
 from jumpcad.search.robust import MOST_PICK, ROUNDS, ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
+from jumpcad.search.tolerances import Making
 from jumpcad.search.trial import Trial, best_trial, searched
-from jumpcad.search.variant import Variant
+from jumpcad.search.variant import Key, Variant
 
 
 class Replay(Evaluator):
@@ -44,6 +45,7 @@ class Replay(Evaluator):
         step: int,
         limit: int | None = None,
         proposals: Sequence[Mapping[str, Any]] | None = None,
+        left_out: Mapping[Key, Evaluation] | None = None,
     ) -> list[Trial | None]:
         """Return the trials of designs, None for those that the study does not hold."""
         found = [self._finished.get(Variant.of(design).key) for design in designs]
@@ -87,8 +89,8 @@ def known(store: StudyStore) -> Known:
     candidates: list[Candidate] = []
     if share and best is not None:
         identity = store.identity
-        tolerance_mm = float(identity.get("tolerance_mm", 0.0))
-        candidates = rank_candidates(replay, trials, identity["seed"], tolerance_mm, share)
+        making = Making(**identity.get("making") or {"length_mm": identity.get("tolerance_mm", 0.0)})
+        candidates = rank_candidates(replay, trials, identity["seed"], making, share)
     winner = candidates[0].trial if candidates else best
     bounds = [] if winner is None else active_bounds(replay, winner, 0)
     return Known(replay.space, replay.objective, trials, winner, candidates, bounds)

@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Self
 
@@ -18,6 +18,7 @@ from jumpcad.search.models import RobotModel, versions
 from jumpcad.search.objective import QUANTILE, Model, Objective, find_objective
 from jumpcad.search.robust import pick_share
 from jumpcad.search.space import Space
+from jumpcad.search.tolerances import LENGTHS_ALONE, Making
 from jumpcad.search.trial import Trial
 
 MOST_EVALUATIONS = 1_000_000
@@ -50,8 +51,8 @@ class Request:
         Bayesian proposals that are evaluated together; 1 learns the most from each.
     prior
         A study file to learn from.
-    tolerance_mm
-        Error of printed lengths, for the robust pick.
+    making
+        Tolerances of making, for the robust pick.
     own
         An own objective, which has the name `objective`; none if None.
     until_percent
@@ -62,6 +63,8 @@ class Request:
     widen
         Whether bounds on which the best design lies are moved, and the search goes on: `WIDENINGS` times, with
         `WIDENING_SHARE` of the evaluations.
+    screen
+        Whether a quick guess leaves out candidates of the genetic algorithm; see `Screen`. They count as evaluations.
     """
 
     space: Space
@@ -73,11 +76,12 @@ class Request:
     preset: str = "recommended"
     batch: int = 1
     prior: Path | None = None
-    tolerance_mm: float = 0.2
+    making: Making = LENGTHS_ALONE
     own: Objective | None = None
     until_percent: float = 0.0
     hours: float = 0.0
     widen: bool = False
+    screen: bool = False
 
     @classmethod
     def make(
@@ -90,7 +94,7 @@ class Request:
     ) -> Self:
         """Return a request with defaults that follow from method and model.
 
-        The default method is `ga+bo`, the objective the model's (`range` of a front), the tolerance that of the
+        The default method is `ga+bo`, the objective the model's (`range` of a front), the tolerances those of the
         workshop. An own objective is a function, or `FILE.py:FUNCTION`.
         """
         default = "range" if method in FRONTS else model.default_objective
@@ -100,7 +104,9 @@ class Request:
         if aim.neighbours_of:
             model = replace(model, neighbours_of=aim.neighbours_of)
         own = aim if aim.code else None
-        return cls(space, model, aim.name, method or DEFAULT, tolerance_mm=model.tolerance_mm, own=own, **others)
+        if others.get("screen") and model.name == "printed":
+            model = replace(model, screened=True)
+        return cls(space, model, aim.name, method or DEFAULT, making=model.making, own=own, **others)
 
     def __post_init__(self) -> None:
         require_fields(self)
@@ -113,7 +119,6 @@ class Request:
             ("evaluations", self.evaluations, 1, MOST_EVALUATIONS),
             ("seed", self.seed, 0, 2**32 - 1),
             ("batch", self.batch, 1, MOST_EVALUATIONS),
-            ("tolerance_mm", self.tolerance_mm, 0, 100),
             ("until_percent", self.until_percent, 0, 100),
             ("hours", self.hours, 0, 1e6),
         ):
@@ -121,6 +126,8 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
+        if self.screen:
+            self._require_screen()
         if self.widen and self.is_front:
             raise JumpcadError(f"widen: does not apply to {self.method}, which has no best design")
         if self.is_front and any(one.name == "bought.spring" for one in self.space.of_workshop):
@@ -128,6 +135,15 @@ class Request:
         if self.batch > 1 and not any(METHODS[name].learns for name in SEQUENCES.get(self.method, (self.method,))):
             learning = ", ".join(name for name, method in METHODS.items() if method.learns)
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
+
+    def _require_screen(self) -> None:
+        if self.method != "ga":
+            raise JumpcadError(f"screen: does not apply to {self.method}, only to ga; leave it out")
+        robot = self.model.describe()
+        if robot["name"] != "printed" or self.aim.neighbours_of:
+            raise JumpcadError("screen: applies to the printed robot and one robot a candidate; leave it out")
+        if self.space.of_workshop or (robot["workshop"] and robot["workshop"]["bought"]["spring"]):
+            raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
 
     def __repr__(self) -> str:
         return f"<Request {self.title}: {self.evaluations} evaluations, {self.space.dimension} parameters free>"
@@ -172,7 +188,8 @@ class Request:
             "preset": self.preset,
             "batch": self.batch,
             **({"widen": True} if self.widen else {}),
-            "tolerance_mm": self.tolerance_mm,
+            **({"screen": True} if self.screen else {}),
+            "making": asdict(self.making),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
         }

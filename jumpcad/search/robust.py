@@ -19,7 +19,7 @@ from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.margin import propose_robust
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.space import Space
-from jumpcad.search.tolerances import PERCENT, SAMPLES, tenth, varied_lengths, varied_parameters
+from jumpcad.search.tolerances import PERCENT, SAMPLES, Making, tenth, varied_parameters
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 
@@ -41,8 +41,8 @@ class Candidate:
     """A design among the best, and how well its neighbours jump.
 
     ``parameters_score`` and ``print_score`` are the 10th percentiles of the score when every parameter varies by ±1 %,
-    and when every length varies by the tolerance of print and assembly: the lowest of ten neighbours or fewer, and a
-    rejected one counts 0, or less than any other where scores are negative.
+    and within the tolerances of making: printed lengths, springs' rate, mass and the floor's friction. Each is the
+    lowest of ten neighbours or fewer, and a rejected one counts 0, or less than any other where scores are negative.
     ``rejections`` counts why neighbours were rejected, of ``neighbours`` that were evaluated, half of each kind.
     """
 
@@ -117,7 +117,7 @@ def plan_rounds(evaluations: int) -> list[tuple[int, int]]:
 
 
 def rank_candidates(
-    evaluator: Evaluator, trials: Sequence[Trial], seed: int, tolerance_mm: float, evaluations: int
+    evaluator: Evaluator, trials: Sequence[Trial], seed: int, making: Making, evaluations: int
 ) -> list[Candidate]:
     """Evaluate neighbours of the best of some trials, and return these, most robust first.
 
@@ -131,8 +131,8 @@ def rank_candidates(
         The candidates are the best of the trials.
     seed
         Random seed of the neighbours.
-    tolerance_mm
-        Error of printed lengths.
+    making
+        Tolerances of making.
     evaluations
         At most so many designs are evaluated.
     """
@@ -144,11 +144,11 @@ def rank_candidates(
     for turn, (count, new) in enumerate(rounds):
         field.sort(key=lambda one: -one.robust_score)
         left, field = [*field[count:], *left], field[:count]
-        _examine(evaluator, field, new, first + turn, seed, tolerance_mm)
+        _examine(evaluator, field, new, first + turn, seed, making)
         if turn == 0 and reserve and field and field[0].rejections:
             off_edge = propose_robust(evaluator, trials, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
             joining = [_Examined(MOST_CANDIDATES + n, one) for n, one in enumerate(off_edge) if one.score is not None]
-            _examine(evaluator, joining, 2, first + ROUNDS - 1, seed, tolerance_mm)
+            _examine(evaluator, joining, 2, first + ROUNDS - 1, seed, making)
             field += joining
     # Who got further has been examined more, and stands before those that were left behind.
     return [one.candidate() for one in [*sorted(field, key=lambda one: -one.robust_score), *left] if one.examined]
@@ -173,16 +173,16 @@ class _Examined:
         """The lower percentile; the own score as long as no neighbour is known."""
         return min(map(self._tenth, self.scores))
 
-    def neighbours(self, new: int, seed: int, tolerance_mm: float) -> list[tuple[str, Variant]]:
+    def neighbours(self, new: int, seed: int, making: Making) -> list[tuple[str, Variant]]:
         """Return the next neighbours, half of each kind."""
         generator = np.random.default_rng([seed, 4, self.index])
+        workshop = self.trial.workshop
         kinds = {
-            "parameters": varied_parameters(self.trial.design, generator),
-            "print": varied_lengths(self.trial.design, tolerance_mm, generator),
+            "parameters": [Variant(design, workshop) for design in varied_parameters(self.trial.design, generator)],
+            "print": making.neighbours(self.trial.variant, generator),
         }
         start, end = self.examined // 2, (self.examined + new) // 2
-        chosen = [(kind, design) for kind, designs in kinds.items() for design in designs[start:end]]
-        return [(kind, Variant(design, self.trial.workshop)) for kind, design in chosen]
+        return [(kind, variant) for kind, variants in kinds.items() for variant in variants[start:end]]
 
     def candidate(self) -> Candidate:
         """Return the result."""
@@ -194,14 +194,12 @@ class _Examined:
         return tenth(scores) if scores else self.trial.score or 0.0
 
 
-def _examine(
-    evaluator: Evaluator, field: Sequence[_Examined], new: int, step: int, seed: int, tolerance_mm: float
-) -> None:
+def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, step: int, seed: int, making: Making) -> None:
     """Evaluate `new` more neighbours of each.
 
     A rejected one scores 0, or where scores are negative as far below the worst as the best is above it.
     """
-    asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, tolerance_mm)]
+    asked = [(one, *neighbour) for one in field for neighbour in one.neighbours(new, seed, making)]
     found = evaluator.evaluate([variant for _, _, variant in asked], "robust", step)
     scores = [trial.score for trial in evaluator.trials if trial.score is not None]
     rejected = 2.0 * min(scores) - max(scores) if max(scores) < 0.0 else 0.0

@@ -1,4 +1,4 @@
-"""One design of a study as a section of its page: side view, eight numbers, what follows from them, figures."""
+"""One design of a study as a section of its page: side view, the eight numbers, lengths and energy, figures."""
 
 from collections.abc import Iterator, Sequence
 
@@ -20,11 +20,11 @@ UNITS = {
     "_a": ("A", 1.0),
     "_deg": ("°", 1.0),
 }
-"""Of figures by the end of their names: the unit in which they are read, and what to multiply them with."""
+"""Unit in which a figure is shown, and the factor, by the end of the figure's name."""
 
 
 def shown_designs(shown: Sequence[Trial], objective: Objective) -> Iterator[str]:
-    """Yield a section for each design, numbered from 1, all drawn to one scale."""
+    """Yield a section for each design, numbered from 1; all are drawn to the same scale."""
     box = box_mm(trial.design for trial in shown)
     for number, trial in enumerate(shown, start=1):
         yield f'<section class="design" id="design-{number}">'
@@ -55,7 +55,7 @@ def _lines(trial: Trial) -> Iterator[tuple[str, str]]:
 
 
 def _figure(name: str, value: float) -> tuple[str, str]:
-    """Return words and value of a figure of the evaluation."""
+    """Return label and value of a figure of the evaluation as text."""
     end = next((end for end in UNITS if name.endswith(end)), None)
     if end is None:
         return name.replace("_", " "), f"{value:.4g}"

@@ -23,7 +23,7 @@ LINKS = {
     "body": ("back pivot", "front pivot"),
 }
 POSES = {"loaded": "springs loaded", "rest": "at rest"}
-"""Poses in the order in which they are drawn, and what they are."""
+"""Poses in the order in which they are drawn, and their labels."""
 SCALE_BAR_MM = 50
 EDGE_MM = 12.0
 
@@ -54,7 +54,7 @@ def joints_mm(design: Design) -> dict[str, Array]:
 
 
 def box_mm(designs: Iterable[Design]) -> Box:
-    """Return the box that holds all of some designs in both poses: drawn in it, they have one scale."""
+    """Return the common bounding box of designs in both poses, so that they are drawn to one scale."""
     corners = [np.zeros((1, 2))]
     for design in designs:
         try:
@@ -67,7 +67,7 @@ def box_mm(designs: Iterable[Design]) -> Box:
 
 
 def side_view(design: Design, box: Box) -> str:
-    """Return the side view as an SVG element in a box; a sentence where the design has no such poses."""
+    """Return the side view as an SVG element; a paragraph with the reason if the design has no such poses."""
     try:
         poses = joints_mm(design)
     except CannotBuildError as error:

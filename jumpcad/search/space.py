@@ -35,7 +35,7 @@ from jumpcad.workshop.varied import Value
 
 @dataclass(frozen=True, repr=False)
 class Space:
-    """What is searched: one `Parameter` each, in the order of `PARAMETERS`, then the workshop's by their keys."""
+    """The parameters of a search: a design's in the order of `PARAMETERS`, then the workshop's by their keys."""
 
     parameters: tuple[Parameter, ...]
 
@@ -76,7 +76,7 @@ class Space:
         only
             Names of the parameters that stay free; all others are fixed at `around`.
         within_percent
-            Narrow every range of a design to this share of its width on either side of `around`.
+            Narrow every range of a design to this percentage of its width on either side of `around`.
         workshop
             The workshop whose values may be varied; None for a robot that is made in none.
 
@@ -157,7 +157,7 @@ class Space:
 
     @property
     def categories(self) -> tuple[int, ...]:
-        """Of each free parameter, how many names it chooses among; 0 where its values have an order."""
+        """Number of names of each free parameter; 0 if its values are numbers."""
         return tuple(len(parameter.names) for parameter in self.free)
 
     @property
@@ -185,7 +185,7 @@ class Space:
     def values(self, units: Array) -> Array:
         """Return the parameters (n, 8 + w) at points (n, dimension) of the unit cube.
 
-        First as a design's vector has them, then the workshop's; of names, their numbers.
+        The first eight are a design's vector, the others the workshop's; names are given by their indices.
         """
         columns = iter(units.T)
         return np.column_stack(
@@ -196,13 +196,13 @@ class Space:
         )
 
     def to_unit(self, one: Design | Variant) -> Array:
-        """Return the point (dimension,) of a design or variant; outside of the unit cube where it is out of bounds."""
+        """Return the point (dimension,) of a design or variant; outside of the unit cube if it is out of bounds."""
         variant = Variant.of(one)
         numbers = ((parameter, parameter.number(variant.value(parameter.name))) for parameter in self.free)
         return np.array([(number - parameter.lower) / parameter.width for parameter, number in numbers])
 
     def contains(self, one: Design | Variant) -> bool:
-        """Whether it has the fixed values and lies within all ranges and choices (to 1e-9 of a range)."""
+        """Tell whether a design or variant has the fixed values and is within all ranges and choices (to 1e-9)."""
         variant = Variant.of(one)
         if list(variant.workshop) != [parameter.name for parameter in self.of_workshop]:
             return False
@@ -230,21 +230,21 @@ class Space:
         return self.snap(qmc.Sobol(self.dimension, seed=generator).random_base2(power)[:count])
 
     def near(self, centre: Variant, names: Sequence[str] = (), percent: float | None = None) -> "Space | None":
-        """Return the part of the space in which only some parameters vary, the others as they are in its `centre`.
+        """Return the part of the space in which only some parameters vary; the others have the values of `centre`.
 
         Parameters
         ----------
         centre
             A variant of the space.
         names
-            Which of the free parameters stay free; all of them if empty.
+            The free parameters that stay free; all of them if empty.
         percent
-            Of a range, to either side of the centre, to which ranges are narrowed; not if None.
+            Ranges are narrowed to this percentage of their width on either side of the centre; not if None.
 
         Returns
         -------
         Space or None
-            None where nothing stays free.
+            None if nothing stays free.
         """
         parts = []
         for parameter in self.parameters:
@@ -262,7 +262,7 @@ class Space:
 
     @classmethod
     def from_record(cls, record: Mapping[str, Mapping[str, Any]]) -> Self:
-        """Return the space that `describe` described."""
+        """Return the space of a record that `describe` returned."""
         return cls(tuple(Parameter.from_record(name, part) for name, part in record.items()))
 
     def describe(self) -> dict[str, Any]:

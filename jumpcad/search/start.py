@@ -1,7 +1,7 @@
-"""Where a search starts: half of its first designs are the best of many by a quick model, the others evenly spread.
+"""The first designs of a search: half are the best of many by a quick model, the others are evenly spread.
 
-Of evenly spread designs of the printed robot, three quarters are rejected. Capsules of the published masses jump in
-milliseconds; what jumps far there is worth an evaluation. The other half stays, in case the models disagree.
+Of evenly spread designs of the printed robot, three quarters are rejected. The capsule robot is simulated in
+milliseconds, and designs with which it jumps far are probably good. The other half covers errors of the quick model.
 """
 
 import math
@@ -15,7 +15,7 @@ from jumpcad.transforms import Array
 SCREENED = 512
 """Designs that the quick model ranks (about a second)."""
 APART = 0.1
-"""Least difference of two of its best, in some parameter's range."""
+"""Least difference between two of its best designs along some axis of the unit cube."""
 
 
 def first_points(evaluator: Evaluator, count: int, generator: np.random.Generator) -> Array:

@@ -3,10 +3,10 @@
 import math
 import re
 import sys
-import zlib
+from array import array
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
@@ -16,7 +16,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
 from jumpcad.files.names import Name, Text
-from jumpcad.findings import Finding
+from jumpcad.findings import SEVERITIES, Finding, bare, is_bare
 from jumpcad.search.methods import METHODS
 from jumpcad.search.objective import Evaluation
 
@@ -27,6 +27,10 @@ WORD = re.compile(r"[A-Za-z]\w{0,79}", re.ASCII)
 """Names of verdicts, findings, figures and parameters."""
 LARGEST = 1e12
 """Above any figure of a jumping robot."""
+
+_ALL_GIVEN = set(PARAMETERS)
+_NONE: dict[str, Any] = {}
+"""Of rows without proposal or workshop, the same one."""
 
 Count = Annotated[int, Field(ge=0)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -59,6 +63,15 @@ def _whole(space: dict[str, _Range]) -> dict[str, _Range]:
     return space
 
 
+class _Making(TomlTable):
+    length_mm: float
+    rate: float = 0.0
+    mass: float = 0.0
+    floor: float = 0.0
+    friction: float = 0.0
+    key: Literal["ground.friction", "ground.bare_friction"] = "ground.friction"
+
+
 class _Identity(TomlTable):
     """What readers of a study need; the writer compares the rest."""
 
@@ -69,6 +82,8 @@ class _Identity(TomlTable):
     method: Name
     seed: Count
     space: Annotated[dict[str, _Range], AfterValidator(_whole)]
+    making: _Making | None = None
+    tolerance_mm: Count | float = 0.0
 
 
 def _is_method(name: str) -> str:
@@ -120,7 +135,10 @@ def stored_design(record: Mapping[str, Any]) -> Design:
     JumpcadError
         If a parameter is not a number or out of range.
     """
-    return Design(**{name: record[name] for name in PARAMETERS})
+    design = Design(**{name: record[name] for name in PARAMETERS})
+    # Pydantic keeps the names of what was given with every design: 0.7 kB each, and all the same.
+    object.__setattr__(design, "__pydantic_fields_set__", _ALL_GIVEN)
+    return design
 
 
 def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
@@ -146,32 +164,41 @@ def stored_evaluation(record: Mapping[str, Any]) -> Evaluation:
             if number is not None and math.isnan(number):  # infinite is allowed: the audit of a run that diverged
                 raise JumpcadError(f"the {figure} of {finding.name} is not a number")
     whole = Evaluation(verdict, metrics, findings, stored_text(record, "detail"))
-    return StoredEvaluation(whole, record["metrics"], record["findings"])
+    return StoredEvaluation(whole)
 
 
 class StoredEvaluation(Evaluation):
     """An evaluation read from a study, equal to the one that was written.
 
-    Figures and findings stay packed until someone asks for them: 50,000 rows would take 2 GB otherwise.
+    Figures and margins are packed as numbers, their names shared by all rows: 50,000 rows would take 2 GB otherwise.
     """
 
-    def __init__(self, whole: Evaluation, metrics: bytes, findings: bytes) -> None:
+    def __init__(self, whole: Evaluation) -> None:
+        findings = whole.findings
         held = {
             "verdict": sys.intern(whole.verdict), "detail": whole.detail, "_reasons": _shared(whole.reasons),
-            "_feasible": whole.feasible, "_cost": whole.cost, "_packed": zlib.compress(metrics, 1),
-            "_packed_findings": zlib.compress(findings, 1),
+            "_feasible": whole.feasible, "_cost": whole.cost,
+            "_names": _shared(tuple(whole.metrics)), "_values": array("d", whole.metrics.values()).tobytes(),
+            "_limits": _shared(tuple((one.name, one.unit) for one in findings)),
+            "_severities": bytes(SEVERITIES.index(one.severity) for one in findings),
+            "_margins": array("d", (one.margin for one in findings)).tobytes(),
+            "_texts": () if all(map(is_bare, findings)) else findings,
         }  # fmt: skip
         self.__dict__.update(held)
 
     @property
     def metrics(self) -> Mapping[str, float]:
         """Named figures."""
-        return dict(_metrics_of(self.__dict__["_packed"]))
+        held = self.__dict__
+        return dict(zip(held["_names"], array("d", held["_values"]), strict=True))
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """Findings, bare ones."""
-        return _findings_of(self.__dict__["_packed_findings"])
+        """Findings, bare ones unless an early version of the program wrote them."""
+        held = self.__dict__
+        rows = zip(held["_limits"], held["_severities"], array("d", held["_margins"]), strict=True)
+        found = tuple(bare(name, SEVERITIES[code], margin, unit) for (name, unit), code, margin in rows)
+        return held["_texts"] or found
 
     @property
     def feasible(self) -> bool:
@@ -206,20 +233,8 @@ class StoredEvaluation(Evaluation):
 
 
 @lru_cache(maxsize=4096)
-def _shared(reasons: tuple[str, ...]) -> tuple[str, ...]:
-    return reasons
-
-
-@lru_cache(maxsize=64)
-def _metrics_of(packed: bytes) -> dict[str, float]:
-    found: dict[str, float] = _METRICS.validate_json(zlib.decompress(packed))
-    return found
-
-
-@lru_cache(maxsize=1000)
-def _findings_of(packed: bytes) -> tuple[Finding, ...]:
-    found: tuple[Finding, ...] = _FINDINGS.validate_json(zlib.decompress(packed))
-    return found
+def _shared(names: tuple[Any, ...]) -> tuple[Any, ...]:
+    return names
 
 
 def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
@@ -234,11 +249,11 @@ def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
     thetas = proposal.get("theta", {})
     if not isinstance(thetas, dict) or any(not 3 <= len(theta) <= free + 2 for theta in thetas.values()):
         raise JumpcadError(f"proposal.theta: must be lists of at most {free + 2} hyperparameters")
-    return proposal
+    return proposal or _NONE
 
 
-def stored_workshop(record: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
-    """Return the workshop's values of a row in a search of these keys.
+def stored_workshop(record: Mapping[str, Any], keys: Sequence[str], more: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the workshop's values of a row in a search of these keys; it may have some `more`.
 
     Raises
     ------
@@ -246,9 +261,9 @@ def stored_workshop(record: Mapping[str, Any], keys: Sequence[str]) -> dict[str,
         If they are not numbers and names, or belong to other keys.
     """
     values: dict[str, Any] = _validated(_WORKSHOP.validate_json, "workshop", record["workshop"])
-    if list(values) != list(keys):
+    if [key for key in values if key in keys or key not in more] != list(keys):
         raise JumpcadError(f"workshop: has {shown(list(values))}, not the keys of the study's space")
-    return values
+    return values or _NONE
 
 
 def stored_text(record: Mapping[str, Any], key: str) -> str:

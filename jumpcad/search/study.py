@@ -87,7 +87,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                     widened += widen(evaluator, first_step)
                 task = Task(
                     stage.evaluations - (len(evaluator.trials) - before), request.seed, stage.initial, request.batch,
-                    request.preset, request.until_percent / 100.0, first_step,
+                    request.preset, request.until_percent / 100.0, first_step, request.screen,
                 )  # fmt: skip
                 METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
@@ -95,7 +95,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         candidates, bounds = [], []
         if request.pick and best is not None:
             share = request.pick - min(request.space.dimension, request.pick // 4)
-            candidates = rank_candidates(evaluator, trials, request.seed, request.tolerance_mm, share)
+            candidates = rank_candidates(evaluator, trials, request.seed, request.making, share)
         if candidates:
             left = request.pick - (len(evaluator.trials) - len(trials))
             bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)

@@ -13,10 +13,10 @@ from jumpcad.search.trial import Trial
 WIDTH, HEIGHT = 640.0, 380.0
 LEFT, RIGHT, TOP, BOTTOM = 62.0, 12.0, 14.0, 46.0
 MOST_DOTS = 3000
-"""Of the other designs so many are drawn at most, evenly chosen in the order of the search."""
+"""Largest number of other designs that are drawn, evenly chosen in the order of the search."""
 
 Scale = tuple[float, float, list[float]]
-"""Lowest and highest value of an axis, and the values that it names."""
+"""Lowest and highest value of an axis, and its ticks."""
 
 
 def chart(trials: Sequence[Trial], shown: Sequence[Trial], objective: Objective, is_front: bool) -> str:
@@ -29,7 +29,7 @@ def chart(trials: Sequence[Trial], shown: Sequence[Trial], objective: Objective,
     shown
         The designs that the page shows, in the order of their numbers 1, 2, …
     objective
-        What the score is.
+        The score's objective.
     is_front
         Whether to draw the line of the front.
     """
@@ -84,7 +84,7 @@ def _axes(across: Scale, up: Scale, meaning: str) -> list[str]:
 
 
 def _steps(places: Sequence[tuple[float, float]]) -> str:
-    """Return a path that is level from each place to the next: what is reached with that energy at least."""
+    """Return a step function as an SVG path: level from each point to the next."""
     if not places:
         return ""
     (x, y), *others = places

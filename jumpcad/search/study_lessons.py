@@ -1,4 +1,4 @@
-"""What a study teaches, on its page: which parameter matters, which bounds cost, what rejects designs."""
+"""The sections of a study's page on the importance of parameters, active bounds, and reasons of rejection."""
 
 from collections.abc import Iterator
 
@@ -12,11 +12,11 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import count_rejections
 
 MOST_LEARNED = 200
-"""Designs from which the importance is learned, at most, evenly chosen: the time grows with their cube."""
+"""Largest number of designs from which importances are computed, evenly chosen: the time grows with their cube."""
 
 
-def matters(store: StudyStore, found: Known) -> Iterator[str]:
-    """Yield how much each free parameter matters for the score of the designs that the search saw."""
+def importances(store: StudyStore, found: Known) -> Iterator[str]:
+    """Yield the importance of each free parameter for the score of the search's designs."""
     feasible = [trial for trial in found.trials if trial.score is not None]
     if len({trial.score for trial in feasible}) < 2:
         return
@@ -47,7 +47,7 @@ def matters(store: StudyStore, found: Known) -> Iterator[str]:
 
 
 def active(found: Known) -> Iterator[str]:
-    """Yield the bounds on which the winner lies, and what each costs."""
+    """Yield the bounds on which the winner lies, and the change of the score beyond each."""
     if found.winner is None:
         return
     yield "<h2>Active bounds</h2>"
@@ -63,8 +63,8 @@ def active(found: Known) -> Iterator[str]:
     yield from table(("parameter", "bound", "at", "examined", "beyond it"), rows, numbers=(2, 3))
 
 
-def refused(found: Known) -> Iterator[str]:
-    """Yield what rejected designs, with counts; a design may have several reasons."""
+def rejections(found: Known) -> Iterator[str]:
+    """Yield the reasons of rejection with their counts; a design may have several."""
     counts = count_rejections(found.trials)
     yield "<h2>Why designs were rejected</h2>"
     rejected = sum(trial.score is None for trial in found.trials)

@@ -1,6 +1,6 @@
-"""The page of a study: one file, without network, from what was asked to the best designs and what rejected others.
+"""The page of a study, without network: request, best designs, pictures, importances, reasons of rejection.
 
-HTML that is well-formed XML too. The same study file gives the same bytes.
+The HTML is well-formed XML too. The same study file gives the same bytes.
 """
 
 import base64
@@ -22,15 +22,15 @@ from jumpcad.search.robust import best_apart
 from jumpcad.search.shown_design import shown_designs
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study_chart import chart
-from jumpcad.search.study_lessons import active, matters, refused
+from jumpcad.search.study_lessons import active, importances, rejections
 from jumpcad.search.study_plots import study_figures
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.workshop.varied import Value
 
 SHOWN = 10
-"""Best designs that are shown where no neighbours were examined and no front was searched."""
+"""Number of best designs that are shown if no neighbours were examined and no front was searched."""
 MOST_SHOWN = 100
-"""Designs of a front that are shown, at most, evenly chosen along it with both ends: each is 5 kB of the page."""
+"""Largest number of a front's designs that are shown, evenly chosen along it: each has 5 kB."""
 CHOSEN = ("pareto",)
 """Pictures that the page replaces by its own chart."""
 CANDIDATE_HEAD = ("±1 %", "lengths", "rejected")
@@ -61,9 +61,9 @@ def write_study_page(store: StudyStore, name: str) -> str:
             *_asked(store, found),
             *_best(store, found),
             *_pictures(store),
-            *matters(store, found),
+            *importances(store, found),
             *active(found),
-            *refused(found),
+            *rejections(found),
             *_notes(store),
             f"<script>//<![CDATA[\n{program}\n//]]></script>",
             "</body>",
@@ -74,7 +74,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
 
 
 def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
-    """Yield the best score in a sentence, and what the study is, as cards."""
+    """Yield the best score in a sentence, and the study's main data as cards."""
     identity, trials = store.identity, store.trials()
     objective = found.objective
     jumped = len(feasible_trials(found.trials))
@@ -101,7 +101,7 @@ def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
 
 
 def _asked(store: StudyStore, found: Known) -> Iterator[str]:
-    """Yield the objective, the stages and the space, with the winner in it."""
+    """Yield the objective, the stages, and the space with the winner's values."""
     identity, objective = store.identity, found.objective
     stages = [f"{stage['method']}, {stage['evaluations']} designs" for stage in store.recall("stages", [])]
     yield "<h2>What was asked</h2>"
@@ -132,7 +132,7 @@ def _range(record: Mapping[str, Any]) -> str:
 
 
 def _best(store: StudyStore, found: Known) -> Iterator[str]:
-    """Yield the best designs: chart, their robots, table."""
+    """Yield the best designs: chart, side views, table."""
     objective, is_front = found.objective, store.identity["method"] in FRONTS
     shown = _shown(found, is_front)
     if not shown:
@@ -164,7 +164,7 @@ def _shown(found: Known, is_front: bool) -> list[Trial]:
 
 
 def _designs(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
-    """Yield the table of the shown designs; with what their neighbours reach, where that is known."""
+    """Yield the table of the shown designs, with the scores of their neighbours if they were examined."""
     if found.candidates and shown[0] is found.candidates[0].trial:
         neighbours = [
             [

@@ -22,29 +22,31 @@ from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 VERDICT = "verdict"
-"""A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
+"""The constraint of all rejections that have no margin of their own; see `constraint_margins`."""
+GRADES, TINY = (-3.0, -0.1), 1e-9
+"""Least and largest value of a graded rejection."""
 MAX_CONSTRAINTS = 8
 _FIT_STEPS = 30
 
 
 class Axes:
-    """The axes of the unit cube as a process sees them: an axis of names becomes one of 0 and 1/√2 for each name.
+    """Axes of the process for axes of the unit cube: an axis of names becomes one per name, with 0 or 1/√2 (one-hot).
 
-    Two different names are then 1 apart, whichever they are: Hamming's distance, with one length for all of them.
+    The distance between two different names is then 1 (Hamming distance), with one length scale for all of them.
 
     Parameters
     ----------
     categories
-        Of each axis of the cube, the number of its names; 0 for one of numbers.
+        Number of names of each axis of the cube; 0 for an axis of numbers.
     """
 
     def __init__(self, categories: Sequence[int]) -> None:
         self._categories = categories
         self.origin = np.repeat(np.arange(len(categories)), [max(count, 1) for count in categories])
-        """The axis of the cube (k,) that each axis of the process comes from."""
+        """Index of the axis of the cube for each axis of the process (k,)."""
 
     def expand(self, points: Array) -> Array:
-        """Return points (m, d) of the cube as the process sees them (m, k)."""
+        """Return points (m, d) of the cube in the axes of the process (m, k)."""
         if not any(self._categories):
             return points
         columns = []
@@ -57,11 +59,11 @@ class Axes:
         return np.column_stack(columns)
 
     def unfold(self, theta: Array) -> Array:
-        """Return hyperparameters (d + 2,) with the length of a named axis repeated for each of its names (k + 2,)."""
+        """Return hyperparameters (d + 2,) with the length scale of an axis of names repeated for each name (k + 2,)."""
         return np.concatenate([theta[:1], theta[1:-1][self.origin], theta[-1:]])
 
     def fold(self, slopes: Array) -> Array:
-        """Return derivatives (k + 2,) by all lengths as those by the lengths of the cube's axes (d + 2,)."""
+        """Return derivatives (k + 2,) with respect to the process's hyperparameters for those of the cube (d + 2,)."""
         return np.concatenate([slopes[:1], np.bincount(self.origin, slopes[1:-1]), slopes[-1:]])
 
     def folded(self, theta: Array) -> Array:
@@ -71,7 +73,7 @@ class Axes:
 
 
 class Surrogate:
-    """A Gaussian process over the unit cube: constant times Matérn 5/2 with one length per axis, plus noise.
+    """A Gaussian process over the unit cube: constant times Matérn 5/2 with one length scale per axis, plus noise.
 
     Parameters
     ----------
@@ -82,7 +84,7 @@ class Surrogate:
     fit
         Whether to improve them by maximum likelihood.
     categories
-        Of each axis, the number of its names; 0 for one of numbers. All of numbers if empty.
+        Number of names of each axis; 0 for an axis of numbers. Empty: all are numbers.
     """
 
     def __init__(
@@ -107,7 +109,8 @@ class Surrogate:
             optimizer=partial(_improve, axes=self._axes) if fit else None,
         )
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its upper bound: the axis has no effect
+            # a length scale at its upper bound: the axis has no effect
+            warnings.simplefilter("ignore", ConvergenceWarning)
             regressor.fit(seen, y)
         self.x, self.y, self._seen = x, y, seen
         self.theta: list[float] = self._axes.folded(regressor.kernel_.theta).tolist()
@@ -145,9 +148,11 @@ class Surrogate:
         return self._variance * (1.0 + distance + distance**2 / 3.0) * np.exp(-distance)
 
     def _distance(self, points: Array) -> Array:
-        """Return the distances (m, n) of points (m, k) from the data, √5·r in lengths of the kernel."""
-        difference = points[:, None, :] / self._lengths - self._seen[None] / self._lengths
-        distance: Array = np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        """Return the distances (m, n) of points (m, k) from the data: √5·r, in length scales of the kernel."""
+        squares = np.zeros((len(points), len(self._seen)))
+        for column, seen in zip((points / self._lengths).T, (self._seen / self._lengths).T, strict=True):
+            squares += (column[:, None] - seen) ** 2  # one axis at a time: all at once would take 40 MB
+        distance: Array = np.sqrt(5.0 * squares)
         return distance
 
 
@@ -251,19 +256,33 @@ def unwarped(values: Array) -> Array:
 def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
     """Return the margins (n,) of each constraint that rejected a design; NaN where a trial lacks it.
 
-    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most often.
+    At most `MAX_CONSTRAINTS`: those with margins on both sides that reject most often, and `VERDICT` for all other
+    rejections together. That is 1 for a jump; for a limit whose margin is known only where it is missed (most refusals,
+    robots that stay on the ground), the margin over its median; and -1 for what has none.
     """
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
     errors = {f.name for trial in trials for f in trial.evaluation.findings if f.severity == "error"}
-    ranked = sorted(errors & set(rejections), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
-    margins = {name: np.array([_margin(trial, name) for trial in trials]) for name in ranked}
-    if rejections:
-        margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
-    return margins
+    found = {name: _margins(trials, name) for name in errors & set(rejections)}
+    one_sided = {name: margins for name, margins in found.items() if not np.nanmax(margins) > 0.0}
+    both = sorted(set(found) - set(one_sided), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
+    verdict = np.array([_verdict(trial, set(both)) for trial in trials])
+    for margins in one_sided.values():
+        graded = margins / max(float(-np.nanmedian(margins)), TINY)
+        verdict = np.where(np.isnan(margins), verdict, np.clip(graded, *GRADES))
+    chosen = {name: found[name] for name in both}
+    return chosen | ({VERDICT: verdict} if (verdict < 0.0).any() else {})
 
 
-def _margin(trial: Trial, name: str) -> float:
-    return min((f.margin for f in trial.evaluation.findings if f.name == name), default=np.nan)
+def _margins(trials: Sequence[Trial], name: str) -> Array:
+    found = ([f.margin for f in trial.evaluation.findings if f.name == name] for trial in trials)
+    return np.array([min(one, default=np.nan) for one in found])
+
+
+def _verdict(trial: Trial, known: set[str]) -> float:
+    """Return 1 for a jump, NaN for what a known margin rejects, else -1."""
+    if trial.evaluation.feasible:
+        return 1.0
+    return np.nan if known & set(trial.evaluation.reasons) else -1.0
 
 
 def _scaled(margins: Array) -> Array:

@@ -1,4 +1,4 @@
-"""`Trial`: one finished evaluation of a search, and questions about many of them."""
+"""`Trial`: one finished evaluation of a search; filters and counts of trials."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -13,7 +13,7 @@ from jumpcad.search.variant import Key, Variant
 from jumpcad.workshop.varied import Value
 
 PHASES = ("sample", "sweep", *METHODS, "widen", "margin", "bounds", "robust")
-"""All phases, in the order in which a study goes through them; the last three examine designs near the best."""
+"""All phases in the order of a study; the last three examine designs near the best."""
 SEARCH_PHASES = PHASES[:-3]
 LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learns)
 """Phases that, after a first step, start from the hyperparameters of the step before."""
@@ -21,22 +21,22 @@ LEARNING_PHASES = tuple(name for name, method in METHODS.items() if method.learn
 
 @dataclass(frozen=True, repr=False)
 class Trial:
-    """One finished evaluation: where and why the search proposed the design, the outcome, and the score.
+    """One finished evaluation: the design, its place in the search, the outcome and the score.
 
     Parameters
     ----------
     phase, step, place
-        Where in the search the design was proposed.
+        Phase of the study, step of the phase, and place in the step at which the design was proposed.
     design, evaluation
-        What was evaluated, and the outcome.
+        The design and the outcome.
     score
-        By the study's objective; None where the design is rejected.
+        By the study's objective; None if the design is rejected.
     model
         Digest of the model that evaluated it.
     duration_s
-        How long that took.
+        Duration of the evaluation.
     proposal
-        What the method predicted when it proposed the design.
+        The method's prediction when it proposed the design.
     workshop
         Values of the workshop that the search varies, by key.
     """
@@ -54,22 +54,22 @@ class Trial:
 
     @cached_property
     def key(self) -> Key:
-        """What identifies what was evaluated."""
+        """Values that identify the variant."""
         return self.variant.key
 
     @property
     def variant(self) -> Variant:
-        """What was evaluated: the design, in the workshop with its values."""
+        """The evaluated design with its values of the workshop."""
         return Variant(self.design, self.workshop)
 
     @property
     def cost(self) -> int:
-        """How many robots were built and simulated for it."""
+        """Number of robots that were built and simulated for it."""
         return self.evaluation.cost
 
     @property
     def position(self) -> tuple[int, int, int]:
-        """Where the trial stands in its study."""
+        """Position of the trial in its study, for sorting."""
         return PHASES.index(self.phase), self.step, self.place
 
     def to_dict(self) -> dict[str, Any]:

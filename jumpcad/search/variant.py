@@ -1,4 +1,4 @@
-"""`Variant`: what one evaluation is of, a design and the values of the workshop that the search varies."""
+"""`Variant`: the input of one evaluation, a design and the values of the workshop that the search varies."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -28,7 +28,7 @@ class Variant:
 
     @cached_property
     def key(self) -> Key:
-        """What identifies it: the design's vector, then the workshop's values."""
+        """Values that identify it: the design's vector, then the workshop's values."""
         return (*self.design.to_vector(), *self.workshop.values())
 
     def value(self, name: str) -> Value:
@@ -37,7 +37,7 @@ class Variant:
         return found
 
     def changed(self, values: Mapping[str, Value]) -> "Variant":
-        """Return it with other values of some parameters, validated."""
+        """Return the variant with other values of some parameters; the design's are validated (`JumpcadError`)."""
         ours = {name: values.get(name, value) for name, value in self.workshop.items()}
         numbers = {name: float(value) for name, value in values.items() if name not in ours}
         return Variant(Design(**{**self.design.model_dump(), **numbers}), ours)

@@ -1,4 +1,4 @@
-"""Bounds that stop a search are moved: what each costs alone and all together, and the space without them."""
+"""Moves the active bounds of a search: the change of the score for each alone and for all, and the wider space."""
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
@@ -11,9 +11,9 @@ from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, best_trial
 
 SHARE = 0.25
-"""Of a range, by which an active bound is moved at a time."""
+"""Distance by which an active bound is moved at a time, over its range."""
 ACTIVE = 1e-3
-"""Of a range, within which a value lies on a bound."""
+"""Largest distance from an active bound, over its range."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ def _moved(space: Space, best: Trial, allowed: Callable[[str, float], bool]) -> 
 
 
 def _allowed(evaluator: Evaluator, best: Trial) -> Callable[[str, float], bool]:
-    """Return whether a design or the workshop can have a value."""
+    """Return a function that tells whether design or workshop can have a parameter's value."""
 
     def allowed(name: str, value: float) -> bool:
         if name not in best.workshop:

@@ -1,4 +1,4 @@
-"""What runs in a worker process: one task of evaluations, each with a timeout."""
+"""The code of a worker process: tasks of evaluations, each with a timeout."""
 
 import contextlib
 import os
@@ -21,7 +21,7 @@ from jumpcad.search.variant import Variant
 
 @dataclass(frozen=True)
 class Failure:
-    """An evaluation that ended in an unforeseen exception."""
+    """An evaluation that ended with an unexpected exception."""
 
     text: str
 
@@ -64,7 +64,13 @@ def _unpacked(sent: bytes) -> Model:
 def evaluate_task(sent: bytes, designs: Sequence[Design | Variant], limit_s: float) -> bytes:
     """Evaluate designs one after the other with a pickled model, in a worker; return results and durations, pickled.
 
-    If the executor pickles it, with its support of functions and classes, that takes four times as long.
+    They are pickled here because the executor's pickler, which also supports functions and classes, takes four times as
+    long.
+
+    Raises
+    ------
+    JumpcadError
+        If the model cannot work at all, or this machine has other versions of packages.
     """
     model = _unpacked(sent)
     results: list[tuple[Any, float]] = []
@@ -75,7 +81,7 @@ def evaluate_task(sent: bytes, designs: Sequence[Design | Variant], limit_s: flo
                 result: Evaluation | Failure = _evaluated(model, Variant.of(design))
             except JumpcadError:
                 raise
-            except Exception as error:  # a bug that one design in a thousand meets must not end the run
+            except Exception as error:  # a bug with a rare design must not end the run
                 result = Failure(f"{type(error).__name__}: {error}".removesuffix(": "))
         results.append((result, time.perf_counter() - start))
     return pickle.dumps(results)
@@ -89,7 +95,7 @@ def _evaluated(model: Any, variant: Variant) -> Evaluation:
 
 @contextlib.contextmanager
 def _alarm(limit_s: float) -> Iterator[None]:
-    """Let the system end this process if the block takes longer, also where Python cannot interrupt it."""
+    """End this process by a signal if the block takes longer than the limit, also inside compiled code."""
     if limit_s <= 0 or not hasattr(signal, "setitimer"):
         yield
         return

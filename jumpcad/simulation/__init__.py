@@ -14,14 +14,18 @@ if TYPE_CHECKING:
     from jumpcad.simulation.simulator import Settings as Settings
     from jumpcad.simulation.simulator import load_settings as load_settings
     from jumpcad.simulation.simulator import simulate as simulate
+    from jumpcad.simulation.uncertain import Uncertainty as Uncertainty
+    from jumpcad.simulation.uncertain import uncertain_jump as uncertain_jump
 
 _HOMES = {
     "ENGINES": "engines",
     "Jump": "jump",
     "Settings": "simulator",
+    "Uncertainty": "uncertain",
     "default_engine": "engines",
     "load_settings": "simulator",
     "simulate": "simulator",
+    "uncertain_jump": "uncertain",
 }
 
 __all__ = list(_HOMES)

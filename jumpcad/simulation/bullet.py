@@ -162,8 +162,9 @@ class BulletWorld:
             self.robot_id, self._ground, linkIndexA=FOOT_LINK, physicsClientId=self._client
         )
         for contact in contacts:
+            x, y, z = contact[5]
             for com, velocity, spin in (before, self._foot):
-                arm_x, arm_y, arm_z = (point - centre for point, centre in zip(contact[5], com, strict=True))
+                arm_x, arm_y, arm_z = x - com[0], y - com[1], z - com[2]
                 slip_x = velocity[0] + spin[1] * arm_z - spin[2] * arm_y
                 slip_y = velocity[1] + spin[2] * arm_x - spin[0] * arm_z
                 for force, along in ((contact[10], contact[11]), (contact[12], contact[13])):

@@ -88,6 +88,7 @@ class Run:
         self._audit_every = max(1, round(AUDIT_EVERY_S / settings.dt_s))
         self._record_every = max(1, round(1 / (settings.trajectory_rate_hz * settings.dt_s)))
         self._records: list[tuple[float, State]] = []
+        self._spent: State | None = None
 
     @property
     def time_s(self) -> float:
@@ -123,6 +124,23 @@ class Run:
                 f"{1000 * LOOP_GAP_LIMIT_M:g} mm", remedy,
                 value=1000.0 * self.worst_gap_m, allowed=1000.0 * LOOP_GAP_LIMIT_M,
             ),
+        )  # fmt: skip
+
+    def standing(self) -> Finding:
+        """Return the finding `no_takeoff` of a robot that stays on the ground.
+
+        At the end of the push-off, its centre of mass is slower than √(g·height): what rolls over its toes with that
+        speed leaves the ground (Froude number 1, as in walking). About the measured limit, not its cause: the verdict
+        comes from the run.
+        """
+        state = self._spent or self.world.state()
+        speed = float(np.linalg.norm(self.mechanics.velocity_m_s(state)))
+        needed = math.sqrt(self.settings.gravity_m_s2 * max(float(self.mechanics.centre_of_mass_m(state)[2]), 0.0))
+        return Finding(
+            "no_takeoff", "error", min(speed - needed, 0.0), "m/s",
+            f"the robot stays on the ground: its centre of mass gets {speed:.2f} m/s from the springs; about "
+            f"{needed:.2f} m/s leave the ground",
+            "raise stiffness_nmm_per_deg or compression_ratio", speed, needed,
         )  # fmt: skip
 
     def trajectory(self) -> Trajectory | None:
@@ -162,6 +180,7 @@ class Run:
                 if airborne == 1:
                     left = self.time_s, world.state(), world.joint_damping_j, world.slip_j
             if leg_rad >= 0:
+                self._spent = self._spent or world.state()
                 deadline = min(deadline, self.time_s + TAKEOFF_WITHIN_S)
             if self.time_s > deadline or not self.sound:
                 return None

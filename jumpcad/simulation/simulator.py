@@ -58,14 +58,14 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
     findings = (*findings, *audit)
     failed = errors(audit)
     if failed or takeoff is None:
-        verdict = failed[0].name if failed else "no_takeoff"
+        refused = failed or [run.standing()]
         return Jump(
-            verdict,
+            refused[0].name,
             engine,
             mechanism.mass_kg,
             mechanism.spring.energy_j,
             trajectory=run.trajectory(),
-            findings=findings,
+            findings=findings if failed else (*findings, *refused),
         )
     flight = takeoff.flight
     return Jump(

@@ -1,4 +1,4 @@
-"""The studio: sliders for the eight numbers in a browser, and the robot that follows from them (extra `studio`)."""
+"""The studio: sliders for a design's eight numbers in a browser, and the robot that they give (extra `studio`)."""
 
 from jumpcad.studio.app import Studio as Studio
 

@@ -1,4 +1,4 @@
-"""What the studio says of a design: at once by the capsule robot, then by the printed one."""
+"""The figures that the studio shows of a design: at once those of the capsule robot, then those of the printed one."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -16,17 +16,17 @@ from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.workshop import Workshop
 
 SHOWN = 5
-"""Limits that are shown: violated ones, then the tightest."""
+"""Number of limits that are shown."""
 
 
 @dataclass(frozen=True)
 class Printed:
-    """A printed robot with its jump and limits, or the reason why there is none."""
+    """A printed robot with its jump, or the reason why it cannot be built."""
 
     design: Design
     robot: Robot | None = None
     jump: Jump | None = None
-    refused: str = ""
+    reason: str = ""
 
     @property
     def findings(self) -> list[Finding]:
@@ -36,10 +36,10 @@ class Printed:
         found = [one for one in ordered(quick_findings(self.robot)) if one.severity != "info" or one.use is not None]
         return found[:SHOWN]
 
-    def words(self, before: "Printed | None" = None) -> str:
-        """Return the figures as Markdown, with their differences to another robot's."""
+    def to_markdown(self, before: "Printed | None" = None) -> str:
+        """Return figures and limits as tables in Markdown, with the differences of the figures from another robot's."""
         if self.robot is None or self.jump is None:
-            return f"**cannot be built**: {self.refused}"
+            return f"**cannot be built**: {self.reason}"
         lines = [f"**{self.jump.verdict}**", "", "| printed robot | |", "|---|--:|"]
         old = before.figures() if before else {}
         for name, (value, unit) in self.figures().items():
@@ -52,7 +52,7 @@ class Printed:
         return "\n".join(lines)
 
     def figures(self) -> dict[str, tuple[float, str]]:
-        """Return value and unit by figure."""
+        """Return value and unit of each figure by its name; nothing for a robot that cannot be built."""
         if self.robot is None or self.jump is None:
             return {}
         return {
@@ -65,8 +65,8 @@ class Printed:
 
 
 @lru_cache(maxsize=64)
-def quick_words(design: Design) -> str:
-    """Return the answer of the robot with the study's masses in the plane, as Markdown."""
+def capsule_answer(design: Design) -> str:
+    """Return range and rise of the capsule robot (the study's masses), by the planar engine, as Markdown."""
     jump = simulate(capsule_robot(design), engine="planar")
     if jump.ballistic_range_m is None:
         return f"study's masses: **{jump.verdict}**"
@@ -76,15 +76,21 @@ def quick_words(design: Design) -> str:
 
 
 def printed_answer(design: Design, workshop: Workshop, name: str = "robot") -> Printed:
-    """Return the printed robot and its jump, in the plane."""
+    """Return the printed robot and its jump, by the planar engine."""
     try:
         robot = build(design, workshop, name)
-    except CannotBuildError as refusal:
-        return Printed(design, refused=str(refusal))
+    except CannotBuildError as error:
+        return Printed(design, reason=str(error))
     return Printed(design, robot, simulate(robot, engine="planar"))
 
 
-def played(robot: Robot, engine: str) -> dict[str, object]:
-    """Return the motion of a robot from rest to landing, see `jumpcad.bundle.motion`."""
+def simulated_motion(robot: Robot, engine: str) -> dict[str, object]:
+    """Return the motion of a robot from rest to landing, see `jumpcad.bundle.motion`.
+
+    Raises
+    ------
+    JumpcadError
+        If the engine is not installed.
+    """
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), engine)
     return motion(robot, jump.trajectory, jump.takeoff_time_s)

@@ -1,30 +1,32 @@
-"""The studio's window: sliders, answers and playback, on a viser server."""
+"""The studio's page: sliders, figures and playback, on a viser server."""
 
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from jumpcad.bundle.export import export
 from jumpcad.design import SEARCH_BOUNDS, Design
-from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import require_free, sealed, write_atomically
 from jumpcad.findings import errors
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.simulation.engines import default_engine
-from jumpcad.studio.answers import Printed, played, printed_answer, quick_words
+from jumpcad.studio.answers import Printed, capsule_answer, printed_answer, simulated_motion
 from jumpcad.studio.stage import Stage
 from jumpcad.workshop import Workshop, load_workshop
 
 FRAME_S = 1.0 / 30.0
+"""Time between two frames of the playback."""
 WIDER = 0.5
-"""By how much of the search's range the sliders reach beyond it, within what a design may be; both prototypes do."""
+"""How far sliders extend beyond the bounds of the search, over the bounds' distance."""
 RED_PARTS = {
     "leg_strength": "main_leg", "lever_strength": "main_leg", "leg_flex": "main_leg", "stop_leg": "main_leg",
     "toe_strength": "foot", "rail_strength": "foot", "stop_strength": "stop_bar", "cam_dog_strength": "cam",
     "front_strength": "front_link",
 }  # fmt: skip
-"""Parts that are shown in red while a limit of theirs is violated."""
+"""Part that is shown in red while a limit is violated, by the limit's name."""
 
 
 class Studio:
@@ -33,13 +35,18 @@ class Studio:
     Parameters
     ----------
     design, name
-        What it opens with; `name` is that of saved files and built bundles.
+        The first design; saved files and bundles are called after `name`.
     workshops
-        Names or files of workshops to choose from, the first at the start.
+        Names or files of workshops to choose from; the first is used at the start.
     server
         A viser server.
     folder
         Where designs are saved and bundles built.
+
+    Raises
+    ------
+    JumpcadError
+        If the first workshop cannot be loaded.
     """
 
     def __init__(self, design: Design, name: str, workshops: list[str], server: Any, folder: Path) -> None:
@@ -54,12 +61,12 @@ class Studio:
         self._make_panel(workshops)
 
     def start(self) -> None:
-        """Make the first robot, and one for every change of a slider, while the program runs."""
+        """Build the first robot, and one after every change of a slider, in a thread."""
         threading.Thread(target=self._work, daemon=True).start()
 
     @property
     def design(self) -> Design:
-        """The design that the sliders say."""
+        """The design of the sliders."""
         return Design(**{key: slider.value for key, slider in self.sliders.items()})
 
     def _make_panel(self, workshops: list[str]) -> None:
@@ -77,20 +84,20 @@ class Studio:
             ("Reset", self._reset), ("Keep as ghost", self._keep), ("Play winding and jump", self._play),
             ("Save design", self._save), ("Build bundle", self._build),
         ):  # fmt: skip
-            gui.add_button(label).on_click(lambda _, action=action: self._tell(action))
-        self.told = gui.add_markdown("")
+            gui.add_button(label).on_click(lambda _, action=action: self._run_action(action))
+        self.status = gui.add_markdown("")
 
     def _ask(self) -> None:
-        """Answer at once with the study's masses; have the printed robot made, newest design first."""
+        """Show the capsule robot's figures at once; let the thread build the newest design."""
         self._playing.clear()
         design = self.design
-        self.quick.content = quick_words(design)
+        self.quick.content = capsule_answer(design)
         with self._newest:
             self._wanted = design
             self._newest.notify()
 
     def _work(self) -> None:
-        """Make printed robots, one at a time, until the program ends."""
+        """Build printed robots, one at a time, until the program ends."""
         while True:
             with self._newest:
                 while self._wanted is None:
@@ -99,10 +106,10 @@ class Studio:
             self.answer(design)
 
     def answer(self, design: Design) -> Printed:
-        """Build, simulate and show a design; return what was found."""
+        """Build, simulate and show a design; return its figures."""
         found = printed_answer(design, self.workshop, self.name)
-        self.quick.content = quick_words(design)
-        self.figures.content = found.words(self.kept)
+        self.quick.content = capsule_answer(design)
+        self.figures.content = found.to_markdown(self.kept)
         if found.robot is not None:
             wrong = frozenset(RED_PARTS[one.name] for one in errors(found.findings) if one.name in RED_PARTS)
             with self.server.atomic():
@@ -114,12 +121,12 @@ class Studio:
         self.workshop = load_workshop(name)
         self._ask()
 
-    def _tell(self, action: Any) -> None:
-        """Carry out an action and say what came of it."""
+    def _run_action(self, action: Callable[[], str]) -> None:
+        """Run a button's action and show its result or its error."""
         try:
-            self.told.content = action()
-        except (JumpcadError, CannotBuildError) as refusal:
-            self.told.content = f"**refused**: {refusal}"
+            self.status.content = action()
+        except JumpcadError as error:
+            self.status.content = f"**not possible**: {error}"
 
     def _reset(self) -> str:
         for key, value in self.first.model_dump().items():
@@ -140,13 +147,13 @@ class Studio:
         robot = self.shown.robot if self.shown else None
         if robot is None:
             raise JumpcadError("there is no robot to play: it cannot be built")
-        motion = played(robot, default_engine())
+        motion = simulated_motion(robot, default_engine())
         self._playing.set()
-        threading.Thread(target=self._run, args=(motion, body_poses(robot)), daemon=True).start()
+        threading.Thread(target=self._animate, args=(motion, body_poses(robot)), daemon=True).start()
         return "winding, drop, push-off and flight, slowed"
 
-    def _run(self, motion: Any, rest: Any) -> None:
-        """Show the moments of a motion in their time, then the robot at rest."""
+    def _animate(self, motion: Any, rest: Any) -> None:
+        """Show the poses of a motion at their times, then the robot at rest; late poses are skipped."""
         start, number = time.monotonic(), 0
         shown = motion["show_s"]
         while number < len(shown) and self._playing.is_set():
@@ -167,13 +174,13 @@ class Studio:
     def _build(self) -> str:
         found = printed_answer(self.design, self.workshop, self.name)
         if found.robot is None:
-            raise JumpcadError(found.refused)
+            raise JumpcadError(found.reason)
         bundle = export(found.robot, self.folder / f"{self.name}-studio", pictures=True)
         return f"built {bundle.folder}"
 
 
 def _range(key: str, value: float) -> tuple[float, float]:
-    """Return the ends of a parameter's slider: the search's, widened, within what a design may be."""
+    """Return the ends of a parameter's slider: the search's bounds, widened, within what a design may be."""
     bounds = SEARCH_BOUNDS[key]
     more = WIDER * (bounds.upper - bounds.lower)
     limits = {type(one).__name__: one for one in Design.model_fields[key].metadata}
@@ -183,7 +190,7 @@ def _range(key: str, value: float) -> tuple[float, float]:
 
 
 def _step(span: float) -> float:
-    """Return a slider's step: a thousandth of its range, rounded down to a power of ten."""
+    """Return a slider's step: a power of ten, at most a 500th of the slider's range."""
     step = 1.0
     while step > span / 500.0:
         step /= 10.0

@@ -1,4 +1,4 @@
-"""The robot on the studio's stage: frames of its bodies, meshes that change only where their parts do, its ghost."""
+"""The studio's 3-D scene: frames of the bodies, meshes of the parts (sent again only if changed), a ghost robot."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -13,9 +13,9 @@ from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.transforms import Array
 
 WRONG = (0.80, 0.16, 0.14)
-"""Colour of a part that fails a limit."""
+"""Colour of a part that violates a limit."""
 EYE_M, MIDDLE_M = (0.25, -0.4, 0.2), (0.0, 0.0, 0.08)
-"""Where the view begins, and what it looks at; a robot is 0.1 to 0.3 m large."""
+"""First position of the camera, and the point at which it looks; a robot is 0.1 to 0.3 m large."""
 GHOST_COLOUR, GHOST_OPACITY = (0.5, 0.55, 0.6), 0.25
 
 
@@ -31,12 +31,12 @@ class Stage:
         server.scene.add_grid("/ground", 4.0, 4.0, cell_size=0.05, section_size=0.5, cell_thickness=0.5)
 
     def show(self, robot: Robot, wrong: frozenset[str] = frozenset()) -> int:
-        """Show a robot at rest, parts of `wrong` names in red; return how many meshes were sent."""
+        """Show a robot at rest, the parts named in `wrong` in red; return how many meshes were sent."""
         self.pose(body_poses(robot), "robot")
         return self._put("robot", visuals(robot), None, wrong)
 
     def show_ghost(self, robot: Robot | None) -> None:
-        """Show another robot's printed parts pale beside the first, or none."""
+        """Show another robot's printed parts transparent in the same place; None removes them."""
         if robot is None:
             self._put("ghost", (), GHOST_OPACITY)
             return
@@ -45,13 +45,13 @@ class Stage:
         self._put("ghost", tuple(one for one in visuals(robot) if one.mesh_name in printed), GHOST_OPACITY)
 
     def pose(self, poses: Mapping[str, Array], tree: str = "robot") -> None:
-        """Put the bodies' frames at poses (4, 4)."""
+        """Put the bodies' frames at poses (4, 4) in the world (m); `tree` is `robot` or `ghost`."""
         for body, pose in poses.items():
             turn = Rotation.from_matrix(pose[:3, :3]).as_quat()
             self.place(f"/{tree}/{body}", (*pose[:3, 3], *turn))
 
     def place(self, frame: str, seven: Any) -> None:
-        """Put a frame at a position and quaternion (x, y, z, w)."""
+        """Put a frame at a position (m) and quaternion (x, y, z, w): seven numbers."""
         x, y, z, qx, qy, qz, qw = (float(value) for value in seven)
         if frame not in self.frames:
             self.frames[frame] = self.server.scene.add_frame(frame, show_axes=False)
@@ -60,29 +60,35 @@ class Stage:
     def _put(
         self, tree: str, things: tuple[Visual, ...], opacity: float | None, wrong: frozenset[str] = frozenset()
     ) -> int:
-        """Show things below a tree; remove those that are no longer there."""
+        """Show parts below a tree, and remove the tree's others; return how many meshes were sent.
+
+        A part whose mesh is the same is moved, not sent again.
+        """
         names = {f"/{tree}/{one.body}/{one.name}": one for one in things}
         for name in [name for name in self.meshes if name.startswith(f"/{tree}/") and name not in names]:
             self.meshes.pop(name)[1].remove()
         sent = 0
         for name, one in names.items():
             colour = WRONG if one.mesh_name in wrong else one.colour if opacity is None else GHOST_COLOUR
-            key = (_shape(one), colour, one.T_body_mesh.tobytes())
+            x, y, z, w = Rotation.from_matrix(one.T_body_mesh[:3, :3]).as_quat().tolist()
+            turn, place = (w, x, y, z), tuple(one.T_body_mesh[:3, 3].tolist())
+            key = (_shape(one), colour)
             if name in self.meshes and self.meshes[name][0] == key:
+                handle = self.meshes[name][1]
+                if tuple(handle.position) != place or tuple(handle.wxyz) != turn:
+                    handle.position, handle.wxyz = place, turn
                 continue
             mesh = one.mesh
-            turn = Rotation.from_matrix(one.T_body_mesh[:3, :3]).as_quat()
             self.meshes[name] = key, self.server.scene.add_mesh_simple(
                 name, np.asarray(mesh.vertices) * 0.001, np.asarray(mesh.faces),
-                color=colour, opacity=opacity, flat_shading=True,
-                wxyz=(turn[3], turn[0], turn[1], turn[2]), position=tuple(one.T_body_mesh[:3, 3]),
+                color=colour, opacity=opacity, flat_shading=True, wxyz=turn, position=place,
             )  # fmt: skip
             sent += 1
         return sent
 
 
 def _shape(one: Visual) -> object:
-    """Return what is equal where the meshes are equal."""
+    """Return a key that is equal for equal meshes."""
     source = one.source
     if isinstance(source, Part):
         return source.drawing.shape

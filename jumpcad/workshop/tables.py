@@ -93,6 +93,11 @@ class Fits(TomlTable):
     overhang_deg: Annotated[float, Field(ge=0, le=80)]
     bridge_mm: Annotated[float, Field(ge=0.01, le=200)]
 
+    @property
+    def link_tolerance_mm(self) -> float:
+        """Error of a printed link's length (mm): both its ends have the play of a sliding fit."""
+        return 2.0 * self.sliding_mm
+
 
 class BoughtParts(ElectricalParts):
     """Names in the catalogue, shipped or the user's own; an empty list of motors allows every one.

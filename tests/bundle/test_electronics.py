@@ -2,7 +2,9 @@
 
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from support.built import built
 
@@ -10,14 +12,17 @@ from jumpcad.building import build
 from jumpcad.bundle.electronics import electronics_facts, jumps_per_charge
 from jumpcad.bundle.export import export
 from jumpcad.bundle.firmware import numbers
-from jumpcad.bundle.wiring import wires, wiring_lines, wiring_svg
+from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.visuals import visuals
+from jumpcad.transforms import chained
 from jumpcad.workshop import load_workshop
 
-NO_LEADS = {"upper resistor", "lower resistor", "diode"}
-"""Parts that are soldered by their own legs; the battery's plug is on its own cable."""
+NO_LEADS = {"upper resistor", "lower resistor", "pull-up resistor", "diode"}
+"""Parts whose own legs reach the controller, where they lie; the battery's plug is on its own cable."""
 
 
 @pytest.fixture(scope="module", params=["light-1s", "strong-2s"])
@@ -62,10 +67,12 @@ def test_the_drawing_names_every_terminal_and_is_the_same_each_time(robot: Robot
         assert start.pin in words
         assert end.pin in words
         ends = {start.part, end.part}
-        if ends & NO_LEADS or ends == {"battery", "plug"}:
+        if (ends & NO_LEADS and "controller" in ends) or ends == {"battery", "plug"}:
             assert length == 0.0
         else:
             assert 30.0 <= length <= 250.0
+    resistors = [end for _, start, end, _, _ in wires(robot) if end.part == "pull-up resistor"]
+    assert {(end.pin) for end in resistors} == {"1", "2"}
     table = [line for line in wiring_lines(robot) if line.startswith("| ")]
     assert len(table) == len(wires(robot)) + 1
 
@@ -77,3 +84,60 @@ def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:
     with pytest.raises(CannotBuildError, match=r"BAT\+ gets .* 8\.40 V and bears 3\.20 to 4\.20 V: choose a "):
         export(robot, tmp_path / "out", pictures=False)
     assert not (tmp_path / "out").exists()
+
+
+def test_the_soldering_plan_joins_every_leg_to_its_pin(robot: Robot) -> None:
+    """Each resistor has two legs; those at the controller end at a pin of it, the others say where their wire goes."""
+    drawing = drawings_of(robot)["soldering.svg"]
+    root = ET.fromstring(drawing)
+    space = "{http://www.w3.org/2000/svg}"
+    words = [element.text or "" for element in root.iter(f"{space}text")]
+    small = [name for name in ("upper", "lower", "pull-up", "diode") if any(w.startswith(name) for w in words)]
+    assert len(small) == (4 if robot.workshop.bought.regulator else 3)
+    assert len(list(root.iter(f"{space}polyline"))) == 2 * len(small)
+    pins = {
+        (float(element.get("cx", "")), float(element.get("cy", ""))): element.get("fill")
+        for element in root.iter(f"{space}circle")
+    }
+    starts = [line.get("points", "").split()[0] for line in root.iter(f"{space}polyline")]
+    at_pins = [tuple(map(float, start.split(","))) for start in starts]
+    to_wires = sum(word.startswith("wire to") for word in words)
+    assert sum(at in pins for at in at_pins) == 2 * len(small) - to_wires
+    assert to_wires == (2 if robot.workshop.bought.regulator else 0)
+
+
+def test_small_parts_lie_beside_the_controller_and_apart(robot: Robot) -> None:
+    """Bodies of 6.3 x 2.3 mm between the boards, outside their seats and their ties' slots."""
+    electronics, inside = robot.layout.electronics, robot.layout.lateral.inside
+    seats, slots = electronics.seats(inside), electronics.tie_slots(inside)
+    places = electronics.small_seats(inside)[: 4 if robot.workshop.bought.regulator else 3]
+    assert len(places) >= 3
+    boxes = [(place.x_mm, place.y_mm, 2.3, 6.3) for place in places]
+    kept = [(s.x_mm, s.y_mm, s.size_mm[0], s.size_mm[1]) for role, s in seats.items() if role != "battery"]
+    kept += [(x, y, *size) for role in ("controller", "driver") for x, y, size in slots[role]]
+    for index, box in enumerate(boxes):
+        for other in (*boxes[index + 1 :], *kept):
+            apart = [abs(box[i] - other[i]) - (box[i + 2] + other[i + 2]) / 2.0 for i in (0, 1)]
+            assert max(apart) > -1e-9
+    names = {item.name for item in robot.hardware}
+    assert {"wiring_resistor_upper", "wiring_resistor_lower", "wiring_resistor_pull_up"} <= names
+    assert ("tie_balance_lead" in names) == bool(robot.workshop.bought.regulator)
+
+
+def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> None:
+    """Lifted over the stops of 2 mm: nothing but its strap and its lead's tie is in the way of its box."""
+    poses, shown = body_poses(robot), {thing.name: thing for thing in visuals(robot)}
+
+    def triangles(name: str) -> Any:
+        thing = shown[name]
+        pose = chained(poses[thing.body], thing.T_body_mesh)
+        points = np.asarray(thing.mesh.vertices) / 1000.0 @ pose[:3, :3].T + pose[:3, 3]
+        return 1000.0 * points[np.asarray(thing.mesh.faces)]
+
+    corners = triangles("battery").reshape(-1, 3)
+    lifted, out = np.array([0.0, 0.0, 2.1]), np.array([150.0, 0.0, 0.0])
+    low, high = corners.min(axis=0) + lifted, corners.max(axis=0) + lifted + out
+    for name in shown.keys() - {"battery", "strap_battery", "tie_balance_lead"}:
+        mesh = triangles(name)
+        beside = (mesh.min(axis=1) >= high - 1e-6) | (mesh.max(axis=1) <= low + 1e-6)
+        assert beside.any(axis=1).all(), name

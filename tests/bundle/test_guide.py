@@ -39,11 +39,11 @@ def test_the_guide_asks_for_what_the_firmware_and_the_boards_do(robot: Robot) ->
     assert int(let_go[1]) <= (values["RELEASE_MAX_MS"] or 0)
     if not robot.workshop.bought.regulator:
         assert "370 mA, which cannot be set: 1.23 C" in guide
-    assert "The gear fits the jaws in one position only" in guide
+    assert "fits the jaws in one position only" in guide
     sensor = guide.split("Left plate with the sensor")[1]
-    assert sensor.index("through the mount's window") < sensor.index("solder them to COM and NO")
+    assert sensor.index("through the mount's window") < sensor.index("solder them to COM and NC")
     boards = guide.split("Upper tray with the boards")[1]
-    assert boards.index("Solder every wire") < boards.index("foam tape, in its place")
+    assert boards.index("solder every wire") < boards.index("foam tape, in its place")
 
 
 def test_two_cells_are_never_charged_inside_the_robot(tmp_path: Path) -> None:

@@ -14,11 +14,13 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.building import build
 from jumpcad.bundle.page import write_report
+from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.simulation import Jump, Settings, simulate, uncertain_jump
+from jumpcad.simulation.uncertain import Uncertainty
 
 PNG = b"\x89PNG\r\n\x1a\n and so on"
 
@@ -41,6 +43,34 @@ def parsed(page: str) -> ElementTree.Element:
 def cells(page: str) -> dict[str, list[str]]:
     rows = ([cell.text or "" for cell in row.iter("td")] for row in parsed(page).iter("tr"))
     return {row[0]: row for row in rows if row}
+
+
+def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:
+    sure = Uncertainty(
+        {"ballistic_range_m": [0.177, 0.196, 0.213], "com_rise_m": [0.057, 0.065, 0.074]},
+        {
+            "mass": {"ballistic_range_m": 0.25, "com_rise_m": 0.5},
+            "floor": {"ballistic_range_m": 0.75, "com_rise_m": 0.0},
+        },
+        {},
+        128,
+        0.95,
+        False,
+    )
+    page = write_report(robot, {}, jump, sure=sure)
+    assert cells(page)["range"][1:] == ["177 mm", "196 mm", "213 mm"]
+    assert "<dd>177 to 213 mm</dd>" in page
+    assert page.index("friction of the floor") < page.index("<td>mass</td>")  # what matters most comes first
+    assert 'width: 75%"' in page
+    assert "It jumps in 95 % of them." in page
+    assert "How sure" not in write_report(robot, {}, jump)
+
+
+def test_how_sure_agrees_with_eight_times_as_many_jumps(robot: Robot) -> None:
+    few, many = uncertainty_of(robot), uncertain_jump(robot, Settings(), "planar", samples=1024)
+    assert few is not None
+    for figure, near_m in (("ballistic_range_m", 0.004), ("com_rise_m", 0.002)):
+        assert few.quantiles[figure] == pytest.approx(many.quantiles[figure], abs=near_m)
 
 
 def test_is_closed_html_that_asks_for_nothing_else(robot: Robot, jump: Jump) -> None:

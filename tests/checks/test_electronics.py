@@ -1,6 +1,7 @@
 """Kits that fit, and what is said of those that do not: every finding with which range misses which."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -162,6 +163,67 @@ def test_what_is_missing_is_named(text: str, name: str, severity: str, words: st
     assert findings[name].severity == severity
     assert words in findings[name].message
     assert findings[name].remedy
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_the_contact_opens_when_pressed_and_gets_its_least_current(kit: str, workshop: Write) -> None:
+    """Omron rates the D2HW from 1 mA; 2.2 kOhm at 3.3 V give 1.5 mA, also 5 % higher and lower."""
+    shop = workshop(f'[bought]\nkit = "{kit}"')
+    wired, nets = wiring(shop), {net.name: [str(t) for t in net.terminals] for net in wiring(shop).nets}
+    assert wired.ready_level == 1
+    assert nets["ready"] == [f"controller {wired.pins['ready']}", "sensor NC", "pull-up resistor 1"]
+    assert nets["logic supply"] == ["controller 3V3", "pull-up resistor 2"]
+    assert "sensor COM" in nets["ground"]
+    assert wired.pull_up_ohm is not None
+    assert 0.95 * 3.3 / (1.05 * wired.pull_up_ohm) > 0.001
+
+
+def test_a_sensor_that_only_closes_reads_the_other_way_round(workshop: Write) -> None:
+    chosen = chosen_parts(workshop("[bought]"))
+    sensor = chosen.components["sensor"].model_copy(update={"terminals": ("COM", "NO")})
+    wired = wiring_of(replace(chosen, components=chosen.components | {"sensor": sensor}), {})
+    assert wired.ready_level == 0
+    assert "sensor NO" in {str(t) for net in wired.nets for t in net.terminals}
+
+
+def test_a_contact_without_its_least_current_is_named(workshop: Write) -> None:
+    """A controller without a pin that supplies 3.3 V: its own pull-up of 45 kOhm gives 0.07 mA."""
+    shop = workshop(OWN % '{ GND = ["ground"], D1 = ["gpio1", "adc", "pwm"], D2 = ["gpio3"], D3 = ["gpio4", "pwm"] }')
+    finding = {f.name: f for f in wiring_findings(chosen_parts(shop), wiring(shop))}["wiring_contact"]
+    assert (finding.severity, finding.limit) == ("warning", 1.0)
+    assert finding.value == pytest.approx(3.3 / 45.0, rel=0.05)
+    assert "pull-up resistor" in finding.remedy
+
+
+def test_charging_is_measured_against_the_battery() -> None:
+    """The controller's charger gives 370 mA; a battery that is not said to bear more gets 1 C at most."""
+    assert found("[bought]")["charging_current"].severity == "info"
+    small = like("battery", "lipo-1s-300", "capacity_mah = 150.0\ncharge_ma = 150.0")
+    finding = found(small)["charging_current"]
+    assert (finding.severity, finding.value, finding.limit) == ("error", 370.0, 150.0)
+    assert "charges own with 370 mA; 150 mA are allowed" in finding.message
+    assert "bought.battery" in finding.remedy
+    text = small.replace("150.0\ncharge_ma = 150.0", "500.0\ncharge_ma = 500.0")
+    assert found(text)["charging_current"].severity == "info"
+    assert "charging_current" not in found('[bought]\nkit = "strong-2s"')
+
+
+def test_a_battery_without_a_rating_is_charged_with_1_c() -> None:
+    text = """[bought]
+battery = "plain"
+[batteries.plain]
+description = "cell"
+source = "x"
+length_mm = 35.0
+width_mm = 20.0
+height_mm = 6.0
+mass_g = 8.0
+voltage_v = 3.7
+capacity_mah = 350.0
+"""
+    finding = found(text)["charging_current"]
+    assert (finding.severity, finding.limit) == ("error", 350.0)
+    assert "1 C" in finding.message
 
 
 def test_a_kit_gives_its_parts_and_names_beside_it_override_them(workshop: Write) -> None:

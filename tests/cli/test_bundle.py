@@ -10,6 +10,7 @@ from unittest.mock import ANY
 import pytest
 from support.commands import Run
 
+from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY_NAMES
 
 
@@ -168,6 +169,28 @@ def test_the_bodies_of_the_manifest_are_the_robots(bundle: Path) -> None:
         tensor = body["inertia_kg_m2"]
         moments = sorted(tensor[i][i] for i in range(3))
         assert moments[2] <= moments[0] + moments[1], "no rigid body breaks the triangle rule"
+
+
+def test_a_robot_that_tips_is_refused_and_written_anyway(run: Run, tmp_path: Path) -> None:
+    """Toes a third as long, turned outwards: the centre of mass with loaded springs is behind them."""
+    short = load_design("kenan-2.0").model_copy(update={"e_coef": 0.3, "ground_link_angle_deg": 80.0, "d_coef": 0.5})
+    (tmp_path / "short.toml").write_text(short.to_toml())
+    command = ("build", tmp_path / "short.toml", "-o", tmp_path / "b", "--no-pictures")
+    code, out, err = run(*command)
+    assert (code, out) == (1, "")
+    assert "does not jump (tips)" in err
+    assert "lengthen the toes" in err
+    assert "--anyway" in err
+    assert not (tmp_path / "b").exists()
+    assert run(*command, "--anyway")[0] == 0
+    assert (tmp_path / "b" / "manifest.json").is_file()
+
+
+@pytest.mark.parametrize(("name", "option"), [("ender-3", "--printer ender-3"), ("PLA", "--material PLA")])
+def test_a_printer_or_a_material_is_no_workshop(run: Run, name: str, option: str) -> None:
+    code, _, err = run("check", "kenan-2.0", "--workshop", name)
+    assert code == 2
+    assert option in err
 
 
 def test_a_ros2_package_is_part_of_the_bundle_where_it_is_asked_for(run: Run, bundle: Path, tmp_path: Path) -> None:

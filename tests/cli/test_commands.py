@@ -86,8 +86,8 @@ def test_every_command_has_json_and_help(run: Run) -> None:
         )  # it serves until it is stopped
 
 
-def test_readme_names_every_command_and_no_other() -> None:
-    table = re.findall(r"^\| `jumpcad (\w+)", (ROOT / "README.md").read_text(), re.MULTILINE)
+def test_the_docs_name_every_command_and_no_other() -> None:
+    table = re.findall(r"^\| `jumpcad (\w+)", (ROOT / "docs" / "commands.md").read_text(), re.MULTILINE)
     assert sorted(set(table)) == sorted(
         command.name or command.callback.__name__ for command in app.registered_commands if command.callback
     )

@@ -11,7 +11,7 @@ from manifold3d import CrossSection, JoinType, Manifold, Mesh64
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.joints import joint_pieces
-from jumpcad.coupon.pieces import Piece, coupon_holes, ladders, pieces
+from jumpcad.coupon.pieces import Piece, coupon_holes, pieces, series_of
 from jumpcad.printing.plates import packed
 from jumpcad.solids.finish import faults
 from jumpcad.solids.stl import write_stl
@@ -119,15 +119,15 @@ def test_pinions_play_by_the_backlash_engraved_on_them() -> None:
     assert played == pytest.approx(expected, abs=6e-3)
 
 
-def test_ladders_reach_beyond_the_fits_on_both_sides() -> None:
+def test_series_reach_beyond_the_fits_on_both_sides() -> None:
     for workshop in (WORKSHOP, load_workshop("fine"), changed("fits", press_mm=-0.3, loose_mm=0.9)):
-        fits, steps = workshop.fits, ladders(coupon_holes(workshop))
+        fits, steps = workshop.fits, series_of(coupon_holes(workshop))
         assert steps.axle_mm[1] < fits.press_mm
         assert steps.axle_mm[-2] > fits.loose_mm
         assert steps.bearing_mm[1] < fits.press_mm < steps.bearing_mm[-2]
         assert len(steps.axle_mm) <= 15
         assert np.ptp(np.diff(steps.axle_mm)) == pytest.approx(0.0, abs=1e-9)
-    tight = ladders(coupon_holes(changed("fits", backlash_circumferential_mm=0.0)))
+    tight = series_of(coupon_holes(changed("fits", backlash_circumferential_mm=0.0)))
     assert tight.backlash_mm == (0.0, 0.05, 0.1)
 
 

@@ -7,7 +7,7 @@ import pytest
 from manifold3d import JoinType
 from support.gearing import turning_play_deg
 
-from jumpcad.coupon.pieces import coupon_holes, coupon_pair, ladders, pinion
+from jumpcad.coupon.pieces import coupon_holes, coupon_pair, pinion, series_of
 from jumpcad.coupon.readings import LEAST_PLAY_MM, Readings, measured_workshop
 from jumpcad.errors import JumpcadError
 from jumpcad.solids.outline import polygon
@@ -22,8 +22,8 @@ def read(text: str, workshop: Workshop = WORKSHOP) -> Workshop:
 
 @pytest.mark.parametrize("shrinkage_mm", [0.03, 0.21, 0.34])
 def test_a_printer_that_narrows_holes_gets_fits_that_fit(shrinkage_mm: float) -> None:
-    """Try the ladder on a printer that narrows every hole by an amount, and print with the resulting fits."""
-    steps = ladders(coupon_holes(WORKSHOP)).axle_mm
+    """Try the gauge on a printer that narrows every hole by an amount, and print with the resulting fits."""
+    steps = series_of(coupon_holes(WORKSHOP)).axle_mm
 
     def first_with(play_mm: float) -> float:
         return next(step for step in steps if 2.0 * step - shrinkage_mm >= play_mm)

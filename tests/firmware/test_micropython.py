@@ -1,5 +1,6 @@
 """The firmware as MicroPython: it compiles, and main.py drives pins of a pretended board as the logic says."""
 
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -26,7 +27,10 @@ def test_it_compiles_for_micropython(path: str, tmp_path: Path) -> None:
 
 
 class Bench:
-    """A board with its robot: the sensor closes after 1 s of motor and opens 0.1 s of motor later."""
+    """A board with its robot: the sensor is pressed after 1 s of motor and free 0.1 s of motor later.
+
+    Its contact to ground opens when pressed, or for good when a lead breaks after some time of motor.
+    """
 
     def __init__(self, lines: dict[int, str]) -> None:
         self.now_ms = 0
@@ -36,6 +40,7 @@ class Bench:
         self.turned_ms = 0.0
         self.battery_v = 4.0
         self.presses: tuple[int, ...] = ()
+        self.breaks_ms = math.inf
 
     def sleep_ms(self, ms: int) -> None:
         self.now_ms += ms
@@ -51,9 +56,9 @@ class Bench:
         def read(new: int | None = None) -> int:
             if new is not None:
                 self.awake[number] = new
-            closed = number == 7 and 1000.0 <= self.turned_ms < 1100.0
-            pressed = number == 9 and any(at <= self.now_ms < at + 200 for at in self.presses)
-            return 0 if closed or pressed else 1
+            if number == 7:
+                return int(1000.0 <= self.turned_ms < 1100.0 or self.turned_ms >= self.breaks_ms)
+            return 0 if number == 9 and any(at <= self.now_ms < at + 200 for at in self.presses) else 1
 
         return SimpleNamespace(value=read, number=number)
 
@@ -124,6 +129,14 @@ def test_main_winds_and_releases_on_command(monkeypatch: pytest.MonkeyPatch, cap
     assert said[-1].endswith("1 jumps")
 
 
+def test_a_broken_lead_stops_the_motor(monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = Bench({500: "wind"})
+    bench.breaks_ms = 400.0
+    run_main(bench, monkeypatch)
+    assert 400.0 <= bench.turned_ms <= 400.0 + 20.0
+    assert bench.duty[5] == 0
+
+
 def test_the_button_winds_and_releases_after_a_delay(monkeypatch: pytest.MonkeyPatch) -> None:
     bench = Bench({7900: "state"})
     bench.presses = (500, 5000)
@@ -141,7 +154,7 @@ def test_the_button_winds_and_releases_after_a_delay(monkeypatch: pytest.MonkeyP
 
 
 def test_keys_that_come_one_by_one_do_not_stop_the_loop(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The sensor closes after a second of motor; half a word typed before that must not keep the motor on."""
+    """The sensor is pressed after a second of motor; half a word typed before that must not keep the motor on."""
     bench = Bench({500: "wind"})
     bench.type(600, "jum", 200)
     run_main(bench, monkeypatch)

@@ -1,10 +1,12 @@
 """The firmware's logic against a simulated motor, cam, sensor and battery, none of which uses its code.
 
-The cam turns at the motor's speed times the share of PWM. The sensor is closed over the last 12° before the drop, and
-bounces at each change of its state; the leg falls at the drop and lands some time later.
+The cam turns at the motor's speed times the share of PWM. The sensor is pressed over the last 12° before the drop, and
+bounces at each change of its state; the leg falls at the drop and lands some time later. The sensor's contact opens
+when pressed, so that a broken lead reads as pressed.
 """
 
 import importlib.util
+import math
 import random
 from types import ModuleType, SimpleNamespace
 
@@ -12,11 +14,11 @@ import pytest
 
 from jumpcad.files import templates_folder
 
-CLOSED_DEG, TURN = 12.0, 360.0
+PRESSED_DEG, TURN = 12.0, 360.0
 STEP_MS = 2
 NUMBERS = SimpleNamespace(
-    PWM_CAP=0.9, BATTERY_MIN_V=3.3, BATTERY_SAG_V=0.05, LOW_MS=200, WIND_MAX_MS=4000, RELEASE_MAX_MS=1000,
-    AFTER_RELEASE_MS=60, SETTLE_MS=10, LANDING_MS=1500, RAMP_MS=100,
+    PWM_CAP=0.9, BATTERY_MIN_V=3.3, BATTERY_SAG_V=0.05, LOW_MS=200, WIND_MIN_MS=900, WIND_MAX_MS=4000,
+    RELEASE_MAX_MS=1000, AFTER_RELEASE_MS=60, SETTLE_MS=10, LANDING_MS=1500, RAMP_MS=100,
 )  # fmt: skip
 
 
@@ -45,15 +47,18 @@ class World:
         self.stuck_at_deg: float | None = None
         self.shaken_until_ms = -1.0
         self.dead_switch: bool | None = None
+        self.breaks_at_deg: float | None = None
         self.changed_ms, self.was_closed = -1e9, False
         self.powers: list[float] = []
         self.random = random.Random(seed)
 
-    def closed(self) -> bool:
+    def pressed(self) -> bool:
         """Return the switch as a pin reads it."""
         if self.dead_switch is not None:
             return self.dead_switch
-        true = self.cam_deg % TURN >= TURN - CLOSED_DEG
+        if self.breaks_at_deg is not None and self.cam_deg >= self.breaks_at_deg:
+            return True
+        true = self.cam_deg % TURN >= TURN - PRESSED_DEG
         if true != self.was_closed:
             self.was_closed, self.changed_ms = true, self.now_ms
         bouncing = self.now_ms - self.changed_ms < self.bounce_ms or self.now_ms < self.shaken_until_ms
@@ -69,7 +74,7 @@ class World:
         if self.battery_v is not None and self.power:
             self.battery_v -= self.drain_v_s * dt / 1000.0
         self.now_ms += dt
-        self.power = self.winder.step(round(self.now_ms), self.closed(), self.battery_v, **commands)
+        self.power = self.winder.step(round(self.now_ms), self.pressed(), self.battery_v, **commands)
         self.powers.append(self.power)
 
     def until(self, *states: str, limit_s: float = 20.0) -> float:
@@ -102,7 +107,7 @@ def test_it_winds_to_the_sensor_waits_releases_and_stops(speed: float, jitter: i
     assert not any(world.powers)
     world.step(wind=True)
     world.until(WINDER.READY)
-    assert TURN - CLOSED_DEG <= world.cam_deg < TURN
+    assert TURN - PRESSED_DEG <= world.cam_deg < TURN
     world.wait(5.0)
     assert world.drops == 0
     assert world.power == 0.0
@@ -145,15 +150,60 @@ def test_a_gear_that_sticks_at_release_stops_the_motor_in_time() -> None:
     assert (world.power, world.winder.jumps) == (0.0, 0)
 
 
-@pytest.mark.parametrize("closed", [False, True])
-def test_a_broken_sensor_never_lets_the_motor_run_on(closed: bool) -> None:
-    """An open wire ends in the time-out of winding; a switch that hangs closed in that of the release."""
+@pytest.mark.parametrize("at_deg", [10.0, 60.0, 150.0, 250.0, 340.0])
+@pytest.mark.parametrize("after_a_jump", [False, True])
+def test_a_lead_that_breaks_while_winding_stops_the_motor_before_the_drop(at_deg: float, after_a_jump: bool) -> None:
+    """Right after a release the sensor is not believed before 900 ms, in which the cam turns by 130°."""
     world = World()
-    world.dead_switch = closed
+    if after_a_jump:
+        world = wound()
+        world.step(jump=True)
+        world.until(WINDER.IDLE)
+        world.wait(2.0)
+    drops, start_deg = world.drops, TURN * world.drops
+    world.breaks_at_deg = start_deg + at_deg
+    world.step(wind=True)
+    world.until(WINDER.READY, WINDER.FAULT)
+    assert world.power == 0.0
+    assert world.drops == drops
+    assert (
+        world.cam_deg <= start_deg + at_deg + 0.9 * world.speed_deg_s * (NUMBERS.SETTLE_MS + 2 * STEP_MS) / 1000.0 + 1.0
+    )
+    world.wait(2.0)
+    assert (world.power, world.drops) == (0.0, drops)
+    if after_a_jump and at_deg <= 100.0:
+        assert world.winder.state == WINDER.FAULT
+        assert "broken lead" in world.winder.said
+
+
+def test_what_a_broken_lead_left_half_wound_is_released_in_short_turns() -> None:
+    world = wound()
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    world.wait(2.0)
+    world.breaks_at_deg = TURN + 100.0
+    world.step(wind=True)
+    world.until(WINDER.FAULT)
+    for _ in range(math.ceil((TURN - 100.0) / (0.9 * 0.9 * world.speed_deg_s * NUMBERS.RELEASE_MAX_MS / 1000.0))):
+        world.wait(2.0)
+        on = len(world.powers)
+        world.step(wind=True)
+        assert world.winder.state == WINDER.READY
+        world.step(jump=True)
+        world.until(WINDER.FAULT)
+        assert sum(1 for power in world.powers[on:] if power) * STEP_MS <= NUMBERS.RELEASE_MAX_MS + 2 * STEP_MS
+    assert world.drops == 2
+
+
+@pytest.mark.parametrize("pressed", [False, True])
+def test_a_dead_sensor_never_lets_the_motor_run_on(pressed: bool) -> None:
+    """A shorted lead ends in the time-out of winding, a broken one in that of the release."""
+    world = World()
+    world.dead_switch = pressed
     world.wait(0.1)
     world.step(wind=True)
     world.until(WINDER.FAULT, WINDER.READY)
-    if closed:
+    if pressed:
         world.step(jump=True)
         world.until(WINDER.FAULT)
     assert sum(1 for power in world.powers if power) * STEP_MS <= NUMBERS.WIND_MAX_MS + STEP_MS

@@ -20,19 +20,22 @@ INSIDE = (-20.0, 20.0)
 
 
 def test_sizes_are_those_of_what_lies_on_the_trays() -> None:
-    """The longest of battery and both boards in a row; trays of 1.6 mm, foam tape of 1 mm, 3.8 mm above the battery.
+    """The longest of battery with stops and balance lead, and both boards in a row; trays of 1.6 mm, foam tape of 1 mm.
 
+    The battery has 0.5 mm of play to stops of 1.2 mm at its ends, and 3.8 mm above it.
     Beside every board are 0.2 mm of play and a slot of 1.8 mm for its tie, 0.8 mm between slots and 1.6 mm at the ends.
     Across lies the battery between two straps of 2 mm, each in the middle of 3 mm, with an edge beyond.
     """
     battery, boards = CARRIED.battery, (CARRIED.controller, CARRIED.driver)
     row = boards[0].width_mm + boards[1].width_mm + 4 * (0.2 + 1.8) + 0.8 + 2 * 1.6
-    assert CARRIED.length_mm == pytest.approx(max(battery.length_mm + 2.0, row, TRAY_LENGTH_MIN_MM))
+    lead = 4.0 + 2 * 1.6  # the slots of its tie, and the tray before and behind them
+    assert CARRIED.length_mm == pytest.approx(max(battery.length_mm + 2 * (0.5 + 1.2) + lead, row, TRAY_LENGTH_MIN_MM))
     assert CARRIED.width_mm == battery.width_mm + 2.0 * (3.0 + STRAP_EDGE_MM)
     height = 1.6 + battery.height_mm + 3.8 + 1.6 + 1.0 + max(board.height_mm for board in boards)
     assert CARRIED.height_mm == pytest.approx(height)
     long = CARRIED.battery.model_copy(update={"length_mm": 90.0})
-    assert Electronics(long, *boards).length_mm == 92.0
+    assert Electronics(long, *boards).length_mm == pytest.approx(90.0 + 2 * (0.5 + 1.2) + lead)
+    assert CARRIED.battery_mm == pytest.approx(CARRIED.length_mm / 2 - battery.length_mm / 2 - 1.7 - lead)
 
 
 def test_with_nothing_in_the_way_the_trays_are_over_the_front_pivot() -> None:

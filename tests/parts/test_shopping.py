@@ -51,7 +51,10 @@ def test_screws_have_lengths_that_are_sold(robot: Robot) -> None:
     assert len(screws) >= 2 * len(robot.layout.standoffs_mm) + 3
     assert any("toe" in screw.name for screw in screws) == robot.layout.toes_apart
     for screw in screws:
-        size, length = re.fullmatch(r"screw (M\d) x ([\d.]+) ISO 7380-1", screw.article).groups()  # type: ignore[union-attr]
+        found = re.fullmatch(r"screw (M\d) x ([\d.]+) (ISO [\d-]+)", screw.article)
+        assert found is not None
+        size, length, norm = found.groups()
+        assert norm == {"M2": "ISO 14580", "M3": "ISO 7380-1"}[size]  # ISO 7380-1 begins at M3
         if size == "M3":
             assert float(length) in load_catalogue().screws[size].lengths_mm
 

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial import Delaunay
 
-from jumpcad.scene.raster import drawn
+from jumpcad.scene.raster import rasterized
 
 SIZE = (40, 30)
 CENTRES = np.stack(np.meshgrid(np.arange(40) + 0.5, np.arange(30) + 0.5), axis=-1).reshape(-1, 2)
@@ -24,13 +24,13 @@ def test_a_net_of_triangles_covers_every_pixel_by_the_triangle_around_its_centre
     inner = np.random.default_rng(5).uniform([0.0, 0.0], [40.0, 30.0], (400, 2))
     inner[:40, 1] = inner[0, 1]  # a row of points: edges along the rows, and slivers
     net = Delaunay(np.concatenate([inner, [[-9.0, -9.0], [49.0, -9.0], [49.0, 39.0], [-9.0, 39.0]]]))
-    number, _, _ = drawn(triangles(net.points, net.simplices), SIZE)
+    number, _, _ = rasterized(triangles(net.points, net.simplices), SIZE)
     assert np.array_equal(number.ravel(), net.find_simplex(CENTRES))
 
 
 def test_a_square_has_as_many_pixels_as_its_area() -> None:
     corners = np.array([[4.0, 7.0], [24.0, 7.0], [24.0, 17.0], [4.0, 17.0]])
-    number, nearness, _ = drawn(triangles(corners, np.array([[0, 1, 2], [0, 2, 3]])), SIZE)
+    number, nearness, _ = rasterized(triangles(corners, np.array([[0, 1, 2], [0, 2, 3]])), SIZE)
     assert (number >= 0).sum() == 20 * 10
     assert (number[7:17, 4:24] >= 0).all()
     assert np.array_equal(nearness > 0.0, number >= 0)
@@ -40,20 +40,20 @@ def test_what_is_nearer_is_seen_in_whatever_order_and_backs_never() -> None:
     corners = np.array([[0.0, 0.0], [40.0, 0.0], [0.0, 60.0]])
     near, far = (triangles(corners, np.array([[0, 1, 2]]), nearness, nearness) for nearness in (2.0, 1.0))
     for order, seen in (((near, far), 0), ((far, near), 1)):
-        number, _, shade = drawn(np.concatenate(order), SIZE)
+        number, _, shade = rasterized(np.concatenate(order), SIZE)
         assert set(number[number >= 0]) == {seen}
         assert set(shade[number >= 0]) == {2.0}
-    number, _, _ = drawn(np.concatenate([near[:, ::-1], far]), SIZE)
+    number, _, _ = rasterized(np.concatenate([near[:, ::-1], far]), SIZE)
     assert set(number[number >= 0]) == {1}
-    assert (drawn(near[:, ::-1], SIZE)[0] == -1).all()
+    assert (rasterized(near[:, ::-1], SIZE)[0] == -1).all()
     near[0, 0, 2] = -0.1
-    assert (drawn(near, SIZE)[0] == -1).all(), "it reaches behind the camera"
+    assert (rasterized(near, SIZE)[0] == -1).all(), "it reaches behind the camera"
 
 
 def test_nearness_and_shade_of_a_slope_are_those_at_the_pixels_centre() -> None:
     corners = np.array([[-30.0, -20.0], [90.0, -10.0], [10.0, 80.0]])
     plane = np.column_stack([corners, 3.0 + corners @ [0.02, -0.01], 0.5 + corners @ [0.001, 0.003]])
-    number, nearness, shade = drawn(facing(plane[None]), SIZE)
+    number, nearness, shade = rasterized(facing(plane[None]), SIZE)
     assert (number == 0).all()
     assert np.allclose(nearness.ravel(), 3.0 + CENTRES @ [0.02, -0.01])
     assert np.allclose(shade.ravel(), 0.5 + CENTRES @ [0.001, 0.003])

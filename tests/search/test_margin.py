@@ -11,6 +11,7 @@ from jumpcad.search.margin import STEEPNESS, _missed
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.robust import rank_candidates
 from jumpcad.search.space import Space
+from jumpcad.search.tolerances import LENGTHS_ALONE
 from jumpcad.transforms import Array
 
 
@@ -33,7 +34,7 @@ def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
     points = SMALL.spread(30, np.random.default_rng(1))
     points[:12, 0] = 0.599 / 0.7  # a compression ratio of 0.699
     one.evaluate([SMALL.to_design(point) for point in points], "bo", 0)
-    best, *_ = ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=200)
+    best, *_ = ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)
     assert best.trial.phase == "margin"
     # 1 % above it is still feasible, and it gives away no more than twice what that costs.
     assert 0.98 * 0.7 < best.trial.design.compression_ratio < 0.7 / 1.008

@@ -13,9 +13,10 @@ from jumpcad.search.robust import (
     best_apart,
     plan_rounds,
     rank_candidates,
-    varied_lengths,
     varied_parameters,
 )
+from jumpcad.search.tolerances import LENGTHS_ALONE, Making
+from jumpcad.search.variant import Variant
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ def test_a_plateau_beats_a_needle(evaluator):
     one = evaluator(model=Spiked())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": angle}) for angle in (60.0, 40.0, 30.0)], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=200)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)
     assert [candidate.trial.score for candidate in ranked] == [5.0, 4.9, 9.0]
     assert ranked[-1].parameters_score < 5.0
     assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
@@ -58,7 +59,7 @@ def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
     needles = [centre.model_copy(update={"stiffness_nmm_per_deg": 6.0 + number}) for number in range(12)]
     plateau = centre.model_copy(update={"rest_angle_deg": 30.0})
     one.evaluate([*needles, plateau], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=200)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)
     assert sum(candidate.trial.phase == "bo" for candidate in ranked) == 13
     assert ranked[0].trial.design == plateau
 
@@ -67,7 +68,7 @@ def test_refused_neighbours_count_nothing_and_are_named(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
     one.evaluate([edge], "bo", 0)
-    candidate = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=200)[-1]
+    candidate = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=200)[-1]
     assert candidate.trial.design == edge
     assert candidate.parameters_score == 0.0
     assert candidate.print_score > 0.0
@@ -80,7 +81,7 @@ def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluat
     one = evaluator(model=Spiked())
     centre = SMALL.to_design([0.5, 0.5, 0.5])
     one.evaluate([centre.model_copy(update={"rest_angle_deg": 30.0 + number}) for number in range(20)], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=evaluations)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=evaluations)
     assert 0.5 * evaluations < len(one.trials) - 20 <= evaluations
     assert ranked[0].neighbours == max(candidate.neighbours for candidate in ranked)
     rounds = plan_rounds(evaluations)
@@ -94,7 +95,7 @@ def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     inside = edge.model_copy(update={"compression_ratio": 0.4})
     one.objective = replace(one.objective, figure=lambda metrics: metrics["fitness"] - 100.0)
     one.evaluate([edge, inside], "bo", 0)
-    ranked = rank_candidates(one, one.trials, seed=0, tolerance_mm=0.2, evaluations=15)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [inside, edge]
 
 
@@ -111,7 +112,7 @@ def test_variation_stays_within_its_limits():
     assert np.abs(changes).max() <= 0.01 + 1e-12
     assert (changes.max(axis=0) > 0.008).all()
     assert (changes.min(axis=0) < -0.008).all()
-    for varied in varied_lengths(design, 0.3, np.random.default_rng(0)):
+    for varied in (one.design for one in Making(0.3).neighbours(Variant(design), np.random.default_rng(0))):
         for name in ("l2_mm", "l3_mm", "l4_mm", "l5_mm"):
             assert abs(getattr(varied, name) - getattr(design, name)) <= 0.3 + 1e-9
         assert varied.to_vector()[4:] == design.to_vector()[4:]
@@ -151,3 +152,16 @@ def test_active_bounds_and_their_worth(evaluator):
     assert found["compression_ratio"].reason == "loop"
     few = active_bounds(one, trial, 2, evaluations=0)
     assert {bound.reason for bound in few} == {"not examined: no evaluations left"} or few == list(found.values())
+
+
+def test_making_varies_rate_mass_and_floor_as_a_single_jump_does():
+    """Their deviations are those that were asked for; rate over mass is one factor of the springs."""
+    design = load_design("kenan-2.0")
+    making = Making(0.2, rate=0.05, mass=0.04, floor=0.15, friction=0.8)
+    made = [one for seed in range(40) for one in making.neighbours(Variant(design), np.random.default_rng(seed))]
+    springs = np.array([one.design.stiffness_nmm_per_deg for one in made]) / design.stiffness_nmm_per_deg
+    floors = np.log(np.array([one.workshop["ground.friction"] for one in made]) / 0.8)
+    assert springs.std() == pytest.approx(np.hypot(0.05, 0.04), rel=0.05)
+    assert floors.std() == pytest.approx(0.15, rel=0.05)
+    assert abs(np.corrcoef(springs, floors)[0, 1]) < 0.1
+    assert springs.mean() == pytest.approx(1.0, abs=0.005)

@@ -38,6 +38,22 @@ def test_a_border_goes_around_holes_too():
     assert moments.borders_mm([plate - hole, plate - plate, hole]) == pytest.approx([2 * (42 + 6), 0.0, 2 * 6])
 
 
+def test_many_regions_at_once_are_each_as_alone():
+    # a polygon of n corners on a circle: area n/2·r²·sin(2π/n), border 2·n·r·sin(π/n)
+    radii = [3.0, 0.5, 80.0, 60.0, 1.0, 90.0, 40.0]
+    counts = np.array([7, 3, moments.BATCH_SIDES - 2, moments.BATCH_SIDES + 500, 5, 2500, 2400])
+    turns = [2.0 * np.pi * np.arange(count) / count for count in counts]
+    regions = [
+        outline.polygon(radius * np.column_stack([np.cos(turn), np.sin(turn)]))
+        for radius, turn in zip(radii, turns, strict=True)
+    ]
+    squares = np.square(radii)
+    areas, borders = moments.areas_and_borders(regions)
+    assert areas[:, 0] == pytest.approx(counts / 2.0 * squares * np.sin(2.0 * np.pi / counts))
+    assert borders[:, 0] == pytest.approx(2.0 * counts * np.array(radii) * np.sin(np.pi / counts))
+    assert moments.areas_moments([]).shape == (0, 6)
+
+
 def test_a_prism_is_a_box():
     area = moments.area_moments(outline.rectangle((40.0, 20.0), (7.0, -3.0)))
     found = moments.mass_of(moments.prism_moments(area, 2.0, 12.0), 1.27)

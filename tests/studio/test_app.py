@@ -14,7 +14,7 @@ from jumpcad.workshop import load_workshop
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Studio  # noqa: E402
-from jumpcad.studio.answers import printed_answer, quick_words  # noqa: E402
+from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
 
 
 @pytest.fixture
@@ -52,16 +52,32 @@ def test_only_what_changes_is_sent_again(studio: Studio) -> None:
     assert 0 < studio.stage.show(other) < len(studio.stage.meshes) / 2
 
 
+def test_what_only_moves_is_moved(studio: Studio) -> None:
+    """A longer carrying link changes the links and what holds them, and moves nearly everything."""
+    studio.answer(studio.design)
+    sent: list[str] = []
+    add = studio.server.scene.add_mesh_simple
+    studio.server.scene.add_mesh_simple = lambda name, *rest, **more: sent.append(name) or add(name, *rest, **more)
+    robot = printed_answer(studio.design.model_copy(update={"carrying_link_mm": 101.0}), studio.workshop).robot
+    assert robot is not None
+    studio.stage.show(robot)
+    assert "/robot/main_leg/main_leg" in sent
+    assert len(sent) < len(studio.stage.meshes) / 4
+    for one in visuals(robot):
+        handle = studio.stage.meshes[f"/robot/{one.body}/{one.name}"][1]
+        assert tuple(handle.position) == pytest.approx(tuple(one.T_body_mesh[:3, 3]), abs=1e-9)
+
+
 def test_a_design_that_cannot_be_built_is_told_with_its_reason(studio: Studio) -> None:
     found = studio.answer(studio.design.model_copy(update={"stiffness_nmm_per_deg": 200.0}))
     assert found.robot is None
-    assert found.refused
-    assert found.refused in studio.figures.content
+    assert found.reason
+    assert found.reason in studio.figures.content
 
 
 def test_the_ghost_is_what_was_kept_and_figures_show_the_difference(studio: Studio) -> None:
     studio.answer(studio.design)
-    studio._tell(studio._keep)
+    studio._run_action(studio._keep)
     assert any(name.startswith("/ghost/") for name in studio.stage.meshes)
     found = studio.answer(studio.design.model_copy(update={"stiffness_nmm_per_deg": 8.0}))
     assert found.robot is not None
@@ -77,16 +93,16 @@ def test_sliders_hold_the_design_and_reset(studio: Studio) -> None:
 
 
 def test_a_saved_design_is_read_again_and_a_users_file_is_kept(studio: Studio, tmp_path: Path) -> None:
-    studio._tell(studio._save)
+    studio._run_action(studio._save)
     assert load_design(tmp_path / "kenan-2.0-studio.toml") == studio.design
     (tmp_path / "kenan-2.0-studio.toml").write_text("mine")
-    studio._tell(studio._save)
-    assert "refused" in studio.told.content
+    studio._run_action(studio._save)
+    assert "not possible" in studio.status.content
     assert (tmp_path / "kenan-2.0-studio.toml").read_text() == "mine"
 
 
 def test_the_answer_at_once_is_the_capsule_robots() -> None:
-    words = quick_words(load_design("kenan-2.0"))
+    words = capsule_answer(load_design("kenan-2.0"))
     assert "190 mm" in words  # the README's range with the study's masses
 
 

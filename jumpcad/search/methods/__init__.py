@@ -36,6 +36,8 @@ class Task:
         Share of the best score below which a method that learns ends; 0 for none.
     first_step
         Number of its first step in the study file: a method may run several times in a study.
+    screen
+        Whether a quick guess leaves out candidates of the genetic algorithm.
     """
 
     evaluations: int
@@ -45,6 +47,7 @@ class Task:
     preset: str = "recommended"
     least_gain: float = 0.0
     first_step: int = 0
+    screen: bool = False
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
+from jumpcad.search.objective import SCREENED
 from jumpcad.search.space import Space
 from jumpcad.search.start import first_points
 from jumpcad.search.surrogate import Posterior
@@ -139,7 +140,8 @@ def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[
 def known_trials(evaluator: Evaluator) -> list[Trial]:
     """Return the trials to learn from: those of the prior study and of the evaluator in its space, each design once."""
     trials = {trial.key: trial for trial in [*evaluator.prior, *evaluator.trials]}
-    return [trial for trial in trials.values() if evaluator.space.contains(trial.variant)]
+    exact = (trial for trial in trials.values() if trial.evaluation.verdict != SCREENED)
+    return [trial for trial in exact if evaluator.space.contains(trial.variant)]
 
 
 def learned_trials(space: Space, trials: Sequence[Trial], best: int = LEARNED_BEST) -> list[Trial]:

@@ -6,7 +6,7 @@ resumed run repeats the finished generations in milliseconds and goes on. No sec
 """
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,10 +16,13 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods import Task
+from jumpcad.search.models import RobotModel
+from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.space import Space
 from jumpcad.search.start import first_points
-from jumpcad.search.trial import feasible_trials
+from jumpcad.search.trial import Trial, best_trial, feasible_trials
+from jumpcad.search.variant import Key, Variant
 from jumpcad.transforms import Array
 
 PATIENCE = 50
@@ -72,6 +75,8 @@ def run_genetic(evaluator: Evaluator, task: Task) -> None:
     if "mutation_num_genes" in operators:
         operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
     score = Fitness(evaluator, "ga", task.evaluations, rejected=-2.0 * LARGEST, first_step=task.first_step)
+    if task.screen:
+        score = ScreenedFitness(evaluator, "ga", task.evaluations, score.rejected, task.first_step)
     evolve(score, _first_population(evaluator, settings.population, task.seed), operators, task.seed)
 
 
@@ -95,17 +100,60 @@ class Fitness:
         space = self.evaluator.space
         before = len(self.evaluator.trials)
         variants = [space.to_variant(solution) for solution in np.atleast_2d(np.asarray(population, dtype=float))]
-        trials = self.evaluator.evaluate(
-            variants, self.phase, self.first_step + int(ga.generations_completed), limit=self.left
-        )
+        step = self.first_step + int(ga.generations_completed)
+        left_out = self.left_out(variants)
+        trials = self.evaluator.evaluate(variants, self.phase, step, limit=self.left, left_out=left_out)
         new = len(self.evaluator.trials) - before
         self.left -= new
         self._idle = 0 if new else self._idle + 1
-        return [self.rejected if trial is None or trial.score is None else self.objectives(trial) for trial in trials]
+        return [self.rejected if trial is None else self.fitness(trial) for trial in trials]
+
+    def fitness(self, trial: Trial) -> Any:
+        """Return the fitness of a trial."""
+        return self.rejected if trial.score is None else self.objectives(trial)
+
+    def left_out(self, _variants: Sequence[Variant]) -> Mapping[Key, Evaluation]:
+        """Return the outcome of variants that need no evaluation."""
+        return {}
 
     def on_generation(self, _ga: Any) -> str | None:
         """Stop PyGAD when budget or time is spent, or no new designs come."""
         return "stop" if self.left <= 0 or self._idle >= PATIENCE or self.evaluator.expired() else None
+
+
+class ScreenedFitness(Fitness):
+    """Fitness with a screen; a candidate that it leaves out has the score that was guessed, which the study keeps."""
+
+    def __init__(self, *arguments: Any) -> None:
+        from jumpcad.search.screen import Screen
+
+        super().__init__(*arguments)
+        evaluator = self.evaluator
+        assert isinstance(evaluator.model, RobotModel)
+        self._screen = Screen(evaluator.space, evaluator.model, evaluator.objective)
+
+    def fitness(self, trial: Trial) -> Any:
+        """Return the fitness of a trial, guessed or exact."""
+        if trial.evaluation.verdict != SCREENED:
+            return super().fitness(trial)
+        return trial.evaluation.metrics.get(GUESSED, self.rejected)
+
+    def left_out(self, variants: Sequence[Variant]) -> Mapping[Key, Evaluation]:
+        """Return the guesses of variants that the screen leaves out."""
+        evaluator, screen = self.evaluator, self._screen
+        best = best_trial(evaluator.trials)
+        fresh = {variant.key: variant for variant in variants if not evaluator.holds(variant)}
+        if not fresh or best is None:
+            return {}
+        if screen.learn(evaluator.trials, evaluator.store.recall("screen")):
+            assert screen.fit is not None
+            evaluator.store.remember("screen", screen.fit.to_record())
+        guesses = {key: screen.guess(variant) for key, variant in fresh.items()}
+        return {
+            key: Evaluation(SCREENED, {} if guess.score is None else {GUESSED: guess.score})
+            for key, guess in guesses.items()
+            if guess is not None and screen.leaves_out(guess, best.score or 0.0)
+        }
 
 
 def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], seed: int) -> None:

@@ -1,9 +1,9 @@
 """The stages of the published study, one after the other.
 
-Designs drawn at random to see the space; runs of the genetic algorithm with its settings; the most efficient of their
-best designs goes into Bayesian optimisation, in both of its modes: two parameters over their whole range, and all
-parameters in a small one; at the end the links alone, with the spring as it is. The study gives no numbers of
-evaluations for a stage: the shares here are a judgement.
+Random designs; runs of the genetic algorithm with the study's settings; from the most efficient of their best designs,
+Bayesian optimisation in its two modes, two parameters over their whole range and all parameters in a small one; at the
+end the links alone, with the spring unchanged. The study gives no numbers of evaluations for the stages: the shares
+here are a judgement.
 """
 
 from collections.abc import Iterator

@@ -23,11 +23,13 @@ from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 CAPS = 8
+"""Number of caps on the energy."""
 POPULATION = 40
+"""Of NSGA-II."""
 
 
 def energy_caps_j(space: Space) -> Array:
-    """Return the caps (CAPS,): even steps up to the largest energy at the corners of the space (J)."""
+    """Return the caps (CAPS,) in equal steps up to the largest energy at the corners of the space (J)."""
     corners = np.array(list(itertools.product((0.0, 1.0), repeat=space.dimension)))
     energies = energies_j(space.values(corners)[:, : len(PARAMETERS)])
     largest = float(energies[np.isfinite(energies)].max())
@@ -56,7 +58,7 @@ def run_pareto(evaluator: Evaluator, task: Task) -> None:
 
 
 def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
-    """Return a penalty that is 0 below a cap on the energy and 1 at a hundredth above it, growing smoothly."""
+    """Return a penalty of the acquisition: 0 below a cap on the energy, 1 at 1 % above it, growing smoothly."""
 
     def penalty(points: Array) -> Array:
         over = energies_j(space.values(points)[:, : len(PARAMETERS)]) / cap_j - 1.0

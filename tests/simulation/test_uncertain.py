@@ -4,11 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.built import built
 
-from jumpcad.calibration.subject import Subject
-from jumpcad.calibration.uncertain import _first_order, uncertain_jump
+from jumpcad.robot import Robot
 from jumpcad.settings import Draws, Settings
 from jumpcad.simulation import simulate
+from jumpcad.simulation.uncertain import _first_order, uncertain_jump
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return built("kenan-2.0")
 
 
 def test_indices_of_a_sum_and_a_product() -> None:
@@ -29,8 +35,7 @@ def test_a_group_of_two_counts_together() -> None:
     assert found[:, 0] == pytest.approx([0.75, 0.25], abs=0.03)
 
 
-def test_interval_holds_the_jump_and_shrinks_with_a_calibration(subject: Subject) -> None:
-    robot = subject.robot
+def test_interval_holds_the_jump_and_shrinks_with_a_calibration(robot: Robot) -> None:
     nominal = simulate(robot, Settings(), "planar").ballistic_range_m
     vague = uncertain_jump(robot, Settings(), "planar", samples=64)
     draws = Draws(spring_efficiency=(0.99, 1.0, 1.01) * 10, pin_friction=(0.24, 0.25, 0.26) * 10)
@@ -47,8 +52,8 @@ def test_interval_holds_the_jump_and_shrinks_with_a_calibration(subject: Subject
     assert share[1] < share[0]
 
 
-def test_the_workshop_says_how_much_springs_scatter(subject: Subject) -> None:
-    safety = subject.robot.workshop.safety.model_copy(update={"spring_rate_scatter": 0.0})
-    exact = replace(subject.robot, workshop=subject.robot.workshop.model_copy(update={"safety": safety}))
+def test_the_workshop_says_how_much_springs_scatter(robot: Robot) -> None:
+    safety = robot.workshop.safety.model_copy(update={"spring_rate_scatter": 0.0})
+    exact = replace(robot, workshop=robot.workshop.model_copy(update={"safety": safety}))
     found = uncertain_jump(exact, Settings(), "planar", samples=32)
     assert found.first_order["springs"]["ballistic_range_m"] == pytest.approx(0.0, abs=1e-9)

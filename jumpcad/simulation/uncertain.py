@@ -1,9 +1,9 @@
-"""One jump with what is not known of it: calibration, print tolerance, springs, mass, floor, and which of them matters.
+"""Uncertainty of one jump, from calibration, print tolerance, springs, mass and floor, and the sensitivity to each.
 
 Each of these is a group of inputs, independent of the others. The first-order index of a group is the share of the
-variance that knowing it would take away: Var(E[y | group]) / Var(y). E[y | group] is the group's part of an additive
-cubic that is fitted to all jumps (ANOVA by regression; Rabitz and Alis 1999), which needs far fewer jumps than
-Saltelli's scheme; what is left is due to groups together.
+variance that it explains alone: Var(E[y | group]) / Var(y). E[y | group] is the group's part of an additive cubic
+polynomial that is fitted to all jumps (ANOVA by regression; Rabitz and Alis 1999), which needs far fewer jumps than
+Saltelli's scheme; the rest of the variance is due to interactions of groups.
 """
 
 from collections.abc import Callable
@@ -15,35 +15,31 @@ import numpy.typing as npt
 from scipy.special import ndtri
 from scipy.stats import qmc
 
-from jumpcad.calibration import priors
-from jumpcad.calibration.priors import Prior
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.variants import with_lengths, with_spring_factor
+from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
 from jumpcad.robot import Robot
-from jumpcad.search.models import RobotModel
-from jumpcad.search.tolerances import with_length_errors
 from jumpcad.settings import Settings, coefficients
-from jumpcad.simulation import simulate
+from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
+from jumpcad.simulation.simulator import simulate
 from jumpcad.transforms import Array
 
 SAMPLES = 256
 """Jumps, a power of two."""
 DEGREE, RESAMPLES = 3, 100
-SHARES = (0.1, 0.5, 0.9)
-MASS_SHARE = 0.04
-"""Deviation of a printed robot's mass from the model's, as of parts from PrusaSlicer's."""
-FLOOR_SHARE = 0.15
-"""Deviation of the logarithm of a floor's friction that nobody tested; judgement: rubber slides at 0.6 to 1.0."""
-FIGURES = ("ballistic_range_m", "com_rise_m")
+"""Degree of the polynomial; bootstrap resamples."""
+FIGURES = {"ballistic_range_m": "range", "com_rise_m": "rise"}
+"""Figures of a jump whose uncertainty is computed, and their names in texts."""
 EDGE, TINY = 1e-9, 1e-30
+"""Least distance of a sample from 0 and 1; least variance that is divided by."""
 
 
 @dataclass(frozen=True)
 class Uncertainty:
     """Quantiles (10, 50, 90 %) of range and rise over `jumps` simulated jumps, and what they depend on.
 
-    `first_order` has, by group and figure, the share of the variance that it explains, `interval` its 80 % bootstrap
-    interval. A robot that does not jump counts 0; `jumps_share` is the share of those that do.
+    `first_order` has, by group and figure, the share of the variance that the group explains, `interval` its 80 %
+    bootstrap interval. A sample that does not jump counts as 0; `jumps_share` is the share of those that do.
+    `calibrated` tells whether the settings had draws of a calibration.
     """
 
     quantiles: dict[str, list[float]]
@@ -64,7 +60,11 @@ Apply = Callable[[Robot, Settings, Array], Applied]
 
 @dataclass(frozen=True)
 class Group:
-    """What is not known together: `inputs` even numbers in 0…1, `values` (n, k) from them (n, inputs), their effect."""
+    """Uncertain inputs that belong together.
+
+    `inputs` is their number of uniform variables; `values` maps these (n, inputs) to values (n, k); `apply` changes a
+    robot and its settings by one row of values (k,).
+    """
 
     inputs: int
     values: Callable[[Array], Array]
@@ -72,18 +72,23 @@ class Group:
 
 
 def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0, samples: int = SAMPLES) -> Uncertainty:
-    """Return a printed robot's jump with what is not known of it.
+    """Return the uncertainty of a printed robot's jump.
 
     Parameters
     ----------
     robot
         As built; its workshop has the tolerance of lengths and the scatter of spring rates.
     settings
-        Those of a calibration have draws; without them the priors of a calibration take their place.
+        With the draws of a calibration; without draws the priors of a calibration are used.
     engine
-        Of the jumps.
+        A key of `ENGINES`.
     seed, samples
-        Random seed; jumps, a power of two.
+        Random seed; number of jumps, a power of two.
+
+    Raises
+    ------
+    JumpcadError
+        If there is no such engine, or it is not installed.
     """
     groups = _groups(robot, settings)
     width = sum(group.inputs for group in groups.values())
@@ -103,7 +108,7 @@ def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0,
     low, high = np.quantile(np.array(again), (0.1, 0.9), axis=0)
     shares = _first_order(inputs, figures, np.arange(samples))
     return Uncertainty(
-        {name: np.quantile(figures[:, k], SHARES).tolist() for k, name in enumerate(FIGURES)},
+        {name: np.quantile(figures[:, k], QUANTILES).tolist() for k, name in enumerate(FIGURES)},
         {name: dict(zip(FIGURES, shares[g].tolist(), strict=True)) for g, name in enumerate(groups)},
         {
             name: {figure: [float(low[g, k]), float(high[g, k])] for k, figure in enumerate(FIGURES)}
@@ -135,13 +140,13 @@ def _first_order(inputs: dict[str, Array], figures: Array, rows: npt.NDArray[np.
 
 
 def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
-    """Return what is not known, by name."""
+    """Return the groups of uncertain inputs, by name."""
     workshop, rubs, draws = robot.workshop, coefficients(robot, settings), settings.draws
-    tolerance_mm = RobotModel("printed", workshop).tolerance_mm
+    tolerance_mm = workshop.fits.link_tolerance_mm
     rate = Prior("normal", 1.0, workshop.safety.spring_rate_scatter / 2.0, "workshop", 0.3)
-    mass = Prior("normal", 1.0, MASS_SHARE, "model", 0.3)
+    mass = Prior("normal", 1.0, PRINTED_MASS_SHARE, "model", 0.3)
     floor = Prior("lognormal", rubs.ground, FLOOR_SHARE, "workshop")
-    pins = Prior("lognormal", rubs.pin, priors.PIN_FRICTION.second, "workshop")
+    pins = Prior("lognormal", rubs.pin, PIN_FRICTION.second, "workshop")
 
     def drawn(at: Array) -> Array:
         pairs = np.column_stack([draws.spring_efficiency, draws.pin_friction])
@@ -149,7 +154,7 @@ def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
         return found
 
     def assumed(at: Array) -> Array:
-        return np.column_stack([priors.SPRING_EFFICIENCY.at(ndtri(at[:, 0])), pins.at(ndtri(at[:, 1]))])
+        return np.column_stack([SPRING_EFFICIENCY.at(ndtri(at[:, 0])), pins.at(ndtri(at[:, 1]))])
 
     def calibrated(robot: Robot, settings: Settings, value: Array) -> Applied:
         return robot, _changed(settings, spring_efficiency=value[0], pin_friction=value[1])
@@ -161,7 +166,7 @@ def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
         return with_spring_factor(robot, float(value[0])), settings
 
     def masses(robot: Robot, settings: Settings, value: Array) -> Applied:
-        """A heavier robot jumps as one of the model's mass with weaker springs."""
+        """A factor on the mass has the effect of its inverse on the springs."""
         return with_spring_factor(robot, 1.0 / float(value[0])), settings
 
     def floors(robot: Robot, settings: Settings, value: Array) -> Applied:
@@ -177,7 +182,7 @@ def _groups(robot: Robot, settings: Settings) -> dict[str, Group]:
 
 
 def _jump(robot: Robot, settings: Settings, engine: str, changes: list[tuple[Apply, Array]]) -> tuple[float, ...]:
-    """Return the figures of one jump; 0 for what does not jump."""
+    """Return the `FIGURES` of one jump; 0 where there is no jump or the changed design cannot be built."""
     try:
         for apply, value in changes:
             robot, settings = apply(robot, settings, value)

@@ -1,0 +1,133 @@
+"""The figures of calibration and of missing effects that README and docs show; `readme.py` compares them."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import calibration
+import effects
+import numpy as np
+
+from jumpcad.building import build
+from jumpcad.design import load_design
+from jumpcad.simulation import Settings, uncertain_jump
+
+SAMPLER_SLACK = 0.05
+"""How far apart (share) quantiles of the sampler may be on two machines."""
+SEED = 0
+SLIPPERY = 0.4
+READINGS = {
+    ("distance", "centre-of-mass"): "distance, as ballistic range",
+    ("distance", "resting-place"): "distance, as resting place",
+    ("height", "rise"): "height, as rise",
+    ("height", "absolute"): "height, as absolute",
+    ("battery", "battery"): "energy from the battery",
+}
+
+
+def of_calibration() -> dict[str, str]:
+    """Return the study's test, calibrated on Kenan 1.0 and Kenan 2.0 predicted, and one jump with its interval."""
+    found = calibration.paper(SEED)
+    rows = {(one["what"], one["as"]): one for one in found["beside"]}
+    ballistic, rest = rows["distance", "centre-of-mass"], rows["distance", "resting-place"]
+    ways = {one["what"].partition(",")[0]: one for one in found["explanations"]}
+    energy, mass = ways["energy of the springs over mass"], ways["mass"]
+    rate, travel = ways["spring rate"], ways["travel after landing"]
+    if ways["friction of the floor"]["needed"] is not None:
+        raise SystemExit("a floor explains the distance of Kenan 2.0: docs/calibration.md says that none does")
+    both = found["both"]
+    return {
+        "calibrated robot": _calibrated(found),
+        "calibrated prediction": _beside(rows),
+        "calibrated growth": f"The ratio of ranges is predicted as {_three(found['growth'])}; "
+        f"{100.0 * found['growth_of_1.40']:.1f} % of the draws reach the measured 1.40.",
+        "calibrated explanations": "\n".join(
+            (
+                f"- {energy['needed'] / energy['predicted']:.1f} times the energy over mass ({energy['needed']:.2f} of "
+                f"the model's instead of {energy['predicted']:.2f}): a robot of {mass['needed']:.0f} g instead of "
+                f"{mass['predicted']:.0f} g, or springs of {rate['needed']:.1f} instead of {rate['predicted']:.1f} "
+                "N·mm/° (the study says that both robots have the same springs);",
+                f"- or {travel['needed']:.0f} mm of travel after landing;",
+                "- the floor alone cannot do it: a foot that no longer slips gains nothing.",
+            )
+        ),
+        "calibrated both": f"energy over mass {_three(both['energy_per_mass']['kenan-1.0'])} of the model's for Kenan "
+        f"1.0, {_three(both['energy_per_mass']['kenan-2.0'])} for Kenan 2.0, whose mass it puts at "
+        f"{_three(both['parameters']['mass:kenan-2.0'])} of the model's",
+        "calibrated in short": f"a ballistic range of {_mm(ballistic['predicted'])} (10…50…90 %), or "
+        f"{_mm(rest['predicted'])} where it came to rest; 350 mm was measured, above "
+        f"{_share(ballistic['below_share'])} and {_share(rest['below_share'])} of the predictions. To explain it, "
+        f"Kenan 2.0 would need {energy['needed'] / energy['predicted']:.1f} times the springs' energy over its mass, "
+        f"or {travel['needed']:.0f} mm of travel after landing",
+        "uncertain": _uncertain(),
+    }
+
+
+def _calibrated(found: dict[str, Any]) -> str:
+    """Return what the first robot's jump says of the parameters."""
+    (height,) = (one for one in found["residuals"] if one["what"] == "height")
+    reading = max(height["readings"], key=height["readings"].__getitem__)
+    words = {"rise": "the rise", "absolute": "the absolute one"}
+    known = [one for one in found["parameters"] if one["verdict"] == "identified"]
+    if [one["key"] for one in known] != ["drive_efficiency"]:
+        raise SystemExit(f"identified are {[one['key'] for one in known]}: docs/calibration.md says the drive alone")
+    return (
+        f"the likeliest reading of the height is {words[reading]} ({_share(height['readings'][reading])}). Only the "
+        f"drive is identified ({_three(known[0]['posterior'])} of the model's efficiency)"
+    )
+
+
+def _beside(rows: dict[tuple[str, str], dict[str, Any]]) -> str:
+    """Return the table of what is predicted for Kenan 2.0 and what was measured."""
+    lines = ["| Kenan 2.0 | predicted (10…50…90 %) | measured | predictions below it |", "|---|--:|--:|--:|"]
+    for key, label in READINGS.items():
+        one = rows[key]
+        battery = key[0] == "battery"
+        predicted = f"{_three(one['predicted'])} J" if battery else _mm(one["predicted"])
+        measured = f"{one['measured']:.1f} J" if battery else f"{1000.0 * one['measured']:.0f} mm"
+        lines.append(f"| {label} | {predicted} | {measured} | {_share(one['below_share'])} |")
+    return "\n".join(lines)
+
+
+def _uncertain() -> str:
+    found = uncertain_jump(build(load_design("kenan-2.0")), Settings(), "planar", SEED)
+    shares = sorted(found.first_order.items(), key=lambda item: -item[1]["ballistic_range_m"])
+    words = ", ".join(f"{name} {of['ballistic_range_m']:.2f}" for name, of in shares)
+    return f"Kenan 2.0, uncalibrated: {_mm(found.quantiles['ballistic_range_m'])}; {words}."
+
+
+def of_effects() -> dict[str, str]:
+    """Return what effects that are not modelled are worth, and what slippery floors take; from the templates."""
+    found = effects.computed()
+    priced = {key: [one[key] for one in found["effects"].values()] for key in next(iter(found["effects"].values()))}
+    friction = found["floors"]["friction"]
+    ranges = [np.array(found["floors"][name]["range_m"]) * 1000.0 for name in effects.SWEPT]
+    slips = [next(at for at, far in zip(friction, one, strict=True) if far > 0.98 * one[-1]) for one in ranges]
+    low = friction.index(SLIPPERY)
+    return {
+        "effects": f"the bent main leg holds {_span(priced['leg_flex_energy'])} of the springs' energy, "
+        f"{_span(priced['leg_flex_range'])} of the range if none of it came back; air drag takes "
+        f"{_span(priced['drag_range'])} of the range; internal friction of the springs of "
+        f"{100.0 * effects.SPRING_FRICTION:.0f} % takes {_span(priced['spring_friction_range'])} "
+        f"(`spring_efficiency` in the settings); gear stages {100.0 * effects.GEAR_LOSS:.0f} % less efficient cost "
+        f"{_span(priced['gears_energy'])} more energy, {_span(priced['gears_time'])} more winding time, and no range",
+        "floors": f"Below a friction of {slips[0]:g} ({effects.SWEPT[0]}) and {slips[1]:g} ({effects.SWEPT[1]}) the "
+        f"foot slips and more than 2 % of the range is lost: at {SLIPPERY:g} it is {ranges[0][low]:.0f} of "
+        f"{ranges[0][-1]:.0f} mm, and {ranges[1][low]:.0f} of {ranges[1][-1]:.0f} mm.",
+    }
+
+
+def _three(values: Iterable[float]) -> str:
+    return "…".join(f"{value:.2f}" for value in values)
+
+
+def _mm(values_m: Iterable[float]) -> str:
+    return "…".join(f"{1000.0 * value:.0f}" for value in values_m) + " mm"
+
+
+def _share(value: float) -> str:
+    """Return a share in per cent; a sampler's is never whole."""
+    return f"{min(100.0 * value, 99.0):.0f} %"
+
+
+def _span(values: list[float]) -> str:
+    return f"{min(values):.1f} to {max(values):.1f} %"

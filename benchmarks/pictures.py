@@ -1,0 +1,254 @@
+"""The moving pictures of README and docs: winding, release, push-off and flight of Kenan 2.0.
+
+    python benchmarks/pictures.py [FOLDER]
+
+`jump.gif` is drawn from the robot's parts, `mechanism.svg` from the lines of its mechanism, both at the moments of the
+report's viewer: slow where the robot is fast. The folder is docs/pictures unless another is named.
+"""
+
+import math
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from jumpcad.building import build
+from jumpcad.bundle.renders import corners_of, gif
+from jumpcad.bundle.viewer import viewer_data
+from jumpcad.design import load_design
+from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.robot import Robot
+from jumpcad.scene.camera import View, aimed
+from jumpcad.scene.floor import STRIPE_M, with_floor
+from jumpcad.scene.renderer import Renderer
+from jumpcad.scene.visuals import visuals
+from jumpcad.simulation import Settings, simulate
+from jumpcad.transforms import Array, pose_at
+
+FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
+ROBOT = "kenan-2.0"
+SIZE = (640, 330)
+VIEW = View(yaw_deg=-72.0, pitch_deg=9.0)
+FRAME_S = 0.1
+PX_PER_MM, EDGE_PX = 1.6, 46.0
+COLOURS = {BODY: "#4a4f57", MAIN_LEG: "#1f6fb2", FRONT_LINK: "#c8641a", FOOT: "#2f8f4e"}
+INK, GHOST, CAM = "#22262b", "#9aa1aa", "#d9a441"
+TITLES = {"winding": "winding", "drop": "release", "push-off": "push-off", "flight": "flight"}
+WORDS = {
+    "winding": "Winding: the cam lifts the roller and winds the springs",
+    "drop": "Release: the roller drops off the cam",
+    "push-off": "Push-off: the springs extend the legs",
+    "flight": "Flight, to the first touchdown",
+}
+
+
+def shown() -> tuple[Robot, dict[str, Any]]:
+    """Return the robot and its motion as columns over the shown time, from the planar engine."""
+    robot = build(load_design(ROBOT), name=ROBOT)
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True), "planar")
+    return robot, viewer_data(robot, jump)
+
+
+def jump_gif(robot: Robot, data: dict[str, Any]) -> bytes:
+    """Return the animated picture of the printed robot; cam and gears turn."""
+    things = visuals(robot)
+    turning = {one["node"]: one for one in data["turning"]}
+    times = np.array(data["show_s"])
+    moments = np.searchsorted(times, np.arange(0.0, times[-1], FRAME_S), side="right") - 1
+    poses = []
+    for moment in moments:
+        bodies = {name: _pose(frames[moment]) for name, frames in data["frames"].items()}
+        poses.append(
+            [
+                bodies[thing.body] @ _turned(turning.get(thing.name), data, moment) @ thing.T_body_mesh
+                for thing in things
+            ]
+        )
+    corners = np.concatenate([corners_of(things, one) for one in poses])
+    camera = aimed(corners, VIEW, SIZE[0] / SIZE[1])
+    scene = Renderer([(thing.mesh, thing.colour) for thing in things])
+    pictures = []
+    for moment, one in zip(moments, poses, strict=True):
+        phase = data["phase"][moment]
+        caption = f"{TITLES[phase]}{data['phases'][phase]}; stripes of {1000.0 * STRIPE_M:.0f} mm"
+        pictures.append(with_floor(scene.picture(one, SIZE, VIEW, corners), camera, corners, caption))
+    return gif(pictures, round(1000.0 * FRAME_S))
+
+
+def _pose(seven: Sequence[float]) -> Array:
+    return pose_at(Rotation.from_quat(seven[3:]).as_matrix(), np.array(seven[:3]))
+
+
+def _turned(axis: dict[str, Any] | None, data: dict[str, Any], moment: int) -> Array:
+    """Return the turn (4, 4) of what the motor moves, about its axis across the body."""
+    if axis is None:
+        return np.eye(4)
+    angle = axis["per_cam"] * data["cam_rad" if axis["node"] == "cam" else "gear_rad"][moment]
+    turn = Rotation.from_euler("y", angle).as_matrix()
+    centre = np.array([axis["axis_m"][0], 0.0, axis["axis_m"][1]])
+    return pose_at(turn, centre - turn @ centre)
+
+
+def mechanism_svg(robot: Robot, data: dict[str, Any]) -> str:
+    """Return the animated drawing of the mechanism, seen from its right side; browsers play it without a script."""
+    times = np.array(data["show_s"])
+    clock = f'dur="{times[-1]:g}s" repeatCount="indefinite" keyTimes="{_list(times / times[-1], 4)}"'
+    frames = {name: np.array(values) for name, values in data["frames"].items()}
+    places = np.concatenate([frame[:, [0, 2]] for frame in frames.values()]) * 1000.0
+    reach = robot.design.l_max_mm
+    left = PX_PER_MM * (places[:, 0].min() - 0.75 * reach)
+    width = PX_PER_MM * (places[:, 0].max() + 0.75 * reach) - left
+    height = PX_PER_MM * (places[:, 1].max() + 0.35 * reach) + 2 * EDGE_PX
+    at = f"translate({-left:.1f} {height - EDGE_PX:.1f})"
+    com = " ".join(
+        f"{1000 * PX_PER_MM * x:.1f},{-1000 * PX_PER_MM * z:.1f}"
+        for (x, z), phase in zip(data["com_m"], data["phase"], strict=True)
+        if phase in ("push-off", "flight")
+    )
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
+            'font-family="DejaVu Sans, Arial, sans-serif" font-size="15" role="img">',
+            "<title>How the mechanism winds, releases and jumps</title>",
+            f'<rect width="{width:.0f}" height="{height:.0f}" fill="#ffffff"/>',
+            *_captions(data, times, clock),
+            *_energy(robot, frames, clock, width),
+            f'<g transform="{at}"><line x1="{left:.1f}" y1="2" x2="{left + width:.1f}" y2="2" stroke="{GHOST}"/>',
+            f'<polyline points="{com}" fill="none" stroke="#d1495b" stroke-width="1" stroke-dasharray="3 4"/>',
+            *(
+                _moving(frames[name], clock, shapes)
+                for name, shapes in _shapes(robot, data, clock).items()
+            ),
+            "</g></svg>",
+            "",
+        ]
+    )  # fmt: skip
+
+
+def _shapes(robot: Robot, data: dict[str, Any], clock: str) -> dict[str, str]:
+    """Return what moves with each body, in its frame (pixels, y down); the last is drawn on top."""
+    design, drive, layout = robot.design, robot.layout.drive, robot.layout
+    cam, geometry = drive.cam, drive.cam.geometry
+    hub, front = (-design.l1_mm / 2.0, 0.0), (design.l1_mm / 2.0, 0.0)
+    roller = geometry.roller_mm(0.0)
+    to_leg = math.radians(design.rest_angle_deg)
+    lever = (
+        roller[0] * math.cos(to_leg) - roller[1] * math.sin(to_leg),
+        roller[0] * math.sin(to_leg) + roller[1] * math.cos(to_leg),
+    )
+    outline = " ".join(_point(*point) for point in cam.profile_mm)
+    axis = layout.cam_axis_mm
+    turn = _animated("rotate", [[math.degrees(one)] for one in data["cam_rad"]], clock)
+    wheels = "".join(
+        f'<circle cx="{PX_PER_MM * x:.1f}" cy="{-PX_PER_MM * z:.1f}" r="{PX_PER_MM * radius:.1f}" fill="none" '
+        f'stroke="{GHOST}" stroke-dasharray="2 2"/>'
+        for (x, z), radius in _wheels(robot)
+    )
+    return {
+        FOOT: _bar((0.0, 0.0), (design.l4_mm, 0.0), COLOURS[FOOT], 7)
+        + _bar((0.0, 0.0), (float(toe_tip_mm(design)[0]), 0.0), COLOURS[FOOT], 5),
+        FRONT_LINK: _bar((0.0, 0.0), (design.l3_mm, 0.0), COLOURS[FRONT_LINK], 6),
+        BODY: wheels
+        + _bar(hub, front, COLOURS[BODY], 12)
+        + f'<g transform="translate({PX_PER_MM * axis[0]:.1f} {-PX_PER_MM * axis[1]:.1f})"><g>{turn}'
+        f'<polygon points="{outline}" fill="{CAM}" fill-opacity="0.85" stroke="{INK}"/></g></g>',
+        MAIN_LEG: _bar((0.0, 0.0), (design.l2_mm, 0.0), COLOURS[MAIN_LEG], 7)
+        + _bar((0.0, 0.0), lever, COLOURS[MAIN_LEG], 4)
+        + _circle(lever, geometry.roller_radius_mm, "#ffffff")
+        + _spiral(),
+    }
+
+
+def _wheels(robot: Robot) -> Iterable[tuple[tuple[float, float], float]]:
+    """Yield centre and pitch radius (mm) of the first and the last wheel."""
+    stages = robot.layout.drive.train.stages
+    yield tuple(robot.layout.cam_axis_mm), stages[-1].wheel.pitch_radius_mm
+    yield tuple(robot.layout.motor_mm), stages[0].pinion.pitch_radius_mm
+
+
+def _moving(frames: Array, clock: str, shapes: str) -> str:
+    """Return shapes that move with a body: its places and turns about y at the moments."""
+    places = [(1000.0 * PX_PER_MM * x, -1000.0 * PX_PER_MM * z) for x, z in frames[:, [0, 2]]]
+    turns = np.degrees(np.unwrap(2.0 * np.arctan2(frames[:, 4], frames[:, 6])))
+    return (
+        f"<g>{_animated('translate', places, clock)}<g>{_animated('rotate', turns[:, None].tolist(), clock)}"
+        f"{shapes}</g></g>"
+    )
+
+
+def _animated(kind: str, values: Iterable[Sequence[float]], clock: str) -> str:
+    rows = ";".join(" ".join(f"{value:.2f}" for value in row) for row in values)
+    return f'<animateTransform attributeName="transform" type="{kind}" values="{rows}" {clock}/>'
+
+
+def _captions(data: dict[str, Any], times: Array, clock: str) -> Iterable[str]:
+    for phase, words in WORDS.items():
+        seen = ";".join("1" if one == phase else "0" for one in data["phase"])
+        yield (
+            f'<text x="20" y="28" fill="{INK}" opacity="0">{words}{data["phases"][phase]}'
+            f'<animate attributeName="opacity" calcMode="discrete" values="{seen}" {clock}/></text>'
+        )
+
+
+def _energy(robot: Robot, frames: dict[str, Array], clock: str, width: float) -> Iterable[str]:
+    """Yield a bar of the energy in the springs, from the angle between body and main leg."""
+    angle = [2.0 * np.arctan2(frames[name][:, 4], frames[name][:, 6]) for name in (MAIN_LEG, BODY)]
+    leg = np.unwrap(angle[0] - angle[1])
+    loaded = np.clip((leg.max() - leg) / (leg.max() - leg.min()), 0.0, 1.0)
+    turn = loaded if abs(loaded[0]) < 0.5 else 1.0 - loaded
+    stored = np.array([robot.spring.stored_j(-share * robot.spring.wind_rad) for share in turn])
+    long = 180.0 * np.clip(stored / robot.spring.energy_j, 0.0, 1.0)
+    yield f'<text x="{width - 400:.0f}" y="54" fill="{INK}" font-size="13">energy in the springs</text>'
+    yield f'<rect x="{width - 220:.0f}" y="42" width="180" height="14" fill="none" stroke="{GHOST}"/>'
+    yield (
+        f'<rect x="{width - 220:.0f}" y="42" width="0" height="14" fill="#d1495b"><animate attributeName="width" '
+        f'values="{_list(long, 1)}" {clock}/></rect>'
+    )
+
+
+def _bar(start: Sequence[float], end: Sequence[float], colour: str, thick: float) -> str:
+    (x1, z1), (x2, z2) = ((PX_PER_MM * x, -PX_PER_MM * z) for x, z in (start, end))
+    line = (
+        f'<line x1="{x1:.1f}" y1="{z1:.1f}" x2="{x2:.1f}" y2="{z2:.1f}" stroke="{colour}" stroke-width="{thick}" '
+        'stroke-linecap="round"/>'
+    )
+    return line + _circle(start, 2.2, "#ffffff") + _circle(end, 2.2, "#ffffff")
+
+
+def _circle(at: Sequence[float], radius_mm: float, fill: str) -> str:
+    return (
+        f'<circle cx="{PX_PER_MM * at[0]:.1f}" cy="{-PX_PER_MM * at[1]:.1f}" r="{PX_PER_MM * radius_mm:.1f}" '
+        f'fill="{fill}" stroke="{INK}"/>'
+    )
+
+
+def _spiral() -> str:
+    """Return the springs about the hub."""
+    turns = [(6.0 + 0.2 * step, 0.3 * step) for step in range(64)]
+    path = " ".join(f"{radius * math.cos(angle):.1f},{radius * math.sin(angle):.1f}" for radius, angle in turns)
+    return f'<polyline points="{path}" fill="none" stroke="{INK}" stroke-width="1"/>'
+
+
+def _point(x: float, z: float) -> str:
+    return f"{PX_PER_MM * x:.1f},{-PX_PER_MM * z:.1f}"
+
+
+def _list(values: Iterable[float], digits: int) -> str:
+    return ";".join(f"{value:.{digits}f}" for value in values)
+
+
+def main() -> None:
+    """Draw both."""
+    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else FOLDER
+    folder.mkdir(parents=True, exist_ok=True)
+    robot, data = shown()
+    (folder / "mechanism.svg").write_text(mechanism_svg(robot, data), encoding="utf-8")
+    (folder / "jump.gif").write_bytes(jump_gif(robot, data))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,90 @@
+"""From a slider of the studio to new figures, to the printed robot's figures, and to its new meshes: CPU times.
+
+Every slider of two templates takes one step up. Figures at once are those of the study's masses in the planar engine;
+then the printed robot is built and simulated; then the meshes that changed are made and sent to a viser server.
+Run `python benchmarks/studio.py [--json] [--steps N]`; needs the extra `studio`, and `fast` for times worth having.
+"""
+
+import argparse
+import importlib.util
+import json
+from time import process_time
+from typing import Any
+
+import numpy as np
+import viser
+
+from jumpcad.design import PARAMETERS, Design, load_design
+from jumpcad.studio.answers import printed_answer, quick_words
+from jumpcad.studio.stage import Stage
+from jumpcad.workshop import load_workshop
+
+TEMPLATES = ("kenan-2.0", "best-printable")
+STEP = 0.01
+"""Share by which a slider moves."""
+
+
+def moved(design: Design, parameter: str, steps: int) -> Design:
+    """Return a design with one slider moved down by some steps; both templates have values at upper bounds."""
+    return Design(**{**design.model_dump(), parameter: getattr(design, parameter) * (1.0 - STEP * steps)})
+
+
+def measured(steps: int) -> dict[str, Any]:
+    """Return the times (ms) of every step, and how many meshes were sent."""
+    server = viser.ViserServer(port=0, verbose=False)
+    workshop, rows = load_workshop("default"), []
+    for name in TEMPLATES:
+        design, stage = load_design(name), Stage(server)
+        first = printed_answer(design, workshop)
+        assert first.robot is not None
+        quick_words(design)
+        stage.show(first.robot)
+        for parameter in PARAMETERS:
+            for step in range(1, steps + 1):
+                rows.append(_step(moved(design, parameter, step), stage, workshop))
+    server.stop()
+    made = [row for row in rows if row["meshes"] is not None]
+    return {
+        "compiled": importlib.util.find_spec("numba") is not None,
+        "steps": len(rows),
+        "refused": len(rows) - len(made),
+        **{key: _quantiles([row[key] for row in made]) for key in ("figures", "printed", "meshes", "sent")},
+    }
+
+
+def _step(design: Design, stage: Stage, workshop: Any) -> dict[str, Any]:
+    times = [process_time()]
+    quick_words(design)
+    times.append(process_time())
+    found = printed_answer(design, workshop)
+    words = found.words()
+    times.append(process_time())
+    sent = stage.show(found.robot) if found.robot is not None else 0
+    times.append(process_time())
+    assert words
+    figures, printed, meshes = (1000.0 * (time - times[0]) for time in times[1:])
+    none = found.robot is None
+    return {"figures": figures, "printed": printed, "meshes": None if none else meshes, "sent": sent}
+
+
+def _quantiles(values: list[float]) -> dict[str, float]:
+    return {"median": float(np.median(values)), "p90": float(np.quantile(values, 0.9)), "max": max(values)}
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--steps", type=int, default=3)
+    arguments = parser.parse_args()
+    result = measured(arguments.steps)
+    if arguments.json:
+        print(json.dumps(result, indent=2))
+        return
+    for key, value in result.items():
+        shown = ", ".join(f"{name} {one:.4g}" for name, one in value.items()) if isinstance(value, dict) else value
+        print(f"{key}: {shown}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,30 @@
+"""Signed margins of what can refuse a design while it is laid out: negative in a refusal, positive in a robot.
+
+A refusal ends the layout, so its message would be all that is known of it; a search that knows the missing millimetres
+finds its way around.
+"""
+
+from jumpcad.dimensions import GAP_MM
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding, limit
+from jumpcad.layout.layout import Layout
+from jumpcad.layout.sweep import legs_apart_mm
+
+CANNOT_BUILD = "cannot_build"
+"""Verdict of a design that has no robot."""
+
+
+def refusal_findings(error: CannotBuildError) -> tuple[Finding, ...]:
+    """Return the limit that a refusal missed, if it was a number."""
+    if error.margin is None:
+        return ()
+    return (Finding(error.limit, "error", error.margin, error.unit, str(error), ""),)
+
+
+def room_findings(layout: Layout) -> tuple[Finding, ...]:
+    """Return what a robot has left of the room for which most designs are refused."""
+    apart = legs_apart_mm(layout.linkage, layout.sections) - GAP_MM
+    return (
+        limit("legs_apart", apart, "mm", "gap of main leg and front link", ""),
+        limit("stop_room", layout.stop.room_mm, "mm", "room for the rest stop", ""),
+    )

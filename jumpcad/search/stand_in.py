@@ -1,0 +1,70 @@
+"""A printed robot from a few figures: what a screen simulates in place of a built one.
+
+Lengths, loaded angle and springs follow from the design, friction and pins from the workshop. What is left are mass,
+centre of mass and inertia of the bodies, the radii that touch the ground, the stop and the release.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from jumpcad.design import Design
+from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
+
+
+def figures_of(robot: Mechanism) -> dict[str, float]:
+    """Return the figures that `stand_in` needs, but for the masses; x and z in the bodies' frames."""
+    assert robot.stop is not None
+    assert robot.roller_off is not None
+    found: dict[str, float] = {}
+    for name, body in robot.bodies.items():
+        found |= {f"{name}_com_x_m": float(body.com_m[0]), f"{name}_com_z_m": float(body.com_m[2])}
+        found[f"{name}_inertia_kg_m2"] = float(body.inertia_kg_m2[1, 1])
+    return found | {
+        "foot_depth_m": robot.foot_depth_m,
+        "toe_radius_m": robot.bodies[FOOT].contacts[-1].radius_m,
+        "stop_rad": robot.stop.angle_rad,
+        "stop_nm_per_rad": robot.stop.stiffness_nm_per_rad,
+        "release_turn_rad": robot.roller_off.leg_rad + robot.spring.wind_rad,
+        "release_rad_s": robot.roller_off.leg_rad_s,
+        "release_ratio": robot.roller_off.energy_ratio,
+    }
+
+
+def stand_in(design: Design, figures: Mapping[str, float], like: Mechanism) -> Mechanism:
+    """Return the robot of a design with these figures, in all else like another one of its workshop."""
+    plain = capsule_robot(design)
+    bodies = {name: _body(plain.bodies[name], figures, like.bodies[name]) for name in BODY_NAMES}
+    spring = replace(plain.spring, preload_rad=like.spring.preload_rad, one_sided=like.spring.one_sided)
+    release = RollerOff(
+        figures["release_turn_rad"] - spring.wind_rad, figures["release_rad_s"], min(figures["release_ratio"], 1.0)
+    )
+    return replace(
+        plain,
+        bodies=bodies,
+        spring=spring,
+        foot_depth_m=figures["foot_depth_m"],
+        stop=Stop(spring.joint, figures["stop_rad"], figures["stop_nm_per_rad"]),
+        roller_off=release,
+        friction=like.friction,
+    )
+
+
+def _body(plain: Body, figures: Mapping[str, float], like: Body) -> Body:
+    """Return a body with the figures' mass and inertia; only the plane of motion is right."""
+    name = plain.name
+    com = np.array([figures[f"{name}_com_x_m"], 0.0, figures[f"{name}_com_z_m"]])
+    inertia = figures[f"{name}_inertia_kg_m2"] * np.diag([0.6, 1.0, 0.6])  # any about x and z: it turns about y
+    contacts = tuple(_contact(contact, figures, like) for contact in plain.contacts)
+    return Body(name, figures[f"{name}_mass_kg"], com, inertia, contacts)
+
+
+def _contact(contact: ContactSphere, figures: Mapping[str, float], like: Body) -> ContactSphere:
+    if like.name == BODY:
+        return replace(contact, radius_m=like.contacts[0].radius_m)
+    depth, toe = figures["foot_depth_m"], figures["toe_radius_m"]
+    if "toe" not in contact.name:
+        return replace(contact, radius_m=depth)
+    return replace(contact, centre_m=contact.centre_m + np.array([0.0, 0.0, toe - depth]), radius_m=toe)
