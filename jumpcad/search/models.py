@@ -19,8 +19,8 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, did_you_mean, templates_folder
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.search.objective import COST, QUANTILE, Evaluation, Objective, find_objective
-from jumpcad.search.refusal import CANNOT_BUILD, refusal_findings, room_findings
+from jumpcad.search.objective import CANNOT_BUILD, COST, QUANTILE, Evaluation, Objective, find_objective
+from jumpcad.search.refusal import refusal_findings, room_findings
 from jumpcad.search.stand_in import figures_of
 from jumpcad.search.tolerances import FRICTIONS, Making, tenth, varied_parameters
 from jumpcad.search.variant import NOTHING, Variant

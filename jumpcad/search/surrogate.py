@@ -17,14 +17,14 @@ from scipy.linalg import solve_triangular
 from scipy.optimize import minimize
 from scipy.special import erfcx, log_ndtr
 
+from jumpcad.search.objective import CANNOT_BUILD
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 VERDICT = "verdict"
-"""The constraint of all rejections that have no margin of their own; see `constraint_margins`."""
-GRADES, TINY = (-3.0, -0.1), 1e-9
-"""Least and largest value of a graded rejection."""
+"""A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
+NO_TAKEOFF = "no_takeoff"
 MAX_CONSTRAINTS = 8
 _FIT_STEPS = 30
 
@@ -256,33 +256,22 @@ def unwarped(values: Array) -> Array:
 def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
     """Return the margins (n,) of each constraint that rejected a design; NaN where a trial lacks it.
 
-    At most `MAX_CONSTRAINTS`: those with margins on both sides that reject most often, and `VERDICT` for all other
-    rejections together. That is 1 for a jump; for a limit whose margin is known only where it is missed (most refusals,
-    robots that stay on the ground), the margin over its median; and -1 for what has none.
+    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most often. Margins of refusals and of robots that stay
+    on the ground are left to `VERDICT`: as constraints of their own they gave fewer rejections, but not better designs
+    (printed robot, six seeds, medians: 3.87 against 3.67 at 40 evaluations, 4.30 against 4.39 at 60).
     """
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
-    errors = {f.name for trial in trials for f in trial.evaluation.findings if f.severity == "error"}
-    found = {name: _margins(trials, name) for name in errors & set(rejections)}
-    one_sided = {name: margins for name, margins in found.items() if not np.nanmax(margins) > 0.0}
-    both = sorted(set(found) - set(one_sided), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
-    verdict = np.array([_verdict(trial, set(both)) for trial in trials])
-    for margins in one_sided.values():
-        graded = margins / max(float(-np.nanmedian(margins)), TINY)
-        verdict = np.where(np.isnan(margins), verdict, np.clip(graded, *GRADES))
-    chosen = {name: found[name] for name in both}
-    return chosen | ({VERDICT: verdict} if (verdict < 0.0).any() else {})
+    built = (trial.evaluation for trial in trials if trial.evaluation.verdict != CANNOT_BUILD)
+    errors = {f.name for evaluation in built for f in evaluation.findings if f.severity == "error"} - {NO_TAKEOFF}
+    ranked = sorted(errors & set(rejections), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
+    margins = {name: np.array([_margin(trial, name) for trial in trials]) for name in ranked}
+    if rejections:
+        margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
+    return margins
 
 
-def _margins(trials: Sequence[Trial], name: str) -> Array:
-    found = ([f.margin for f in trial.evaluation.findings if f.name == name] for trial in trials)
-    return np.array([min(one, default=np.nan) for one in found])
-
-
-def _verdict(trial: Trial, known: set[str]) -> float:
-    """Return 1 for a jump, NaN for what a known margin rejects, else -1."""
-    if trial.evaluation.feasible:
-        return 1.0
-    return np.nan if known & set(trial.evaluation.reasons) else -1.0
+def _margin(trial: Trial, name: str) -> float:
+    return min((f.margin for f in trial.evaluation.findings if f.name == name), default=np.nan)
 
 
 def _scaled(margins: Array) -> Array:
