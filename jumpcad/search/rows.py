@@ -21,7 +21,7 @@ from jumpcad.search.stored import (
     stored_text,
     stored_workshop,
 )
-from jumpcad.search.tolerances import FRICTIONS
+from jumpcad.search.tolerances import MADE
 from jumpcad.search.trial import LEARNING_PHASES, PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50
@@ -88,7 +88,7 @@ def read_trial(record: dict[str, Any], free: int, keys: Sequence[str]) -> Trial:
             phase, step, stored_count(record, "place"), stored_design(record),
             stored_evaluation(record), score, sys.intern(stored_text(record, "model")),
             stored_figure(record, "duration_s"), proposal,
-            stored_workshop(record, keys, FRICTIONS if phase == "robust" else ()),
+            stored_workshop(record, keys, MADE if phase == "robust" else ()),
         )  # fmt: skip
     except JumpcadError as error:
         name = " ".join(shown(record[key]).removeprefix("b") for key in ("phase", "step", "place"))
