@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from functools import cache
+from dataclasses import replace
+from functools import cache, wraps
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,10 @@ from support.built import built
 from support.costs import Costs
 from support.robots import make_small_robot
 
+from jumpcad import checks
 from jumpcad.bundle.export import export
+from jumpcad.checks import Check
+from jumpcad.findings import Finding
 from jumpcad.robot import Robot
 from jumpcad.solids.skin import skin
 
@@ -36,6 +40,32 @@ def skins() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("jumpcad.solids.stack.skin", kept)
         yield
+
+
+@pytest.fixture(scope="session")
+def costly_findings() -> dict[object, list[Finding]]:
+    """What `checked_once` has found: by check, design and workshop."""
+    return {}
+
+
+@pytest.fixture
+def checked_once(costly_findings: dict[object, list[Finding]], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the costly checks of a robot be made once for all tests that ask for this: they show what uses findings.
+
+    A robot is known by design and workshop: for robots as `build` makes them.
+    """
+
+    def once(one: Check) -> Check:
+        @wraps(one.find)
+        def find(robot: Robot) -> list[Finding]:
+            key = one.find.__name__, robot.design.to_toml(), robot.workshop.to_toml()
+            if key not in costly_findings:
+                costly_findings[key] = list(one.find(robot))
+            return costly_findings[key]
+
+        return one if one.cheap else replace(one, find=find)
+
+    monkeypatch.setattr(checks, "CHECKS", tuple(map(once, checks.CHECKS)))
 
 
 @pytest.fixture(scope="session")

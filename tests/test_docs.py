@@ -41,6 +41,7 @@ def test_reference_is_what_the_program_gives(reference: ModuleType, page: str) -
     assert (DOCS / name).read_text(encoding="utf-8") == reference.PAGES[name]()
 
 
+@pytest.mark.usefixtures("checked_once")
 @pytest.mark.parametrize("page", ["checks.md", "files.md"])
 def test_reference_is_what_the_program_gives_figures_aside(reference: ModuleType, page: str) -> None:
     if page == "files.md":
@@ -91,6 +92,7 @@ def vars_of(constraint: object) -> list[float]:
     return [getattr(constraint, type(constraint).__name__.lower())]
 
 
+@pytest.mark.usefixtures("checked_once")
 @pytest.mark.parametrize("chapter", BLOCKS)
 def test_examples_run(
     chapter: str, bundle_of: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -74,6 +74,7 @@ def test_pareto_front_rises_in_a_process_with_a_worker(tmp_path):
     assert (tmp_path / "out" / "front.svg").is_file()
 
 
+@pytest.mark.usefixtures("checked_once")
 def test_custom_printer(run):
     shown = run("custom_printer")
     assert "a small printer in the corner" in shown

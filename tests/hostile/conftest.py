@@ -128,6 +128,11 @@ def slicer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
 
 
+@pytest.fixture(autouse=True)
+def findings(checked_once: None) -> None:
+    """Let a robot be checked once: what is tried here is what becomes of the findings."""
+
+
 @pytest.fixture
 def bundle(sandbox: Sandbox, originals: Originals) -> Path:
     """Return the folder of a bundle in the sandbox, `robot`."""

@@ -1,4 +1,7 @@
-"""Every figure of a workshop and of settings, one at a time, at the ends of its range and between."""
+"""Every figure of a workshop and of settings, one at a time, at the ends of its range.
+
+Between lie the shipped workshops and those of `tests/test_any_design.py`.
+"""
 
 import re
 import warnings
@@ -107,7 +110,7 @@ def name_of(place: Place) -> str:
 
 @pytest.mark.parametrize("place", WORKSHOP, ids=name_of)
 def test_a_figure_at_its_limits_is_borne_or_refused(own: dict[str, Any], sandbox: Sandbox, place: Place) -> None:
-    for value in WORKSHOP[place].values(1):
+    for value in WORKSHOP[place].ends():
         sandbox.tries += 1
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -134,7 +137,7 @@ def test_a_figure_has_two_ends_and_none_near_nothing(place: Place, model: type[R
 
 @pytest.mark.parametrize("field", SETTINGS, ids=name_of)
 def test_a_setting_at_its_limits_is_borne(sandbox: Sandbox, field: Place) -> None:
-    for value in SETTINGS[field].values(0):
+    for value in SETTINGS[field].ends():
         if not (field == ("dt_s",) and value < 1e-4):  # takes minutes
             number = int(value) if SETTINGS[field].whole else value
             sandbox.write("x.toml", f"{field[0]} = {number}\n" if len(field) == 1 else draws(field[1], number))

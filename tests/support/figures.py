@@ -24,18 +24,9 @@ class Range:
     whole: bool
     open: bool
 
-    def values(self, count: int) -> list[float]:
-        """Return both ends and `count` values between them, in equal ratios where both are above 0.
-
-        Of a range from 0, the smallest number above it too.
-        """
-        shares = [number / (count + 1) for number in range(1, count + 1)]
-        if self.whole:
-            return [self.low, self.high]
-        if self.low > 0.0:
-            return [self.low, *(self.low * (self.high / self.low) ** share for share in shares), self.high]
-        tiny = [TINY] if self.low == 0.0 else []
-        return [self.low, *tiny, *(self.low + (self.high - self.low) * share for share in shares), self.high]
+    def ends(self) -> list[float]:
+        """Return both ends; of a range from 0, the smallest number above it too."""
+        return [self.low, *([TINY] if self.low == 0.0 and not self.whole else []), self.high]
 
 
 def figures(model: type[BaseModel], place: Place = ()) -> Iterator[tuple[Place, Range]]:
