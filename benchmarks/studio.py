@@ -15,7 +15,7 @@ import numpy as np
 import viser
 
 from jumpcad.design import PARAMETERS, Design, load_design
-from jumpcad.studio.answers import printed_answer, quick_words
+from jumpcad.studio.answers import capsule_answer, printed_answer
 from jumpcad.studio.stage import Stage
 from jumpcad.workshop import load_workshop
 
@@ -37,7 +37,7 @@ def measured(steps: int) -> dict[str, Any]:
         design, stage = load_design(name), Stage(server)
         first = printed_answer(design, workshop)
         assert first.robot is not None
-        quick_words(design)
+        capsule_answer(design)
         stage.show(first.robot)
         for parameter in PARAMETERS:
             for step in range(1, steps + 1):
@@ -54,10 +54,10 @@ def measured(steps: int) -> dict[str, Any]:
 
 def _step(design: Design, stage: Stage, workshop: Any) -> dict[str, Any]:
     times = [process_time()]
-    quick_words(design)
+    capsule_answer(design)
     times.append(process_time())
     found = printed_answer(design, workshop)
-    words = found.words()
+    words = found.to_markdown()
     times.append(process_time())
     sent = stage.show(found.robot) if found.robot is not None else 0
     times.append(process_time())

@@ -7,6 +7,7 @@ from jumpcad.arguments import typed
 from jumpcad.building import built_and_checked
 from jumpcad.design import Design
 from jumpcad.findings import Finding, errors
+from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
@@ -72,8 +73,19 @@ def evaluate(
     CannotBuildError
         If the mechanism cannot work, or there is no room for its parts.
     """
+    return evaluate_made(design, workshop, settings, engine)
+
+
+def evaluate_made(
+    design: Design,
+    workshop: Workshop | None = None,
+    settings: Settings | None = None,
+    engine: str = "pybullet",
+    spring_factor: float = 1.0,
+) -> EvaluationResult:
+    """Return what `evaluate` returns, but with a jump of springs whose stiffness differs by a factor."""
     robot, findings = built_and_checked(design, workshop, name="")
-    jump = simulate(robot, settings, engine)
+    jump = simulate(with_spring_factor(robot, spring_factor), settings, engine)
     return EvaluationResult(robot, jump, (*jump.findings, *findings), _metrics(robot, jump))
 
 

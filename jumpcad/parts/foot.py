@@ -93,18 +93,21 @@ def in_one_piece(design: Design, sections: Sections, bed_mm: Sequence[float], to
 def _webs(layout: Layout, height_mm: float) -> list[tuple[float, float, float]]:
     """Return the webs between the rails (start x, end x, height): in front of the ankle, and further on if free.
 
-    The front link folds down between the rails when the springs are loaded; the lower web stays below it.
+    The front link folds down between the rails when the springs are loaded; both webs stay below it.
     """
     sections, l4 = layout.sections, layout.design.l4_mm
-    start = sections.foot_depth_mm
-    webs = [(start, start + WEB_MM, height_mm)]
     linkage = layout.linkage
     loaded = linkage.pose([-layout.design.compression_rad])
     slope = float(linkage.rest_rad + loaded.front_rad[0] - loaded.foot_rad[0])
-    middle = 0.5 * l4
-    below_link = (l4 - middle - LOW_WEB_MM) * math.tan(slope) - sections.eye_radius_mm / math.cos(slope) - LINK_GAP_MM
+
+    def below_link(x_mm: float) -> float:
+        above_eye = (l4 - x_mm) * math.tan(slope) - sections.eye_radius_mm / math.cos(slope) - LINK_GAP_MM
+        return sections.foot_depth_mm + above_eye
+
+    start, middle = sections.foot_depth_mm, 0.5 * l4
+    webs = [(start, start + WEB_MM, max(LOW_WEB_MIN_MM, min(height_mm, below_link(start + WEB_MM))))]
     rail_there = sections.rail_root_mm + LOW_WEB_AT * (sections.rail_tip_mm - sections.rail_root_mm)
-    low = min(rail_there - WEB_BELOW_RAIL_MM, sections.foot_depth_mm + below_link)
+    low = min(rail_there - WEB_BELOW_RAIL_MM, below_link(middle + LOW_WEB_MM))
     if low >= LOW_WEB_MIN_MM:
         webs.append((middle, middle + LOW_WEB_MM, low))
     return webs

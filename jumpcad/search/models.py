@@ -19,10 +19,10 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import Record, did_you_mean, templates_folder
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.search.objective import COST, QUANTILE, Evaluation, Objective, find_objective
-from jumpcad.search.refusal import CANNOT_BUILD, refusal_findings, room_findings
+from jumpcad.search.objective import CANNOT_BUILD, COST, QUANTILE, Evaluation, Objective, find_objective
+from jumpcad.search.refusal import refusal_findings, room_findings
 from jumpcad.search.stand_in import figures_of
-from jumpcad.search.tolerances import FRICTIONS, Making, tenth, varied_parameters
+from jumpcad.search.tolerances import FRICTIONS, SPRINGS, Making, tenth, varied_parameters
 from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
@@ -56,6 +56,8 @@ class RobotModel:
         of the worst of them. The design is rejected with the first neighbour that is.
     screened
         Whether the evaluation of a printed robot has the figures that a `Screen` learns from.
+    spring_factor
+        Stiffness of a printed robot's springs in its jump over that for which it is built.
     """
 
     name: str
@@ -64,6 +66,7 @@ class RobotModel:
     engine: str = "pybullet"
     neighbours_of: str = ""
     screened: bool = False
+    spring_factor: float = 1.0
 
     def __repr__(self) -> str:
         return f"<RobotModel {self.name}, {self.describe()['engine']}>"
@@ -126,8 +129,10 @@ class RobotModel:
             return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
 
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
-        """Return the model of the robot that is built in the workshop with other values."""
-        return replace(self, workshop=varied(self.workshop or load_workshop(), values))
+        """Return the model of the robot in the workshop with other values, or jumping with other springs."""
+        others = {key: value for key, value in values.items() if key != SPRINGS}
+        model = replace(self, spring_factor=float(values.get(SPRINGS, self.spring_factor)))
+        return replace(model, workshop=varied(self.workshop or load_workshop(), others)) if others else model
 
     @property
     def tolerance_mm(self) -> float:
@@ -139,14 +144,11 @@ class RobotModel:
 
     @property
     def making(self) -> Making:
-        """How far what is made of a design differs from it; of a robot that is made in no workshop, in lengths alone.
-
-        Springs from stock keep their rate here: a design for them has that rate and no other.
-        """
+        """How far what is made of a design differs from it: for a robot that is made in no workshop, lengths alone."""
         if self.workshop is None or self.name != "printed":
             return Making(self.tolerance_mm)
         workshop, (with_pad, bare) = self.workshop, FRICTIONS
-        rate = 0.0 if workshop.bought.spring else workshop.safety.spring_rate_scatter / 2.0
+        rate = workshop.safety.spring_rate_scatter / 2.0
         key = with_pad if workshop.ground.pad else bare
         return Making(self.tolerance_mm, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, workshop.ground.foot_friction, key)
 
@@ -210,9 +212,9 @@ class RobotModel:
         return {"jumpcad": __version__, "code": code_digest()} | versions("numpy", self.describe()["engine"], *solids)
 
     def _printed(self, design: Design) -> Evaluation:
-        from jumpcad.evaluation import evaluate
+        from jumpcad.evaluation import evaluate_made
 
-        result = evaluate(design, self.workshop, self.settings, self.engine)
+        result = evaluate_made(design, self.workshop, self.settings, self.engine, self.spring_factor)
         findings = (*result.findings, *room_findings(result.robot.layout))
         figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.screened else {})
         return Evaluation(result.verdict, figures, findings)

@@ -18,6 +18,8 @@ QUANTILE = "p10"
 """Figure, and objective: the score that nine of ten neighbours reach."""
 SCREENED, GUESSED = "screened", "guessed_score"
 """Verdict of a candidate that a screen left out, and the figure that it had for its score."""
+CANNOT_BUILD = "cannot_build"
+"""Verdict of a design that has no robot."""
 QUARANTINED = "quarantined"
 """Verdict of a design whose evaluation failed twice: ended its worker, or ran past its limit."""
 

@@ -57,7 +57,7 @@ def optimize(
         `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), `paper` (the published study's stages), or
         `pareto` and `nsga2` for a front.
     evaluations
-        How many designs are evaluated, those of the robust pick included: a quarter of them, at most 160.
+        How many designs are evaluated, those of the robust pick included: a quarter of them, at most 200.
     seed
         Random seed: the same call gives the same result.
     objective

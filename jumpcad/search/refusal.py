@@ -1,7 +1,7 @@
 """Signed margins of what can refuse a design while it is laid out: negative in a refusal, positive in a robot.
 
-A refusal ends the layout, so its message would be all that is known of it; a search that knows the missing millimetres
-finds its way around.
+A refusal ends the layout, so its message would be all that is known of it. Studies keep the missing millimetres, and
+the screen learns them.
 """
 
 from jumpcad.dimensions import GAP_MM
@@ -9,9 +9,6 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, limit
 from jumpcad.layout.layout import Layout
 from jumpcad.layout.sweep import legs_apart_mm
-
-CANNOT_BUILD = "cannot_build"
-"""Verdict of a design that has no robot."""
 
 
 def refusal_findings(error: CannotBuildError) -> tuple[Finding, ...]:

@@ -9,66 +9,33 @@ import itertools
 import json
 import os
 import sqlite3
-import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 from jumpcad.arguments import typed
-from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_path
-from jumpcad.findings import Finding, is_bare
 from jumpcad.search.database import connect, lock, open_to_read, plain_errors
-from jumpcad.search.methods import STEPS
-from jumpcad.search.stored import (
-    require_remembered,
-    stored_count,
-    stored_design,
-    stored_evaluation,
-    stored_figure,
-    stored_proposal,
-    stored_text,
-    stored_workshop,
+from jumpcad.search.rows import (
+    APPLICATION_ID,
+    COLUMNS,
+    FORMAT,
+    FORMATS,
+    SCHEMA,
+    TEXTS,
+    own_tables,
+    read_trial,
+    tables,
+    to_row,
 )
-from jumpcad.search.tolerances import FRICTIONS
-from jumpcad.search.trial import LEARNING_PHASES, PHASES, SEARCH_PHASES, Trial
+from jumpcad.search.stored import require_remembered, stored_text
+from jumpcad.search.trial import SEARCH_PHASES, Trial
 
-APPLICATION_ID = 0x4A554D50
-FORMAT = 3
-FORMATS = (1, 2, 3)
-"""Formats that are read; in the first one, every finding has its texts, in the first two a search has no workshop's
-values."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
-
-_WITHOUT_WORKSHOP = f"""
-CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL);
-CREATE TABLE notes (text TEXT NOT NULL);
-CREATE TABLE evaluations (
-  phase TEXT NOT NULL, step INTEGER NOT NULL, place INTEGER NOT NULL,
-  {", ".join(f"{name} REAL NOT NULL" for name in PARAMETERS)},
-  model TEXT NOT NULL, verdict TEXT NOT NULL, score REAL, metrics TEXT NOT NULL, findings TEXT NOT NULL,
-  detail TEXT NOT NULL, proposal TEXT NOT NULL, duration_s REAL NOT NULL,
-  PRIMARY KEY (phase, step, place), UNIQUE ({", ".join(PARAMETERS)})
-);
-PRAGMA application_id = {APPLICATION_ID};
-"""
-_SCHEMA = (
-    _WITHOUT_WORKSHOP.replace("  model TEXT", "  workshop TEXT NOT NULL, model TEXT").replace(
-        f"{PARAMETERS[-1]})", f"{PARAMETERS[-1]}, workshop)"
-    )
-    + f"PRAGMA user_version = {FORMAT};"
-)
-_COLUMNS = (
-    "phase", "step", "place", *PARAMETERS, "workshop",
-    "model", "verdict", "score", "metrics", "findings", "detail", "proposal", "duration_s",
-)  # fmt: skip
-_TEXTS = ("phase", "workshop", "model", "verdict", "metrics", "findings", "detail", "proposal")
-"""Columns that are read as bytes: the row that holds damaged text can then be named."""
 
 
 class StudyStore:
@@ -182,15 +149,18 @@ class StudyStore:
 
     def trials(self) -> list[Trial]:
         """Return all trials in the order of their study."""
-        columns = [f"CAST({name} AS BLOB)" if name in _TEXTS else name for name in _COLUMNS]
+        columns = [f"CAST({name} AS BLOB)" if name in TEXTS else name for name in COLUMNS]
         with plain_errors(self.path):
             if self._format() < FORMAT:
-                columns[_COLUMNS.index("workshop")] = "CAST('{}' AS BLOB)"
+                columns[COLUMNS.index("workshop")] = "CAST('{}' AS BLOB)"
             space = self.identity.get("space", {})
             free, keys = sum("fixed" not in part for part in space.values()), [name for name in space if "." in name]
             # Row by row: all of them as text would take more memory than the trials.
             records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations")
-            trials = [self._trial(dict(zip(_COLUMNS, record, strict=True)), free, keys) for record in records]
+            try:
+                trials = [read_trial(dict(zip(COLUMNS, record, strict=True)), free, keys) for record in records]
+            except JumpcadError as error:
+                raise JumpcadError(f"{self.path}: is damaged: {error}") from None
         trials.sort(key=lambda trial: trial.position)
         for one, other in itertools.pairwise(trials):
             if one.position == other.position:
@@ -209,10 +179,10 @@ class StudyStore:
 
     def append(self, trials: Iterable[Trial]) -> None:
         """Add trials, all or none."""
-        marks = ", ".join("?" * len(_COLUMNS))
+        marks = ", ".join("?" * len(COLUMNS))
         with self._transaction():
             self._connection.executemany(
-                f"INSERT INTO evaluations VALUES ({marks})", [_record(trial) for trial in trials]
+                f"INSERT INTO evaluations VALUES ({marks})", [to_row(trial) for trial in trials]
             )
 
     def _is_empty(self) -> bool:
@@ -259,7 +229,7 @@ class StudyStore:
             self._connection.execute("PRAGMA journal_mode = WAL")
             value = json.dumps(identity).replace("'", "''")
             self._connection.executescript(
-                f"BEGIN IMMEDIATE; {_SCHEMA} INSERT INTO study VALUES ('identity', '{value}'); COMMIT;"
+                f"BEGIN IMMEDIATE; {SCHEMA} INSERT INTO study VALUES ('identity', '{value}'); COMMIT;"
             )
         self._check_format()
         # A commit does not wait for the disk: the file stays valid, and only a power cut can lose the last batches.
@@ -282,26 +252,6 @@ class StudyStore:
         except JumpcadError as error:
             raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
-    def _trial(self, record: dict[str, Any], free: int, keys: Sequence[str]) -> Trial:
-        """Return a trial as it was written in a search of `free` parameters and these keys of the workshop."""
-        try:
-            phase = stored_text(record, "phase")
-            if phase not in PHASES:
-                raise JumpcadError(f"phase = {shown(phase)} is none of {', '.join(PHASES)}")
-            score = None if record["score"] is None else stored_figure(record, "score")
-            step, proposal = stored_count(record, "step"), stored_proposal(record, free)
-            if phase in LEARNING_PHASES and step % STEPS and "theta" not in proposal:
-                raise JumpcadError("proposal.theta: missing")
-            return Trial(
-                phase, step, stored_count(record, "place"), stored_design(record),
-                stored_evaluation(record), score, sys.intern(stored_text(record, "model")),
-                stored_figure(record, "duration_s"), proposal,
-                stored_workshop(record, keys, FRICTIONS if phase == "robust" else ()),
-            )  # fmt: skip
-        except JumpcadError as error:
-            name = " ".join(shown(record[key]).removeprefix("b") for key in ("phase", "step", "place"))
-            raise JumpcadError(f"{self.path}: is damaged: row {name}: {error}") from None
-
     def _format(self) -> int:
         return int(self._connection.execute("PRAGMA user_version").fetchone()[0])
 
@@ -312,22 +262,10 @@ class StudyStore:
             raise JumpcadError(f"{self.path}: is not a study file")
         if version not in FORMATS:
             raise JumpcadError(f"{self.path}: is a study of format {version}; this version of jumpcad reads {FORMAT}")
-        if _schema(self._connection) != _own_schema(version):
+        if tables(self._connection) != own_tables(version):
             raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
-
-
-def _schema(connection: sqlite3.Connection) -> list[tuple[str, str, str]]:
-    """Return type, name and definition of everything that a database holds."""
-    return connection.execute("SELECT type, name, sql FROM sqlite_master ORDER BY name").fetchall()
-
-
-@cache
-def _own_schema(version: int) -> list[tuple[str, str, str]]:
-    connection = sqlite3.connect(":memory:")
-    connection.executescript(_SCHEMA if version == FORMAT else _WITHOUT_WORKSHOP)
-    return _schema(connection)
 
 
 def _difference(there: Any, here: Any, name: str = "") -> str:
@@ -341,22 +279,3 @@ def _difference(there: Any, here: Any, name: str = "") -> str:
     if there == here:
         return ""
     return f"{without_controls(name)}: {json.dumps(there)[:200]} there, {json.dumps(here)[:200]} here"
-
-
-def _record(trial: Trial) -> tuple[Any, ...]:
-    evaluation = trial.evaluation
-    return (
-        trial.phase, trial.step, trial.place, *trial.design.to_vector(), _text(dict(trial.workshop)),
-        trial.model, evaluation.verdict, trial.score,
-        _text(dict(evaluation.metrics)), _text([_finding(one) for one in evaluation.findings]),
-        evaluation.detail, _text(dict(trial.proposal)), trial.duration_s,
-    )  # fmt: skip
-
-
-def _finding(finding: Finding) -> Any:
-    """Return a bare finding as a list, any other one as a mapping."""
-    few = [finding.name, finding.severity, finding.margin, finding.unit]
-    return few if is_bare(finding) else finding.to_dict()
-
-
-_text = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), check_circular=False).encode

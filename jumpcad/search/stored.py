@@ -29,6 +29,8 @@ LARGEST = 1e12
 """Above any figure of a jumping robot."""
 
 _ALL_GIVEN = set(PARAMETERS)
+_NONE: dict[str, Any] = {}
+"""Of rows without proposal or workshop, the same one."""
 
 Count = Annotated[int, Field(ge=0)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -247,7 +249,7 @@ def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
     thetas = proposal.get("theta", {})
     if not isinstance(thetas, dict) or any(not 3 <= len(theta) <= free + 2 for theta in thetas.values()):
         raise JumpcadError(f"proposal.theta: must be lists of at most {free + 2} hyperparameters")
-    return proposal
+    return proposal or _NONE
 
 
 def stored_workshop(record: Mapping[str, Any], keys: Sequence[str], more: Sequence[str] = ()) -> dict[str, Any]:
@@ -261,7 +263,7 @@ def stored_workshop(record: Mapping[str, Any], keys: Sequence[str], more: Sequen
     values: dict[str, Any] = _validated(_WORKSHOP.validate_json, "workshop", record["workshop"])
     if [key for key in values if key in keys or key not in more] != list(keys):
         raise JumpcadError(f"workshop: has {shown(list(values))}, not the keys of the study's space")
-    return values
+    return values or _NONE
 
 
 def stored_text(record: Mapping[str, Any], key: str) -> str:

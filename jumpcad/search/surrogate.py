@@ -17,12 +17,14 @@ from scipy.linalg import solve_triangular
 from scipy.optimize import minimize
 from scipy.special import erfcx, log_ndtr
 
+from jumpcad.search.objective import CANNOT_BUILD
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
 VERDICT = "verdict"
 """A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
+NO_TAKEOFF = "no_takeoff"
 MAX_CONSTRAINTS = 8
 _FIT_STEPS = 30
 
@@ -147,8 +149,10 @@ class Surrogate:
 
     def _distance(self, points: Array) -> Array:
         """Return the distances (m, n) of points (m, k) from the data: √5·r, in length scales of the kernel."""
-        difference = points[:, None, :] / self._lengths - self._seen[None] / self._lengths
-        distance: Array = np.sqrt(5.0 * np.einsum("ijk,ijk->ij", difference, difference))
+        squares = np.zeros((len(points), len(self._seen)))
+        for column, seen in zip((points / self._lengths).T, (self._seen / self._lengths).T, strict=True):
+            squares += (column[:, None] - seen) ** 2  # one axis at a time: all at once would take 40 MB
+        distance: Array = np.sqrt(5.0 * squares)
         return distance
 
 
@@ -252,30 +256,22 @@ def unwarped(values: Array) -> Array:
 def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
     """Return the margins (n,) of each constraint that rejected a design; NaN where a trial lacks it.
 
-    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most often.
+    At most `MAX_CONSTRAINTS`: `VERDICT`, and those that reject most often. Margins of refusals and of robots that stay
+    on the ground are left to `VERDICT`: as constraints of their own they gave fewer rejections, but not better designs
+    (printed robot, six seeds, medians: 3.87 against 3.67 at 40 evaluations, 4.30 against 4.39 at 60).
     """
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
-    errors = {f.name for trial in trials for f in trial.evaluation.findings if f.severity == "error"}
+    built = (trial.evaluation for trial in trials if trial.evaluation.verdict != CANNOT_BUILD)
+    errors = {f.name for evaluation in built for f in evaluation.findings if f.severity == "error"} - {NO_TAKEOFF}
     ranked = sorted(errors & set(rejections), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
-    margins = {name: _margins(trials, name) for name in ranked}
+    margins = {name: np.array([_margin(trial, name) for trial in trials]) for name in ranked}
     if rejections:
         margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
     return margins
 
 
-def _margins(trials: Sequence[Trial], name: str) -> Array:
-    """Return the margins (n,) of a constraint.
-
-    Some are known only where they are missed: of a refusal, or of a robot that stays on the ground. Where a robot was
-    built, they then count as met by as much as they are missed in the median.
-    """
-    found = [[f.margin for f in trial.evaluation.findings if f.name == name] for trial in trials]
-    margins = np.array([min(one, default=np.nan) for one in found])
-    missed = margins[np.isfinite(margins)]
-    if missed.size and missed.max() <= 0.0:
-        built = np.array([bool(trial.evaluation.metrics) for trial in trials])
-        margins[built & np.isnan(margins)] = -np.median(missed)
-    return margins
+def _margin(trial: Trial, name: str) -> float:
+    return min((f.margin for f in trial.evaluation.findings if f.name == name), default=np.nan)
 
 
 def _scaled(margins: Array) -> Array:

@@ -21,7 +21,10 @@ PERCENT = 1.0
 PERCENTILE = 10
 FRICTIONS = ("ground.friction", "ground.bare_friction")
 """Keys of the floor's friction in a workshop: of feet with a pad, and without."""
-STIFFNESS = PARAMETERS.index("stiffness_nmm_per_deg")
+SPRINGS = "made.spring_factor"
+"""Key of the rate of springs as made over that of the design: the robot is built for the design's."""
+MADE = (*FRICTIONS, SPRINGS)
+"""Keys by which a variant as made may differ from the study's workshop."""
 LENGTHS, SHARES = 4, 3
 """Numbers that errors of making take: of the links l2…l5; of rate, mass and friction."""
 
@@ -61,8 +64,8 @@ class Making:
     def neighbours(self, one: Variant, generator: np.random.Generator) -> list[Variant]:
         """Return variants as they may be made.
 
-        A heavier robot jumps as one of the design's mass with weaker springs. Factors are rounded, so that the last
-        digits of a processor do not make other designs.
+        The robot is built as designed, and jumps with other springs; a heavier one jumps as one of the design's mass
+        with weaker springs. Factors are rounded, so that the last digits of a processor do not make other designs.
         """
         if not (self.rate or self.mass or self.floor):
             return [
@@ -80,10 +83,8 @@ class Making:
         ]
 
     def _made(self, one: Variant, error_mm: Array, springs: float, friction: float) -> Variant:
-        vector = np.array(with_length_errors(one.design, error_mm).to_vector())
-        vector[STIFFNESS] *= springs
         workshop = {**one.workshop, self.key: friction} if self.floor else one.workshop
-        return Variant(design_within_limits(vector), workshop)
+        return Variant(with_length_errors(one.design, error_mm), {**workshop, SPRINGS: springs})
 
 
 LENGTHS_ALONE = Making(0.2)

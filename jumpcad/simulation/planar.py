@@ -28,10 +28,10 @@ LACKING = ("restitution", "rolling_friction_m", "drag_per_s", "published_quantit
 
 
 class PlanarWorld:
-    """One robot in the plane; a `World` for `Run`."""
+    """One robot in the plane; a `World` for `Run`. `pin_forces`: see `planar_model`."""
 
-    def __init__(self, mechanism: Mechanism, settings: Settings) -> None:
-        self.model = planar_model(mechanism, settings)
+    def __init__(self, mechanism: Mechanism, settings: Settings, pin_forces: bool = False) -> None:
+        self.model = planar_model(mechanism, settings, pin_forces)
         self.settings = settings
         self._aside_m = [mechanism.bodies[name].com_m[1] for name in BODY_NAMES]
         self.joint_damping_j = self.slip_j = 0.0

@@ -185,7 +185,7 @@ def pin_torque(model: Model, links: Links, ground: Ground, speed: Motion, change
     foot, the others' link by link. Their own friction, a small part of these torques, is left out of them.
     """
     pins, rates, turn, dt = model.pin_friction_m, links.pin1, ground.turn, 2.0 * ground.half_s
-    dry = model.joint_friction_nm * (1.0 + abs(rates[1]) + abs(rates[2]))
+    dry = model.pins_nm + model.joint_friction_nm * (1.0 + abs(rates[1]) + abs(rates[2]))
     if pins[0] + pins[1] + pins[2] + pins[3] == 0.0:
         return dry
     squared, mixed = speed.leg * speed.leg, speed.leg * speed.foot

@@ -9,11 +9,12 @@ from typing import NamedTuple
 
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.settings import Settings, coefficients
+from jumpcad.strength.pin_friction import pin_torque_nm
 
 SAME_M = 1e-9
 """Contact spheres that differ by less than this in the plane are one: left and right toe."""
 NO_PINS_M = 0.0, 0.0, 0.0, 0.0
-"""Radii of the pins of a robot that has none: the capsules."""
+"""Radii of the pins where their forces cause no friction."""
 
 
 class Model(NamedTuple):
@@ -38,6 +39,7 @@ class Model(NamedTuple):
     one_sided_spring: bool
     damping_nms_per_rad: float
     joint_friction_nm: float
+    pins_nm: float
     pin_friction_m: tuple[float, ...]
     stop_rad: float
     stop_nm_per_rad: float
@@ -48,14 +50,16 @@ class Model(NamedTuple):
     belly_radius_m: tuple[float, ...]
 
 
-def planar_model(mechanism: Mechanism, settings: Settings) -> Model:
+def planar_model(mechanism: Mechanism, settings: Settings, pin_forces: bool = False) -> Model:
     """Return a robot's mechanism in the plane, left and right sides coinciding.
 
-    Every number is a float or a complex: a tuple with integers would be another type, compiled anew.
+    Dry friction of the pins is the constant torque at the leg joint that the other engines have; with `pin_forces` it
+    follows from the pins' forces in every step. Every number is a float or a complex: a tuple with integers would be
+    another type, compiled anew.
     """
     design, spring, stop = mechanism.design, mechanism.spring, mechanism.stop
     rubs = coefficients(mechanism, settings)
-    pin_radius_m = mechanism.friction.pin_radius_m if mechanism.friction else NO_PINS_M
+    pin_radius_m = mechanism.friction.pin_radius_m if mechanism.friction and pin_forces else NO_PINS_M
     bodies = [mechanism.bodies[name] for name in BODY_NAMES]
     foot, body = mechanism.bodies[FOOT], mechanism.bodies[BODY]
     sole, sole_radius = _spheres(foot)
@@ -76,6 +80,7 @@ def planar_model(mechanism: Mechanism, settings: Settings) -> Model:
         one_sided_spring=spring.one_sided,
         damping_nms_per_rad=rubs.joint_damping_nms_per_rad,
         joint_friction_nm=settings.joint_friction_nm,
+        pins_nm=0.0 if pin_forces else pin_torque_nm(mechanism, rubs.pin),
         pin_friction_m=tuple(float(rubs.pin * radius) for radius in pin_radius_m),
         stop_rad=float(stop.angle_rad) if stop else math.inf,
         stop_nm_per_rad=float(stop.stiffness_nm_per_rad) if stop else 0.0,

@@ -1,8 +1,7 @@
 """The release in a contact simulation of the exported files keeps the energy, and kicks as hard, as the manifest says.
 
 `release_contact` reads the bundle alone. Both take stiffnesses, friction and motors from the same assumptions, so this
-confirms mechanics and shapes, not those figures. The simulation also has losses where roller and cam touch: the
-manifest's kick is 2 % lower for best-printable and 18 % higher for kenan-2.0, whose cam is light beside its roller.
+confirms mechanics and shapes, not those figures. The simulation also has losses where roller and cam touch, and hops.
 """
 
 import math
@@ -26,9 +25,16 @@ def test_the_release_keeps_the_energy_and_kicks_as_the_manifest_says(
         assert outcome.energy_ratio == pytest.approx(said["energy_ratio_with_bending"], abs=0.005)
         assert outcome.energy_ratio > 0.97 * said["bending_ratio"]
     kick = max(outcome.kick_nm for outcome in outcomes)
-    assert kick < 1.1 * said["kick_nm"]  # the reserve that the checks keep
-    assert kick > 0.75 * said["kick_nm"]
+    assert kick == pytest.approx(said["kick_nm"], rel=0.1)  # the reserve that the checks keep
     assert kick < said["kick_limit_nm"]
+
+
+def test_a_slow_motor_is_the_hard_case(bundle_of: Callable[[str], Path]) -> None:
+    """The leg swings up on its lever while the roller comes over the top, the more the quicker: less throws the cam."""
+    contact = Contact(bundle_of("kenan-2.0"))
+    quick, slow = contact.files.manifest["drive"]["release"]["assumed"]
+    assert slow["cam_rad_s"] < 0.5 * quick["cam_rad_s"]
+    assert contact.run(quick).kick_nm < 0.9 * contact.run(slow).kick_nm
 
 
 def test_too_little_play_loses_more_and_kicks_harder(bundle_of: Callable[[str], Path]) -> None:

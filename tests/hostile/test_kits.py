@@ -29,7 +29,7 @@ REFUSED = {
     ),
     "a board that is too long between the plates": (
         own("controller", "length_mm = 400.0"),
-        r"^part body_plate_\w+ of .*40\d\.\d mm does not fit the bed of 250\.0×.*: choose .* smaller boards",
+        r"^part body_plate_\w+ of .*40\d\.\d mm does not fit the bed of 250\.0×.*: choose .* smaller battery or boards",
     ),
     "a board with too few pins": (
         own("controller", NO_PINS),

@@ -5,9 +5,11 @@ import math
 import numpy as np
 import pytest
 import trimesh
+from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, cut, hole_centres, placed
 
 from jumpcad.mechanism.model import FOOT
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 
 ONE_PIECE = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
@@ -76,3 +78,23 @@ def test_contact_spheres_touch_the_ground_inside_the_parts(name: str) -> None:
         if "toe" in sphere.name:
             mesh = meshes[float(np.sign(y))]
             assert np.abs(mesh.vertices[:, :2] - [x, y]).sum(axis=1).min() < 2.0 * TIP_RADIUS_MM
+
+
+@pytest.mark.parametrize("workshop", ["default", "fine"])
+def test_the_folded_front_link_clears_the_webs_between_the_rails(workshop: str) -> None:
+    """best-printable folds nearly flat: with its springs loaded, measured between the meshes."""
+    robot = built("best-printable", workshop)
+    poses = body_poses(robot, loaded=1.0)
+    foot, link = (solid_of(placed(robot, name), poses[name]) for name in ("foot", "front_link"))
+    middle = foot.trim_by_plane([0.0, 1.0, 0.0], -2.0)
+    middle = middle.trim_by_plane([0.0, -1.0, 0.0], -2.0)
+    assert middle.min_gap(link, 3.0) > 0.9
+
+
+def solid_of(mesh: trimesh.Trimesh, pose: np.ndarray) -> Manifold:
+    """Return a mesh of a body's frame (mm) as a solid in the world (mm)."""
+    made = Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))
+    assert made.volume() > 0.0
+    matrix = pose.copy()
+    matrix[:3, 3] *= 1000.0
+    return made.transform(matrix[:3])

@@ -2,26 +2,17 @@
 
 import pickle
 
-import numpy as np
 import pytest
 
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.refusal import refusal_findings
-from jumpcad.search.surrogate import constraint_margins
-from jumpcad.search.trial import Trial
 from jumpcad.simulation import Settings, simulate
 
 BEST = load_design("best-printable")
-
-
-def trial(evaluation: Evaluation, number: int) -> Trial:
-    score = 1.0 if evaluation.feasible else None
-    return Trial("bo", number, 0, BEST, evaluation, score, "m", 0.1)
 
 
 def test_the_margin_is_the_message_s_millimetres_and_changes_its_sign_where_a_robot_is_built():
@@ -58,12 +49,3 @@ def test_a_robot_that_stays_on_the_ground_says_how_much_speed_is_missing():
     assert missing.severity == "error"
     assert missing.margin == pytest.approx(missing.value - missing.limit)
     assert missing.margin < 0.0
-
-
-def test_a_margin_that_only_refusals_have_counts_as_met_where_a_robot_was_built():
-    missed = [Finding("room", "error", margin, "mm", "", "") for margin in (-1.0, -3.0, -2.0)]
-    trials = [trial(Evaluation("cannot_build", findings=(one,)), number) for number, one in enumerate(missed)]
-    trials += [trial(Evaluation("jump", {"fitness": 1.0}), 3), trial(Evaluation("loop"), 4)]
-    margins = constraint_margins(trials)["room"]
-    assert margins[:4].tolist() == [-1.0, -3.0, -2.0, 2.0]
-    assert np.isnan(margins[4])

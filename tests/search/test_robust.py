@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from support.hills import SMALL, Hill
 
+from jumpcad.building import build
 from jumpcad.design import PARAMETERS, load_design
+from jumpcad.mechanism.variants import with_spring_factor
+from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.robust import (
     active_bounds,
@@ -17,6 +20,7 @@ from jumpcad.search.robust import (
 )
 from jumpcad.search.tolerances import LENGTHS_ALONE, Making
 from jumpcad.search.variant import Variant
+from jumpcad.simulation import simulate
 
 
 @dataclass(frozen=True)
@@ -159,9 +163,21 @@ def test_making_varies_rate_mass_and_floor_as_a_single_jump_does():
     design = load_design("kenan-2.0")
     making = Making(0.2, rate=0.05, mass=0.04, floor=0.15, friction=0.8)
     made = [one for seed in range(40) for one in making.neighbours(Variant(design), np.random.default_rng(seed))]
-    springs = np.array([one.design.stiffness_nmm_per_deg for one in made]) / design.stiffness_nmm_per_deg
+    assert {one.design.stiffness_nmm_per_deg for one in made} == {design.stiffness_nmm_per_deg}
+    springs = np.array([one.workshop["made.spring_factor"] for one in made])
     floors = np.log(np.array([one.workshop["ground.friction"] for one in made]) / 0.8)
     assert springs.std() == pytest.approx(np.hypot(0.05, 0.04), rel=0.05)
     assert floors.std() == pytest.approx(0.15, rel=0.05)
     assert abs(np.corrcoef(springs, floors)[0, 1]) < 0.1
     assert springs.mean() == pytest.approx(1.0, abs=0.005)
+
+
+def test_springs_as_made_change_the_jump_and_not_the_robot():
+    """Range of the robot that is built for the design's springs, with others."""
+    design, model = load_design("kenan-2.0"), robot_model()
+    robot = build(design, name="")
+    found = model(design, {"made.spring_factor": 1.05})
+    jump = simulate(with_spring_factor(robot, 1.05), model.settings, model.engine)
+    assert found.metrics["mass_kg"] == pytest.approx(robot.mass_kg)
+    assert found.metrics["ballistic_range_m"] == pytest.approx(jump.ballistic_range_m, rel=1e-6)
+    assert found.metrics["ballistic_range_m"] > 1.03 * model(design).metrics["ballistic_range_m"]

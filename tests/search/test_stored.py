@@ -12,7 +12,7 @@ from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding, at_most
-from jumpcad.search import store as store_module
+from jumpcad.search import rows as rows_module
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.store import StudyStore
 from jumpcad.search.stored import stored_evaluation
@@ -61,9 +61,9 @@ def test_a_study_of_a_format_before_is_read(tmp_path: Path, version: int) -> Non
     with StudyStore.write(tmp_path / "new.db", IDENTITY) as store:
         store.append(trials(3))
     with closing(sqlite3.connect(tmp_path / "old.db")) as old:
-        old.executescript(store_module._WITHOUT_WORKSHOP)
+        old.executescript(rows_module._WITHOUT_WORKSHOP)
         old.execute("ATTACH ? AS new", (str(tmp_path / "new.db"),))
-        columns = ", ".join(name for name in store_module._COLUMNS if name != "workshop")
+        columns = ", ".join(name for name in rows_module.COLUMNS if name != "workshop")
         old.execute(f"INSERT INTO evaluations ({columns}) SELECT {columns} FROM new.evaluations")
         old.execute("INSERT INTO study SELECT * FROM new.study")
         old.execute(f"PRAGMA user_version = {version}")

@@ -137,7 +137,7 @@ def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(lopsided: Robot
     for pin in range(4):
         radii = [0.0] * 4
         radii[pin] = 0.0015
-        rubbed = model_of(rubbing(lopsided, pin=0.2, pin_radius_m=tuple(radii)), settings)
+        rubbed = planar_model(rubbing(lopsided, pin=0.2, pin_radius_m=tuple(radii)), settings, pin_forces=True)
         dt = 1e-4
         ground, gained = Ground(moment.ankle_m, turn, dt / 2), Motion(*(dt * part for part in change))
         torque = kernel.pin_torque(rubbed, links, ground, speed, gained, NO_CONTACT)

@@ -14,9 +14,9 @@ from jumpcad.strength.pin_friction import pin_torque_nm
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
 def test_its_work_is_that_of_the_pins(name: str) -> None:
-    """The planar engine knows the force of every pin at every step; here the foot lies flat, the links have no mass."""
+    """The planar engine can take every pin's force at every step; here the foot lies flat, the links have no mass."""
     robot = rubbing(capsule_robot(load_design(name)), pin=0.25)
-    taken = PlanarWorld(robot, Settings()).push_off().moment.losses.friction_j
+    taken = PlanarWorld(robot, Settings(), pin_forces=True).push_off().moment.losses.friction_j
     work = pin_torque_nm(robot, 0.25) * robot.spring.wind_rad
     assert work == pytest.approx(taken, rel=0.2)
     assert 0.01 < work / robot.spring.energy_j < 0.05

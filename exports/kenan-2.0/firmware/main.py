@@ -93,7 +93,7 @@ def run():
                 release_at = None
             share = winder.step(
                 now,
-                not board.ready.value(),
+                board.ready.value() == robot.READY_LEVEL,
                 board.battery_v(),
                 wind=word == "wind" or (pressed and winder.state != READY),
                 jump=word == "jump" or due,

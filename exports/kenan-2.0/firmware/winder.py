@@ -1,8 +1,8 @@
 """When the motor turns: the logic of the firmware, without hardware.
 
 `Winder.step` takes the time (ms) and the states of the pins, and returns the motor's share of PWM, 0 to 1. It runs
-under MicroPython and CPython. The cam has one drop per turn: the sensor closes shortly before the drop (ready) and
-opens after it.
+under MicroPython and CPython. The cam has one drop per turn: the sensor is pressed shortly before the drop (ready)
+and free after it. A broken lead of a contact that opens when pressed reads as pressed: the motor stops.
 """
 
 IDLE, WINDING, READY, RELEASING, REFUSED, FAULT = "idle", "winding", "ready", "releasing", "refused", "fault"
@@ -11,18 +11,18 @@ IDLE, WINDING, READY, RELEASING, REFUSED, FAULT = "idle", "winding", "ready", "r
 class Debounced:
     """A switch whose state counts once it has been constant for a time (ms)."""
 
-    def __init__(self, settle_ms, closed=False):
+    def __init__(self, settle_ms, pressed=False):
         self.settle_ms = settle_ms
-        self.closed = closed
-        self._raw, self._since_ms = closed, 0
+        self.pressed = pressed
+        self._raw, self._since_ms = pressed, 0
 
-    def see(self, now_ms, closed):
+    def see(self, now_ms, pressed):
         """Take a reading and return the settled state."""
-        if closed != self._raw:
-            self._raw, self._since_ms = closed, now_ms
+        if pressed != self._raw:
+            self._raw, self._since_ms = pressed, now_ms
         if now_ms - self._since_ms >= self.settle_ms:
-            self.closed = self._raw
-        return self.closed
+            self.pressed = self._raw
+        return self.pressed
 
 
 class Winder:
@@ -40,32 +40,34 @@ class Winder:
         self._sensor = Debounced(numbers.SETTLE_MS)
         self._since_ms = 0
         self._low_since_ms = None
-        self._opened_ms = None
+        self._freed_ms = None
+        self._released = False  # the springs are slack: the last that turned the cam was a release that was seen
 
-    def step(self, now_ms, closed, battery_v=None, wind=False, jump=False, stop=False):
+    def step(self, now_ms, pressed, battery_v=None, wind=False, jump=False, stop=False):
         """Return the motor's share of PWM.
 
-        `closed` is the sensor as read, `battery_v` the battery's voltage or None where it is not measured, `wind`,
+        `pressed` is the sensor as read, `battery_v` the battery's voltage or None where it is not measured, `wind`,
         `jump` and `stop` are commands of this step.
         """
         numbers = self.numbers
         elapsed = now_ms - self._since_ms
-        settled = self._sensor.see(now_ms, closed)
+        settled = self._sensor.see(now_ms, pressed)
         if stop:
+            self._released = False
             return self._enter(IDLE, now_ms, "stopped; the springs may be loaded")
         if self.state == WINDING:
             if self._is_low(now_ms, battery_v):
                 return self._enter(REFUSED, now_ms, "battery low: charge it; the springs may be loaded")
             if settled:
-                return self._enter(READY, now_ms, "ready: keep away from the leg")
+                return self._at_ready(now_ms, elapsed)
             if elapsed > numbers.WIND_MAX_MS:
                 return self._enter(FAULT, now_ms, "not wound in time: blocked, slipping, or no sensor; motor off")
             return self._power(elapsed)
         if self.state == RELEASING:
-            return self._releasing(now_ms, elapsed, closed)
+            return self._releasing(now_ms, elapsed, pressed)
         if self.state == READY:
             if jump:  # even on a low battery: a robot is safer with its springs unloaded
-                self._opened_ms = None
+                self._freed_ms = None
                 return self._enter(RELEASING, now_ms, "releasing")
             return 0.0
         if wind and now_ms >= self._quiet_until_ms():
@@ -75,27 +77,41 @@ class Winder:
     def _begin(self, now_ms, settled, battery_v):
         """Start to wind from rest; springs that are loaded already can be released on a low battery too."""
         if settled:  # the springs are loaded already
-            return self._enter(READY, now_ms, "ready: keep away from the leg")
+            return self._at_ready(now_ms, 0)
         if self._refuses(battery_v):
             return self._enter(REFUSED, now_ms, "battery low: charge it")
         self._low_since_ms = None
         return self._enter(WINDING, now_ms, "winding")
 
-    def _releasing(self, now_ms, elapsed, closed):
-        """Turn the cam past the drop: the sensor opens, and the motor stops a little after that.
+    def _at_ready(self, now_ms, elapsed):
+        """Stop at the sensor; right after a release it cannot be pressed before most of a turn is done.
 
-        The first opening counts at once, since the leg swings back within milliseconds; a bounce restarts the time.
+        Said once: what is wound with a broken lead is released by `wind` and `jump`, as often as needed.
+        """
+        too_early = self._released and elapsed < self.numbers.WIND_MIN_MS
+        self._released = False
+        if too_early:
+            return self._enter(FAULT, now_ms, "sensor pressed too early: broken lead? the springs may be loaded")
+        return self._enter(READY, now_ms, "ready: keep away from the leg")
+
+    def _releasing(self, now_ms, elapsed, pressed):
+        """Turn the cam past the drop: the sensor is free, and the motor stops a little after that.
+
+        The first free reading counts at once: the leg swings back within milliseconds; a bounce restarts the time.
         """
         numbers = self.numbers
-        if closed:
-            self._opened_ms = None
-        elif self._opened_ms is None:
-            self._opened_ms = now_ms
-        if self._opened_ms is not None and now_ms - self._opened_ms >= numbers.AFTER_RELEASE_MS:
+        if pressed:
+            self._freed_ms = None
+        elif self._freed_ms is None:
+            self._freed_ms = now_ms
+        if self._freed_ms is not None and now_ms - self._freed_ms >= numbers.AFTER_RELEASE_MS:
             self.jumps += 1
+            self._released = True
             return self._enter(IDLE, now_ms, "jump %d" % self.jumps)
         if elapsed > numbers.RELEASE_MAX_MS:
-            return self._enter(FAULT, now_ms, "no release in time: blocked, or the sensor stays closed; motor off")
+            return self._enter(
+                FAULT, now_ms, "no release seen in time: blocked, or a lead of the sensor broken; motor off"
+            )
         return self._power(elapsed)
 
     def _quiet_until_ms(self):
