@@ -128,13 +128,15 @@ def sandbox(
     request.node.user_properties.append(("tries", place.tries))
 
 
-@pytest.fixture(autouse=True)
-def slicer(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(scope="session", autouse=True)
+def slicer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Put a program that slices nothing in the slicer's place, where programs may run."""
     program = tmp_path_factory.mktemp("programs") / "prusa-slicer"
     program.write_text(f"#!{sys.executable} -IS\n{OBEDIENT.replace('TAMPER', '')}")
     program.chmod(0o755)
-    monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+        yield
 
 
 @pytest.fixture(autouse=True)
