@@ -7,6 +7,7 @@ import os
 import resource
 import shutil
 import sys
+import tempfile
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -27,6 +28,8 @@ from jumpcad.simulation.engines import engine_named
 from jumpcad.workshop import Workshop
 
 ENGINES = tuple(name for name in ("pybullet", "mujoco") if importlib.util.find_spec(name))
+MEMORY = "/dev/shm"
+"""A file system in memory, as Linux has it."""
 TRIES: Counter[str] = Counter()
 FAILURES: Counter[str] = Counter()
 SPENT_S: defaultdict[str, float] = defaultdict(float)
@@ -104,6 +107,13 @@ def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> I
 
 
 @pytest.fixture
+def tmp_path() -> Iterator[Path]:
+    """Yield a folder in memory, if there is one: a hundred thousand small files are copied, read and removed."""
+    with tempfile.TemporaryDirectory(dir=MEMORY if os.access(MEMORY, os.W_OK) else None) as folder:
+        yield Path(folder).resolve()
+
+
+@pytest.fixture
 def sandbox(
     originals: Originals,
     tmp_path: Path,
@@ -118,14 +128,15 @@ def sandbox(
     request.node.user_properties.append(("tries", place.tries))
 
 
-@pytest.fixture(autouse=True)
-def slicer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Put a program that slices nothing in the slicer's place."""
-    program = tmp_path / "programs" / "prusa-slicer"
-    program.parent.mkdir()
+@pytest.fixture(scope="session", autouse=True)
+def slicer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Put a program that slices nothing in the slicer's place, where programs may run."""
+    program = tmp_path_factory.mktemp("programs") / "prusa-slicer"
     program.write_text(f"#!{sys.executable} -IS\n{OBEDIENT.replace('TAMPER', '')}")
     program.chmod(0o755)
-    monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+        yield
 
 
 @pytest.fixture(autouse=True)
