@@ -22,6 +22,8 @@ SLOW_SHARE = 0.4
 """Of the unloaded cam's speed on a full battery: the slowest motor; judgement, an empty battery and dry gears. The
 slower the roller comes over the top, the less the leg swings up on its lever, and the harder is the kick; below half of
 the speed it changes by 3 %."""
+SLOWEST_RAD_S = 0.05
+"""A cam that turns more slowly, once in two minutes, is computed with this speed: the leg no longer swings."""
 
 
 @dataclass(frozen=True)
@@ -178,7 +180,7 @@ def _parts(
         rotor_kg_m2=rotor_kg_m2 * (train.motor.ratio * train.ratio) ** 2,
         play_rad=drive.dog.play_rad,
         backlash_rad=backlash_rad / train.ratio,
-        cam_rad_s=speed_share * train.cam_speed_rad_s,
+        cam_rad_s=max(speed_share * train.cam_speed_rad_s, SLOWEST_RAD_S),
         rebound=limits.rebound,
         friction_mm=limits.friction * moving.bore_mm / 2.0,
         train_nm_per_rad=limits.train_nm_per_rad,
