@@ -58,6 +58,6 @@ def by_button(command: str, controller: Board) -> str:
         return f"Press the same button again and step back: it releases after {BUTTON_DELAY_MS / 1000.0:g} s."
     return (
         f"Press the board's button at its pin {controller.button} (marked B or BOOT): it winds until it is ready and "
-        "the motor stops. The other button, R or RESET, restarts the program; wound springs stay loaded: press the "
+        "the motor stops. The other button, R or RESET, restarts the program; the springs stay as they are: press the "
         "first again."
     )

@@ -51,7 +51,7 @@ def spring_order(robot: Robot) -> Iterator[str]:
     )
     if spring.preload_rad > 0.0:
         without = 1000.0 * spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)
-        yield f"- the preload adds {spring.torque_nmm - without:.0f} N·mm to the wound torque of each"
+        yield f"- the preload adds {spring.torque_nmm - without:.0f} N·mm to the loaded torque of each"
     yield (
         "- the right-hand one goes on the robot's left, the left-hand one on its right: wound the other way, a spring "
         "would be bent open"
@@ -67,7 +67,7 @@ def _made_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
         "",
         f"- rate {spring.rate_nmm_per_deg:.2f} N·mm/° each, ±{100.0 * robot.workshop.safety.spring_rate_scatter:.0f} %",
         f"- wire {spring.wire_mm:g} mm, inside diameter {spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, "
-        f"body at most {spring.body_length_mm:.1f} mm long when wound",
+        f"body at most {spring.body_length_mm:.1f} mm long when loaded",
         f"- two straight arms, tangents of the coil, {spring.arm_length_mm:.1f} mm from the coil to their ends, "
         f"{math.degrees(spring.free_arm_angle_rad):.0f}° apart when relaxed (180° is opposite directions, as after "
         "whole turns); loading lowers the angle",

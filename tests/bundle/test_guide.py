@@ -89,4 +89,4 @@ def test_a_preload_and_stock_springs_are_in_the_order() -> None:
     assert "Two torsion springs 9271K589, one of each hand, from stock" in guide
     assert "- 26.36 N·mm/° each, ±10 %; the design asks for 4.60 N·mm/°" in guide
     assert "- loaded from 5.0° to " in guide
-    assert "- the preload adds 132 N·mm to the wound torque of each" in guide  # 26.36 · 5
+    assert "- the preload adds 132 N·mm to the loaded torque of each" in guide  # 26.36 · 5
