@@ -58,7 +58,7 @@ def tables() -> Iterator[str]:
         bought = shop.bought.model_copy(update=load_catalogue().kits[kit].model_dump() | {"kit": kit})
         shop = shop.model_copy(update={"bought": bought})
         robots = {name: build(load_design(name), shop, name) for name in template_names("robots")}
-        yield from (f"### {kit}", "")
+        yield from (f"## {kit}", "")
         yield from _chain(shop, list(robots.values()))
         yield from (
             "",

@@ -20,6 +20,7 @@ from pathlib import Path
 import calibrated
 import figures
 
+from jumpcad.bundle.export import report_page
 from jumpcad.bundle.renders import renders
 from jumpcad.design import Design
 from jumpcad.files.outputs import write_atomically
@@ -28,6 +29,7 @@ ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 TEMPLATE = ROOT / "templates" / "robots" / "best-printable.toml"
 PICTURE = ROOT / "docs" / "best-printable.png"
+REPORT = ROOT / "examples" / "best-printable-report.html"
 COMMAND = " ".join(("jumpcad", *figures.SEARCH))
 HEADING = f"# Found by `{COMMAND}` (GA, then BO, on the printed robot in the default workshop).\n"
 SPEED_SLACK = 1.0 - 1.0 / figures.SPEED_FACTOR
@@ -100,13 +102,22 @@ def picture_differences(write: bool) -> Iterator[str]:
         yield f"{PICTURE.name}: is not the picture of best-printable at rest"
 
 
+def report_differences(write: bool) -> Iterator[str]:
+    """Yield a sentence if the template's report is not what `jumpcad report best-printable` writes today."""
+    page = report_page(figures.built("best-printable")[0])
+    if write:
+        write_atomically(REPORT, page)
+    elif REPORT.read_text(encoding="utf-8") != page:
+        yield f"{REPORT.name}: is not the report of best-printable"
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Compare or write; print what differs and return 1 if something does."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     some = parser.add_mutually_exclusive_group()
     some.add_argument("--cheap", action="store_true", help="without search, slicer and CPU times")
     some.add_argument("--only", nargs="+", choices=COSTLY, default=[*COSTLY], help="which of these")
-    parser.add_argument("--write", action="store_true", help="correct pages, template and picture")
+    parser.add_argument("--write", action="store_true", help="correct pages, template, picture and report")
     options = parser.parse_args(arguments)
     wrong, costly = list[str](), [] if options.cheap else options.only
     if "search" in costly:
@@ -115,6 +126,7 @@ def main(arguments: list[str] | None = None) -> int:
         if options.write:
             write_atomically(TEMPLATE, HEADING + design.to_toml())
         wrong += template_differences(design, winner["fitness"])
+        wrong += report_differences(options.write)
     wrong += picture_differences(options.write)
     made, slack = dict[str, str](), dict[str, float]()
     for make, off in (CHEAP | dict(COSTLY[name] for name in costly)).items():

@@ -15,6 +15,7 @@ from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -127,10 +128,11 @@ def test_small_parts_lie_beside_the_controller_and_apart(robot: Robot) -> None:
 def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> None:
     """Lifted over the stops of 2 mm: nothing but its strap and its lead's tie is in the way of its box."""
     poses, shown = body_poses(robot), {thing.name: thing for thing in visuals(robot)}
+    T_body_world = np.linalg.inv(poses[BODY])
 
     def triangles(name: str) -> Any:
         thing = shown[name]
-        pose = chained(poses[thing.body], thing.T_body_mesh)
+        pose = T_body_world @ chained(poses[thing.body], thing.T_body_mesh)
         points = np.asarray(thing.mesh.vertices) / 1000.0 @ pose[:3, :3].T + pose[:3, 3]
         return 1000.0 * points[np.asarray(thing.mesh.faces)]
 

@@ -7,10 +7,13 @@ import pytest
 import trimesh
 from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, cut, hole_centres, placed
+from support.robots import FOLDED
 
+from jumpcad.building import build
 from jumpcad.mechanism.model import FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
 
 ONE_PIECE = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"]
 TIP_RADIUS_MM = 2.5
@@ -82,8 +85,8 @@ def test_contact_spheres_touch_the_ground_inside_the_parts(name: str) -> None:
 
 @pytest.mark.parametrize("workshop", ["default", "fine"])
 def test_the_folded_front_link_clears_the_webs_between_the_rails(workshop: str) -> None:
-    """best-printable folds nearly flat: with its springs loaded, measured between the meshes."""
-    robot = built("best-printable", workshop)
+    """With loaded springs, measured between the meshes."""
+    robot = build(FOLDED, load_workshop(workshop))
     poses = body_poses(robot, loaded=1.0)
     foot, link = (solid_of(placed(robot, name), poses[name]) for name in ("foot", "front_link"))
     middle = foot.trim_by_plane([0.0, 1.0, 0.0], -2.0)

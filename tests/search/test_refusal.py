@@ -3,8 +3,9 @@
 import pickle
 
 import pytest
+from support.robots import FOLDED
 
-from jumpcad.design import SEARCH_BOUNDS, Design, load_design
+from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.search.models import robot_model
@@ -12,14 +13,12 @@ from jumpcad.search.objective import Evaluation
 from jumpcad.search.refusal import refusal_findings
 from jumpcad.simulation import Settings, simulate
 
-BEST = load_design("best-printable")
-
 
 def test_the_margin_is_the_message_s_millimetres_and_changes_its_sign_where_a_robot_is_built():
-    """Compressed further, the legs of best-printable come nearer to each other, until they touch."""
+    """Compressed further, the legs come nearer to each other, until they touch."""
     model, margins = robot_model(), []
     for ratio in (0.6, 0.7, 0.8, 0.82, 0.85):
-        found = model(BEST.model_copy(update={"compression_ratio": ratio}))
+        found = model(FOLDED.model_copy(update={"compression_ratio": ratio}))
         rooms = {one.name: one.margin for one in found.findings if one.name in ("stop_room", "legs_apart")}
         assert (found.verdict == "cannot_build") == (min(rooms.values()) < 0.0)
         if found.verdict == "cannot_build":

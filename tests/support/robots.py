@@ -3,7 +3,7 @@
 from collections import defaultdict
 
 from jumpcad.building import build
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.mass import combined
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body
@@ -16,6 +16,11 @@ from jumpcad.transforms import in_metres
 from jumpcad.workshop import load_workshop
 
 DENSITY_G_CM3 = 1.24
+
+FOLDED = Design.from_vector(
+    [100.0, 0.998740230633252, 0.5, 1.0927486889246836, 0.8, 70.0, 29.937154821580194, 15.833474247591226]
+)
+"""A design whose loaded springs fold front link and foot nearly flat."""
 
 
 def make_small_robot(name: str = "kenan-2.0") -> Robot:
