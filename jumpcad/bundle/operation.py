@@ -73,7 +73,7 @@ def after_use(chosen: Chosen) -> Iterator[str]:
     battery, supply = chosen.battery, supply_of(chosen)
     hours = battery.capacity_mah / 1000.0 * battery.voltage_v / supply.boards_w
     yield from ("", "## After use", "")
-    yield "- Release the springs (`jump`): the leg lies on its stop."
+    yield "- Release the springs: `jump`; where they are partly loaded, `wind` first. The leg then lies on its stop."
     yield f"- {switching_off(chosen)}, unplug the battery: boards left on empty a full one in {hours:.0f} h."
     yield (
         f"- Store it outside the robot, at about {STORED_V * battery.cells:.1f} V, where nothing near it can burn. "

@@ -207,8 +207,8 @@ def _strips(robot: Robot) -> Iterator[str]:
         listed = ", ".join(f"{count} of {one:.1f} x {other:.1f} mm" for count, one, other in cut)
         length = sum(count * (max(one, other) + SAW_MM) for count, one, other in cut)
         wide = max(min(one, other) for _, one, other in cut)
-        enough = f"{10.0 * math.ceil(length / 10.0):.0f} mm, {wide:.1f} mm wide"
-        yield f"- {plain(name)}: {listed}; a strip of {enough}, is enough"
+        enough = f"{10.0 * math.ceil(length / 10.0):.0f} mm of it, {wide:.1f} mm wide or wider"
+        yield f"- {plain(name)}: {listed}; order {enough}"
 
 
 def _motor(robot: Robot) -> Iterator[str]:

@@ -321,8 +321,7 @@ ORDER: tuple[Plan, ...] = (
             Words("Stand the axles and the springs' pin in their bores. They lean until the left plate is on: the tube "
                   "that comes first on each holds it upright, so push that down to the plate.", lacks=".*_axle_nut"),
             Words("The springs' pin has no tube: a strip of adhesive tape from it to the plate, on the side away from "
-                  "the leg, holds it upright. Pull the strip off with tweezers in step {step_close}, when the left "
-                  "plate has taken the pin.", lacks=".*_axle_nut"),
+                  "the leg, holds it upright. It comes off in step {step_close}, with tweezers.", lacks=".*_axle_nut"),
             Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
                   "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
             Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
@@ -446,6 +445,7 @@ ORDER: tuple[Plan, ...] = (
                   needs=".*_axle_nut"),
             Words("Left plate and its screws for good, {torque_plastic} N·m. Press a clip into the groove at either "
                   "end of every axle.", needs=".*_axle_clip_1"),
+            Words("Pull the strip of tape off the springs' pin.", lacks=".*_axle_nut"),
         ),
         (
             Words("From now on the springs can be loaded: {energy} J, set free within {push_ms} ms. Keep "

@@ -44,6 +44,8 @@ def test_the_guide_asks_for_what_the_firmware_and_the_boards_do(robot: Robot) ->
         )  # what is in the robot is charged whenever USB and switch are on
         assert "Pull the USB cable and switch off, unplug the battery" in guide
     assert "fits the jaws in one position only" in guide
+    assert "## After use" in guide
+    assert "623, 3 x 10 x 4 mm" in guide  # ISO 15, with shields
     sensor = guide.split("Left plate with the sensor")[1]
     assert sensor.index("through the mount's window") < sensor.index("solder them to COM and NC")
     boards = guide.split("Upper tray with the boards")[1]
