@@ -15,6 +15,7 @@ from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -134,7 +135,7 @@ def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> Non
 
     def triangles(name: str) -> Any:
         thing = shown[name]
-        pose = chained(poses[thing.body], thing.T_body_mesh)
+        pose = np.linalg.inv(poses[BODY]) @ chained(poses[thing.body], thing.T_body_mesh)  # the trays' own frame
         points = np.asarray(thing.mesh.vertices) / 1000.0 @ pose[:3, :3].T + pose[:3, 3]
         return 1000.0 * points[np.asarray(thing.mesh.faces)]
 
