@@ -40,7 +40,9 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
     spring, scatter = robot.layout.drive.spring, robot.workshop.safety.spring_rate_scatter
     lever = spring.arms.lever_mm
     free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
-    lost = 1.0 - max(0.0, 1.0 - ANGLE_SHORT_DEG / wound) ** 2
+    preload = math.degrees(spring.preload_rad)
+    short = max(0.0, wound - ANGLE_SHORT_DEG) ** 2 - max(0.0, preload - ANGLE_SHORT_DEG) ** 2
+    lost = 1.0 - short / (wound**2 - preload**2)
     shank = math.floor(2.0 * spring.mandrel_mm) / 2.0
     yield from ("", "## When things arrive", "")
     yield from (
