@@ -47,18 +47,15 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
     yield from ("", "## When things arrive", "")
     yield from (
         f"**Springs.** Glasses on. Relaxed, the arms are {free - ANGLE_SHORT_DEG:.0f} to {free:.0f}° apart "
-        "(protractor, "
-        f"or the drawing in order/ at 3:1): wider ones are not used, they would push the springs' pin over while only "
-        f"one plate holds it. Narrower ones load less: {ANGLE_SHORT_DEG:.0f}° short store {100.0 * lost:.0f} % less "
-        "energy.",
+        "(protractor, or the drawing in order/ at 3:1): wider ones are not used, they would push the springs' pin "
+        f"over while only one plate holds it. Narrower ones load less: {ANGLE_SHORT_DEG:.0f}° short store "
+        f"{100.0 * lost:.0f} % less energy.",
         "",
         f"Rate: clamp the shank of a drill, {shank:g} mm or a little less, level in a vice and put the coil on it, a "
-        "nail "
-        "beside one arm so that it cannot turn. The other arm points level to the side and leaves the coil at its "
-        "underside. Below it, on a kitchen scale, stands a block with a smooth, oiled edge, which touches the arm "
+        "nail beside one arm so that it cannot turn. The other arm points level to the side and leaves the coil at "
+        "its underside. Below it, on a kitchen scale, stands a block with a smooth, oiled edge, which touches the arm "
         f"{lever:.1f} mm to the side of the drill's middle. Raise the scale until the arm has turned by an angle of "
-        "the "
-        "table (draw it on card behind the arm): the spring closes. Read:",
+        "the table (draw it on card behind the arm): the spring closes. Read:",
     )
     yield from ("", "| turned by | scale, as computed | accept |", "|--:|--:|--:|")
     for angle in AT_DEG:

@@ -135,9 +135,8 @@ def _rods(robot: Robot) -> Iterator[str]:
         yield (
             f"- {plain(found[1])} {found[2]} mm: {item.quantity} pieces of {length:.1f} mm, +0 / -{ROD_SHORT_MM:g} mm, "
             f"ends square and deburred{found[4] or ''}; cut from a rod of {stock} m, ground, h6 to h9. Cut steel with "
-            "a "
-            "cut-off disc, wear glasses: sparks and broken pieces fly. A rod that does not enter a bearing: polish it "
-            "with fine emery cloth until it does, do not press"
+            "a cut-off disc, wear glasses: sparks and broken pieces fly. A rod that does not enter a bearing: polish "
+            "it with fine emery cloth until it does, do not press"
         )
 
 

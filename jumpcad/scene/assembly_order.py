@@ -236,8 +236,7 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("{charge_how}"),
             Words("Before the battery is plugged in: switch on, multimeter across the plug's poles, no contact (a "
-                  "short "
-                  "beep is the capacitor). Plus "
+                  "short beep is the capacitor). Plus "
                   "of plug and battery must agree: makers of batteries do not."),
         ),
     ),
@@ -281,8 +280,7 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Something becomes hot or smells: {off_then}, unplug the battery, look for the short. Do not leave "
-                  "a connected "
-                  "battery alone."),
+                  "a connected battery alone."),
         ),
         (
             Words("Battery {battery_v} V at rest, at least {min_v} V. The shaft alone turns with about {free_rpm} rpm "
@@ -298,8 +296,7 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("{off}, unplug the battery. Push the tabs of both trays into the right plate's slots, the battery's "
-                  "tray "
-                  "below. Lead the wires along the plate, away from leg, cam and gears, and tie them."),
+                  "tray below. Lead the wires along the plate, away from leg, cam and gears, and tie them."),
         ),
     ),
     Plan(
