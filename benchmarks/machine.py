@@ -76,11 +76,15 @@ class Judged:
 
 
 def judged(label: str, design: Design, workshop: str) -> Judged | None:
-    """Return what the programs say of a design, None if it cannot be built."""
+    """Return what the programs say of a design, None if it cannot be built; in the default workshop a template can."""
     try:
         robot = build(design, load_workshop(workshop), "robot")
     except CannotBuildError as refusal:
-        return Judged(label, wrong=[str(refusal)]) if label in TEMPLATES else None
+        if label not in TEMPLATES:
+            return None
+        if workshop != WORKSHOPS[0]:
+            return Judged(label, rejected=(str(refusal),))
+        return Judged(label, wrong=[str(refusal)])
     jump = simulate(robot)
     found = Judged(label)
     rejected = errors((*jump.findings, *quick_findings(robot)))

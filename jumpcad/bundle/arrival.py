@@ -3,30 +3,64 @@
 import math
 from collections.abc import Iterator
 
+from jumpcad.bundle.springs import ANGLE_SHORT_DEG
 from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.drive import TorsionSpring
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.robot import Robot
 
 REAMED_MM = 0.1
 """Of a reamed bore over its rod, in diameter."""
-AT_DEG = (10.0, 20.0, 30.0)
+AT_DEG = (10.0, 20.0)
+"""Angles of the springs' test. With more the arm slides along the edge, and friction there counts."""
+
+
+def grams_at(spring: TorsionSpring, angle_deg: float) -> float:
+    """Return what a scale reads below an arm that leaves the coil at its underside and has turned by an angle.
+
+    The edge stays at a distance L to the side of the coil's axis, and its force is normal to the arm. The arm's point
+    on the coil is r·sin(angle) nearer, so that the force's lever is (L - r·sin)/cos of it; the scale reads the force's
+    upright part: M·cos²/(L - r·sin).
+    """
+    turned = math.radians(angle_deg)
+    lever = spring.arms.lever_mm - spring.arms.mean_mm / 2.0 * math.sin(turned)
+    torque = spring.rate_nmm_per_deg * angle_deg
+    return 1000.0 * torque * math.cos(turned) ** 2 / lever / GRAVITY_M_S2
+
+
+def scale_range_kg(robot: Robot) -> float:
+    """Return the range of a scale for the springs' test, in whole kilograms: the stiffest spring that is accepted."""
+    scatter = robot.workshop.safety.spring_rate_scatter
+    most = max(grams_at(robot.layout.drive.spring, angle) for angle in AT_DEG)
+    return math.ceil((1.0 + scatter) * most / 1000.0)
 
 
 def arrival_lines(robot: Robot) -> Iterator[str]:
     """Yield the section."""
     spring, scatter = robot.layout.drive.spring, robot.workshop.safety.spring_rate_scatter
     lever = spring.arms.lever_mm
+    free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
+    preload = math.degrees(spring.preload_rad)
+    short = max(0.0, wound - ANGLE_SHORT_DEG) ** 2 - max(0.0, preload - ANGLE_SHORT_DEG) ** 2
+    lost = 1.0 - short / (wound**2 - preload**2)
+    shank = math.floor(2.0 * spring.mandrel_mm) / 2.0
     yield from ("", "## When things arrive", "")
-    yield (
-        "**Springs.** Hold a rod that fills the coil level in a vice, a nail beside one arm so that it cannot turn. "
-        "Lay the other arm level on a block on a kitchen scale, so that it touches "
-        f"{lever:.1f} mm along the arm from where it leaves the coil. Raise the scale until the arm has turned by an "
-        "angle of the table, in the closing direction (draw the angle on card behind it), and read:"
+    yield from (
+        f"**Springs.** Glasses on. Relaxed, the arms are {free - ANGLE_SHORT_DEG:.0f} to {free:.0f}° apart "
+        "(protractor, or the drawing in order/ at 3:1): wider ones are not used, they would push the springs' pin "
+        f"over while only one plate holds it. Narrower ones load less: {ANGLE_SHORT_DEG:.0f}° short store "
+        f"{100.0 * lost:.0f} % less energy.",
+        "",
+        f"Rate: clamp the shank of a drill, {shank:g} mm or a little less, level in a vice and put the coil on it, a "
+        "nail beside one arm so that it cannot turn. The other arm points level to the side and leaves the coil at "
+        "its underside. Below it, on a kitchen scale, stands a block with a smooth, oiled edge, which touches the arm "
+        f"{lever:.1f} mm to the side of the drill's middle. Raise the scale until the arm has turned by an angle of "
+        "the table (draw it on card behind the arm): the spring closes. Read:",
     )
     yield from ("", "| turned by | scale, as computed | accept |", "|--:|--:|--:|")
     for angle in AT_DEG:
         if angle <= math.degrees(spring.wound_rad) + 1e-9:
-            grams = 1000.0 * spring.rate_nmm_per_deg * angle / lever / GRAVITY_M_S2
+            grams = grams_at(spring, angle)
             low, high = (1.0 - scatter) * grams, (1.0 + scatter) * grams
             yield f"| {angle:.0f}° | {grams:.0f} g | {low:.0f} to {high:.0f} g |"
     yield from (
@@ -49,6 +83,6 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
     battery = chosen_parts(robot.workshop).battery
     yield (
         f"**Battery.** {battery.range_v[0]:g} to {battery.range_v[1]:g} V at its plug, not swollen, no larger than the "
-        "bill says; its plus must meet the plus of the robot's plug. **Motor.** With 3 V at its leads the shaft "
-        f"turns; its flat is {robot.layout.drive.train.motor.shaft_flat_mm:g} mm thick."
+        "bill says; its plus must meet the plus of the robot's plug. **Motor.** With 3 V at its leads (two "
+        f"AA cells) the shaft turns; its flat is {robot.layout.drive.train.motor.shaft_flat_mm:g} mm thick."
     )

@@ -9,8 +9,9 @@ import numpy as np
 
 from jumpcad.bundle.arrival import REAMED_MM
 from jumpcad.bundle.firmware import AFTER_RELEASE_MS, LANDING_MS, numbers
-from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded
+from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded, switching_off
 from jumpcad.bundle.ordering import ROD_SHORT_MM
+from jumpcad.bundle.springs import ANGLE_SHORT_DEG
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.electronics.chosen import chosen_parts
@@ -28,8 +29,6 @@ FREE = ("no contact", "contact")
 """At the free sensor, by its pin's level at the ready position."""
 PRESS_N = 50.0
 """Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
-SCATTER_DEG = 10.0
-"""Of a stock spring's free angle: Lee Spring, Vanel, 10 to 15 degrees."""
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
 
@@ -65,7 +64,9 @@ def _drive(robot: Robot) -> dict[str, str]:
         "after_ms": f"{AFTER_RELEASE_MS}",
         "landing_s": f"{LANDING_MS / 1000.0:g}",
         "battery_v": f"{supply.nominal_v:g} to {supply.full_v:g}",
-        "min_v": f"{supply.empty_v:g}",
+        "min_v": f"{values['BATTERY_MIN_V']:g}",
+        "off": switching_off(chosen),
+        "off_then": switching_off(chosen)[0].lower() + switching_off(chosen)[1:],
         "charge_how": charging(chosen),
         "charge_loaded": charging_loaded(chosen),
         "cable": cable(chosen.controller),
@@ -90,7 +91,8 @@ def _springs(robot: Robot) -> dict[str, str]:
     preload = math.degrees(spring.preload_rad)
     per_deg_n = spring.rate_nmm_per_deg / spring.arms.lever_mm
     return {
-        "arm_n": f"{SCATTER_DEG * per_deg_n:.1f}",
+        "arms": f"{math.degrees(spring.free_arm_angle_rad):.0f}",
+        "arms_least": f"{math.degrees(spring.free_arm_angle_rad) - ANGLE_SHORT_DEG:.0f}",
         "preload": f"{preload:.1f}",
         "preload_n": f"{preload * per_deg_n:.1f}",
         "energy": f"{robot.spring.energy_j:.2f}",

@@ -7,7 +7,8 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 
-from jumpcad.bundle.operation import BUTTON_DELAY_MS, by_button, cable, charging, charging_loaded
+from jumpcad.bundle.operation import BUTTON_DELAY_MS, by_button, cable, charging, charging_loaded, stops_the_motor
+from jumpcad.catalogue import Battery
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import gpio, wiring_of
@@ -33,6 +34,9 @@ RAMP_MS = 100
 LOW_MS = 200
 """How long the loaded battery must be low; judgement: longer than the motor's start."""
 PWM_HZ = 20_000
+RESERVE_V = 0.2
+"""Per cell, over the empty voltage at rest, with which winding begins: what is begun is not to be refused half-way.
+Judgement: a winding lowers the voltage by less, also with an old battery of three times the resistance."""
 
 
 def numbers(robot: Robot) -> dict[str, float | int | None]:
@@ -58,7 +62,8 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "PWM_HZ": PWM_HZ,
         "PWM_CAP": math.floor(1000.0 * supply.duty(train.motor, torque_max)) / 1000.0,
         "BATTERY_DIVIDER": round(wiring.divider, 4),
-        "BATTERY_MIN_V": supply.empty_v,
+        "BATTERY_MIN_V": start_v(chosen.battery),
+        "BATTERY_EMPTY_V": supply.empty_v,
         "BATTERY_SAG_V": round(train.peak_current_a * chosen.battery.ohm, 3),
         "LOW_MS": LOW_MS,
         "WIND_MIN_MS": math.floor(TOO_EARLY * fastest_s * 10.0) * 100,
@@ -71,6 +76,11 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "BUTTON_DELAY_MS": BUTTON_DELAY_MS,
         "RAMP_MS": RAMP_MS,
     }
+
+
+def start_v(battery: Battery) -> float:
+    """Return the voltage at rest from which the robot winds (V): the reserve over empty, at most the nominal one."""
+    return round(min(battery.range_v[0] + RESERVE_V * battery.cells, battery.voltage_v), 3)
 
 
 def release_share(robot: Robot) -> float:
@@ -88,9 +98,11 @@ WORDS = {
     "PIN_BUTTON": "on the board; None: serial commands alone",
     "PWM_CAP": "largest share of PWM: keeps gearbox and winding within their limits on a full battery",
     "BATTERY_DIVIDER": "battery's voltage over that at its pin",
-    "BATTERY_MIN_V": "below this, at rest, it refuses to wind",
-    "BATTERY_SAG_V": "lower by this while it winds",
-    "LOW_MS": "for so long",
+    "BATTERY_MIN_V": "below this, at rest, it does not begin to wind",
+    "BATTERY_EMPTY_V": "below this, at rest, it does not finish either what was begun",
+    "BATTERY_SAG_V": "by this below the last, while it winds, it stops: the least voltage that the boards are checked "
+    "for",
+    "LOW_MS": "when it is so low for so long",
     "WIND_MIN_MS": "right after a jump the sensor is not believed before this",
     "WIND_MAX_MS": "a blocked motor is off after this at the latest",
     "RELEASE_MAX_MS": "as above, from the ready position over the drop",
@@ -142,6 +154,9 @@ def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -
         "WIND_MAX_S": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
         "SENSOR": OPENING if values["READY_LEVEL"] else CLOSING,
         "MIN_V": f"{values['BATTERY_MIN_V']:g}",
+        "EMPTY_V": f"{values['BATTERY_EMPTY_V']:g}",
+        "STOPS": stops_the_motor(chosen),
+        "IMAGE": chosen.controller.micropython or "look for the board's name or its chip",
         "CAP": f"{100.0 * (values['PWM_CAP'] or 0.0):g}",
         "CABLE": cable(chosen.controller),
         "WIND_BY": by_button("wind", chosen.controller),

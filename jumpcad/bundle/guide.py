@@ -7,9 +7,11 @@ from collections.abc import Iterator, Sequence
 from jumpcad.bundle.arrival import arrival_lines
 from jumpcad.bundle.bom import Bill, BillLine, bill_of_materials, euros
 from jumpcad.bundle.expected import expected, filled
+from jumpcad.bundle.operation import after_use
 from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_lines
 from jumpcad.bundle.springs import spring_order
 from jumpcad.bundle.wiring import wiring_lines
+from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
@@ -38,6 +40,7 @@ def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
         *arrival_lines(robot),
         *wiring_lines(robot),
         *_steps(robot, steps, pictures),
+        *after_use(chosen_parts(robot.workshop)),
         *weigh_lines(robot),
     ]
     return "\n".join(lines) + "\n"

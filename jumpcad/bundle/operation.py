@@ -1,8 +1,13 @@
 """How a robot is charged and by what it is operated: words that the guide and the firmware's README share."""
 
+from collections.abc import Iterator
+
 from jumpcad.catalogue import Board
 from jumpcad.electronics.chosen import Chosen
+from jumpcad.electronics.supply import supply_of
 
+STORED_V, DEAD_V = 3.8, 3.0
+"""Per lithium polymer cell at rest: for storage, and below which it is spoiled; practice."""
 BUTTON_DELAY_MS = 3000
 """Time to step back after the button was pressed; judgement."""
 
@@ -17,7 +22,10 @@ def charging(chosen: Chosen) -> str:
         )
     way = "Charge through the controller's USB socket, with the switch on and somebody beside it."
     if controller.charge_ma is None:
-        return f"{way} What its charger gives is not known: measure it, {battery.bears_ma:.0f} mA at most."
+        return (
+            f"{way} What its charger gives is not known: measure it, {battery.bears_ma:.0f} mA at most. A pack that "
+            "does not bear it must not be used with the USB cable in and the switch on."
+        )
     rate = controller.charge_ma / battery.capacity_mah
     bears = (
         f"{way} Its charger gives {controller.charge_ma:.0f} mA, which cannot be set: {rate:.2f} C for this battery."
@@ -25,8 +33,8 @@ def charging(chosen: Chosen) -> str:
     if rate <= 1.0:
         return bears
     return (
-        f"{bears} More than 1 C: read on the pack that its maker permits {controller.charge_ma:.0f} mA; otherwise "
-        "charge it outside the robot with 1 C."
+        f"{bears} More than 1 C: use only a pack whose maker permits {controller.charge_ma:.0f} mA. With the USB cable "
+        "in and the switch on it is always charged so, and first power-up and first winding need both."
     )
 
 
@@ -40,6 +48,37 @@ def charging_loaded(chosen: Chosen) -> str:
     return (
         "Lay the robot on its side, feet away from you, and tie leg and body together with cord, so that the leg "
         "cannot swing out. Then unplug the battery, charge it outside the robot, put it back, and untie."
+    )
+
+
+def fed_by_usb(chosen: Chosen) -> bool:
+    """Tell whether USB feeds the driver too: through the board's charger and its battery pads, past the switch."""
+    return chosen.regulator is None
+
+
+def switching_off(chosen: Chosen) -> str:
+    """Return how the motor's supply is cut, as the beginning of a sentence."""
+    return "Pull the USB cable and switch off" if fed_by_usb(chosen) else "Switch off"
+
+
+def stops_the_motor(chosen: Chosen) -> str:
+    """Return what stops a motor that the program does not."""
+    if fed_by_usb(chosen):
+        return "only the switch, with the USB cable out, stops the motor: the board's charger feeds the driver too"
+    return "only the switch stops the motor"
+
+
+def after_use(chosen: Chosen) -> Iterator[str]:
+    """Yield the guide's section on the end of use."""
+    battery, supply = chosen.battery, supply_of(chosen)
+    hours = battery.capacity_mah / 1000.0 * battery.voltage_v / supply.boards_w
+    yield from ("", "## After use", "")
+    yield "- Release the springs: `jump`; where they are partly loaded, `wind` first. The leg then lies on its stop."
+    yield f"- {switching_off(chosen)}, unplug the battery: boards left on empty a full one in {hours:.0f} h."
+    yield (
+        f"- Store it outside the robot, at about {STORED_V * battery.cells:.1f} V, where nothing near it can burn. "
+        f"Below {DEAD_V * battery.cells:.1f} V at rest, swollen or dented: do not charge it, discard it where "
+        "batteries are collected."
     )
 
 
@@ -57,7 +96,7 @@ def by_button(command: str, controller: Board) -> str:
     if command == "jump":
         return f"Press the same button again and step back: it releases after {BUTTON_DELAY_MS / 1000.0:g} s."
     return (
-        f"Press the board's button at its pin {controller.button} (marked B or BOOT): it winds until it is ready and "
-        "the motor stops. The other button, R or RESET, restarts the program; the springs stay as they are: press the "
-        "first again."
+        f"Press the board's button at its pin {controller.button} (marked B or BOOT) with a thin wooden stick, from "
+        "above between the plates: it winds until it is ready and the motor stops. "
+        "The other button, R or RESET, restarts the program; the springs stay as they are: press the first again."
     )

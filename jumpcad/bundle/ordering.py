@@ -5,7 +5,7 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 
-from jumpcad.bundle.arrival import REAMED_MM
+from jumpcad.bundle.arrival import REAMED_MM, scale_range_kg
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.wiring import wires
 from jumpcad.electronics.chosen import chosen_parts
@@ -25,10 +25,13 @@ STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
 SLIDER_MM = 1.5
 """Of a switch's slider outside the plate, for a fingertip; judgement."""
+PLUG_ROOM_MM = 0.5
+"""By which the body of a USB plug is smaller than its window."""
 THREAD_MM = 6.0
 """Of a screw inside its standoff."""
 OTHER = (
-    "solder, silicone or lithium grease, alcohol, adhesive tape, a strip more of foam tape, some more cable ties "
+    "solder, heat-shrink tube 4 mm, 0.1 m, for joints of more than two wires, silicone or lithium grease, alcohol, "
+    "adhesive tape, a strip more of foam tape, some more cable ties "
     "2.5 mm wide; two screws M2 x 6 and two nuts M2 if the switch's ears have no thread"
 )
 
@@ -43,8 +46,13 @@ def order_lines(robot: Robot) -> Iterator[str]:
     total: defaultdict[str, float] = defaultdict(float)
     for *_, colour, length in wires(robot):
         total[colour] += length
-    lengths = ", ".join(f"{colour} {length / 1000.0:.2f} m" for colour, length in sorted(total.items()))
-    yield f"- wire AWG 28, silicone: {lengths}, ends included; the bill has each rounded up to 0.1 m"
+    yield from _bearings(robot)
+    lengths = ", ".join(f"{colour} {length / 1000.0:.2f} m" for colour, length in sorted(total.items()) if length)
+    yield (
+        f"- wire AWG 28, silicone: {lengths}, ends included; the bill has each rounded up to 0.1 m: buy 0.2 m more "
+        f"of each, {', '.join(sorted(total))}, for cuts that fail and legs that are too short"
+    )
+    yield from _plug(robot)
     yield from _tape(robot)
     yield from _switch(robot)
     yield f"- besides: {OTHER}"
@@ -59,9 +67,23 @@ def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
         f"- drill or reamer {robot.layout.axle_mm + REAMED_MM:g} mm, tap M3, vice with flat jaws, small flat "
         "screwdriver, side cutters"
     )
-    charger = "" if chosen_parts(robot.workshop).regulator is None else ", LiPo charger with a balance lead"
-    yield f"- soldering iron, multimeter, computer, USB cable with data lines{charger}"
-    yield "- kitchen scale to 1 g or better, caliper, fine saw, file, knife, glasses"
+    chosen = chosen_parts(robot.workshop)
+    charger = ""
+    if chosen.regulator is not None:
+        adapter = f" and an adapter to {plain(chosen.battery.plug)}" if chosen.battery.plug else ""
+        charger = f", LiPo charger with a balance lead{adapter}"
+    plug = robot.layout.fittings.usb_size_mm if robot.layout.fittings.usb_mm is not None else None
+    body = "" if plug is None else f", plug body at most {plug[0] - PLUG_ROOM_MM:g} x {plug[1] - PLUG_ROOM_MM:g} mm"
+    yield f"- soldering iron, multimeter, computer, USB cable with data lines{body}{charger}"
+    yield "- on the computer: Python with `pip install esptool mpremote` (firmware/README.md)"
+    yield (
+        f"- kitchen scale to 1 g or better, up to {scale_range_kg(robot):g} kg, caliper, protractor, drill of the "
+        "springs' test, two AA cells in a holder"
+    )
+    yield (
+        "- cut-off disc, file, fine emery cloth, fine saw, knife, tweezers, cord, thin wooden stick, glasses that "
+        "close at the sides"
+    )
 
 
 def print_lines(robot: Robot) -> Iterator[str]:
@@ -112,7 +134,9 @@ def _rods(robot: Robot) -> Iterator[str]:
         stock = next((f"{m:g}" for m in ROD_M if 1000.0 * m >= needed), f"{math.ceil(needed / 1000.0):g}")
         yield (
             f"- {plain(found[1])} {found[2]} mm: {item.quantity} pieces of {length:.1f} mm, +0 / -{ROD_SHORT_MM:g} mm, "
-            f"ends square and deburred{found[4] or ''}; cut from a rod of {stock} m"
+            f"ends square and deburred{found[4] or ''}; cut from a rod of {stock} m, ground, h6 to h9. Cut steel with "
+            "a cut-off disc, wear glasses: sparks and broken pieces fly. A rod that does not enter a bearing: polish "
+            "it with fine emery cloth until it does, do not press"
         )
 
 
@@ -126,6 +150,28 @@ def _standoffs(robot: Robot) -> Iterator[str]:
                 f"{length:.1f} mm, +0 / -0.1 mm and all equal; tap them again where less than {THREAD_MM:g} mm of "
                 "thread is left"
             )
+
+
+def _bearings(robot: Robot) -> Iterator[str]:
+    """Yield the bearings with their dimensions: unshielded ones of the same name are narrower."""
+    billed = {item.name for item in bill_of_materials(robot).items}
+    listed = "; ".join(
+        f"{plain(one.name)}, {one.bore_mm:g} x {one.outer_mm:g} x {one.width_mm:g} mm"
+        for one in robot.workshop.catalogue.bearings.values()
+        if f"ball bearing {one.name}" in billed
+    )
+    if listed:
+        yield f"- ball bearings with two metal shields (suffix ZZ; open ones may be narrower): {listed}"
+
+
+def _plug(robot: Robot) -> Iterator[str]:
+    """Yield which half of a plug is meant, and what to do where its poles do not meet the battery's."""
+    plug = chosen_parts(robot.workshop).components.get("plug")
+    if plug is not None:
+        yield (
+            f"- {plain(plug.description)}: the half that mates with the battery's plug. Where plus does not meet plus, "
+            "exchange the contacts of the robot's half, not the battery's"
+        )
 
 
 def _tape(robot: Robot) -> Iterator[str]:
@@ -160,8 +206,8 @@ def _strips(robot: Robot) -> Iterator[str]:
         listed = ", ".join(f"{count} of {one:.1f} x {other:.1f} mm" for count, one, other in cut)
         length = sum(count * (max(one, other) + SAW_MM) for count, one, other in cut)
         wide = max(min(one, other) for _, one, other in cut)
-        enough = f"{10.0 * math.ceil(length / 10.0):.0f} mm, {wide:.1f} mm wide"
-        yield f"- {plain(name)}: {listed}; a strip of {enough}, is enough"
+        enough = f"{10.0 * math.ceil(length / 10.0):.0f} mm of it, {wide:.1f} mm wide or wider"
+        yield f"- {plain(name)}: {listed}; order {enough}"
 
 
 def _motor(robot: Robot) -> Iterator[str]:
@@ -172,5 +218,7 @@ def _motor(robot: Robot) -> Iterator[str]:
         f"- gear motor: {plain(motor.article or motor.name)}. Compare before you order: {motor.ratio:.0f}:1, "
         f"{motor.voltage_v:g} V, {motor.no_load_rpm:.0f} rpm, {1000.0 * motor.no_load_current_a:.0f} mA without load, "
         f"{motor.stall_torque_nm:.3f} N·m and {motor.stall_current_a:g} A stalled, shaft {motor.shaft_mm:g} mm with a "
-        f"flat, {motor.shaft_length_mm:g} mm long ({sure}: {plain(motor.source)})"
+        f"flat, {motor.shaft_length_mm:g} mm long ({sure}: {plain(motor.source)}). Ratio, voltage, shaft and gearbox "
+        "must agree; speed and torque may be 10 % off "
+        "(judgement). An extended shaft at its back: cut that off with the disc, the motor wrapped against filings"
     )

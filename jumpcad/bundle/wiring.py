@@ -62,6 +62,8 @@ def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
     """Yield what a table does not say."""
     yield "- lengths follow the trays, those of sensor and motor pass the plates' holes; 30 mm are for bends and solder"
     yield "- none: the part's own legs or leads, each leg in a piece of heat-shrink tube"
+    yield "- a leg too short for its way around the board: solder 40 mm of wire of that colour to it"
+    yield "- joints of more than two wires, as at the plug's minus: in heat-shrink tube of 4 mm"
     yield "- capacitor: its wires start at the driver's supply pins; its minus is marked"
     if wiring.resistors:
         values = ", ".join(
@@ -81,7 +83,8 @@ def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
         yield from (*BY_METER, *(OPENS if wiring.ready_level else CLOSES))
     yield "- the driver's reverse input is at ground: the cam must not turn back against its drop"
     yield "- red and black wires may be joined at any terminal of theirs; the table starts each at its source"
-    yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles (multimeter)"
+    yield "- before the battery is plugged in, with the switch on: no contact between the plug's poles (multimeter; a"
+    yield "  short beep is the capacitor)"
 
 
 def wiring_svg(robot: Robot) -> str:

@@ -198,7 +198,7 @@ class Board(Article):
     that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
     length. `left` and `right` are the pins along its sides, from that end on, as seen from above; others are
     underneath. `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma`
-    the fixed current of its battery charger.
+    the fixed current of its battery charger, `micropython` the name of its image among MicroPython's downloads.
     """
 
     description: Source
@@ -222,6 +222,7 @@ class Board(Article):
     resistance_ohm: Annotated[float, Field(ge=0, le=100)] = 0.0
     efficiency: Annotated[float, Field(ge=0.01, le=1)] = 1.0
     charge_ma: Positive | None = None
+    micropython: Text = ""
     confidence: Confidence = "stated"
 
     def with_function(self, function: str) -> tuple[str, ...]:

@@ -42,7 +42,7 @@ BALANCE_HEIGHT_MM = 6.0
 TAPE, TAPE_G_CM3 = "double-sided foam tape 1 mm", 0.5
 SMALL = ("resistor", "diode")
 """What lies between the boards, by the beginnings of its names."""
-HEAT_SHRINK, HEAT_SHRINK_G, RESISTOR_G, WIRE_LENGTH_MM = "heat-shrink tube 2 mm, 0.3 m", 0.4, 0.2, 500.0
+HEAT_SHRINK, HEAT_SHRINK_G, RESISTOR_G, WIRE_LENGTH_MM = "heat-shrink tube 2 mm, 0.5 m", 0.4, 0.2, 500.0
 """What holds battery and boards: order text, width and thickness, mass or density; what is soldered; from memory."""
 
 

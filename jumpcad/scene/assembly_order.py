@@ -223,7 +223,8 @@ ORDER: tuple[Plan, ...] = (
                   "(under Wiring), a piece of heat-shrink tube over each leg, and lay the bodies where the "
                   "picture shows them, on a strip of foam tape."),
             Words("Then solder every wire of the table under Wiring to its boards, the shortest first, and slide "
-                  "heat-shrink tube over each joint. The motor's wires go to the driver last; the sensor's ends stay "
+                  "heat-shrink tube over each joint. The motor's wires go to the driver last: first through the "
+                  "right plate's wire hole, from outside to inside, then solder them. The sensor's ends stay "
                   "free until step {step_left}."),
             Words("Then lay every board on its piece of foam tape, in its place, against the tray's rim where there is "
                   "one, the controller's USB socket to the right, and pull a cable tie over it. Plug and capacitor get "
@@ -234,7 +235,8 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("{charge_how}"),
-            Words("Before the battery is plugged in: switch on, multimeter across the plug's poles, no contact. Plus "
+            Words("Before the battery is plugged in: switch on, multimeter across the plug's poles, no contact (a "
+                  "short beep is the capacitor). Plus "
                   "of plug and battery must agree: makers of batteries do not."),
         ),
     ),
@@ -277,8 +279,8 @@ ORDER: tuple[Plan, ...] = (
                   "not, exchange its two wires at the driver."),
         ),
         (
-            Words("Something becomes hot or smells: switch off, unplug, look for the short. Do not leave a connected "
-                  "battery alone."),
+            Words("Something becomes hot or smells: {off_then}, unplug the battery, look for the short. Do not leave "
+                  "a connected battery alone."),
         ),
         (
             Words("Battery {battery_v} V at rest, at least {min_v} V. The shaft alone turns with about {free_rpm} rpm "
@@ -293,8 +295,8 @@ ORDER: tuple[Plan, ...] = (
             Move("tie_motor_leads", way="laid"),
         ),
         (
-            Words("Switch off. Push the tabs of both trays into the right plate's slots, the battery's tray "
-                  "below. Lead the wires along the plate, away from leg, cam and gears, and tie them."),
+            Words("{off}, unplug the battery. Push the tabs of both trays into the right plate's slots, the battery's "
+                  "tray below. Lead the wires along the plate, away from leg, cam and gears, and tie them."),
         ),
     ),
     Plan(
@@ -315,6 +317,8 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("Stand the axles and the springs' pin in their bores. They lean until the left plate is on: the tube "
                   "that comes first on each holds it upright, so push that down to the plate.", lacks=".*_axle_nut"),
+            Words("The springs' pin has no tube: a strip of adhesive tape from it to the plate, on the side away from "
+                  "the leg, holds it upright. It comes off in step {step_close}, with tweezers.", lacks=".*_axle_nut"),
             Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
                   "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
             Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
@@ -325,7 +329,8 @@ ORDER: tuple[Plan, ...] = (
             Words("Front axle: tube, front link, tube ({front_tubes}). Cam axle: its tube ({cam_tube} mm)."),
         ),
         (
-            Words("The springs are slack in this step. Nothing may have to be forced; an arm that does not lie "
+            Words("Wear glasses whenever you handle springs. They are slack in this step. Nothing may have to be "
+                  "forced; an arm that does not lie "
                   "against its pin belongs to the spring of the other hand."),
         ),
         (Words("The leg swings freely from the motor to its end, and falls by its own weight."),),
@@ -362,8 +367,9 @@ ORDER: tuple[Plan, ...] = (
         "trial", "Trial: left plate on, cam turned by hand", ROBOT,
         (Move("", brings=LEFT, trial=True),),
         (
-            Words("The pinion is still off. Put the left plate on for a trial, without screws: hold it level, let the "
-                  "longest axle find its bore first, then one after the other, the trays' and the stop's tabs last. Do "
+            Words("The pinion is still off. Put the left plate on for a trial, without screws: hold it level and "
+                  "guide the axles into their bores with tweezers: first the leg's, then the cam's, the front one, the "
+                  "springs' pin last; then the trays' and the stop's tabs. Do "
                   "not press: where it does not go down, something is beside its bore."),
             Words("Hold the plates together with thumb and finger, the robot upright and its leg hanging, and "
                   "turn the cam gear by hand one full turn, "
@@ -390,7 +396,7 @@ ORDER: tuple[Plan, ...] = (
             Words("Put the left plate on with its screws. The springs are slack: the leg has no pin yet that they "
                   "could push. Hold the robot upright by the plates, its leg hanging, plug the battery in, switch on, "
                   "USB cable in, type `wind`, then `jump`; ten times."),
-            Words("Switch off, unplug, lay the robot on its right plate and take the left one off again."),
+            Words("{off}, unplug the battery, lay the robot on its right plate and take the left one off again."),
         ),
         (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),
         (
@@ -407,10 +413,12 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("With the leg on its stop push the pin ({leg_pin}) through it from the left, below the inner arms of "
                   "both springs: all four arms then lie between it and the springs' other pin."),
-            Words("A bought spring's arms may stand up to 10° off: push the arm aside with a screwdriver; 10° take "
-                  "{arm_n} N. Arms that are more than 15° off are not those of the order."),
+            Words("Arms that are {arms_least} to {arms}° apart when relaxed do not press on the pins. Where one does, "
+                  "stop: only the right plate holds the springs' pin, and the spring would push it over. Such a spring "
+                  "is not used.", lacks="preload"),
             Words("The springs are loaded by {preload}° in this pose: hold either arm back with pliers, {preload_n} N, "
-                  "while the pin goes in.", needs="preload"),
+                  "while the pin goes in. Only the right plate holds the springs' other pin: a second person holds its "
+                  "free end with pliers until the left plate is on.", needs="preload"),
             Words("Bend the split pin's ends around the pin and cut off what stands out.",
                   needs="leg_spring_pin_split_pin"),
             Words("Press the clips into the pin's grooves.", needs="leg_spring_pin_clip_.*"),
@@ -434,6 +442,7 @@ ORDER: tuple[Plan, ...] = (
                   needs=".*_axle_nut"),
             Words("Left plate and its screws for good, {torque_plastic} N·m. Press a clip into the groove at either "
                   "end of every axle.", needs=".*_axle_clip_1"),
+            Words("Pull the strip of tape off the springs' pin.", lacks=".*_axle_nut"),
         ),
         (
             Words("From now on the springs can be loaded: {energy} J, set free within {push_ms} ms. Keep "
@@ -476,8 +485,8 @@ ORDER: tuple[Plan, ...] = (
             Words("`fault: sensor pressed too early`: a lead of the sensor is broken, the springs may be partly "
                   "loaded. Nothing in the leg's way, type `wind`, then `jump`, until the leg falls: each turns the cam "
                   "a little. Then mend the lead.", needs="wiring_resistor_pull_up"),
-            Words("Battery low while it winds: the springs are partly loaded and cannot be released. {charge_loaded} "
-                  "Then `wind` again, and `jump`."),
+            Words("Battery low while it winds: the springs are partly loaded and cannot be released. Wait a minute and "
+                  "give `wind` again. Refused again: {charge_loaded} Then `wind` again, and `jump`."),
         ),
         (
             Words("It winds in about {wind_s} s with {wind_ma} mA, {peak_ma} mA at most. As computed it jumps {range} "

@@ -57,7 +57,11 @@ def test_the_firmware_has_time_to_wind_on_an_empty_battery_and_pins_of_the_chip(
     pins = [found[f"PIN_{name}"] for name in ("MOTOR", "SLEEP", "READY", "BATTERY", "BUTTON")]
     assert len({*pins}) == 5
     assert not {*pins[:4]} & {2, 8, 9}
-    assert found["BATTERY_MIN_V"] == pytest.approx(6.6 if robot.workshop.bought.regulator else 3.3)
+    cells = 2 if robot.workshop.bought.regulator else 1
+    assert found["BATTERY_MIN_V"] == pytest.approx(3.5 * cells)
+    assert found["BATTERY_EMPTY_V"] == pytest.approx(3.3 * cells)
+    driver = next(board for board in electronics_facts(robot)["boards"] if board["role"] == "driver")
+    assert found["BATTERY_EMPTY_V"] - found["BATTERY_SAG_V"] == pytest.approx(driver["gets_v"][0], abs=0.001)
 
 
 def test_the_drawing_names_every_terminal_and_is_the_same_each_time(robot: Robot) -> None:

@@ -39,7 +39,13 @@ def test_the_guide_asks_for_what_the_firmware_and_the_boards_do(robot: Robot) ->
     assert int(let_go[1]) <= (values["RELEASE_MAX_MS"] or 0)
     if not robot.workshop.bought.regulator:
         assert "370 mA, which cannot be set: 1.23 C" in guide
+        assert (
+            "otherwise charge it outside" not in guide
+        )  # what is in the robot is charged whenever USB and switch are on
+        assert "Pull the USB cable and switch off, unplug the battery" in guide
     assert "fits the jaws in one position only" in guide
+    assert "## After use" in guide
+    assert "623, 3 x 10 x 4 mm" in guide  # ISO 15, with shields
     sensor = guide.split("Left plate with the sensor")[1]
     assert sensor.index("through the mount's window") < sensor.index("solder them to COM and NC")
     boards = guide.split("Upper tray with the boards")[1]
@@ -54,6 +60,8 @@ def test_two_cells_are_never_charged_inside_the_robot(tmp_path: Path) -> None:
         assert "USB socket, with the switch on" not in text
         assert "by a charger with a balance lead, set to LiPo 2S, outside the robot" in text
         assert "tie leg and body together with cord" in text
+        assert "Pull the USB cable" not in text  # a diode keeps USB from the driver
+    assert "LiPo charger with a balance lead and an adapter to JST-PH 2.0 mm" in write_guide(robot)
 
 
 def test_a_guide_takes_times_in_and_changes_nothing_else(robot: Robot) -> None:

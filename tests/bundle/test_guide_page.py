@@ -1,5 +1,6 @@
 """assembly.html: one well-formed page that holds its pictures and asks for nothing else."""
 
+import math
 import re
 from xml.etree import ElementTree as ET
 
@@ -36,16 +37,31 @@ def test_the_page_says_what_the_guide_says() -> None:
 
 
 def test_every_number_in_the_texts_is_filled_in() -> None:
-    """No name in braces is left, and the kitchen scale shows rate times angle over lever and gravity."""
+    """No name in braces is left, and the kitchen scale reads what raises it: energy of the spring over its rise.
+
+    The arm leaves the coil at its underside; without friction the scale's work is the spring's energy. Turned by an
+    angle, the arm's line is tangent to the coil and meets the edge, which is at a fixed distance to the side.
+    """
     robot = built("kenan-2.0")
     guide = write_guide(robot)
     assert not re.search(r"\{\w+\}", guide)
     row = re.search(r"\| 20° \| (\d+) g \|", guide)
-    lever = re.search(r"it touches ([\d.]+) mm along the arm", guide)
+    lever = re.search(r"touches the arm ([\d.]+) mm to the side", guide)
     assert row is not None
     assert lever is not None
-    grams = robot.design.stiffness_nmm_per_deg / 2.0 * 20.0 / float(lever[1]) / 9.81 * 1000.0
+    spring, side = robot.layout.drive.spring, float(lever[1])
+    radius = (spring.inside_diameter_mm + spring.wire_mm) / 2.0
+
+    def edge_mm(angle: float) -> float:
+        tangent = radius * math.sin(angle), -radius * math.cos(angle)
+        return tangent[1] + (side - tangent[0]) * math.tan(angle)
+
+    low, high = math.radians(19.99), math.radians(20.01)
+    rate = math.degrees(robot.design.stiffness_nmm_per_deg / 2.0)
+    work = rate * (high**2 - low**2) / 2.0
+    grams = work / (edge_mm(high) - edge_mm(low)) / 9.81 * 1000.0
     assert abs(float(row[1]) - grams) < 0.01 * grams
+    assert "| 30° |" not in guide  # friction at the edge would count
 
 
 def test_each_hand_has_its_drawing_with_the_rate() -> None:
@@ -56,4 +72,5 @@ def test_each_hand_has_its_drawing_with_the_rate() -> None:
     for hand, sheet in zip(("right", "left"), sheets.values(), strict=True):
         ET.fromstring(sheet)
         assert "4.60 N·mm/° ±10 %" in sheet
+        assert "° +0° / -10°; 180° is opposite directions" in sheet  # wider arms would push the springs' pin over
         assert f"rises to the {hand}" in sheet

@@ -17,8 +17,8 @@ from jumpcad.files import templates_folder
 PRESSED_DEG, TURN = 12.0, 360.0
 STEP_MS = 2
 NUMBERS = SimpleNamespace(
-    PWM_CAP=0.9, BATTERY_MIN_V=3.3, BATTERY_SAG_V=0.05, LOW_MS=200, WIND_MIN_MS=900, WIND_MAX_MS=4000,
-    RELEASE_MAX_MS=1000, AFTER_RELEASE_MS=60, SETTLE_MS=10, LANDING_MS=1500, RAMP_MS=100,
+    PWM_CAP=0.9, BATTERY_MIN_V=3.5, BATTERY_EMPTY_V=3.3, BATTERY_SAG_V=0.05, LOW_MS=200, WIND_MIN_MS=900,
+    WIND_MAX_MS=4000, RELEASE_MAX_MS=1000, AFTER_RELEASE_MS=60, SETTLE_MS=10, LANDING_MS=1500, RAMP_MS=100,
 )  # fmt: skip
 
 
@@ -226,7 +226,7 @@ def test_the_landing_that_shakes_the_switch_starts_nothing() -> None:
 
 def test_it_refuses_to_wind_on_a_low_battery() -> None:
     world = World()
-    world.battery_v = 3.29
+    world.battery_v = 3.49
     world.step(wind=True)
     assert world.winder.state == WINDER.REFUSED
     assert not any(world.powers)
@@ -237,13 +237,34 @@ def test_it_refuses_to_wind_on_a_low_battery() -> None:
 
 def test_a_battery_that_dies_while_winding_stops_it() -> None:
     world = World()
-    world.battery_v, world.drain_v_s = 3.4, 0.2
+    world.battery_v, world.drain_v_s = 3.51, 0.2
     world.step(wind=True)
     world.until(WINDER.REFUSED)
     assert world.power == 0.0
     assert world.battery_v is not None
     assert 3.25 - 0.2 * 0.25 < world.battery_v < 3.25
     assert world.drops == 0
+    assert "may be loaded" in world.winder.said
+
+
+def test_what_a_low_battery_left_half_wound_is_finished_when_its_voltage_has_recovered() -> None:
+    world = World()
+    world.battery_v, world.drain_v_s = 3.51, 0.2
+    world.step(wind=True)
+    world.until(WINDER.REFUSED)
+    world.battery_v, world.drain_v_s = 3.29, 0.0
+    world.step(wind=True)
+    assert world.winder.state == WINDER.REFUSED
+    world.battery_v = 3.35
+    world.step(wind=True)
+    world.until(WINDER.READY)
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    assert world.drops == 1
+    world.wait(2.0)
+    world.step(wind=True)  # slack springs are not wound with so little
+    assert world.winder.state == WINDER.REFUSED
+    assert world.power == 0.0
 
 
 def test_a_short_dip_of_the_battery_at_the_start_is_borne() -> None:
