@@ -14,6 +14,8 @@ from winder import READY, Winder
 
 STEP_MS = 2
 LONGEST = 20  # characters of a line that are kept
+SAMPLES = 8  # readings of the battery that are averaged: one alone scatters
+COMMANDS = ("wind", "jump", "stop", "state")
 
 
 class Board:
@@ -36,7 +38,9 @@ class Board:
 
     def battery_v(self):
         """Return the battery's voltage, or None where it is not measured."""
-        return None if self.battery is None else self.battery.read_uv() * 1e-6 * robot.BATTERY_DIVIDER
+        if self.battery is None:
+            return None
+        return sum(self.battery.read_uv() for _ in range(SAMPLES)) / SAMPLES * 1e-6 * robot.BATTERY_DIVIDER
 
 
 class Button:
@@ -100,7 +104,9 @@ def run():
                 stop=word == "stop",
             )
             board.turn(share)
-            if winder.said != told or word == "state":
+            if word and word not in COMMANDS:
+                print("unknown command; there are: %s" % ", ".join(COMMANDS))
+            elif word or winder.said != told:  # each command is answered, also one that does nothing in this state
                 told = winder.said
                 print("%s: %s; %d jumps" % (winder.state, told, winder.jumps))
             time.sleep_ms(STEP_MS)

@@ -35,13 +35,14 @@ class Winder:
     def __init__(self, numbers):
         self.numbers = numbers
         self.state = IDLE
-        self.said = "ready for a command"
+        self.said = "just started: what the springs hold is not known"
         self.jumps = 0
         self._sensor = Debounced(numbers.SETTLE_MS)
         self._since_ms = 0
         self._low_since_ms = None
         self._freed_ms = None
         self._released = False  # the springs are slack: the last that turned the cam was a release that was seen
+        self._begun = False  # winding was begun and no release was seen since: the springs may be partly loaded
 
     def step(self, now_ms, pressed, battery_v=None, wind=False, jump=False, stop=False):
         """Return the motor's share of PWM.
@@ -57,7 +58,9 @@ class Winder:
             return self._enter(IDLE, now_ms, "stopped; the springs may be loaded")
         if self.state == WINDING:
             if self._is_low(now_ms, battery_v):
-                return self._enter(REFUSED, now_ms, "battery low: charge it; the springs may be loaded")
+                return self._enter(
+                    REFUSED, now_ms, "battery low, the springs may be loaded: wait and wind again, or charge it"
+                )
             if settled:
                 return self._at_ready(now_ms, elapsed)
             if elapsed > numbers.WIND_MAX_MS:
@@ -81,6 +84,7 @@ class Winder:
         if self._refuses(battery_v):
             return self._enter(REFUSED, now_ms, "battery low: charge it")
         self._low_since_ms = None
+        self._begun = True
         return self._enter(WINDING, now_ms, "winding")
 
     def _at_ready(self, now_ms, elapsed):
@@ -106,7 +110,7 @@ class Winder:
             self._freed_ms = now_ms
         if self._freed_ms is not None and now_ms - self._freed_ms >= numbers.AFTER_RELEASE_MS:
             self.jumps += 1
-            self._released = True
+            self._released, self._begun = True, False
             return self._enter(IDLE, now_ms, "jump %d" % self.jumps)
         if elapsed > numbers.RELEASE_MAX_MS:
             return self._enter(
@@ -124,11 +128,13 @@ class Winder:
         return numbers.PWM_CAP * min(1.0, 0.3 + 0.7 * elapsed / numbers.RAMP_MS)
 
     def _refuses(self, battery_v):
-        return battery_v is not None and battery_v < self.numbers.BATTERY_MIN_V
+        """Tell whether the battery at rest is too low; what was begun is finished with less than what begins needs."""
+        least_v = self.numbers.BATTERY_EMPTY_V if self._begun else self.numbers.BATTERY_MIN_V
+        return battery_v is not None and battery_v < least_v
 
     def _is_low(self, now_ms, battery_v):
         """Tell whether the loaded battery has been low for a while."""
-        if battery_v is None or battery_v >= self.numbers.BATTERY_MIN_V - self.numbers.BATTERY_SAG_V:
+        if battery_v is None or battery_v >= self.numbers.BATTERY_EMPTY_V - self.numbers.BATTERY_SAG_V:
             self._low_since_ms = None
             return False
         if self._low_since_ms is None:
