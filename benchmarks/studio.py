@@ -6,8 +6,10 @@ Run `python benchmarks/studio.py [--json] [--steps N]`; needs the extra `studio`
 """
 
 import argparse
+import contextlib
 import importlib.util
 import json
+import sys
 from time import process_time
 from typing import Any
 
@@ -77,7 +79,8 @@ def main() -> None:
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--steps", type=int, default=3)
     arguments = parser.parse_args()
-    result = measured(arguments.steps)
+    with contextlib.redirect_stdout(sys.stderr):  # the server's banner
+        result = measured(arguments.steps)
     if arguments.json:
         print(json.dumps(result, indent=2))
         return
