@@ -1,9 +1,9 @@
 """The rest stop: strength of bar, plates and leg under the impact, and strain and deflection of the pad.
 
 The bar is taken as a beam on both plates with the pad's force in its middle, each plate's ear as a cantilever from the
-pivots' line, the left one weakened by the hole for the leg's pin, and the leg as a beam on hub and pad whose inertia acts at the ankle, the farthest that it can. All three
-print lying, so that the impact bends them along their layers. The seats of axles and pins that transmit the impact are
-not checked.
+pivots' line, the left one weakened by the hole for the leg's pin, and the leg as a beam on hub and pad whose inertia
+acts at the ankle, the farthest that it can. All three print lying, so that the impact bends them along their layers.
+The seats of axles and pins that transmit the impact are not checked.
 """
 
 import math

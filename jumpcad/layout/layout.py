@@ -15,8 +15,6 @@ from jumpcad.dimensions import (
     GAP_MM,
     PAD_WALL_MM,
     SPACER_RADIUS_MM,
-    SPRING_BOSS_MIN_MM,
-    SPRING_BOSS_MM,
     SPRING_BOSS_WALL_MM,
     STANDOFF_PAD_MM,
 )
@@ -25,6 +23,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
     require_gear_room,
     require_shaft,
+    spring_boss_mm,
     spring_obstacles,
     spring_pin_place,
     train_obstacles,
@@ -32,9 +31,9 @@ from jumpcad.layout.drive_places import (
 )
 from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
 from jumpcad.layout.fittings import Fittings, fittings_of
-from jumpcad.layout.lateral import Interval, Lateral, lateral_stack
+from jumpcad.layout.lateral import Lateral, lateral_stack
 from jumpcad.layout.pin_hole import PinHole, pin_hole
-from jumpcad.layout.room import Obstacle, clearance, disc
+from jumpcad.layout.room import Obstacle, disc
 from jumpcad.layout.sensor import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.layout.stop import (
     GIVE_ROOM_RAD,
@@ -42,7 +41,6 @@ from jumpcad.layout.stop import (
     stop_angle_rad,
     stop_obstacles,
     stop_place,
-    stop_tab_obstacle,
 )
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
@@ -197,19 +195,11 @@ def make_layout(
     around_leg += [*_hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
     stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, inside, lateral.left_plate)
     beside_hub += stop_obstacles(stop, inside)
-    plate_y = lateral.left_plate
-    around_pin = [*around_leg, _seat("leg axle's seat", hub, axle_mm, plate_y)]
-    around_pin += [
-        _seat("front axle's seat", front, axle_mm, plate_y),
-        _seat("cam axle's seat", cam_axis, axle_mm, plate_y),
-    ]
-    around_pin += [*stop_obstacles(stop, inside), stop_tab_obstacle(stop, plate_y)]
-    way = (sections.thickness_mm / 2.0, plate_y[0]), (plate_y[0], plate_y[1])
-    through = pin_hole(hub, pin_radius, linkage.rest_rad, stop.direction_rad, leg_pin_hole_mm, around_pin, *way)
     spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
     obstacles = [*moving, *beside_hub, front_axle, *cam_things]
+    through = pin_hole(linkage, around_leg, stop, lateral, pin_radius, leg_pin_hole_mm, axle_mm)
     obstacles += spring_obstacles(hub, spring_pin, drive.spring, inside)
-    obstacles.append(through.obstacle((way[0][0], plate_y[1])))
+    obstacles.append(through.obstacle((lateral.leg[1], lateral.left_plate[1])))
     idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis)
     obstacles += train_obstacles(motor, angle, idler, drive, lateral)
     seats = {"leg": hub, "front": front, "cam": cam_axis, "spring": spring_pin}
@@ -223,7 +213,7 @@ def make_layout(
     standoffs = standoff_places(obstacles, cam_axis, front, electronics, tray, inside)
     obstacles += [disc("standoff", place, STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]
     beside = [*seats.values(), stop.tab_mm]
-    boss = _spring_boss_mm(obstacles, spring_pin, axle_mm, lateral)
+    boss = spring_boss_mm(obstacles, spring_pin, axle_mm, lateral)
     fittings = fittings_of(obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + PAD_WALL_MM)
     return Layout(
         linkage=linkage,
@@ -273,20 +263,6 @@ def moving_obstacles(layout: Layout) -> list[Obstacle]:
     return [*found, disc("pinion", layout.motor_mm, pinion, lateral.gears[-1])]
 
 
-def _spring_boss_mm(obstacles: list[Obstacle], pin: Array, axle_mm: float, lateral: Lateral) -> float:
-    """Return how high the boss for the springs' pin can be on the right plate: 0 where it would be of no use.
-
-    It may grow together with the motor's socket, which is part of that plate too.
-    """
-    low, radius = lateral.inside[0], axle_mm / 2.0 + SPRING_BOSS_WALL_MM
-    top = min(low + SPRING_BOSS_MM, lateral.spring_right[0] - GAP_MM)
-    for one in obstacles:
-        if one.name not in ("spring arm", "spring pin", "motor"):
-            near = clearance([one], pin[None], (0.0, 0.0), 0.0, (low, max(low, top)), radius)[0] < radius
-            top = min(top, one.y_mm[0]) if near else top
-    return round(top - low, 6) if top - low >= SPRING_BOSS_MIN_MM else 0.0
-
-
 def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
     room = legs_apart_mm(linkage, sections) - GAP_MM
     if room < 0:
@@ -316,11 +292,6 @@ def _cam_obstacles(axis: Array, drive: Drive, lateral: Lateral) -> list[Obstacle
         disc("cam gear", axis, wheel.tip_radius_mm + CLEAR_MM, lateral.gears[0]),
         _axle("cam axle", axis, lateral),
     ]
-
-
-def _seat(name: str, place: Array, axle_mm: float, plate: Interval) -> Obstacle:
-    """Return an axle's bore in a plate."""
-    return disc(name, place, axle_mm / 2.0 + CLEAR_MM, plate)
 
 
 def _axle(name: str, place: Array, lateral: Lateral) -> Obstacle:

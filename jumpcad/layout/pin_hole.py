@@ -8,10 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.dimensions import PIN_HOLE_EDGE_MM
+from jumpcad.dimensions import CLEAR_MM, PIN_HOLE_EDGE_MM
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.lateral import Interval
-from jumpcad.layout.room import Obstacle, clearance
+from jumpcad.layout.lateral import Interval, Lateral
+from jumpcad.layout.room import Obstacle, clearance, disc
+from jumpcad.layout.stop import StopPlace, stop_obstacles, stop_tab_obstacle
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.transforms import Array, direction
 
 
@@ -42,34 +44,45 @@ class PinHole:
 
 
 def pin_hole(
-    hub_mm: Array, radius_mm: float, rest_rad: float, stop_rad: float, diameter_mm: float,
-    obstacles: list[Obstacle], inside: Interval, plate: Interval,
+    linkage: Linkage, around_leg: list[Obstacle], stop: StopPlace, lateral: Lateral, radius_mm: float,
+    diameter_mm: float, axle_mm: float,
 ) -> PinHole:  # fmt: skip
-    """Return the hole for the pin at a radius from the hub, with the leg's directions at rest and at the stop.
+    """Return the hole for the pin at a radius from the hub.
 
     Parameters
     ----------
-    rest_rad, stop_rad
-        Directions of the leg, below the x axis.
-    obstacles
-        What does not move with the leg, with its clearance, and what sweeps past the plate.
-    inside, plate
-        Intervals of y: from the leg to the left plate, and that plate.
+    around_leg
+        What stands beside the leg or sweeps past it, with a gap. Lever and front link move with the leg, beside its
+        pin, and are left out.
+    diameter_mm, axle_mm
+        Of the hole, and of the axles whose bores the plate has.
 
     Raises
     ------
     CannotBuildError
         If something is in the pin's way, or too close to the hole.
     """
-    rest, stop = (np.round(hub_mm + radius_mm * direction(angle), 6) for angle in (rest_rad, stop_rad))
-    hole = PinHole(rest, stop, diameter_mm)
-    for y, radius in ((inside, diameter_mm / 2.0), (plate, hole.pad_mm / 2.0)):
-        room = float(clearance(obstacles, hole.places_mm, (0.0, 0.0), 0.0, y, radius).min()) - radius
-        if room < 0.0:
-            blocker = min(obstacles, key=lambda one: clearance([one], hole.places_mm, (0.0, 0.0), 0.0, y, radius).min())
+    hub, plate = linkage.back_pivot_mm, lateral.left_plate
+    rest, at_stop = (
+        np.round(hub + radius_mm * direction(angle), 6) for angle in (linkage.rest_rad, stop.direction_rad)
+    )
+    found = PinHole(rest, at_stop, diameter_mm)
+    bores = [
+        disc(f"bore of the {name} axle", place, axle_mm / 2.0 + CLEAR_MM, plate)
+        for name, place in (("leg", hub), ("front", linkage.front_pivot_mm))
+    ]
+    others = [one for one in around_leg if one.name not in ("lever", "front link")]
+    others += [*bores, *stop_obstacles(stop, lateral.inside), stop_tab_obstacle(stop, plate)]
+    for y, reach in (((lateral.leg[1], plate[0]), diameter_mm / 2.0), (plate, found.pad_mm / 2.0)):
+
+        def room_mm(things: list[Obstacle], y: Interval = y, reach: float = reach) -> float:
+            return float(clearance(things, found.places_mm, (0.0, 0.0), 0.0, y, reach).min()) - reach
+
+        if (room := room_mm(others)) < 0.0:
+            blocker = min(others, key=lambda one: room_mm([one]))
             raise CannotBuildError(
                 f"no way for the leg's springs' pin through the left plate: {-room:.1f} mm too little beside the "
-                f"{blocker.name}: raise d_coef or rest_angle_deg, or choose a softer spring (a smaller one)",
+                f"{blocker.name}: raise d_coef, or lower stiffness_nmm_per_deg (a smaller spring)",
                 "pin_way", room,
             )  # fmt: skip
-    return hole
+    return found

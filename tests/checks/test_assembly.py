@@ -50,7 +50,7 @@ def _reordered(monkeypatch: pytest.MonkeyPatch, first: str, then: str) -> None:
     ("first", "then", "blocked"),
     [
         ("close", "legs", "leg_axle"),  # a plate over the bores: nothing gets between the plates
-        ("close", "arm", "leg_spring_pin"),  # the pin lies behind the left plate
+        ("arm", "legs", "main_leg"),  # the pin stands where the leg goes
         ("cam", "legs", "main_leg"),  # the cam gear covers the roller's lever
     ],
 )
