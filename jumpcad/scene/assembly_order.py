@@ -54,6 +54,8 @@ class Move:
         for what is soldered or flexible.
     past
         Pattern of parts that may be in the way, because one of the two yields.
+    through
+        Pattern of parts with a hole on the path: the picture shows what moves before it.
     tool, reach
         What fastens them, and the side from which the tool comes: by default `along`, else one of its values.
     trial
@@ -68,6 +70,7 @@ class Move:
     along: str = "from the left"
     way: Literal["straight", "snapped", "bent", "laid"] = "straight"
     past: str = ""
+    through: str = ""
     tool: Tool | None = None
     reach: str = ""
     trial: bool = False
@@ -433,7 +436,7 @@ ORDER: tuple[Plan, ...] = (
     Plan(
         "arm", "The springs' pin in the leg", ROBOT,
         (
-            Move("leg_spring_pin(_clip_2)?", "from the left"),
+            Move("leg_spring_pin(_clip_2)?", "from the left", through="body_plate_left"),
             Move("leg_spring_pin_split_pin", "from the front", "bent", past="leg_spring_pin", tool=PLIERS),
             Move("leg_spring_pin_clip_1", "from the front", "snapped", past="leg_spring_pin", tool=CLIP),
         ),
