@@ -202,3 +202,8 @@ def stop_obstacles(stop: StopPlace, inside: Interval) -> Iterable[Obstacle]:
     """Yield the bar as an obstacle for what is placed after it."""
     half = (STOP_PAD_MM / 2.0 + CLEAR_MM, stop.depth_mm / 2.0 + CLEAR_MM)
     yield box_obstacle("rest stop", stop.middle_mm, half, stop.turn_rad, inside)
+
+
+def stop_tab_obstacle(stop: StopPlace, plate: Interval) -> Obstacle:
+    """Return the slot in a plate for a tab of the bar."""
+    return box_obstacle("rest stop's slot", stop.tab_mm, (TAB_MM[0] / 2.0, TAB_MM[1] / 2.0), stop.turn_rad, plate)

@@ -62,7 +62,7 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "linkage": layout.linkage, "sections": layout.sections, "drive": layout.drive,
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
         "plate_mm": load_workshop("default").body.plate_mm, "roller_width_mm": 4.0, "axle_mm": 3.0,
-        "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
+        "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
         "toe_half_width_mm": layout.toe_half_width_mm, "switch": layout.fittings.switch,
         "sensor": layout.sensor.needs if layout.sensor else None,
     }  # fmt: skip
