@@ -19,7 +19,7 @@ from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.margin import propose_robust
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.space import Space
-from jumpcad.search.tolerances import PERCENT, SAMPLES, Making, tenth, varied_parameters
+from jumpcad.search.tolerances import PERCENT, SAMPLES, Making, tenth
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 
@@ -176,9 +176,8 @@ class _Examined:
     def neighbours(self, new: int, seed: int, making: Making) -> list[tuple[str, Variant]]:
         """Return the next neighbours, half of each kind."""
         generator = np.random.default_rng([seed, 4, self.index])
-        workshop = self.trial.workshop
         kinds = {
-            "parameters": [Variant(design, workshop) for design in varied_parameters(self.trial.design, generator)],
+            "parameters": making.varied(self.trial.variant, generator),
             "print": making.neighbours(self.trial.variant, generator),
         }
         start, end = self.examined // 2, (self.examined + new) // 2
