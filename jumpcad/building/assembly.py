@@ -145,6 +145,7 @@ def _laid_out(
         axle_mm=chosen.axle_mm,
         stop_rad=math.radians(workshop.body.stop_deg),
         stop_pad=workshop.stop_pad,
+        reserve_mm=workshop.safety.room_reserve_mm,
         retention=chosen.retention,
         toe_half_width_mm=workshop.body.toe_half_width_mm,
         leg_bar=workshop.leg_bar,

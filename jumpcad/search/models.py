@@ -213,7 +213,8 @@ class RobotModel:
         from jumpcad.evaluation import evaluate_made
 
         result = evaluate_made(design, self.workshop, self.settings, self.engine, partial(as_made, values=self.made))
-        findings = (*result.findings, *room_findings(result.robot.layout))
+        robot = result.robot
+        findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
         figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.screened else {})
         return Evaluation(result.verdict, figures, findings)
 
