@@ -215,6 +215,8 @@ class RobotModel:
         result = evaluate_made(design, self.workshop, self.settings, self.engine, partial(as_made, values=self.made))
         robot = result.robot
         findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
+        if self.made:  # what the design keeps stands in its own row
+            findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
         figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.screened else {})
         return Evaluation(result.verdict, figures, findings)
 

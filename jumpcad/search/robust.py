@@ -123,7 +123,7 @@ def rank_candidates(
 
     Successive halving: the more robust half of the candidates gets more neighbours, until one is left. The best often
     lies on a constraint; if one of its first neighbours is rejected, a few designs at a distance from the constraint
-    join.
+    join. Where none joins, the last candidate gets their evaluations.
 
     Parameters
     ----------
@@ -144,12 +144,14 @@ def rank_candidates(
     for turn, (count, new) in enumerate(rounds):
         field.sort(key=lambda one: -one.robust_score)
         left, field = [*field[count:], *left], field[:count]
+        if count == 1 and turn:
+            new = min(new + reserve, 2 * SAMPLES - field[0].examined) // 2 * 2
         _examine(evaluator, field, new, first + turn, seed, making)
         if turn == 0 and reserve and field and field[0].rejections:
             off_edge = propose_robust(evaluator, trials, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
             joining = [_Examined(MOST_CANDIDATES + n, one) for n, one in enumerate(off_edge) if one.score is not None]
             _examine(evaluator, joining, 2, first + ROUNDS - 1, seed, making)
-            field += joining
+            field, reserve = field + joining, 0
     # Who got further has been examined more, and stands before those that were left behind.
     return [one.candidate() for one in [*sorted(field, key=lambda one: -one.robust_score), *left] if one.examined]
 

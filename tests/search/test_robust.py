@@ -88,6 +88,15 @@ def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluat
     assert sum(new for _, new in rounds) <= 32
 
 
+def test_where_no_neighbour_is_rejected_the_last_candidate_gets_what_is_left(evaluator):
+    one = evaluator(model=Spiked())
+    one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.4, 0.6, 0.8)], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=40)
+    spent = [candidate.neighbours for candidate in ranked]
+    assert 40 - len(spent) <= sum(spent) <= 40
+    assert spent[0] == max(spent) > 20
+
+
 def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
