@@ -147,6 +147,7 @@ def _laid_out(
         stop_rad=math.radians(workshop.body.stop_deg),
         stop_pad=workshop.stop_pad,
         leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, chosen)),
+        reserve_mm=workshop.safety.room_reserve_mm,
         retention=chosen.retention,
         toe_half_width_mm=workshop.body.toe_half_width_mm,
         leg_bar=workshop.leg_bar,

@@ -152,6 +152,7 @@ def make_layout(
     stop_rad: float,
     stop_pad: Pad,
     leg_pin_hole_mm: float,
+    reserve_mm: float,
     retention: Retention = "plates",
     toe_half_width_mm: float = 0.0,
     leg_bar: LegBar | None = None,
@@ -160,9 +161,9 @@ def make_layout(
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
-    `stop_rad` is how far past rest the leg shall meet its stop. `leg_pin_hole_mm` is the diameter of the left plate's
-    hole through which the pin goes into the leg. Without `sensor` no switch says when the robot is
-    wound.
+    `stop_rad` is how far past rest the leg shall meet its stop; `reserve_mm` is kept in the room for the stop, and
+    between leg and front link. `leg_pin_hole_mm` is the diameter of the left plate's hole through which the pin goes
+    into the leg. Without `sensor` no switch says when the robot is wound.
 
     Raises
     ------
@@ -182,8 +183,8 @@ def make_layout(
     inside, pin_radius = lateral.inside, drive.spring.pin_radius_mm
     hub, front = linkage.back_pivot_mm, linkage.front_pivot_mm
     cam_axis = hub + drive.cam.cam_axis_mm
-    _require_legs_apart(linkage, sections)
-    stop_rad = stop_angle_rad(linkage, sections, stop_rad)
+    _require_legs_apart(linkage, sections, GAP_MM + reserve_mm)
+    stop_rad = stop_angle_rad(linkage, sections, stop_rad, GAP_MM + reserve_mm)
     moving = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD)
     require_shaft(drive.train.motor, lateral)
     beside_hub, front_axle = _hub_obstacles(hub, drive, lateral), _axle("front axle", front, lateral)
@@ -193,7 +194,7 @@ def make_layout(
     # close to the springs and to what moves, and without the leg, which meets the stop
     around_leg = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
     around_leg += [*_hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
-    stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, inside, lateral.left_plate)
+    stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, inside, lateral.left_plate, reserve_mm)
     beside_hub += stop_obstacles(stop, inside)
     spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
     obstacles = [*moving, *beside_hub, front_axle, *cam_things]
@@ -263,11 +264,11 @@ def moving_obstacles(layout: Layout) -> list[Obstacle]:
     return [*found, disc("pinion", layout.motor_mm, pinion, lateral.gears[-1])]
 
 
-def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
-    room = legs_apart_mm(linkage, sections) - GAP_MM
+def _require_legs_apart(linkage: Linkage, sections: Sections, gap_mm: float) -> None:
+    room = legs_apart_mm(linkage, sections) - gap_mm
     if room < 0:
         raise CannotBuildError(
-            f"main leg and front link come {-room:.1f} mm nearer than the {GAP_MM:g} mm that they need between them: "
+            f"main leg and front link come {-room:.1f} mm nearer than the {gap_mm:g} mm that they need between them: "
             "lower compression_ratio, or raise d_coef or rest_angle_deg",
             "legs_apart", room,
         )  # fmt: skip
