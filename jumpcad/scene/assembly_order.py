@@ -324,7 +324,8 @@ ORDER: tuple[Plan, ...] = (
             Words("The springs' pin has no tube: a strip of adhesive tape from it to the plate, on the side away from "
                   "the leg, holds it upright. It comes off in step {step_close}, with tweezers.",
                   lacks=".*_axle_nut|spring_boss"),
-            Words("The springs' pin has no tube: its boss on the plate holds it.", needs="spring_boss"),
+            Words("The springs' pin has no tube: its boss on the plate holds it.", needs="spring_boss",
+                  lacks=".*_axle_nut"),
             Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
                   "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
             Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
