@@ -449,13 +449,13 @@ ORDER: tuple[Plan, ...] = (
             Words("Drop the pin ({leg_pin}) through that hole and push it with a thin rod through the leg, below the "
                   "inner arms of both springs, until its end stands out beside the right spring's arm: all four arms "
                   "then lie between it and the springs' other pin."),
-            Words("An arm may be up to {arms_tolerance}° wider than ordered and then lies in the pin's way. Push it "
+            Words("An arm may be up to {wider}° wider than ordered and then lies in the pin's way. Push it "
                   "aside with a small screwdriver from the front, towards the springs' other pin: the left spring's "
                   "until the pin is in the leg, then the right one's; {arm_n} N at most. Both plates hold the springs' "
                   "other pin.", lacks="preload"),
             Words("The springs are loaded by {preload}° in this pose: push the arms aside with a small screwdriver "
                   "from the front, towards the springs' other pin, the left spring's until the pin is in the leg, then "
-                  "the right one's; {preload_n} N, and {arm_n} N where an arm is {arms_tolerance}° wider than ordered. "
+                  "the right one's; {preload_n} N, and {arm_n} N where an arm is {wider}° wider than ordered. "
                   "Both plates hold the springs' other pin.", needs="preload"),
             Words("Put the split pin through the pin's right end from the front, bend its ends around the pin and cut "
                   "off what stands out.", needs="leg_spring_pin_split_pin"),
