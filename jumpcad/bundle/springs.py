@@ -8,11 +8,8 @@ from jumpcad.drive import TorsionSpring
 from jumpcad.robot import Robot
 
 DIGITS = 6
-ANGLE_SHORT_DEG = 10.0
-"""By which relaxed arms may be closer together than ordered; makers of stock springs allow 10 to 15 to either side.
-
-None to the other side: wider arms would press on the springs' pin while only the right plate holds it.
-"""
+ANGLE_TOLERANCE_DEG = 10.0
+"""By which relaxed arms may be wider or narrower than ordered; makers of stock springs allow 10 to 15 either way."""
 
 
 def spring_facts(robot: Robot) -> list[dict[str, Any]]:
@@ -74,7 +71,7 @@ def _made_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
         f"- wire {spring.wire_mm:g} mm, inside diameter {spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, "
         f"body at most {spring.body_length_mm:.1f} mm long when loaded",
         f"- two straight arms, tangents of the coil, {spring.arm_length_mm:.1f} mm from the coil to their ends, "
-        f"{math.degrees(spring.free_arm_angle_rad):.0f}° +0° / -{ANGLE_SHORT_DEG:.0f}° apart when relaxed (180° is "
+        f"{math.degrees(spring.free_arm_angle_rad):.0f}° ±{ANGLE_TOLERANCE_DEG:.0f}° apart when relaxed (180° is "
         "opposite directions, as after whole turns); loading lowers the angle",
     )
 
@@ -87,6 +84,6 @@ def _stock_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
         f"design asks for {robot.design.stiffness_nmm_per_deg / 2.0:.2f} N·mm/°, and the robot is computed with what "
         "the springs have",
         f"- cut both arms to {spring.arm_length_mm:.1f} mm from the coil; they are "
-        f"{math.degrees(spring.free_arm_angle_rad):.0f}° +0° / -{ANGLE_SHORT_DEG:.0f}° apart when relaxed: makers "
+        f"{math.degrees(spring.free_arm_angle_rad):.0f}° ±{ANGLE_TOLERANCE_DEG:.0f}° apart when relaxed: makers "
         "allow 10 to 15° to either side, so order some more and choose",
     )
