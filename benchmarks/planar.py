@@ -34,7 +34,7 @@ RIVALS = ("pybullet", "mujoco")
 FRICTIONS = (0.3, 0.6)
 SLIDES = 0.005
 """Share of the springs' energy lost at the ground from which on a foot has slid."""
-SLIDING_OF = 4
+SLIDING_OF = 5
 """Robots that are tried for every one that slides and jumps."""
 
 
