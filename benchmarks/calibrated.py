@@ -79,7 +79,7 @@ def comparisons() -> dict[str, str]:
                     {
                         "what": one["what"],
                         "reading": one["as"],
-                        "measured": one["measured"],
+                        "measured": round(one["measured"], DIGITS),
                         "predicted": [round(value, DIGITS) for value in one["predicted"]],
                         "below_share": round(one["below_share"], DIGITS),
                     }

@@ -4,7 +4,7 @@ The calibration takes half a minute and an extra, so its result ships: `template
 `jumpcad calibrate ... --predict ...` says of each prototype, written by `benchmarks/readme.py --only calibration`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 from typing import Annotated, Literal
 
@@ -66,7 +66,8 @@ def compared(found: Compared) -> Iterator[str]:
         label = escape(READINGS[row.what, row.reading])
         yield f"<tr><td>{label}</td>" + "".join(f'<td class="number">{cell}</td>' for cell in cells) + "</tr>"
     yield "</table>"
-    yield f"<p>{_verdict(found)} Neither mass nor floor nor what was measured is published.</p>"
+    none = " A draw without a jump counts as 0." if any(row.predicted[0] == 0.0 for row in found.rows) else ""
+    yield f"<p>{_verdict(found)}{none} Mass, floor and what was measured are not published.</p>"
 
 
 def _verdict(found: Compared) -> str:
@@ -82,7 +83,7 @@ def _verdict(found: Compared) -> str:
     )
 
 
-def _value(values: "list[float] | tuple[float, ...]", what: str) -> str:
+def _value(values: Sequence[float], what: str) -> str:
     if what == "battery":
         return "…".join(f"{value:.2f}" for value in values) + " J"
     return "…".join(f"{1000.0 * value:.0f}" for value in values) + " mm"
