@@ -18,22 +18,12 @@ from jumpcad.checks import quick_findings
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.templates import templates_folder
 from jumpcad.robot import Robot
-from jumpcad.simulation.jump import Jump
+from jumpcad.simulation.jump import ACCOUNT, Jump
 from jumpcad.simulation.uncertain import Uncertainty
 from jumpcad.version import __version__
 
 NUMERIC = ("quantity", "g each", "€", "margin", "value", "mJ", "share")
 """Columns that are right-aligned."""
-ACCOUNT = {
-    "useful": "of the centre of mass: the jump",
-    "internal": "turning and swinging about the centre of mass",
-    "springs": "still in the springs",
-    "release": "lost between cam and roller",
-    "pins": "lost in the joints' friction",
-    "slip": "lost by slipping on the ground",
-    "contact": "lost in impacts, and the simulation's rounding",
-}
-"""The energy account of a jump in words."""
 
 
 def write_report(
