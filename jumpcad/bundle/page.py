@@ -10,6 +10,7 @@ from html import escape
 from urllib.parse import quote
 
 from jumpcad.bundle.bom import BillLine, bill_of_materials, euros
+from jumpcad.bundle.compared import compared, compared_of
 from jumpcad.bundle.limits import limits, tightest
 from jumpcad.bundle.uncertainty import uncertainty
 from jumpcad.bundle.viewer import viewer
@@ -64,6 +65,7 @@ def write_report(
             *limits(quick_findings(robot)),
             *_energy(jump),
             *(uncertainty(sure) if sure is not None else ()),
+            *(compared(beside) if (beside := compared_of(robot.design)) is not None else ()),
             *_printing(robot, files),
             *_parts(robot),
             *_downloads(files),
