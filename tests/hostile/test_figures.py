@@ -5,6 +5,7 @@ Between lie the shipped workshops and those of `tests/test_any_design.py`.
 
 import re
 import warnings
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -81,13 +82,14 @@ foot = 3.0
 
 
 @pytest.fixture(scope="session")
-def own(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """Return the data of a workshop in which everything is the user's own."""
+def own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
+    """Yield the data of a workshop in which everything is the user's own; its robot stays, and so its parts' masses."""
     path = tmp_path_factory.mktemp("figures") / "own.toml"
     path.write_text(OWN)
     workshop = load_workshop(path)
-    assert quick_findings(build(DESIGN, workshop))
-    return workshop.model_dump()
+    robot = build(DESIGN, workshop)
+    assert quick_findings(robot)
+    yield workshop.model_dump()
 
 
 def with_figure(data: Any, place: Place, value: float) -> Any:
