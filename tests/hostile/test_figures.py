@@ -5,7 +5,6 @@ Between lie the shipped workshops and those of `tests/test_any_design.py`.
 
 import re
 import warnings
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -17,6 +16,7 @@ from jumpcad.checks import quick_findings
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record
+from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.loop_file import LoopFile
 from jumpcad.workshop import Workshop, load_workshop
@@ -82,14 +82,19 @@ foot = 3.0
 
 
 @pytest.fixture(scope="session")
-def own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
-    """Yield the data of a workshop in which everything is the user's own; its robot stays, and so its parts' masses."""
+def robot(tmp_path_factory: pytest.TempPathFactory) -> Robot:
+    """Return the robot of a workshop in which everything is the user's own: while it stays, its parts' masses do."""
     path = tmp_path_factory.mktemp("figures") / "own.toml"
     path.write_text(OWN)
-    workshop = load_workshop(path)
-    robot = build(DESIGN, workshop)
+    robot = build(DESIGN, load_workshop(path))
     assert quick_findings(robot)
-    yield workshop.model_dump()
+    return robot
+
+
+@pytest.fixture(scope="session")
+def own(robot: Robot) -> dict[str, Any]:
+    """Return the data of its workshop."""
+    return robot.workshop.model_dump()
 
 
 def with_figure(data: Any, place: Place, value: float) -> Any:
