@@ -1,10 +1,14 @@
 """The command line as a function, and a bundle."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from support.commands import Run, exit_code_of
+from support.kept import once, robot_key
 from support.places import ROOT
+
+from jumpcad.bundle import export
 
 
 @pytest.fixture
@@ -18,6 +22,19 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
         return code, captured.out, captured.err
 
     return call
+
+
+@pytest.fixture(scope="session", autouse=True)
+def contents() -> Iterator[None]:
+    """Let the files of a bundle be made once: these tests show what commands do with them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(export, "contents", once({}, export.contents, robot_key))
+        yield
+
+
+@pytest.fixture(autouse=True)
+def findings(checked_once: None) -> None:
+    """Let a robot be checked once: these tests show what commands do with its findings."""
 
 
 @pytest.fixture(scope="session")

@@ -18,6 +18,7 @@ import matplotlib
 import matplotlib.font_manager  # writes its list of fonts, if there is none
 import pytest
 from support.commands import exit_code_of
+from support.kept import once, robot_key
 from support.robots import make_small_robot
 from support.sandbox import Sandbox
 from support.slicers import OBEDIENT
@@ -26,7 +27,6 @@ from jumpcad.bundle import export as bundle_export
 from jumpcad.bundle import renders
 from jumpcad.coupon import export as coupon_export
 from jumpcad.coupon.pieces import Piece
-from jumpcad.robot import Robot
 from jumpcad.simulation.engines import engine_named
 from jumpcad.workshop import Workshop
 
@@ -70,29 +70,16 @@ def remembered() -> Iterator[dict[object, Any]]:
     """
     made: dict[object, Any] = {}
 
-    def once(make: Callable[..., Any], key: Callable[..., object]) -> Callable[..., Any]:
-        def contents(*arguments: Any) -> Any:
-            case = (make.__name__, key(*arguments))
-            if case not in made:
-                done = make(*arguments)
-                made[case] = tuple(done) if isinstance(done, Iterator) else done
-            return made[case]
-
-        return contents
-
-    def robot_key(robot: Robot, *more: Any) -> object:
-        return robot.design.to_toml(), robot.workshop and robot.workshop.to_toml(), robot.name, str(more)
-
     def mass_key(piece: Piece, workshop: Workshop) -> object:
         return piece.name, workshop.to_toml()
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bundle_export, "contents", once(bundle_export.contents, robot_key))
-        patch.setattr(coupon_export, "_contents", once(coupon_export._contents, lambda shop, *_: shop.to_toml()))
-        patch.setattr(coupon_export, "_mass_kg", once(coupon_export._mass_kg, mass_key))
+        patch.setattr(bundle_export, "contents", once(made, bundle_export.contents, robot_key))
+        patch.setattr(coupon_export, "_contents", once(made, coupon_export._contents, lambda shop, *_: shop.to_toml()))
+        patch.setattr(coupon_export, "_mass_kg", once(made, coupon_export._mass_kg, mass_key))
         patch.setattr(renders, "JUMP_FRAMES", 3)
-        patch.setattr(renders, "renders", once(renders.renders, robot_key))
-        patch.setattr(renders, "jump_gif", once(renders.jump_gif, lambda robot, *_: robot_key(robot)))
+        patch.setattr(renders, "renders", once(made, renders.renders, robot_key))
+        patch.setattr(renders, "jump_gif", once(made, renders.jump_gif, lambda robot, *_: robot_key(robot)))
         yield made
 
 
