@@ -1,6 +1,6 @@
 """The command line as a function, and a bundle."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
@@ -9,6 +9,8 @@ from support.kept import once, robot_key
 from support.places import ROOT
 
 from jumpcad.bundle import export
+from jumpcad.exporters.registry import Exporter, Files
+from jumpcad.robot import Robot
 
 
 @pytest.fixture
@@ -26,9 +28,15 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
 
 @pytest.fixture(scope="session", autouse=True)
 def contents() -> Iterator[None]:
-    """Let the files of a bundle be made once: these tests show what commands do with them."""
+    """Let the files of a bundle without pictures be made once: these tests show what commands do with them."""
+    make = export.contents
+    known = once({}, make, robot_key)
+
+    def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
+        return make(robot, exporters, pictures) if pictures else known(robot, exporters, pictures)
+
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(export, "contents", once({}, export.contents, robot_key))
+        patch.setattr(export, "contents", contents)
         yield
 
 

@@ -20,5 +20,6 @@ def once(known: dict[object, Any], make: Callable[..., Any], key: Callable[..., 
 
 
 def robot_key(robot: Robot, *more: Any) -> object:
-    """Return what tells robots as `build` makes them apart: design, workshop and name."""
-    return robot.design.to_toml(), robot.workshop and robot.workshop.to_toml(), robot.name, str(more)
+    """Return what tells robots apart: design, workshop, name, and the names of their parts."""
+    parts = tuple(part.name for part in robot.parts)
+    return robot.design.to_toml(), robot.workshop and robot.workshop.to_toml(), robot.name, parts, str(more)
