@@ -28,5 +28,7 @@ def test_a_worker_with_another_program_computes_nothing():
 
 def test_a_worker_that_starts_after_its_parent_was_killed_ends():
     """Its parent is then another process: here, this test's child is told that it is its own parent."""
-    code = "import os, signal; from jumpcad.search.worker import start_worker; start_worker(os.getpid()); signal.pause()"
+    code = (
+        "import os, signal; from jumpcad.search.worker import start_worker; start_worker(os.getpid()); signal.pause()"
+    )
     assert subprocess.run([sys.executable, "-c", code]).returncode == 1
