@@ -47,6 +47,7 @@ REASONS = {
     r"^no motor": "gears: no motor turns the cam",
     r"^main leg and front link come": "layout: main leg and front link collide",
     r"^the cam gear's tip radius": "layout: cam gear beside the leg's axle",
+    r"^no way for the leg's springs' pin": "layout: no way for the leg's pin through the left plate",
     r"^no room for the (?P<what>[\w ]+)": "layout: no room for the {what}",
     r"^part \w+ of .* does not fit the bed": "bed: a part is too large",
 }

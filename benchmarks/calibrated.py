@@ -9,12 +9,15 @@ import numpy as np
 
 from jumpcad.building import build
 from jumpcad.design import load_design
+from jumpcad.files import to_toml
 from jumpcad.simulation import Settings, uncertain_jump
 
 SAMPLER_SLACK = 0.05
 """How far apart (share) quantiles of the sampler may be on two machines."""
 SEED = 0
 SLIPPERY = 0.4
+DIGITS = 3
+"""Of what is shipped: millimetres, and parts in a thousand."""
 READINGS = {
     ("distance", "centre-of-mass"): "distance, as ballistic range",
     ("distance", "resting-place"): "distance, as resting place",
@@ -59,6 +62,32 @@ def of_calibration() -> dict[str, str]:
         f"Kenan 2.0 would need {energy['needed'] / energy['predicted']:.1f} times the springs' energy over its mass, "
         f"or {travel['needed']:.0f} mm of travel after landing",
         "uncertain": _uncertain(),
+    }
+
+
+def comparisons() -> dict[str, str]:
+    """Return the files of `templates/compared`, by name: each prototype, predicted by a calibration on the other."""
+    found = calibration.paper(SEED)
+    pairs = (("kenan-2.0", "kenan-1.0", "beside"), ("kenan-1.0", "kenan-2.0", "beside, the other way"))
+    return {
+        name: f"# jumpcad calibrate {other} --predict {name}\n"
+        + to_toml(
+            {
+                "design": name,
+                "calibrated_on": other,
+                "rows": [
+                    {
+                        "what": one["what"],
+                        "reading": one["as"],
+                        "measured": round(one["measured"], DIGITS),
+                        "predicted": [round(value, DIGITS) for value in one["predicted"]],
+                        "below_share": round(one["below_share"], DIGITS),
+                    }
+                    for one in found[key]
+                ],
+            }
+        )
+        for name, other, key in pairs
     }
 
 

@@ -1,5 +1,7 @@
 """What the fields of JSON documents mean, by a field's name, or by the end of its path where that says more."""
 
+from jumpcad.simulation.jump import ACCOUNT
+
 WORDS = {
     # robots and bundles
     "format": "version of this layout",
@@ -121,13 +123,7 @@ WORDS = {
     "slip_j": "lost by friction on the ground",
     "contact_j": "lost in impacts, and the engine's rounding",
     "published": "the study's own measures; with `--published`",
-    "useful": "energy of the jump: forward, upward, lift",
-    "internal": "turning and swinging about the centre of mass",
-    "springs": "left in the springs",
-    "release": "lost at the release",
-    "pins": "lost in joints and pins",
-    "slip": "lost by slipping",
-    "contact": "lost in contacts",
+    **ACCOUNT,
     # findings
     "findings.name": "the check; see [Checks](checks.md)",
     "too_weak.name": "the check; see [Checks](checks.md)",

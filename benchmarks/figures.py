@@ -28,7 +28,6 @@ from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import find_objective
-from jumpcad.search.tolerances import Making, varied_parameters
 from jumpcad.search.variant import Variant
 from jumpcad.settings import coefficients
 from jumpcad.simulation import Jump, Settings, simulate
@@ -184,12 +183,11 @@ def _least_energy_share(row: PublishedResult) -> float:
 def of_best_printable() -> dict[str, str]:
     """Return the figures of the template `best-printable` that need no search."""
     design, workshop = load_design("best-printable"), load_workshop("default")
-    length_mm = 2.0 * workshop.fits.sliding_mm  # a link has the play of a sliding fit at both ends
     generator = np.random.default_rng(0)
-    neighbours = varied_parameters(design, generator)
-    neighbours += [one.design for one in Making(length_mm).neighbours(Variant(design), generator)]
     model, score = RobotModel("printed", workshop), find_objective("fitness").score
-    refused = sum(score(model(neighbour)) is None for neighbour in neighbours)
+    one, making = Variant(design), model.making
+    neighbours = [*making.varied(one, generator), *making.neighbours(one, generator)]
+    refused = sum(score(model(neighbour.design, neighbour.workshop)) is None for neighbour in neighbours)
     bounds = [
         f"`{name}` ({side})"
         for name, bound in SEARCH_BOUNDS.items()
@@ -201,7 +199,7 @@ def of_best_printable() -> dict[str, str]:
         "best fitness": f"{built('best-printable')[1].fitness:.2f}",
         "bounds": f"{len(bounds)} parameters: {', '.join(bounds)}",
         "neighbours": f"Of {len(neighbours)} neighbours, half with parameters ±1 %, half with lengths "
-        f"±{length_mm:g} mm, {refused or 'none'} {'is' if refused < 2 else 'are'} rejected",
+        f"±{making.length_mm:g} mm, {refused or 'none'} {'is' if refused < 2 else 'are'} rejected",
     }
 
 

@@ -8,7 +8,7 @@ Run `python benchmarks/planar.py [--json] [--rounds N] [--capsule N] [--printed 
 import argparse
 import csv
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from time import process_time
@@ -23,6 +23,7 @@ from jumpcad.files import template_names
 from jumpcad.findings import errors
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import statics_findings
+from jumpcad.mechanism.model import Mechanism
 from jumpcad.robot import Robot
 from jumpcad.simulation import load_settings, simulate
 from jumpcad.simulation.planar import PlanarWorld
@@ -33,6 +34,8 @@ RIVALS = ("pybullet", "mujoco")
 FRICTIONS = (0.3, 0.6)
 SLIDES = 0.005
 """Share of the springs' energy lost at the ground from which on a foot has slid."""
+SLIDING_OF = 5
+"""Robots that are tried for every one that slides and jumps."""
 
 
 def of_table() -> Iterator[tuple[Robot, str, float | None]]:
@@ -80,7 +83,7 @@ def table_errors() -> dict[str, dict[str, float]]:
     }
 
 
-def random_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
+def random_errors(robots: Sequence[Mechanism]) -> dict[str, dict[str, float]]:
     """Return the errors on robots at the default step, against each rival and of one against the other."""
     ranges = {rival: [simulate(robot, FINE, rival).ballistic_range_m for robot in robots] for rival in RIVALS}
     planar = [simulate(robot, DEFAULT, "planar").ballistic_range_m for robot in robots]
@@ -88,22 +91,33 @@ def random_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
     return result | {"mujoco against pybullet": errors_of(ranges["mujoco"], ranges["pybullet"])}
 
 
-def slipping_errors(robots: list[Robot]) -> dict[str, dict[str, float]]:
-    """Return the errors at frictions where feet slide."""
+def slipping_errors(robots: Sequence[Mechanism], count: int) -> dict[str, dict[str, float]]:
+    """Return the errors of the first robots that slide, each on a floor of other friction.
+
+    Of every engine at the default step against PyBullet and MuJoCo at the fine one, and of these against each other.
+    """
     frictions = np.random.default_rng(3).uniform(*FRICTIONS, len(robots))
-    cases = [
-        (robot, FINE.model_copy(update={"ground_friction": float(friction)}))
-        for robot, friction in zip(robots, frictions, strict=True)
-    ]
-    coarse = {"dt_s": DEFAULT.dt_s}
-    planar = [simulate(robot, settings.model_copy(update=coarse), "planar") for robot, settings in cases]
-    slides = [jump.energy is not None and jump.energy.slip_j > SLIDES * jump.spring_energy_j for jump in planar]
-    sliding = [index for index, slid in enumerate(slides) if slid]
-    result = {}
-    for rival in RIVALS:
-        ranges = [simulate(*cases[index], rival).ballistic_range_m for index in sliding]
-        result[rival] = errors_of([planar[index].ballistic_range_m for index in sliding], ranges)
-    return result
+    sliding = []
+    for robot, friction in zip(robots, frictions.tolist(), strict=True):
+        floor = {"ground_friction": friction}
+        jump = simulate(robot, DEFAULT.model_copy(update=floor), "planar")
+        if jump.energy is not None and jump.energy.slip_j > SLIDES * jump.spring_energy_j:
+            sliding.append((robot, floor))
+    ranges = {
+        (engine, step): [
+            simulate(robot, settings.model_copy(update=floor), engine).ballistic_range_m
+            for robot, floor in sliding[:count]
+        ]
+        for step, settings in (("default", DEFAULT), ("fine", FINE))
+        for engine in (*RIVALS, "planar")
+    }
+    fine = {engine: ranges[engine, "fine"] for engine in RIVALS}
+    compared = {
+        f"{engine} at the default step against {rival}": errors_of(ranges[engine, "default"], found)
+        for rival, found in fine.items()
+        for engine in (*RIVALS, "planar")
+    }
+    return compared | {"mujoco against pybullet": errors_of(fine["mujoco"], fine["pybullet"])}
 
 
 def cpu_ms(call: Callable[[], object]) -> float:
@@ -147,11 +161,11 @@ def main() -> None:
     result: dict[str, dict[str, dict[str, float]]] = {"speed": speeds(arguments.rounds), "table": table_errors()}
     if arguments.capsule:
         result["capsule"] = random_errors(robots_of(capsule_robot, arguments.capsule))
-    robots = robots_of(build, max(arguments.printed, arguments.slipping))
+    robots = robots_of(build, max(arguments.printed, SLIDING_OF * arguments.slipping))
     if arguments.printed:
         result["printed"] = random_errors(robots[: arguments.printed])
     if arguments.slipping:
-        result["slipping"] = slipping_errors(robots[: arguments.slipping])
+        result["slipping"] = slipping_errors(robots, arguments.slipping)
     if arguments.json:
         print(json.dumps(result, indent=2))
         return

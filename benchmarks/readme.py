@@ -29,6 +29,7 @@ ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 TEMPLATE = ROOT / "templates" / "robots" / "best-printable.toml"
 PICTURE = ROOT / "docs" / "best-printable.png"
+COMPARED = ROOT / "templates" / "compared"
 REPORT = ROOT / "examples" / "best-printable-report.html"
 COMMAND = " ".join(("jumpcad", *figures.SEARCH))
 HEADING = f"# Found by `{COMMAND}` (GA, then BO, on the printed robot in the default workshop).\n"
@@ -111,6 +112,16 @@ def report_differences(write: bool) -> Iterator[str]:
         yield f"{REPORT.name}: is not the report of best-printable"
 
 
+def compared_differences(write: bool) -> Iterator[str]:
+    """Yield a sentence for every line of the shipped predictions that is not what calibrations say today."""
+    for name, text in calibrated.comparisons().items():
+        path = COMPARED / f"{name}.toml"
+        if write:
+            write_atomically(path, text)
+        else:
+            yield from differences(path.name, path.read_text(encoding="utf-8"), text, calibrated.SAMPLER_SLACK)
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Compare or write; print what differs and return 1 if something does."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -127,6 +138,8 @@ def main(arguments: list[str] | None = None) -> int:
             write_atomically(TEMPLATE, HEADING + design.to_toml())
         wrong += template_differences(design, winner["fitness"])
         wrong += report_differences(options.write)
+    if "calibration" in costly:
+        wrong += compared_differences(options.write)
     wrong += picture_differences(options.write)
     made, slack = dict[str, str](), dict[str, float]()
     for make, off in (CHEAP | dict(COSTLY[name] for name in costly)).items():

@@ -65,6 +65,14 @@ STOP_SEAT_MM = 0.6
 """Depth of that pad's seat in the bar; judgement: it keeps a strip from creeping, and the blow from peeling it."""
 STOP_EDGE_MM = 2.5
 """Material of the body plates around the rest stop's tabs; judgement, as around the trays'."""
+PIN_HOLE_EDGE_MM = 2.0
+"""Material of the left plate around the hole for the leg's springs' pin; judgement: four lines of a 0.4 mm nozzle."""
+SPRING_BOSS_MM, SPRING_BOSS_MIN_MM = 4.0, 1.2
+"""Height of the boss on the right plate in which the springs' pin stands, where there is room beside the springs, and
+the least that is of use; judgement: with the plate two diameters of a 3 mm pin, which then leans by less than 5 degrees
+in a sliding fit."""
+SPRING_BOSS_WALL_MM = 2.0
+"""Wall of that boss around the pin, the fit included; judgement."""
 LEVER_EYE_RADIUS_MM = 4.5
 """Of the lever's eye for the roller's screw: a washer of 7 mm (ISO 7089 M3) and an edge of 1 mm."""
 

@@ -1,13 +1,14 @@
 """`evaluate`: build, simulate and check a design."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from jumpcad.arguments import typed
 from jumpcad.building import built_and_checked
 from jumpcad.design import Design
 from jumpcad.findings import Finding, errors
-from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.robot import Robot
 from jumpcad.scene.extent import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
@@ -73,20 +74,43 @@ def evaluate(
     CannotBuildError
         If the mechanism cannot work, or there is no room for its parts.
     """
-    return evaluate_made(design, workshop, settings, engine)
+    robot, findings = built_and_checked(design, workshop, name="")
+    jump = simulate(robot, settings, engine)
+    return EvaluationResult(robot, jump, (*jump.findings, *findings), _metrics(robot, jump))
 
 
 def evaluate_made(
     design: Design,
-    workshop: Workshop | None = None,
-    settings: Settings | None = None,
-    engine: str = "pybullet",
-    spring_factor: float = 1.0,
+    workshop: Workshop | None,
+    settings: Settings | None,
+    engine: str,
+    made: Callable[[Robot, Settings], tuple[Robot, Settings]],
 ) -> EvaluationResult:
-    """Return what `evaluate` returns, but with a jump of springs whose stiffness differs by a factor."""
-    robot, findings = built_and_checked(design, workshop, name="")
-    jump = simulate(with_spring_factor(robot, spring_factor), settings, engine)
+    """Return what `evaluate` returns, but with the jump of what `made` returns for robot and settings.
+
+    Robot, size and findings besides the jump's are those of the design. The robot of the design before is kept, so that
+    of several made of one design only the first takes time to build.
+    """
+    robot, findings = _designed(_Order(design, workshop))
+    jump = simulate(*made(robot, settings or Settings()), engine)
     return EvaluationResult(robot, jump, (*jump.findings, *findings), _metrics(robot, jump))
+
+
+@dataclass(frozen=True)
+class _Order:
+    """What a robot is built from; a workshop has no hash."""
+
+    design: Design
+    workshop: Workshop | None
+
+    def __hash__(self) -> int:
+        return hash(self.design)
+
+
+@lru_cache(maxsize=1)
+def _designed(order: _Order) -> tuple[Robot, tuple[Finding, ...]]:
+    robot, findings = built_and_checked(order.design, order.workshop, name="")
+    return robot, tuple(findings)
 
 
 def _metrics(robot: Robot, jump: Jump) -> dict[str, float]:

@@ -24,7 +24,13 @@ def test_default_file_lists_every_key() -> None:
     data, text = read_toml(path)
     follow = {name for name, value in Settings() if value is None}
     assert set(data) == set(Settings.model_fields) - follow - {"draws"}  # a calibration's
-    assert follow == {"ground_friction", "body_friction", "pin_friction", "joint_damping_nms_per_rad"}
+    assert follow == {
+        "ground_friction",
+        "body_friction",
+        "pin_friction",
+        "joint_damping_nms_per_rad",
+        "takeoff_clearance_m",
+    }
     assert all(f"# {name} " in text for name in follow)
 
 

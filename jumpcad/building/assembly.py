@@ -30,6 +30,7 @@ from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
+from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.sizing import Growth
 from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
@@ -145,6 +146,8 @@ def _laid_out(
         axle_mm=chosen.axle_mm,
         stop_rad=math.radians(workshop.body.stop_deg),
         stop_pad=workshop.stop_pad,
+        leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, chosen)),
+        reserve_mm=workshop.safety.room_reserve_mm,
         retention=chosen.retention,
         toe_half_width_mm=workshop.body.toe_half_width_mm,
         leg_bar=workshop.leg_bar,

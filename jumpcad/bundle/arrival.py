@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.bundle.springs import ANGLE_SHORT_DEG
+from jumpcad.bundle.springs import arms_off_deg
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive import TorsionSpring
 from jumpcad.electronics.chosen import chosen_parts
@@ -41,15 +41,18 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
     lever = spring.arms.lever_mm
     free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
     preload = math.degrees(spring.preload_rad)
-    short = max(0.0, wound - ANGLE_SHORT_DEG) ** 2 - max(0.0, preload - ANGLE_SHORT_DEG) ** 2
-    lost = 1.0 - short / (wound**2 - preload**2)
+    narrower, wider = arms_off_deg(robot)
+    less, more = (
+        (max(0.0, wound + by) ** 2 - max(0.0, preload + by) ** 2) / (wound**2 - preload**2) for by in (-narrower, wider)
+    )
     shank = math.floor(2.0 * spring.mandrel_mm) / 2.0
     yield from ("", "## When things arrive", "")
     yield from (
-        f"**Springs.** Glasses on. Relaxed, the arms are {free - ANGLE_SHORT_DEG:.0f} to {free:.0f}° apart "
-        "(protractor, or the drawing in order/ at 3:1): wider ones are not used, they would push the springs' pin "
-        f"over while only one plate holds it. Narrower ones load less: {ANGLE_SHORT_DEG:.0f}° short store "
-        f"{100.0 * lost:.0f} % less energy.",
+        f"**Springs.** Glasses on. Relaxed, the arms are {free - narrower:.0f} to {free + wider:.0f}° apart "
+        "(protractor, or the drawing in order/ at 3:1). Of several take the nearest to "
+        f"{free:.0f}°: both springs {narrower:.0f}° narrower store {100.0 * (1.0 - less):.0f} % less energy, "
+        f"{wider:.0f}° wider {100.0 * (more - 1.0):.0f} % more, with {100.0 * wider / wound:.0f} % more torque. Wider "
+        f"ones are not used: the parts' reserve for strong springs is {100.0 * scatter:.0f} %.",
         "",
         f"Rate: clamp the shank of a drill, {shank:g} mm or a little less, level in a vice and put the coil on it, a "
         "nail beside one arm so that it cannot turn. The other arm points level to the side and leaves the coil at "

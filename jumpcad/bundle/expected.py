@@ -11,7 +11,7 @@ from jumpcad.bundle.arrival import REAMED_MM
 from jumpcad.bundle.firmware import AFTER_RELEASE_MS, LANDING_MS, numbers
 from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded, switching_off
 from jumpcad.bundle.ordering import ROD_SHORT_MM
-from jumpcad.bundle.springs import ANGLE_SHORT_DEG
+from jumpcad.bundle.springs import arms_off_deg
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.electronics.chosen import chosen_parts
@@ -89,10 +89,11 @@ def _springs(robot: Robot) -> dict[str, str]:
     """Return what hands feel of the springs."""
     spring = robot.layout.drive.spring
     preload = math.degrees(spring.preload_rad)
-    per_deg_n = spring.rate_nmm_per_deg / spring.arms.lever_mm
+    per_deg_n, (_, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
     return {
-        "arms": f"{math.degrees(spring.free_arm_angle_rad):.0f}",
-        "arms_least": f"{math.degrees(spring.free_arm_angle_rad) - ANGLE_SHORT_DEG:.0f}",
+        "wider": f"{wider:.0f}",
+        "arm_n": f"{max(1.0, (preload + wider) * per_deg_n):.0f}",
+        "pin_hole": f"{robot.layout.pin_hole.diameter_mm:.1f}",
         "preload": f"{preload:.1f}",
         "preload_n": f"{preload * per_deg_n:.1f}",
         "energy": f"{robot.spring.energy_j:.2f}",

@@ -10,6 +10,7 @@ from html import escape
 from urllib.parse import quote
 
 from jumpcad.bundle.bom import BillLine, bill_of_materials, euros
+from jumpcad.bundle.compared import compared, compared_of
 from jumpcad.bundle.limits import limits, tightest
 from jumpcad.bundle.uncertainty import uncertainty
 from jumpcad.bundle.viewer import viewer
@@ -17,22 +18,12 @@ from jumpcad.checks import quick_findings
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.templates import templates_folder
 from jumpcad.robot import Robot
-from jumpcad.simulation.jump import Jump
+from jumpcad.simulation.jump import ACCOUNT, Jump
 from jumpcad.simulation.uncertain import Uncertainty
 from jumpcad.version import __version__
 
 NUMERIC = ("quantity", "g each", "€", "margin", "value", "mJ", "share")
 """Columns that are right-aligned."""
-ACCOUNT = {
-    "useful": "of the centre of mass: the jump",
-    "internal": "turning and swinging about the centre of mass",
-    "springs": "still in the springs",
-    "release": "lost between cam and roller",
-    "pins": "lost in the joints' friction",
-    "slip": "lost by slipping on the ground",
-    "contact": "lost in impacts, and the simulation's rounding",
-}
-"""The energy account of a jump in words."""
 
 
 def write_report(
@@ -74,6 +65,7 @@ def write_report(
             *limits(quick_findings(robot)),
             *_energy(jump),
             *(uncertainty(sure) if sure is not None else ()),
+            *(compared(beside) if (beside := compared_of(robot.design)) is not None else ()),
             *_printing(robot, files),
             *_parts(robot),
             *_downloads(files),

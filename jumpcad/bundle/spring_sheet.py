@@ -9,7 +9,7 @@ from html import escape
 
 import numpy as np
 
-from jumpcad.bundle.springs import ANGLE_SHORT_DEG
+from jumpcad.bundle.springs import arms_off_deg
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
 from jumpcad.robot import Robot
@@ -50,6 +50,7 @@ def _sheet(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> str:
 def _requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> list[tuple[str, str]]:
     scatter = 100.0 * robot.workshop.safety.spring_rate_scatter
     free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
+    narrower, wider = arms_off_deg(robot)
     return [
         ("robot", f"{robot.name}, spring on its {side} side, 1 piece"),
         ("article", spring.stock or "torsion spring, close-coiled, made to order"),
@@ -59,7 +60,7 @@ def _requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> 
         ("inside diameter", f"{spring.inside_diameter_mm:.2f} mm; may change to meet the rate"),
         ("turns of the body, relaxed", f"{spring.turns:.2f}"),
         ("arms, straight, tangent", f"{spring.arm_length_mm:.1f} ±{LENGTH_TOLERANCE_MM:g} mm from the coil"),
-        ("angle between arms, relaxed", f"{free:.0f}° +0° / -{ANGLE_SHORT_DEG:.0f}°; 180° is opposite directions"),
+        ("angle between arms, relaxed", f"{free:.0f}° +{wider:.0f}° / -{narrower:.0f}°; 180° is opposite directions"),
         ("loaded, closing", f"by {wound:.1f}° to {spring.torque_nmm:.0f} N·mm"),
         ("body length, loaded", f"{spring.body_length_mm:.1f} mm at most"),
         ("inside, loaded", f"runs on a mandrel of {spring.mandrel_mm:.2f} mm"),

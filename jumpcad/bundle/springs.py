@@ -8,11 +8,18 @@ from jumpcad.drive import TorsionSpring
 from jumpcad.robot import Robot
 
 DIGITS = 6
-ANGLE_SHORT_DEG = 10.0
-"""By which relaxed arms may be closer together than ordered; makers of stock springs allow 10 to 15 to either side.
+ARMS_OFF_DEG = 10.0
+"""By which relaxed arms may be off at most; makers of stock springs allow 10 to 15 either way."""
 
-None to the other side: wider arms would press on the springs' pin while only the right plate holds it.
-"""
+
+def arms_off_deg(robot: Robot) -> tuple[float, float]:
+    """Return by how much relaxed arms may be narrower, and wider, than ordered.
+
+    Wider ones load the robot more: by no more torque than the reserve for stiff springs covers, in whole degrees.
+    """
+    wound = math.degrees(robot.layout.drive.spring.wound_rad)
+    reserve = robot.workshop.safety.spring_rate_scatter * wound
+    return ARMS_OFF_DEG, math.floor(min(ARMS_OFF_DEG, reserve) + 1e-9)
 
 
 def spring_facts(robot: Robot) -> list[dict[str, Any]]:
@@ -65,6 +72,7 @@ def spring_order(robot: Robot) -> Iterator[str]:
 
 
 def _made_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
+    narrower, wider = arms_off_deg(robot)
     yield from (
         "Two torsion springs, mirror images, one wound right-hand and one left-hand, close-coiled, of patented spring "
         "steel wire EN 10270-1 SM. What counts is the rate: let the maker change the diameter to meet it, not the "
@@ -74,12 +82,13 @@ def _made_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
         f"- wire {spring.wire_mm:g} mm, inside diameter {spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, "
         f"body at most {spring.body_length_mm:.1f} mm long when loaded",
         f"- two straight arms, tangents of the coil, {spring.arm_length_mm:.1f} mm from the coil to their ends, "
-        f"{math.degrees(spring.free_arm_angle_rad):.0f}° +0° / -{ANGLE_SHORT_DEG:.0f}° apart when relaxed (180° is "
+        f"{math.degrees(spring.free_arm_angle_rad):.0f}° +{wider:.0f}° / -{narrower:.0f}° apart when relaxed (180° is "
         "opposite directions, as after whole turns); loading lowers the angle",
     )
 
 
 def _stock_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
+    narrower, wider = arms_off_deg(robot)
     yield from (
         f"Two torsion springs {spring.stock}, one of each hand, from stock:",
         "",
@@ -87,6 +96,6 @@ def _stock_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
         f"design asks for {robot.design.stiffness_nmm_per_deg / 2.0:.2f} N·mm/°, and the robot is computed with what "
         "the springs have",
         f"- cut both arms to {spring.arm_length_mm:.1f} mm from the coil; they are "
-        f"{math.degrees(spring.free_arm_angle_rad):.0f}° +0° / -{ANGLE_SHORT_DEG:.0f}° apart when relaxed: makers "
+        f"{math.degrees(spring.free_arm_angle_rad):.0f}° +{wider:.0f}° / -{narrower:.0f}° apart when relaxed: makers "
         "allow 10 to 15° to either side, so order some more and choose",
     )

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from jumpcad.building import build
+from jumpcad.calibration.contradictions import contradictions
 from jumpcad.calibration.measurements import Measurements, load_measurements
 from jumpcad.calibration.priors import FLOOR, Prior, modelled_mass, tested_floor, weighed_mass
 from jumpcad.calibration.surface import Surface, surface_of
@@ -26,6 +27,7 @@ LANDINGS = (0.7, 0.85, 1.0, 1.2, 1.5)
 """Spring energies over the model's at which the touchdown is simulated."""
 UNITS = {
     "mass": ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?")),
+    "part": ((1e-3, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?")),
     "rate": (
         (180.0 / math.pi, "is that per radian?"), (1e-3, "is that N·m/deg?"), (0.5, "is that of one spring?"),
         (180.0 / math.pi / 1000.0, "is that N·m/rad?"), (10.0, "a digit too many?"), (0.1, "a digit too few?"),
@@ -34,7 +36,7 @@ UNITS = {
     "energy": ((1e3, "is that mJ?"), (1.0 / 3600.0, "is that Wh?"), (10.0, "a digit too many?")),
 }  # fmt: skip
 """The factor by which a mistake changes a value, and the question that the error asks."""
-LARGEST_FACTOR = {"mass": 2.5, "rate": 1.8, "length": 5.0, "energy": 5.0}
+LARGEST_FACTOR = {"mass": 2.5, "part": 5.0, "rate": 1.8, "length": 5.0, "energy": 5.0}
 """By which a value may be larger or smaller than the model's."""
 MOST_ENERGY_SHARE = 1.1
 """Largest energy of a jump over that of the springs; above 1 because both have errors."""
@@ -135,7 +137,12 @@ def load_subject(name_or_path: str | Path) -> Subject:
     measured, path = load_measurements(name_or_path)
     design = load_design(_beside(path, measured.design))
     workshop = load_workshop(_beside(path, measured.workshop))
-    robot = build(design, _with_weights(workshop, measured.mass.parts_g), Path(measured.design).stem)
+    name = Path(measured.design).stem
+    robot = build(design, _with_weights(workshop, measured.mass.parts_g), name)
+    if measured.mass.parts_g:
+        modelled = {part.name: 1000.0 * part.mass.mass_kg for part in build(design, workshop, name).parts}
+        for part, grams in measured.mass.parts_g.items():
+            _require_unit(str(path), f"mass.parts_g.{part}", grams, modelled[part], "g", "part")
     files = [path.parent / video.points for video in measured.videos]
     seen = tuple(seen_takeoff(read_points(file), str(file)) for file in files)
     subject = Subject(path.stem, measured, robot, seen)
@@ -164,11 +171,7 @@ def _require_plausible(subject: Subject, source: str) -> None:
     rate = measured.spring.both_nmm_per_deg
     if rate is not None:
         _require_unit(source, "spring.rate_nmm_per_deg", rate, subject.rate_nmm_per_deg, "N·mm/° for both", "rate")
-    if subject.floor.first > 2.0:
-        raise JumpcadError(
-            f"{source}: floor.pull_n = {measured.floor.pull_n[0]:g}: is a friction of {subject.floor.first:.3g}: pull "
-            "the standing robot by its foot, along the floor, and give newtons (100 gf are 0.98 N)"
-        )
+    weight_n = robot.mass_kg * subject.mass.first * GRAVITY_M_S2
     jump = simulate(robot, Settings(), "planar")
     for series in measured.jumps:
         for key, model in (("distance_mm", jump.ballistic_range_m), ("height_mm", jump.com_rise_m)):
@@ -185,6 +188,8 @@ def _require_plausible(subject: Subject, source: str) -> None:
                     "measure voltage times current from the start of the winding to the release"
                 )
         _require_energy(subject, series.distance_of, series.height_of, series.distance_mm, series.height_mm, source)
+    for contradiction in contradictions(measured, subject.standing_m, weight_n):
+        raise JumpcadError(f"{source}: {contradiction}")
 
 
 def _require_unit(source: str, key: str, value: float, expected: float, unit: str, kind: str) -> None:

@@ -1,21 +1,10 @@
 """Bought parts: motors, bearings, batteries, boards, springs, pads, fasteners and wire, shipped and the user's own."""
 
-from jumpcad.catalogue.articles import (
-    Article,
-    Battery,
-    Bearing,
-    Board,
-    Component,
-    ElectricalParts,
-    Kit,
-    Motor,
-    OwnParts,
-    Pad,
-    StockSpring,
-    Travel,
-)
+from jumpcad.catalogue.articles import Article, OwnParts
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.bars import LegBar
+from jumpcad.catalogue.electrical import Battery, Board, Component, ElectricalParts, Kit, Motor, Travel
+from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
 
 __all__ = [

@@ -8,9 +8,11 @@ from typing import Any, Generic, TypeVar
 
 from pydantic import PositiveFloat
 
-from jumpcad.catalogue.articles import AnyArticle, Battery, Bearing, Board, Component, Kit, Motor, Pad, StockSpring
+from jumpcad.catalogue.articles import AnyArticle
 from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
 from jumpcad.catalogue.bars import LegBar
+from jumpcad.catalogue.electrical import Battery, Board, Component, Kit, Motor
+from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 

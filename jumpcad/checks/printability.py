@@ -8,9 +8,9 @@ import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 from manifold3d import CrossSection, JoinType
 
 from jumpcad.findings import Finding, at_least, at_most, limit
@@ -21,6 +21,9 @@ from jumpcad.solids.outline import Region, grown, hull, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.stl import write_stl
 from jumpcad.workshop import Fits, Process
+
+if TYPE_CHECKING:
+    import trimesh
 
 HALVINGS = 7
 """Steps in the search for a width: to 1 % of the range."""
@@ -192,8 +195,10 @@ def _least(holds: Callable[[float], bool], top_mm: float) -> float:
     return high
 
 
-def _mesh_undersides(mesh: trimesh.Trimesh, angle_rad: float) -> Iterator[tuple[bool, float]]:
+def _mesh_undersides(mesh: "trimesh.Trimesh", angle_rad: float) -> Iterator[tuple[bool, float]]:
     """Yield a mesh's undersides; level ones count as bridges across their narrow side."""
+    import trimesh
+
     steep = -mesh.face_normals[:, 2] > math.sin(angle_rad) + 1e-3
     hangs = steep & (mesh.triangles_center[:, 2] > mesh.bounds[0, 2] + TOUCH_MM)
     faces = np.flatnonzero(hangs)

@@ -1,9 +1,9 @@
 """The rest stop: strength of bar, plates and leg under the impact, and strain and deflection of the pad.
 
 The bar is taken as a beam on both plates with the pad's force in its middle, each plate's ear as a cantilever from the
-pivots' line, and the leg as a beam on hub and pad whose inertia acts at the ankle, the farthest that it can. All three
-print lying, so that the impact bends them along their layers. The seats of axles and pins that transmit the impact are
-not checked.
+pivots' line, the left one weakened by the hole for the leg's pin, and the leg as a beam on hub and pad whose inertia
+acts at the ankle, the farthest that it can. All three print lying, so that the impact bends them along their layers.
+The seats of axles and pins that transmit the impact are not checked.
 """
 
 import math
@@ -35,8 +35,8 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
         "stop_strength", "the rest stop's bar at twice the impact force", stress, strength, remedy, "stop"
     )
     plate = robot.layout.lateral.left_plate
-    moment = BLOW_FACTOR * blow.force_n / 2.0 * stop.radius_mm
-    stress = float(Beam(plate[1] - plate[0], EAR_MM).stress_mpa(moment))
+    thickness, share = plate[1] - plate[0], BLOW_FACTOR * blow.force_n / 2.0
+    stress = max(float(Beam(thickness, EAR_MM).stress_mpa(share * stop.radius_mm)), share * _at_hole(robot, thickness))
     strength = robot.workshop.material("body").strength_in_plane_mpa
     yield stress_finding("stop_plates", "plates' ears at twice the impact force", stress, strength, remedy, "plate")
     sections, share = robot.layout.sections, stop.radius_mm / robot.design.l2_mm
@@ -62,3 +62,15 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
         f"leaves room for {room:.1f}°",
         "choose a stiffer body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio",
     )  # fmt: skip
+
+
+def _at_hole(robot: Robot, thickness_mm: float) -> float:
+    """Return the stress (MPa) in the left plate's ear beside the hole for the leg's pin, per newton on the stop's tab.
+
+    The section is the least that the ear has there, the hole and its edges alone; the moment that at the hole's end
+    nearest to the hub. The section modulus of a rectangle with a hole in its middle is t·(w³ - d³)/(6·w).
+    """
+    hole = robot.layout.pin_hole
+    reach = max(0.0, robot.layout.stop.radius_mm - robot.layout.leg_pin_mm + hole.diameter_mm / 2.0)
+    modulus = thickness_mm * (hole.pad_mm**3 - hole.diameter_mm**3) / (6.0 * hole.pad_mm)
+    return reach / modulus

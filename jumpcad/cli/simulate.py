@@ -35,16 +35,6 @@ LINES = (
     ("mass", "mass_kg", "{:.4f} kg"),
     ("fitness (range / longest link)", "fitness", "{:.3f}"),
 )
-ACCOUNT = {
-    "useful": "useful: flight and lift",
-    "internal": "internal motion",
-    "springs": "left in the springs",
-    "release": "lost at the release",
-    "pins": "lost in joints and pins",
-    "slip": "lost by slipping",
-    "contact": "lost in contact (and numerics)",
-}
-"""Labels of the entries of `Jump.energy_account_j`."""
 
 
 def register(app: typer.Typer) -> None:
@@ -177,6 +167,8 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread:
             engines = {jump.engine: result for jump, result in zip(jumps, results, strict=True)}
             print_json({**heading, "engines": engines, "range_difference_percent": _difference_percent(jumps)})
         return
+    from jumpcad.simulation.jump import ACCOUNT
+
     print(escaped(f"{heading['design']}, {heading['model']} robot, settings {heading['settings']}"))
     for jump in jumps:
         print(f"{jump.engine}: {jump.verdict}")
@@ -190,7 +182,7 @@ def _report(heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread:
         if jump.energy_account_j:
             print("  where the spring energy is at take-off (J):")
             for name, value in jump.energy_account_j.items():
-                print(f"    {ACCOUNT[name]:<34}{value:.4f}")
+                print(f"    {ACCOUNT[name]:<46}{value:.4f}")
         if jump.published:
             for name, quantity in asdict(jump.published).items():
                 shown = "none" if quantity is None else f"{quantity:.4f} m"

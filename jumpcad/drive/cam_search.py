@@ -9,6 +9,7 @@ the linear algebra underneath, some 1e-10 of it, do not reach the robot.
 import itertools
 import math
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -22,8 +23,11 @@ from jumpcad.findings import Finding, limit
 from jumpcad.transforms import Array
 
 
+@lru_cache(maxsize=8)
 def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
     """Find the smallest cam for a law: outer radius first, then lever and distance of the axis.
+
+    It is often that of the round of growth before, in which only the springs' pin moves.
 
     Raises
     ------

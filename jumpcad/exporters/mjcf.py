@@ -9,7 +9,8 @@ here contacts and the loop are as stiff as the time step allows, and the time st
 settings.
 
 Springs that only push are a tendon along the leg joint that is slack beyond the angle at which they are relaxed. The
-stop is the leg joint's limit, with the stiffness of its pad and critical damping for the leg's inertia in flight. Pin
+stop is the leg joint's limit, with the stiffness of its pad and critical damping for the leg's inertia in flight; the
+leg goes back at an eighth of its speed. The project's own engine puts the pad of the other engines in its place. Pin
 friction is one dry torque at the leg joint.
 """
 

@@ -9,7 +9,14 @@ from typing import Literal
 import numpy as np
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
+from jumpcad.dimensions import (
+    CLEAR_MM,
+    GAP_MM,
+    SPACER_RADIUS_MM,
+    SPRING_BOSS_MIN_MM,
+    SPRING_BOSS_MM,
+    SPRING_BOSS_WALL_MM,
+)
 from jumpcad.drive import Drive, TorsionSpring
 from jumpcad.drive.socket import socket_half_mm
 from jumpcad.errors import CannotBuildError
@@ -78,6 +85,20 @@ def spring_obstacles(hub: Array, pin: Array, spring: TorsionSpring, inside: Inte
         Obstacle("spring arm", arm, spring.wire_mm / 2.0 + CLEAR_MM, inside),
         disc("spring pin", pin, spring.arms.pin_mm / 2.0 + CLEAR_MM, inside),
     ]
+
+
+def spring_boss_mm(obstacles: list[Obstacle], pin: Array, axle_mm: float, lateral: Lateral) -> float:
+    """Return how high the boss for the springs' pin can be on the right plate: 0 where it would be of no use.
+
+    It may grow together with the motor's socket, which is part of that plate too.
+    """
+    low, radius = lateral.inside[0], axle_mm / 2.0 + SPRING_BOSS_WALL_MM
+    top = min(low + SPRING_BOSS_MM, lateral.spring_right[0] - GAP_MM)
+    for one in obstacles:
+        if one.name not in ("spring arm", "spring pin", "motor"):
+            near = clearance([one], pin[None], (0.0, 0.0), 0.0, (low, max(low, top)), radius)[0] < radius
+            top = min(top, one.y_mm[0]) if near else top
+    return round(top - low, 6) if top - low >= SPRING_BOSS_MIN_MM else 0.0
 
 
 def arm_line(hub: Array, spring: TorsionSpring, pin: Literal["plate", "leg"]) -> tuple[Array, Array]:

@@ -15,6 +15,7 @@ from jumpcad.dimensions import (
     GAP_MM,
     PAD_WALL_MM,
     SPACER_RADIUS_MM,
+    SPRING_BOSS_WALL_MM,
     STANDOFF_PAD_MM,
 )
 from jumpcad.drive import Drive
@@ -22,6 +23,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
     require_gear_room,
     require_shaft,
+    spring_boss_mm,
     spring_obstacles,
     spring_pin_place,
     train_obstacles,
@@ -30,9 +32,16 @@ from jumpcad.layout.drive_places import (
 from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
 from jumpcad.layout.fittings import Fittings, fittings_of
 from jumpcad.layout.lateral import Lateral, lateral_stack
+from jumpcad.layout.pin_hole import PinHole, pin_hole
 from jumpcad.layout.room import Obstacle, disc
 from jumpcad.layout.sensor import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
-from jumpcad.layout.stop import GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
+from jumpcad.layout.stop import (
+    GIVE_ROOM_RAD,
+    StopPlace,
+    stop_angle_rad,
+    stop_obstacles,
+    stop_place,
+)
 from jumpcad.layout.sweep import legs_apart_mm, link_obstacles
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.strength.sizing import Sections
@@ -56,6 +65,7 @@ class Layout:
     and drive. `toes_apart` says whether the foot is too large for the bed with its toes, so that they are
     separate parts. `toe_half_width_mm` is how far from the middle the toes touch the ground: at their tips, or at the
     ends of bars across them. `leg_bar` is what main leg and front link are made of between printed ends, if anything.
+    `spring_boss_mm` is the height of the boss for the springs' pin inside the right plate; 0 without.
     """
 
     linkage: Linkage
@@ -75,7 +85,9 @@ class Layout:
     motor_mm: Array
     motor_angle_rad: float
     spring_pin_mm: Array
+    spring_boss_mm: float
     leg_pin_mm: float
+    pin_hole: PinHole
     tray_mm: Array
     standoffs_mm: tuple[Array, ...]
     stop: StopPlace
@@ -110,6 +122,11 @@ class Layout:
         return AXLE_BOSS_MM if self.retention == "plates" else 0.0
 
     @property
+    def spring_boss_outer_mm(self) -> float:
+        """Diameter of the boss in which the springs' pin stands."""
+        return self.axle_mm + 2.0 * SPRING_BOSS_WALL_MM
+
+    @property
     def spring_bore_room_mm(self) -> float:
         """Diameter of what may be around the leg's axle inside the springs' coils."""
         return min(2.0 * SPACER_RADIUS_MM, self.drive.spring.mandrel_mm)
@@ -134,6 +151,8 @@ def make_layout(
     axle_mm: float,
     stop_rad: float,
     stop_pad: Pad,
+    leg_pin_hole_mm: float,
+    reserve_mm: float,
     retention: Retention = "plates",
     toe_half_width_mm: float = 0.0,
     leg_bar: LegBar | None = None,
@@ -142,8 +161,9 @@ def make_layout(
 ) -> Layout:
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
-    `stop_rad` is how far past rest the leg shall meet its stop. Without `sensor` no switch says when the robot is
-    wound.
+    `stop_rad` is how far past rest the leg shall meet its stop; `reserve_mm` is kept in the room for the stop, and
+    between leg and front link. `leg_pin_hole_mm` is the diameter of the left plate's hole through which the pin goes
+    into the leg. Without `sensor` no switch says when the robot is wound.
 
     Raises
     ------
@@ -163,8 +183,8 @@ def make_layout(
     inside, pin_radius = lateral.inside, drive.spring.pin_radius_mm
     hub, front = linkage.back_pivot_mm, linkage.front_pivot_mm
     cam_axis = hub + drive.cam.cam_axis_mm
-    _require_legs_apart(linkage, sections)
-    stop_rad = stop_angle_rad(linkage, sections, stop_rad)
+    _require_legs_apart(linkage, sections, GAP_MM + reserve_mm)
+    stop_rad = stop_angle_rad(linkage, sections, stop_rad, GAP_MM + reserve_mm)
     moving = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD)
     require_shaft(drive.train.motor, lateral)
     beside_hub, front_axle = _hub_obstacles(hub, drive, lateral), _axle("front axle", front, lateral)
@@ -174,11 +194,13 @@ def make_layout(
     # close to the springs and to what moves, and without the leg, which meets the stop
     around_leg = _moving(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
     around_leg += [*_hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
-    stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, inside, lateral.left_plate)
+    stop = stop_place(around_leg, linkage, sections, stop_rad, stop_pad, inside, lateral.left_plate, reserve_mm)
     beside_hub += stop_obstacles(stop, inside)
     spring_pin = spring_pin_place([*moving, *cam_things, front_axle], hub, drive.spring, inside)
     obstacles = [*moving, *beside_hub, front_axle, *cam_things]
+    through = pin_hole(linkage, around_leg, stop, lateral, pin_radius, leg_pin_hole_mm, axle_mm)
     obstacles += spring_obstacles(hub, spring_pin, drive.spring, inside)
+    obstacles.append(through.obstacle((lateral.leg[1], lateral.left_plate[1])))
     idler, motor, angle = train_places(obstacles, drive, lateral, cam_axis)
     obstacles += train_obstacles(motor, angle, idler, drive, lateral)
     seats = {"leg": hub, "front": front, "cam": cam_axis, "spring": spring_pin}
@@ -192,6 +214,7 @@ def make_layout(
     standoffs = standoff_places(obstacles, cam_axis, front, electronics, tray, inside)
     obstacles += [disc("standoff", place, STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]
     beside = [*seats.values(), stop.tab_mm]
+    boss = spring_boss_mm(obstacles, spring_pin, axle_mm, lateral)
     fittings = fittings_of(obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + PAD_WALL_MM)
     return Layout(
         linkage=linkage,
@@ -211,7 +234,9 @@ def make_layout(
         motor_mm=motor,
         motor_angle_rad=angle,
         spring_pin_mm=spring_pin,
+        spring_boss_mm=boss,
         leg_pin_mm=pin_radius,
+        pin_hole=through,
         tray_mm=tray,
         standoffs_mm=standoffs,
         stop=stop,
@@ -239,11 +264,11 @@ def moving_obstacles(layout: Layout) -> list[Obstacle]:
     return [*found, disc("pinion", layout.motor_mm, pinion, lateral.gears[-1])]
 
 
-def _require_legs_apart(linkage: Linkage, sections: Sections) -> None:
-    room = legs_apart_mm(linkage, sections) - GAP_MM
+def _require_legs_apart(linkage: Linkage, sections: Sections, gap_mm: float) -> None:
+    room = legs_apart_mm(linkage, sections) - gap_mm
     if room < 0:
         raise CannotBuildError(
-            f"main leg and front link come {-room:.1f} mm nearer than the {GAP_MM:g} mm that they need between them: "
+            f"main leg and front link come {-room:.1f} mm nearer than the {gap_mm:g} mm that they need between them: "
             "lower compression_ratio, or raise d_coef or rest_angle_deg",
             "legs_apart", room,
         )  # fmt: skip

@@ -122,7 +122,8 @@ class Cloud:
             cos, sin = np.cos(angles_rad)[:, None], np.sin(angles_rad)[:, None]
             x, z = cos * x + sin * z, cos * z - sin * x
         beyond_u, beyond_v = np.abs(x) - half_u, np.abs(z) - half_v
-        outside = np.hypot(np.maximum(beyond_u, 0.0), np.maximum(beyond_v, 0.0))
+        out_u, out_v = np.maximum(beyond_u, 0.0), np.maximum(beyond_v, 0.0)
+        outside = np.sqrt(out_u * out_u + out_v * out_v)
         distance = outside + np.minimum(np.maximum(beyond_u, beyond_v), 0.0) - self.radii_mm
         return np.asarray(distance.min(axis=1, initial=np.inf))
 

@@ -57,7 +57,7 @@ class StopPlace:
     pad
         The pad that is glued on.
     room_mm
-        How far the freest place for it is from everything else, at most `KNOWN_MM`.
+        How much farther than needed the freest place for it is from everything else, at most `KNOWN_MM`.
     """
 
     angle_rad: float
@@ -114,8 +114,10 @@ def tab_offset_mm(along: Array, behind: Array) -> Array:
     return (TAB_MM[0] - STOP_PAD_MM) / 2.0 * along + TAB_MM[1] / 2.0 * behind
 
 
-def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> float:
+def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float, gap_mm: float = GAP_MM) -> float:
     """Return the angle past rest of the stop: the required one, or the largest below it that the links can reach.
+
+    Leg and front link then have `gap_mm` between them.
 
     Raises
     ------
@@ -125,7 +127,7 @@ def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> f
     least = math.radians(LEAST_DEG)
     angle = wanted_rad
     while True:
-        missing, short = _missing(linkage, sections, angle + GIVE_ROOM_RAD)
+        missing, short = _missing(linkage, sections, angle + GIVE_ROOM_RAD, gap_mm)
         if not missing:
             return angle
         if angle <= least:
@@ -138,13 +140,13 @@ def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float) -> f
         angle = max(angle - math.radians(STEP_DEG), least)
 
 
-def _missing(linkage: Linkage, sections: Sections, reach_rad: float) -> tuple[str, float]:
+def _missing(linkage: Linkage, sections: Sections, reach_rad: float, gap_mm: float) -> tuple[str, float]:
     """Return what prevents the links from turning that far past rest, and by how much (mm); empty if nothing does."""
     short = float(linkage.diagonal_mm(reach_rad)) - linkage.l3 - linkage.l4
     if short > 0.0:
         return f"foot and front link are {short:.1f} mm too short to close the loop", short
-    room = legs_apart_mm(linkage, sections, reach_rad) - GAP_MM
-    return f"the gap of main leg and front link is {-room:.1f} mm less than {GAP_MM:g} mm" if room < 0.0 else "", -room
+    room = legs_apart_mm(linkage, sections, reach_rad) - gap_mm
+    return f"the gap of main leg and front link is {-room:.1f} mm less than {gap_mm:g} mm" if room < 0.0 else "", -room
 
 
 def stop_place(
@@ -155,8 +157,11 @@ def stop_place(
     pad: Pad,
     inside: Interval,
     plate: Interval,
+    reserve_mm: float = 0.0,
 ) -> StopPlace:
     """Return the place of the stop behind the leg, across both plates: the free one nearest to the wanted radius.
+
+    It has `reserve_mm` more than the usual clearances around it.
 
     Raises
     ------
@@ -175,10 +180,11 @@ def stop_place(
     radii = radii[np.argsort(np.abs(radii - WANTED_MM), kind="stable")]
     faces = linkage.back_pivot_mm + radii[:, None] * along + heel * behind
     half = (STOP_PAD_MM / 2.0, (pad.thickness_mm - STOP_SEAT_MM + sections.stop_mm) / 2.0)
-    room = clearance(obstacles, faces + half[1] * behind, half, -below, inside, KNOWN_MM)
+    known_mm = KNOWN_MM + reserve_mm
+    room = clearance(obstacles, faces + half[1] * behind, half, -below, inside, known_mm)
     slots = faces + (pad.thickness_mm - STOP_SEAT_MM) * behind + tab_offset_mm(along, behind)
     edge = (TAB_MM[0] / 2.0 + STOP_EDGE_MM, TAB_MM[1] / 2.0 + STOP_EDGE_MM)
-    room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate, KNOWN_MM))
+    room = np.minimum(room, clearance(obstacles, slots, edge, -below, plate, known_mm)) - reserve_mm
     if not (room >= 0.0).any():
         raise CannotBuildError(
             f"no room for the rest stop behind the main leg: {-room.max():.1f} mm too little: lower compression_ratio, "
@@ -202,3 +208,8 @@ def stop_obstacles(stop: StopPlace, inside: Interval) -> Iterable[Obstacle]:
     """Yield the bar as an obstacle for what is placed after it."""
     half = (STOP_PAD_MM / 2.0 + CLEAR_MM, stop.depth_mm / 2.0 + CLEAR_MM)
     yield box_obstacle("rest stop", stop.middle_mm, half, stop.turn_rad, inside)
+
+
+def stop_tab_obstacle(stop: StopPlace, plate: Interval) -> Obstacle:
+    """Return the slot in a plate for a tab of the bar."""
+    return box_obstacle("rest stop's slot", stop.tab_mm, (TAB_MM[0] / 2.0, TAB_MM[1] / 2.0), stop.turn_rad, plate)

@@ -31,7 +31,7 @@ def with_spring_factor(mechanism: Robot, factor: float) -> Robot:
 
 
 def with_lengths(mechanism: Robot, design: Design) -> Robot:
-    """Return a robot whose links have the lengths of another design, and whose bodies keep mass and inertia.
+    """Return a robot whose links have lengths and angles of another design, and whose bodies keep mass and inertia.
 
     Joints, loop and contacts move with the ends of the links. The leg leaves the cam as far before the loaded pose as
     it did. For small differences, such as errors of print and assembly.

@@ -32,6 +32,7 @@ from jumpcad.solids.outline import (
     rectangle,
     ring,
     rounded,
+    stadium,
     strips,
     union,
 )
@@ -55,7 +56,7 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     label = engravable(name).strip() if name else ""
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm
-    outline = _outline(layout)
+    outline = _outline(layout, "left")
     closed = outline - _openings(layout, holes, "left")
     common = closed - _bores(layout, holes)
     y0, y1 = lateral.left_plate
@@ -68,6 +69,7 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     words = name and f"{label} L".strip()
     left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
+    outline = _outline(layout, "right")
     closed = outline - _openings(layout, holes, "right")
     common = closed - _bores(layout, holes)
     play = 2.0 * holes.fits.sliding_mm
@@ -75,11 +77,11 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     window = _motor_box(layout, motor.width_mm - 2.0, motor.height_mm - 2.0)
     taps = union(hole(holes.fits.m2_tap_mm, place) for place in ear_places(layout))
     socket = socket_outline(layout) - cavity - taps
-    boss = _boss(layout, holes, y1, y1 + layout.boss_mm)
-    beside = union([socket, *(region for *_, region in boss)])
     slabs = [(y0 + floor, y1, common - window), *_floor(y0, y0 + floor, closed - window)]
-    slabs += [(y1, y1 + layout.boss_mm, beside)] if boss else []
-    slabs.append((y1 + layout.boss_mm, lateral.motor[1], socket))
+    bosses = _boss(layout, holes, y1, y1 + layout.boss_mm) + _spring_boss(layout, holes, y1, cavity + taps)
+    levels = sorted({y1, lateral.motor[1], *(top for _, top, _ in bosses)})
+    for low, high in itertools.pairwise(levels):
+        slabs.append((low, high, union([socket, *(region for _, top, region in bosses if top >= high)])))
     right = _drawing("body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), name and f"{label} R".strip(), "right")
     return [left, right]
 
@@ -143,11 +145,12 @@ def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
     return pads
 
 
-def _outline(layout: Layout) -> Region:
+def _outline(layout: Layout, side: Face) -> Region:
     """Return the hull of all pads, with pockets between an edge, the pads and ribs that join their middles.
 
     The pockets' corners are round: what stands between them is drawn thicker by their radius, and they are widened by
-    it again. All ribs end within pads. Ears below that hull hold the rest stop.
+    it again. All ribs end within pads. Ears below that hull hold the rest stop; the left one has material around the
+    hole for the leg's pin too.
     """
     pads = _pads(layout)
     around = hull(pads)
@@ -163,19 +166,28 @@ def _outline(layout: Layout) -> Region:
     pockets = (grown(around, -EDGE_MM - POCKET_RADIUS_MM) - union(solid)).simplify(2.0 * SAGITTA_MM)
     axle = layout.axle_mm + 2.0 * PAD_WALL_MM
     base = strips(layout.hub_mm, layout.hub_mm + np.array([EAR_MM, 0.0]), axle)
-    stop = hull([disc(axle, layout.hub_mm), base, rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)])
+    around_pin = [_pin_hole(layout, layout.pin_hole.pad_mm)] if side == "left" else []
+    slot = rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)
+    stop = hull([disc(axle, layout.hub_mm), base, slot, *around_pin])
     return rounded(around, 2.0) - (grown(pockets, POCKET_RADIUS_MM) - stop) + stop
 
 
 def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
-    """Return the holes that pass a plate: standoff screws, slots of trays and stop, what people and wires need."""
+    """Return the holes that pass a plate: standoff screws, tray and stop slots, the leg's pin, people and wires."""
     play = 2.0 * holes.fits.sliding_mm
     cut = [hole(holes.m3_clearance_mm, place) for place in layout.standoffs_mm]
     size = (TAB_MM + play, TRAY_MM + play)
     cut += [rectangle(size, slot) for level in tray_slots(layout, side) for slot in level]
     cut += fitting_openings(layout.fittings, holes, side)
     cut.append(stop_slot(layout, 2.0 * holes.fits.press_mm))
+    cut += [_pin_hole(layout, layout.pin_hole.diameter_mm)] if side == "left" else []
     return union(cut)
+
+
+def _pin_hole(layout: Layout, width_mm: float) -> Region:
+    """Return the hole through which the leg's pin goes in, or what is around it, of some width."""
+    ends = layout.pin_hole
+    return stadium(tuple(ends.rest_mm), tuple(ends.stop_mm), width_mm)
 
 
 def _bores(layout: Layout, holes: HoleSizes) -> Region:
@@ -192,6 +204,14 @@ def _boss(layout: Layout, holes: HoleSizes, y0: float, y1: float) -> list[tuple[
     """Return the longer seat of the leg's axle, inside, if there is one."""
     bore = holes.running(layout.axle_mm)
     return [(y0, y1, ring(layout.spring_bore_room_mm, bore, layout.hub_mm))] if y1 > y0 else []
+
+
+def _spring_boss(layout: Layout, holes: HoleSizes, y0: float, socket: Region) -> list[tuple[float, float, Region]]:
+    """Return the right plate's boss in which the springs' pin stands, inside, if there is one: beside a socket."""
+    if layout.spring_boss_mm == 0.0:
+        return []
+    region = ring(layout.spring_boss_outer_mm, holes.running(layout.axle_mm), tuple(layout.spring_pin_mm))
+    return [(y0, y0 + layout.spring_boss_mm, region - socket)]
 
 
 def _drawing(

@@ -136,11 +136,9 @@ def _annulus(inner_mm: float, outer_mm: float) -> Region:
 
 @dataclass(frozen=True)
 class Track:
-    """The sensor's groove in the cam gear, and the steps (bottom, top, begin, end) of the land in it."""
+    """The sensor's groove in the cam gear, and the steps (bottom, top, begin, end) of the land in it, as deep as it."""
 
     radii_mm: tuple[float, float]
-    bottom_mm: float
-    top_mm: float
     steps: tuple[tuple[float, float, float, float], ...]
 
 
@@ -152,7 +150,7 @@ def _track(layout: Layout, sensor: SensorPlace) -> Track:
         (low + n * step, low + (n + 1) * step, *sensor.land_rad((n + 0.5) * step, lift))
         for n in range(round(sensor.depth_mm / step))
     )
-    return Track((sensor.radius_mm - sensor.half_width_mm, sensor.radius_mm + sensor.half_width_mm), low, top, steps)
+    return Track((sensor.radius_mm - sensor.half_width_mm, sensor.radius_mm + sensor.half_width_mm), steps)
 
 
 @lru_cache(maxsize=8)
@@ -160,12 +158,11 @@ def _grooved(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes, hub_mm: flo
     """Return the cam gear with the sensor's track: often that of the round of growth before."""
     groove = _annulus(*track.radii_mm)
 
-    def land(begin_rad: float, end_rad: float) -> Region:
-        return (groove ^ _sectors([(begin_rad, end_rad)], 2.0 * track.radii_mm[1])).mirror((1.0, 0.0))
+    def beside_land(begin_rad: float, end_rad: float) -> Region:
+        return groove - (groove ^ _sectors([(begin_rad, end_rad)], 2.0 * track.radii_mm[1])).mirror((1.0, 0.0))
 
-    rising = [(low, high, land(begin, end)) for low, high, begin, end in track.steps]
-    stack = _cam_gear(gear, dog, axle_mm, holes, hub_mm, track.radii_mm)
-    return stack.minus([(track.bottom_mm, track.top_mm, groove)]).plus(rising)
+    steps = [(low, high, beside_land(begin, end)) for low, high, begin, end in track.steps]
+    return _cam_gear(gear, dog, axle_mm, holes, hub_mm, track.radii_mm).pocketed(steps)
 
 
 def _sectors(ends_rad: Iterable[tuple[float, float]], diameter_mm: float) -> Region:

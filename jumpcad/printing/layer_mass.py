@@ -12,11 +12,12 @@ from typing import Literal, NamedTuple, Protocol
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from manifold3d import CrossSection, JoinType, OpType
+from manifold3d import CrossSection, OpType
 
 from jumpcad.mechanism.mass import MassProperties
+from jumpcad.printing.cores import cores, section_moments, shared
 from jumpcad.printing.runs import LayerRun, Numbers, jumps_of, runs_of
-from jumpcad.solids.moments import areas_and_borders, borders_mm, mass_of, prism_moments
+from jumpcad.solids.moments import areas_and_borders, mass_of, prism_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import NOTHING, SMALLEST_AREA_MM2, Sections
 from jumpcad.transforms import Array
@@ -28,8 +29,6 @@ SOLID_TURNS = 0.5
 """Share of a solid region's border along which the turns of its zigzag lie, one spacing wide."""
 SPARSE_TURNS = 0.25
 """The same for sparse infill: its lines end on the border, overlapping the perimeters by a quarter of a spacing."""
-OUTLINE_TOLERANCE_MM = 0.01
-"""Corners nearer than this to a straight line are left out where shells and infill are concerned, for speed."""
 BRIDGE_GAP_MM = 0.05
 """Distance between the threads of a bridge (fixed in PrusaSlicer's Flow.hpp, BRIDGE_EXTRA_SPACING)."""
 
@@ -119,8 +118,9 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
     open, plus what bridges over infill hold more than flat lines do. All but the area are those of the middle layer of
     a run of layers that are alike. A chamfer takes from a layer's area, not from what is inside its perimeters.
     """
-    levels, (outlines, which, inset) = sliced(shape, process)
-    areas, borders = areas_and_borders(outlines)
+    levels, sections = sliced(shape, process)
+    which, inset = sections.which, sections.inset_mm
+    areas, borders = section_moments(sections)
     jumps = jumps_of(which, areas[which, 0])
     runs = runs_of(areas[which], jumps, process)
     middles = [run.middle for run in runs]
@@ -129,9 +129,9 @@ def printed_moments(shape: Weighable, process: Process, nozzle_mm: float) -> Arr
     void = (process.line_width_mm - spacing) / 2.0
     shell = process.perimeters * spacing + void
     cases = [(int(which[middle]), _window(middle, which, jumps, process)) for middle in middles]
-    cores = _cores({number: outlines[number] for number, _ in cases}, shell, spacing)
+    inside = cores(sections, list(dict.fromkeys(number for number, _ in cases)), shell, spacing)
     fillings = {
-        (number, window): _filled(cores[number], window, outlines, process.solid_below_area_mm2)
+        (number, window): _filled(inside[number], number, window, sections, process.solid_below_area_mm2)
         for number, window in dict.fromkeys(cases)
     }
     bridged = _bridged(runs, cases, fillings, max(1, math.floor(nozzle_mm / process.layer_height_mm + 1e-9)))
@@ -162,33 +162,14 @@ def _window(middle: int, which: Numbers, jumps: Sequence[int], process: Process)
     return tuple(number for number in numbers if number != which[middle])
 
 
-def _cores(outlines: Mapping[int, Region], shell_mm: float, spacing_mm: float) -> dict[int, Region]:
-    """Return what is inside the perimeters of outlines, each under its number.
-
-    It is empty where all of it is narrower than a line, as perimeters then widen to fill it; the same in PrusaSlicer
-    (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
-    """
-    inside = {
-        number: outline.simplify(OUTLINE_TOLERANCE_MM).offset(-shell_mm, JoinType.Miter)
-        for number, outline in outlines.items()
-    }
-    borders = borders_mm(list(inside.values())).tolist()
-    cores = {}
-    for (number, core), border in zip(inside.items(), borders, strict=True):
-        slim = 2.0 * core.area() < spacing_mm * border
-        narrow = slim and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
-        cores[number] = NOTHING if narrow else core
-    return cores
-
-
-def _filled(core: Region, window: Window, outlines: Sequence[Region], solid_below_mm2: float) -> Filling:
-    """Return how a core is filled: sparsely where it lies in all outlines of a window, and solidly elsewhere.
+def _filled(core: Region, number: int, window: Window, sections: Sections, solid_below_mm2: float) -> Filling:
+    """Return how the core of a cross-section is filled: sparsely where it lies in all those of a window, else solidly.
 
     Pieces of the sparse region that are smaller than `solid_below_mm2` become solid.
     """
     if window is None or core.is_empty():
         return Filling(core, NOTHING)
-    common = CrossSection.batch_boolean([outlines[number] for number in window], OpType.Intersect) if window else core
+    common = shared(core, number, window, sections) if window else core
     sparse = core ^ common if window else core
     if solid_below_mm2 > 0.0:
         pieces = sparse.decompose()

@@ -3,14 +3,16 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import rectpack
-import trimesh
 
 from jumpcad.printing.bed import require_bed
 from jumpcad.transforms import Array
+
+if TYPE_CHECKING:
+    import trimesh
 
 STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend on rounding
 
@@ -31,11 +33,11 @@ class Printable(Protocol):
         """How many are needed."""
 
     @property
-    def mesh(self) -> trimesh.Trimesh:
+    def mesh(self) -> "trimesh.Trimesh":
         """The mesh."""
 
     @property
-    def look(self) -> trimesh.Trimesh:
+    def look(self) -> "trimesh.Trimesh":
         """The mesh as detailed as a picture needs."""
 
 

@@ -3,8 +3,9 @@
 Parts are named by regular expressions. Parts that a robot lacks are left out, and so are the texts that need them.
 Lengths and diameters of tools are those of a usual screwdriver, key or pair of pliers.
 
-The pin in the leg that the springs push comes late: without it they are slack, so that both plates stand before
-anything is loaded, the cam can be turned by hand, and the motor turns it for the first time without springs.
+The pin in the leg that the springs push comes late, through a hole in the left plate: without it they are slack, so
+that both plates hold the springs' other pin before anything is loaded, the cam can be turned by hand, and the motor
+turns it for the first time without springs.
 """
 
 from dataclasses import dataclass
@@ -53,6 +54,8 @@ class Move:
         for what is soldered or flexible.
     past
         Pattern of parts that may be in the way, because one of the two yields.
+    through
+        Pattern of parts with a hole on the path: the picture shows what moves before it.
     tool, reach
         What fastens them, and the side from which the tool comes: by default `along`, else one of its values.
     trial
@@ -67,6 +70,7 @@ class Move:
     along: str = "from the left"
     way: Literal["straight", "snapped", "bent", "laid"] = "straight"
     past: str = ""
+    through: str = ""
     tool: Tool | None = None
     reach: str = ""
     trial: bool = False
@@ -318,7 +322,10 @@ ORDER: tuple[Plan, ...] = (
             Words("Stand the axles and the springs' pin in their bores. They lean until the left plate is on: the tube "
                   "that comes first on each holds it upright, so push that down to the plate.", lacks=".*_axle_nut"),
             Words("The springs' pin has no tube: a strip of adhesive tape from it to the plate, on the side away from "
-                  "the leg, holds it upright. It comes off in step {step_close}, with tweezers.", lacks=".*_axle_nut"),
+                  "the leg, holds it upright. It comes off in step {step_close}, with tweezers.",
+                  lacks=".*_axle_nut|spring_boss"),
+            Words("The springs' pin has no tube: its boss on the plate holds it.", needs="spring_boss",
+                  lacks=".*_axle_nut"),
             Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
                   "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
             Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
@@ -383,22 +390,44 @@ ORDER: tuple[Plan, ...] = (
         ),
     ),
     Plan(
-        "dry", "Pinion; first winding, without springs", ROBOT,
+        "close", "Pinion; left plate for good", ROBOT,
         (
             Move("motor_pinion", past="motor_shaft", tool=PRESS, reach="from the left"),
-            Move("", brings=LEFT, trial=True),
-            Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3, trial=True),
+            Move("", brings=LEFT),
+            Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3),
+            Move(f"{AXLES}|spring_pin", "from the left", tool=HEX_AXLE, retention=("nuts",)),
+            Move(f"({AXLES}|spring_pin)_nut", "from the right", past=f"{AXLES}|spring_pin", tool=NUT_M3,
+                 reach="from the right"),
+            *_clips(f"{AXLES}|spring_pin"),
         ),
         (
             Words("Press the pinion onto the motor's shaft, flat to flat and its teeth between the wheel's, until it "
                   "is level with the wheel: its ribs are cut. Support the motor from below; {press_n} N at most, more "
                   "damages the gearhead."),
-            Words("Put the left plate on with its screws. The springs are slack: the leg has no pin yet that they "
-                  "could push. Hold the robot upright by the plates, its leg hanging, plug the battery in, switch on, "
-                  "USB cable in, type `wind`, then `jump`; ten times."),
-            Words("{off}, unplug the battery, lay the robot on its right plate and take the left one off again."),
+            Words("Left plate and its screws for good, {torque_plastic} N·m. The closed bores of both plates hold the "
+                  "axles.", lacks=".*_axle_(nut|clip_1)"),
+            Words("Left plate and its screws for good, {torque_plastic} N·m. Put the axles' screws in from the left, "
+                  "each pushing its rod out, and turn the lock nuts on until the plates just bear no load.",
+                  needs=".*_axle_nut"),
+            Words("Left plate and its screws for good, {torque_plastic} N·m. Press a clip into the groove at either "
+                  "end of every axle.", needs=".*_axle_clip_1"),
+            Words("Pull the strip of tape off the springs' pin.", lacks=".*_axle_nut|spring_boss"),
         ),
         (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),
+        (
+            Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
+                  "tolerance. The leg still swings freely."),
+        ),
+    ),
+    Plan(
+        "dry", "First winding, without springs", ROBOT, (),
+        (
+            Words("The springs are slack: the leg has no pin yet that they could push. Hold the robot upright by the "
+                  "plates, its leg hanging, plug the battery in, switch on, USB cable in, type `wind`, then `jump`; "
+                  "ten times."),
+            Words("{off}, unplug the battery."),
+        ),
+        (),
         (
             Words("It winds in about {dry_s} s with about {dry_ma} mA and stops by itself, ready. After `jump` the leg "
                   "falls within {release_ms} ms. A motor that runs for {wind_max} s and says `fault` had no signal, "
@@ -408,41 +437,30 @@ ORDER: tuple[Plan, ...] = (
     Plan(
         "arm", "The springs' pin in the leg", ROBOT,
         (
-            *_pin("leg_spring_pin", "from the front", ("from the front", "from the front")),
+            Move("leg_spring_pin(_clip_2)?", "from the left", through="body_plate_left"),
+            Move("leg_spring_pin_split_pin", "from the front", "bent", past="leg_spring_pin", tool=PLIERS),
+            Move("leg_spring_pin_clip_1", "from the front", "snapped", past="leg_spring_pin", tool=CLIP),
         ),
         (
-            Words("With the leg on its stop push the pin ({leg_pin}) through it from the left, below the inner arms of "
-                  "both springs: all four arms then lie between it and the springs' other pin."),
-            Words("Arms that are {arms_least} to {arms}° apart when relaxed do not press on the pins. Where one does, "
-                  "stop: only the right plate holds the springs' pin, and the spring would push it over. Such a spring "
-                  "is not used.", lacks="preload"),
-            Words("The springs are loaded by {preload}° in this pose: hold either arm back with pliers, {preload_n} N, "
-                  "while the pin goes in. Only the right plate holds the springs' other pin: a second person holds its "
-                  "free end with pliers until the left plate is on.", needs="preload"),
-            Words("Bend the split pin's ends around the pin and cut off what stands out.",
-                  needs="leg_spring_pin_split_pin"),
-            Words("Press the clips into the pin's grooves.", needs="leg_spring_pin_clip_.*"),
-        ),
-    ),
-    Plan(
-        "close", "Left plate, for good", ROBOT,
-        (
-            Move("", brings=LEFT),
-            Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3),
-            Move(f"{AXLES}|spring_pin", "from the left", tool=HEX_AXLE, retention=("nuts",)),
-            Move(f"({AXLES}|spring_pin)_nut", "from the right", past=f"{AXLES}|spring_pin", tool=NUT_M3,
-                 reach="from the right"),
-            *_clips(f"{AXLES}|spring_pin"),
-        ),
-        (
-            Words("Left plate and its screws for good, {torque_plastic} N·m. The closed bores of both plates hold the "
-                  "axles.", lacks=".*_axle_(nut|clip_1)"),
-            Words("Left plate and its screws for good, {torque_plastic} N·m. Put the axles' screws in from the left, "
-                  "each pushing its rod out, and turn the lock nuts on until the plates just bear no load.",
-                  needs=".*_axle_nut"),
-            Words("Left plate and its screws for good, {torque_plastic} N·m. Press a clip into the groove at either "
-                  "end of every axle.", needs=".*_axle_clip_1"),
-            Words("Pull the strip of tape off the springs' pin.", lacks=".*_axle_nut"),
+            Words("Lay the robot on its right plate and hold the leg on its stop: its empty hole is then behind the "
+                  "hole in the left plate, {pin_hole} mm wide, below the leg's axle.", needs="leg_spring_pin"),
+            Words("Press a clip into the groove at one end of the pin; that end goes in last.",
+                  needs="leg_spring_pin_clip_.*"),
+            Words("Drop the pin ({leg_pin}) through that hole and push it with a thin rod through the leg, below the "
+                  "inner arms of both springs, until its end stands out beside the right spring's arm: all four arms "
+                  "then lie between it and the springs' other pin."),
+            Words("An arm may be up to {wider}° wider than ordered and then lies in the pin's way. Push it "
+                  "aside with a small screwdriver from the front, towards the springs' other pin: the left spring's "
+                  "until the pin is in the leg, then the right one's; {arm_n} N at most. Both plates hold the springs' "
+                  "other pin.", lacks="preload"),
+            Words("The springs are loaded by {preload}° in this pose: push the arms aside with a small screwdriver "
+                  "from the front, towards the springs' other pin, the left spring's until the pin is in the leg, then "
+                  "the right one's; {preload_n} N, and {arm_n} N where an arm is {wider}° wider than ordered. "
+                  "Both plates hold the springs' other pin.", needs="preload"),
+            Words("Put the split pin through the pin's right end from the front, bend its ends around the pin and cut "
+                  "off what stands out.", needs="leg_spring_pin_split_pin"),
+            Words("Press the second clip into the groove at the pin's right end, from the front.",
+                  needs="leg_spring_pin_clip_.*"),
         ),
         (
             Words("From now on the springs can be loaded: {energy} J, set free within {push_ms} ms. Keep "
@@ -450,8 +468,11 @@ ORDER: tuple[Plan, ...] = (
                   "whenever the battery is plugged in or the leg is off its stop."),
         ),
         (
-            Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
-                  "tolerance. The leg lies on its stop and springs back to it "
+            Words("The plate does not keep the pin, at rest its hole is open: the pin's head is on the left, its split "
+                  "pin bent on the right, and pushed from either side it stays.", needs="leg_spring_pin_split_pin"),
+            Words("The plate does not keep the pin, at rest its hole is open: both clips are in their grooves, and "
+                  "pushed from either side it stays.", needs="leg_spring_pin_clip_.*"),
+            Words("The leg lies on its stop and springs back to it "
                   "when its end is pulled forward a little: {foot_n} N there would load it completely, so do not."),
         ),
     ),

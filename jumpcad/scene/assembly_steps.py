@@ -61,7 +61,9 @@ class Step:
 def assembly_steps(robot: Robot) -> list[Step]:
     """Return the steps that a robot needs; everything on it is put on in exactly one of them."""
     left = list(visuals(robot))
-    names = [thing.name for thing in left] + ["preload"] * (robot.layout.drive.spring.preload_rad > 0.0)
+    layout = robot.layout
+    names = [thing.name for thing in left] + ["preload"] * (layout.drive.spring.preload_rad > 0.0)
+    names += ["spring_boss"] * (layout.spring_boss_mm > 0.0)
     built: dict[str, list[Visual]] = {}
     steps = []
     for plan in ORDER:

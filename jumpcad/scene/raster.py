@@ -40,15 +40,22 @@ def rasterized(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Arra
     facing = np.nonzero(before & (ahead[:, 0] * across[:, 1] < ahead[:, 1] * across[:, 0]))[0]
     span, left, right = _spans(corners[facing], height)
     which, x = _centres(left[:, X], right[:, X], width)
-    share = ((x + 0.5 - left[which, X]) / (right[which, X] - left[which, X]))[:, None]
-    values = left[which, NEARNESS:] + share * (right[which, NEARNESS:] - left[which, NEARNESS:])
-    pixel = (left[which, Y] - 0.5).astype(np.int64) * width + x
+    share = (x + 0.5 - left[:, X][which]) / (right[:, X] - left[:, X])[which]
+
+    def between(column: int, some: Ints | slice) -> Array:
+        """Interpolate a column of the spans' ends at some of the pixels."""
+        first, span_of = left[:, column], which[some]
+        point: Array = first[span_of] + share[some] * (right[:, column] - first)[span_of]
+        return point
+
+    near = between(NEARNESS, np.s_[:])
+    pixel = ((left[:, Y] - 0.5).astype(np.int64) * width)[which] + x
     nearness = np.zeros(width * height)
-    np.maximum.at(nearness, pixel, values[:, 0])
-    nearest = values[:, 0] == nearness[pixel]
+    np.maximum.at(nearness, pixel, near)
+    nearest = np.flatnonzero(near == nearness[pixel])
     number, shade = np.full(width * height, -1), np.zeros(width * height)
     number[pixel[nearest]] = facing[span[which[nearest]]]
-    shade[pixel[nearest]] = values[nearest, 1]
+    shade[pixel[nearest]] = between(SHADE, nearest)
     return number.reshape(height, width), nearness.reshape(height, width), shade.reshape(height, width)
 
 

@@ -117,7 +117,7 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
             there += [] if placed.move.trial else placed.things
         if not before and not step.placed:
             continue
-        moved = _apart(robot, step, poses, bool(before))
+        moved = _apart(robot, step, poses, before)
         beside = {name: built.get(name, []) for name in BENCH.get(step.key, ())}
         views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot), beside)]
         for inset in INSETS:
@@ -224,10 +224,11 @@ def _direction(step: Step) -> View:
     return FROM_RIGHT if right > len(step.placed) / 2 else FROM_LEFT
 
 
-def _apart(robot: Robot, step: Step, poses: dict[str, Array], onto: bool) -> dict[str, Array]:
+def _apart(robot: Robot, step: Step, poses: dict[str, Array], before: list[Visual]) -> dict[str, Array]:
     """Return the offsets (3,) by which parts of a step are drawn back along their paths, by name (m).
 
-    Parts on one path are apart. Those of the first move stay in place, unless there are parts before them (`onto`).
+    Parts on one path are apart, also from a part whose hole they pass. Those of the first move stay in place, unless
+    there are parts before them.
     """
     moved: dict[str, Array] = {}
     stacked: list[tuple[Array, Array, float]] = []
@@ -237,8 +238,13 @@ def _apart(robot: Robot, step: Step, poses: dict[str, Array], onto: bool) -> dic
             continue
         corners = np.concatenate([_corners(thing, _at_place(thing, poses)) for thing in placed.things])
         along = np.einsum("ni,i->n", corners, way)
-        back = 2.0 * APART_M if onto or step.placed[0] is not placed else 0.0
-        for other_way, other, offset in stacked:
+        back = 2.0 * APART_M if before or step.placed[0] is not placed else 0.0
+        holed = [
+            (way, _corners(thing, _at_place(thing, poses)), 0.0)
+            for thing in before
+            if placed.move.through and re.fullmatch(placed.move.through, thing.name)
+        ]
+        for other_way, other, offset in (*stacked, *holed):
             if (other_way * way).sum() > 0.99 and _beside(corners, other, way):
                 # its front must stay behind the rear of what comes before it
                 back = max(back, offset + float(along.max() - np.einsum("ni,i->n", other, way).min()) + APART_M)

@@ -1,7 +1,7 @@
 """Proposals whose neighbours are probably feasible too.
 
-The best designs of a search lie on a constraint, where every second neighbour is rejected. From the trials of the
-search and of the robust pick the constraint is known; the proposals go as near to it as a chosen confidence allows.
+The best designs of a search lie on a constraint, where every second neighbour may be rejected. From the trials of the
+search the constraint is known; the proposals go as near to it as a chosen confidence allows.
 """
 
 from collections.abc import Callable, Sequence
@@ -45,7 +45,7 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
     known = [
         one
         for one in evaluator.trials
-        if list(one.workshop) == [parameter.name for parameter in space.of_workshop]  # not on another floor
+        if list(one.workshop) == [parameter.name for parameter in space.of_workshop]  # not made otherwise than designed
         and all(fix.number(one.variant.value(fix.name)) == fix.lower for fix in fixed)
     ]
     thetas: dict[str, Any] = next(

@@ -6,8 +6,8 @@ import importlib.util
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +22,7 @@ from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import CANNOT_BUILD, COST, QUANTILE, Evaluation, Objective, find_objective
 from jumpcad.search.refusal import refusal_findings, room_findings
 from jumpcad.search.stand_in import figures_of
-from jumpcad.search.tolerances import FRICTIONS, SPRINGS, Making, tenth, varied_parameters
+from jumpcad.search.tolerances import PREFIX, Making, as_made, tenth
 from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
@@ -56,8 +56,8 @@ class RobotModel:
         of the worst of them. The design is rejected with the first neighbour that is.
     screened
         Whether the evaluation of a printed robot has the figures that a `Screen` learns from.
-    spring_factor
-        Stiffness of a printed robot's springs in its jump over that for which it is built.
+    made
+        What of a printed robot is made otherwise than designed, by the keys of `tolerances`.
     """
 
     name: str
@@ -66,7 +66,7 @@ class RobotModel:
     engine: str = "pybullet"
     neighbours_of: str = ""
     screened: bool = False
-    spring_factor: float = 1.0
+    made: Mapping[str, Value] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<RobotModel {self.name}, {self.describe()['engine']}>"
@@ -95,7 +95,7 @@ class RobotModel:
         """
         generators = (np.random.default_rng(kind) for kind in (0, 1))
         kinds = (
-            [Variant(one) for one in varied_parameters(design, next(generators))],
+            self.making.varied(Variant(design), next(generators)),
             self.making.neighbours(Variant(design), next(generators)),
         )
         objective, scores = find_objective(self.neighbours_of), []
@@ -129,9 +129,9 @@ class RobotModel:
             return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
 
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
-        """Return the model of the robot in the workshop with other values, or jumping with other springs."""
-        others = {key: value for key, value in values.items() if key != SPRINGS}
-        model = replace(self, spring_factor=float(values.get(SPRINGS, self.spring_factor)))
+        """Return the model of the robot in the workshop with other values, or made otherwise than designed."""
+        others = {key: value for key, value in values.items() if not key.startswith(PREFIX)}
+        model = replace(self, made={key: value for key, value in values.items() if key not in others})
         return replace(model, workshop=varied(self.workshop or load_workshop(), others)) if others else model
 
     @property
@@ -147,10 +147,8 @@ class RobotModel:
         """How far what is made of a design differs from it: for a robot that is made in no workshop, lengths alone."""
         if self.workshop is None or self.name != "printed":
             return Making(self.tolerance_mm)
-        workshop, (with_pad, bare) = self.workshop, FRICTIONS
-        rate = workshop.safety.spring_rate_scatter / 2.0
-        key = with_pad if workshop.ground.pad else bare
-        return Making(self.tolerance_mm, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, workshop.ground.foot_friction, key)
+        rate = self.workshop.safety.spring_rate_scatter / 2.0
+        return Making(self.tolerance_mm, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
 
     @property
     def default_objective(self) -> str:
@@ -214,8 +212,11 @@ class RobotModel:
     def _printed(self, design: Design) -> Evaluation:
         from jumpcad.evaluation import evaluate_made
 
-        result = evaluate_made(design, self.workshop, self.settings, self.engine, self.spring_factor)
-        findings = (*result.findings, *room_findings(result.robot.layout))
+        result = evaluate_made(design, self.workshop, self.settings, self.engine, partial(as_made, values=self.made))
+        robot = result.robot
+        findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
+        if self.made:  # what the design keeps stands in its own row
+            findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
         figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.screened else {})
         return Evaluation(result.verdict, figures, findings)
 

@@ -18,9 +18,9 @@ def refusal_findings(error: CannotBuildError) -> tuple[Finding, ...]:
     return (Finding(error.limit, "error", error.margin, error.unit, str(error), ""),)
 
 
-def room_findings(layout: Layout) -> tuple[Finding, ...]:
-    """Return what a robot has left of the room for which most designs are refused."""
-    apart = legs_apart_mm(layout.linkage, layout.sections) - GAP_MM
+def room_findings(layout: Layout, reserve_mm: float) -> tuple[Finding, ...]:
+    """Return what a robot has left, above a reserve, of the room for which most designs are refused."""
+    apart = legs_apart_mm(layout.linkage, layout.sections) - GAP_MM - reserve_mm
     return (
         limit("legs_apart", apart, "mm", "gap of main leg and front link", ""),
         limit("stop_room", layout.stop.room_mm, "mm", "room for the rest stop", ""),

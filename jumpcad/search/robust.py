@@ -19,7 +19,7 @@ from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.margin import propose_robust
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.space import Space
-from jumpcad.search.tolerances import PERCENT, SAMPLES, Making, tenth, varied_parameters
+from jumpcad.search.tolerances import PERCENT, SAMPLES, Making, tenth
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 
@@ -123,7 +123,7 @@ def rank_candidates(
 
     Successive halving: the more robust half of the candidates gets more neighbours, until one is left. The best often
     lies on a constraint; if one of its first neighbours is rejected, a few designs at a distance from the constraint
-    join.
+    join. Where none joins, the last candidate gets their evaluations.
 
     Parameters
     ----------
@@ -144,12 +144,14 @@ def rank_candidates(
     for turn, (count, new) in enumerate(rounds):
         field.sort(key=lambda one: -one.robust_score)
         left, field = [*field[count:], *left], field[:count]
+        if count == 1 and turn:
+            new = min(new + reserve, 2 * SAMPLES - field[0].examined) // 2 * 2
         _examine(evaluator, field, new, first + turn, seed, making)
         if turn == 0 and reserve and field and field[0].rejections:
             off_edge = propose_robust(evaluator, trials, first, seed, PERCENT / 100.0 / math.sqrt(3.0))
             joining = [_Examined(MOST_CANDIDATES + n, one) for n, one in enumerate(off_edge) if one.score is not None]
             _examine(evaluator, joining, 2, first + ROUNDS - 1, seed, making)
-            field += joining
+            field, reserve = field + joining, 0
     # Who got further has been examined more, and stands before those that were left behind.
     return [one.candidate() for one in [*sorted(field, key=lambda one: -one.robust_score), *left] if one.examined]
 
@@ -176,9 +178,8 @@ class _Examined:
     def neighbours(self, new: int, seed: int, making: Making) -> list[tuple[str, Variant]]:
         """Return the next neighbours, half of each kind."""
         generator = np.random.default_rng([seed, 4, self.index])
-        workshop = self.trial.workshop
         kinds = {
-            "parameters": [Variant(design, workshop) for design in varied_parameters(self.trial.design, generator)],
+            "parameters": making.varied(self.trial.variant, generator),
             "print": making.neighbours(self.trial.variant, generator),
         }
         start, end = self.examined // 2, (self.examined + new) // 2

@@ -6,7 +6,7 @@ import sys
 from array import array
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
@@ -68,8 +68,7 @@ class _Making(TomlTable):
     rate: float = 0.0
     mass: float = 0.0
     floor: float = 0.0
-    friction: float = 0.0
-    key: Literal["ground.friction", "ground.bare_friction"] = "ground.friction"
+    printed: bool = False
 
 
 class _Identity(TomlTable):

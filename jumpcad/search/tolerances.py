@@ -1,9 +1,11 @@
-"""What is made of a design instead of it: neighbours within the tolerances of the parameters, and of making it.
+"""What is made of a design instead of it: neighbours within ±1 % of the parameters, and within the errors of making.
 
 Making has errors of printed lengths, of the springs' rate, of the mass and of the floor's friction, all at once in
-every neighbour; `jumpcad simulate --uncertain` varies the same, with the same deviations.
+every neighbour; `jumpcad simulate --uncertain` varies the same, with the same deviations. A neighbour of a printed
+robot is that robot with other links, angles and springs: who prints it does not lay it out anew.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,20 +13,24 @@ from scipy.special import ndtri
 from scipy.stats import qmc
 
 from jumpcad.design import PARAMETERS, Design
-from jumpcad.mechanism.variants import design_within_limits, with_length_errors
-from jumpcad.search.variant import Variant
+from jumpcad.mechanism.variants import Robot, design_within_limits, with_length_errors, with_lengths, with_spring_factor
+from jumpcad.search.variant import NOTHING, Variant
+from jumpcad.settings import Settings, coefficients
 from jumpcad.transforms import Array
+from jumpcad.workshop.varied import Value
 
 SAMPLES = 16
 """Neighbours of each kind."""
 PERCENT = 1.0
 PERCENTILE = 10
-FRICTIONS = ("ground.friction", "ground.bare_friction")
-"""Keys of the floor's friction in a workshop: of feet with a pad, and without."""
-SPRINGS = "made.spring_factor"
-"""Key of the rate of springs as made over that of the design: the robot is built for the design's."""
-MADE = (*FRICTIONS, SPRINGS)
-"""Keys by which a variant as made may differ from the study's workshop."""
+PREFIX = "made."
+"""Keys of a variant that begin so say what is made; by the others the robot is designed."""
+PARTS = {PREFIX + name: name for name in PARAMETERS}
+"""Keys of the parameters as made."""
+SPRINGS, FLOOR = f"{PREFIX}spring_factor", f"{PREFIX}friction_factor"
+"""Keys of the springs' rate, and of the floor's friction, over those that the robot is designed for."""
+MADE = (*PARTS, SPRINGS, FLOOR)
+"""All keys of a variant as made."""
 LENGTHS, SHARES = 4, 3
 """Numbers that errors of making take: of the links l2…l5; of rate, mass and friction."""
 
@@ -38,21 +44,19 @@ class Making:
     length_mm
         Largest error of a link's length, evenly spread.
     rate, mass
-        Standard deviations of the springs' rate and of the mass, relative. 0 for robots that are made in no workshop.
+        Standard deviations of the springs' rate and of the mass, relative.
     floor
         Standard deviation of the logarithm of the floor's friction.
-    friction
-        Its value in the workshop.
-    key
-        Where it stands there.
+    printed
+        Whether neighbours are the printed robot of the design, with other lengths, springs and floor. Robots that are
+        made in no workshop have neighbours of other designs, and errors of lengths alone.
     """
 
     length_mm: float
     rate: float = 0.0
     mass: float = 0.0
     floor: float = 0.0
-    friction: float = 0.0
-    key: str = FRICTIONS[0]
+    printed: bool = False
 
     @property
     def words(self) -> str:
@@ -64,27 +68,25 @@ class Making:
     def neighbours(self, one: Variant, generator: np.random.Generator) -> list[Variant]:
         """Return variants as they may be made.
 
-        The robot is built as designed, and jumps with other springs; a heavier one jumps as one of the design's mass
-        with weaker springs. Factors are rounded, so that the last digits of a processor do not make other designs.
+        A heavier robot jumps as one of the design's mass with weaker springs. Factors are rounded, so that the last
+        digits of a processor do not make other variants.
         """
-        if not (self.rate or self.mass or self.floor):
-            return [
-                replace(one, design=with_length_errors(one.design, error))
-                for error in self.length_mm * _even(LENGTHS, generator)
-            ]
+        if not self.printed:
+            errors_mm = self.length_mm * _even(LENGTHS, generator)
+            return [replace(one, design=with_length_errors(one.design, error)) for error in errors_mm]
         points = _even(LENGTHS + SHARES, generator)
         normal = ndtri(np.clip((points[:, LENGTHS:] + 1.0) / 2.0, 1e-9, 1.0 - 1e-9))
         rate, mass = np.maximum(1.0 + np.array([self.rate, self.mass]) * normal[:, :2], 0.3).T
-        friction = float(one.workshop.get(self.key, self.friction))
-        springs, floor = np.round(rate / mass, 6), np.round(friction * np.exp(self.floor * normal[:, 2]), 6)
+        springs, floor = np.round(rate / mass, 6).tolist(), np.round(np.exp(self.floor * normal[:, 2]), 6).tolist()
         return [
-            self._made(one, self.length_mm * points[row, :LENGTHS], float(springs[row]), float(floor[row]))
-            for row in range(SAMPLES)
+            _made(one, with_length_errors(one.design, error), {SPRINGS: springs[row], FLOOR: floor[row]})
+            for row, error in enumerate(self.length_mm * points[:, :LENGTHS])
         ]
 
-    def _made(self, one: Variant, error_mm: Array, springs: float, friction: float) -> Variant:
-        workshop = {**one.workshop, self.key: friction} if self.floor else one.workshop
-        return Variant(with_length_errors(one.design, error_mm), {**workshop, SPRINGS: springs})
+    def varied(self, one: Variant, generator: np.random.Generator) -> list[Variant]:
+        """Return variants with every parameter within ±1 %."""
+        designs = varied_parameters(one.design, generator)
+        return [_made(one, design) if self.printed else replace(one, design=design) for design in designs]
 
 
 LENGTHS_ALONE = Making(0.2)
@@ -95,6 +97,27 @@ def varied_parameters(design: Design, generator: np.random.Generator) -> list[De
     """Return designs with every parameter varied evenly within ±1 %, and within a design's limits."""
     factors = 1.0 + PERCENT / 100.0 * _even(len(PARAMETERS), generator)
     return [design_within_limits(np.array(design.to_vector()) * factor) for factor in factors]
+
+
+def as_made(robot: Robot, settings: Settings, values: Mapping[str, Value]) -> tuple[Robot, Settings]:
+    """Return a robot, and the settings of its jump, changed by the values of a variant as made.
+
+    Mass, inertia and the angle of the stop stay as designed.
+    """
+    old = robot.design
+    design = old.model_copy(update={name: values[key] for key, name in PARTS.items() if key in values})
+    springs = float(values.get(SPRINGS, 1.0)) * design.stiffness_nmm_per_deg / old.stiffness_nmm_per_deg
+    if FLOOR in values:
+        friction = float(values[FLOOR]) * coefficients(robot, settings).ground
+        settings = settings.model_copy(update={"ground_friction": friction})
+    return with_spring_factor(robot if design == old else with_lengths(robot, design), springs), settings
+
+
+def _made(one: Variant, design: Design, more: Mapping[str, Value] = NOTHING) -> Variant:
+    """Return a variant made with the parameters of another design."""
+    parts = {key: getattr(design, name) for key, name in PARTS.items()}
+    changed = {key: value for key, value in parts.items() if value != getattr(one.design, PARTS[key])}
+    return Variant(one.design, {**one.workshop, **changed, **more})
 
 
 def tenth(scores: list[float]) -> float:

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Mechanism
 from jumpcad.mechanism.poses import Release, release_pose
@@ -21,6 +20,7 @@ from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.simulation.engines import import_pybullet
 from jumpcad.simulation.mechanics import State
 from jumpcad.simulation.run import Run
+from jumpcad.simulation.stop_pad import StopPad
 from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import quaternion_about_y, rotation_about_y
 
@@ -95,8 +95,7 @@ class BulletWorld:
     def __init__(self, bullet: Any, client: int, ground: int, mechanism: Mechanism, settings: Settings) -> None:
         self._bullet, self._client, self._ground = bullet, client, ground
         rubs = coefficients(mechanism, settings)
-        self._dt_s, self._spring, self._stop = settings.dt_s, mechanism.spring, mechanism.stop
-        self._stop_inertia = leg_inertia_kg_m2(mechanism, mechanism.stop.angle_rad) if mechanism.stop else 0.0
+        self._dt_s, self._spring, self._pad = settings.dt_s, mechanism.spring, StopPad(mechanism, settings.dt_s)
         self._damping_dt = rubs.joint_damping_nms_per_rad * settings.dt_s
         self._dry_nm = [settings.joint_friction_nm] * len(JOINTS)
         self._dry_nm[LEG] += pin_torque_nm(mechanism, rubs.pin)
@@ -126,7 +125,7 @@ class BulletWorld:
     def advance(self, steps: int) -> float:
         """Go on by a number of time steps with the springs' torque of each step's beginning."""
         bullet, mechanism, client = self._bullet, self.robot_id, self._client
-        spring_nm, stop = self._spring.torque_nm, self._stop
+        spring_nm, pad_nm = self._spring.torque_nm, self._pad.torque_nm
         joint_states, set_motor, torque = bullet.getJointStates, bullet.setJointMotorControl2, bullet.TORQUE_CONTROL
         step = bullet.stepSimulation
         dry_leg, dry_foot, dry_front = self._dry_nm
@@ -135,21 +134,13 @@ class BulletWorld:
             leg, foot, front = joint_states(mechanism, JOINTS, client)
             squares += leg[1] * leg[1] + foot[1] * foot[1] + front[1] * front[1]
             rubbed += dry_leg * abs(leg[1]) + dry_foot * abs(foot[1]) + dry_front * abs(front[1])
-            push = spring_nm(leg[0])
-            if stop and leg[0] > stop.angle_rad:
-                push -= self._stop_nm(leg[0] - stop.angle_rad, leg[1], push)
+            push = spring_nm(leg[0]) - pad_nm(leg[0], leg[1])
             set_motor(mechanism, LEG, torque, force=push, physicsClientId=client)
             step(client)
             if self._slides:
                 self.slip_j += self._slip_work_j()
         self.joint_damping_j += self._damping_dt * squares + self._dt_s * rubbed
         return float(leg[0])
-
-    def _stop_nm(self, beyond_rad: float, leg_rad_s: float, push_nm: float) -> float:
-        """Return the torque of the stop's pad: it pushes back, but no more than brings the leg to a standstill."""
-        assert self._stop
-        halting = self._stop_inertia * leg_rad_s / self._dt_s + push_nm
-        return max(min(self._stop.stiffness_nm_per_rad * beyond_rad, halting), 0.0)
 
     def _slip_work_j(self) -> float:
         """Return what friction on the ground took from the foot in the last time step.

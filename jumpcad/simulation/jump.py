@@ -7,6 +7,17 @@ from typing import Any
 from jumpcad.findings import Finding
 from jumpcad.transforms import Array
 
+ACCOUNT = {
+    "useful": "of the centre of mass: the jump",
+    "internal": "turning and swinging about the centre of mass",
+    "springs": "still in the springs",
+    "release": "lost between cam and roller",
+    "pins": "lost in the joints' friction",
+    "slip": "lost by slipping on the ground",
+    "contact": "lost in impacts and rounding",
+}
+"""The entries of `Jump.energy_account_j` in words."""
+
 
 @dataclass(frozen=True)
 class EnergyBudget:

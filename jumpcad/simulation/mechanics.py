@@ -54,7 +54,7 @@ class Energies:
 
 
 class Mechanics:
-    """Energies, centre of mass and loop gap of one robot under one gravity, from its state."""
+    """Energies, centre of mass, loop gap and clearance of one robot under one gravity, from its state."""
 
     def __init__(self, mechanism: Mechanism, gravity_m_s2: float) -> None:
         bodies = [mechanism.bodies[name] for name in BODY_NAMES]
@@ -67,6 +67,11 @@ class Mechanics:
         loop = mechanism.loop
         self._ends = BODY_NAMES.index(loop.body_a), BODY_NAMES.index(loop.body_b)
         self._arms_m = np.stack([loop.point_a_m, loop.point_b_m]) - self.com_in_body_m[list(self._ends)]
+        self._spheres = [
+            (index, contact.centre_m - body.com_m, contact.radius_m)
+            for index, body in enumerate(bodies)
+            for contact in body.contacts
+        ]
 
     def centre_of_mass_m(self, state: State) -> Array:
         """Return the robot's centre of mass (3,)."""
@@ -94,6 +99,13 @@ class Mechanics:
         here = state.com_m[a] + state.rotation[a] @ self._arms_m[0]
         there = state.com_m[b] + state.rotation[b] @ self._arms_m[1]
         return math.dist(here, there)
+
+    def clearance_m(self, state: State) -> float:
+        """Return the distance of the lowest contact sphere from the ground."""
+        return min(
+            float(state.com_m[index, 2] + state.rotation[index, 2] @ arm_m) - radius_m
+            for index, arm_m, radius_m in self._spheres
+        )
 
     def frame_positions_m(self, state: State) -> Array:
         """Return the origins (4, 3) of the bodies' frames."""

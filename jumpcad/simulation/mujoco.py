@@ -1,4 +1,4 @@
-"""The MuJoCo back end: it runs the exported model, without the visible meshes."""
+"""The MuJoCo back end: it runs the exported model, without the visible meshes, with the stop of the other engines."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,6 +14,7 @@ from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.engines import import_mujoco
 from jumpcad.simulation.mechanics import State
 from jumpcad.simulation.run import Run
+from jumpcad.simulation.stop_pad import StopPad
 from jumpcad.strength.pin_friction import pin_torque_nm
 from jumpcad.transforms import quaternion_about_y
 
@@ -69,7 +70,10 @@ class MujocoWorld:
         self._rows = int(self.model.pair_dim[0])
         self._bodies = [self.model.body(name).id for name in BODY_NAMES]
         self._joints = [int(self.model.joint(joint.name).dofadr[0]) for joint in mechanism.joints]
-        self._leg = int(self.model.joint(mechanism.spring.joint).qposadr[0])
+        leg = self.model.joint(mechanism.spring.joint)
+        self._leg, self._leg_dof = int(leg.qposadr[0]), int(leg.dofadr[0])
+        leg.limited = 0  # by the pad instead
+        self._pad = StopPad(mechanism, self._dt_s)
         self._place(release_pose(mechanism))
 
     def advance(self, steps: int) -> float:
@@ -81,6 +85,8 @@ class MujocoWorld:
             for _ in range(SUBSTEPS):
                 speeds = self.data.qvel[self._joints]
                 lost_w += self._damping_nms * float(speeds @ speeds) + float(self._dry_nm @ np.abs(speeds))
+                pad_nm = self._pad.torque_nm(float(self.data.qpos[self._leg]), float(speeds[LEG]))
+                self.data.qfrc_applied[self._leg_dof] = -pad_nm
                 self._mujoco.mj_step(self.model, self.data)
                 self._touch()
         self.joint_damping_j += self._dt_s * lost_w

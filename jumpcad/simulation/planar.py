@@ -15,7 +15,7 @@ from jumpcad.findings import Finding, limit
 from jumpcad.mechanism.linkage import Complex as ComplexArray
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.mechanism.poses import release_pose
-from jumpcad.settings import Settings
+from jumpcad.settings import Settings, takeoff_clearance_m
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import State
 from jumpcad.simulation.planar_model import planar_model
@@ -33,6 +33,7 @@ class PlanarWorld:
     def __init__(self, mechanism: Mechanism, settings: Settings, pin_forces: bool = False) -> None:
         self.model = planar_model(mechanism, settings, pin_forces)
         self.settings = settings
+        self.clearance_m = takeoff_clearance_m(mechanism, settings)
         self._aside_m = [mechanism.bodies[name].com_m[1] for name in BODY_NAMES]
         self.joint_damping_j = self.slip_j = 0.0
         release = release_pose(mechanism)
@@ -52,7 +53,7 @@ class PlanarWorld:
         dt = self.settings.dt_s
         audit = max(1, round(AUDIT_EVERY_S / dt))
         return kernel.push_off(
-            self.model, self.moment, dt, AIRBORNE_S, TAKEOFF_WITHIN_S, self.settings.max_time_s, audit
+            self.model, self.moment, dt, AIRBORNE_S, self.clearance_m, TAKEOFF_WITHIN_S, self.settings.max_time_s, audit
         )
 
     def advance(self, steps: int) -> float:

@@ -463,14 +463,21 @@ def advance(model: Model, moment: Moment, dt: float, steps: int) -> Moment:
 
 @compiled
 def push_off(
-    model: Model, moment: Moment, dt: float, airborne_s: float, within_s: float, max_time_s: float, audit_every: int
+    model: Model,
+    moment: Moment,
+    dt: float,
+    airborne_s: float,
+    clearance_m: float,
+    within_s: float,
+    max_time_s: float,
+    audit_every: int,
 ) -> PushOff:
     """Advance from release to the last contact with the ground before the robot flies.
 
-    It flies once it has been in the air for `airborne_s`, its centre of mass rising, and the springs are unloaded: the
-    leg joint is past rest, or extends no further. A hop before that is a part of the push-off. A robot on the ground
-    `within_s` after the springs have passed rest, or at `max_time_s`, or one whose body comes down to the ground, does
-    not fly.
+    It flies once it has been in the air for `airborne_s` and cleared the ground by `clearance_m`, its centre of mass
+    rising, and the springs are unloaded: the leg joint is past rest, or extends no further. A hop before that is a part
+    of the push-off. A robot on the ground `within_s` after the springs have passed rest, or at `max_time_s`, or one
+    whose body comes down to the ground, does not fly.
     """
     start_j, worst, gap, deadline = energy(model, moment), -math.inf, math.inf, max_time_s
     left, steps, aloft = moment, 0, 0
@@ -492,10 +499,20 @@ def push_off(
         if moment.leg_rad >= 0.0:
             deadline = min(deadline, steps * dt + within_s)
         spent = moment.leg_rad >= 0.0 or moment.speed.leg <= 0.0
-        if spent and aloft >= least and rising(model, moment):
+        clear = clearance_m == 0.0 or gap_m(model, moment) >= clearance_m
+        if spent and clear and aloft >= least and rising(model, moment):
             return PushOff(True, steps - aloft + 1, left, max(worst, energy(model, left) - start_j), gap)
         if steps * dt > deadline or gap < 0.0:
             return PushOff(False, steps, moment, worst, gap)
+
+
+@compiled
+def gap_m(model: Model, moment: Moment) -> float:
+    """Return the distance of the lowest sphere of foot and body from the ground."""
+    gap, turn = moment.belly_gap_m, complex(math.cos(moment.foot_rad), -math.sin(moment.foot_rad))
+    for index in range(len(model.sole_m)):
+        gap = min(gap, (moment.ankle_m + model.sole_m[index] * turn).imag - model.sole_radius_m[index])
+    return gap
 
 
 @compiled

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.findings import Finding, at_most, limit
 from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
-from jumpcad.settings import Settings
+from jumpcad.settings import Settings, takeoff_clearance_m
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
 from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics, loaded_state
 from jumpcad.transforms import Array
@@ -76,6 +76,7 @@ class Run:
     def __init__(self, world: World, mechanism: Mechanism, settings: Settings) -> None:
         self.world, self.mechanism, self.settings = world, mechanism, settings
         self.mechanics = Mechanics(mechanism, settings.gravity_m_s2)
+        self.clearance_m = takeoff_clearance_m(mechanism, settings)
         self.steps = 0
         self.takeoff: Takeoff | None = None
         self.touchdown_distance_m: float | None = None
@@ -162,8 +163,9 @@ class Run:
     def _push_off(self) -> Takeoff | None:
         """Go on to the last contact before the robot flies; return None if it does not.
 
-        It flies once it has been in the air for `AIRBORNE_S`, rising, and the springs are spent: the leg joint has come
-        to rest, or opens no more. A hop before that is a part of the push-off.
+        It flies once it has been in the air for `AIRBORNE_S` and cleared the ground by `clearance_m`, rising, and the
+        springs are spent: the leg joint has come to rest, or opens no more. A hop before that is a part of the
+        push-off.
         """
         world, settings = self.world, self.settings
         half_wound = -self.mechanism.spring.wind_rad / 2
@@ -185,8 +187,13 @@ class Run:
             if self.time_s > deadline or not self.sound:
                 return None
             spent = leg_rad >= 0 or leg_rad <= before
-            if spent and airborne >= hold and self.mechanics.velocity_m_s(world.state())[2] > 0:
+            if spent and airborne >= hold and self._flies(world.state()):
                 return self._takeoff(*left)
+
+    def _flies(self, state: State) -> bool:
+        """Tell whether a robot in the air rises, and has cleared the ground."""
+        rises = float(self.mechanics.velocity_m_s(state)[2]) > 0.0
+        return rises and (self.clearance_m == 0.0 or self.mechanics.clearance_m(state) >= self.clearance_m)
 
     def _fly(self) -> None:
         """Advance to the first touchdown, and to the published study's last contact if asked for."""

@@ -1,13 +1,16 @@
 """From a solid to the mesh that is written, and the check that the written file is one printable part."""
 
 import io
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
-import trimesh
 from manifold3d import Manifold
 
 from jumpcad.errors import CannotBuildError
+
+if TYPE_CHECKING:
+    import trimesh
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
@@ -26,8 +29,10 @@ def vertices_and_faces(solid: Manifold) -> tuple[Floats, Ints]:
     return np.array(mesh.vert_properties[:, :3]), np.asarray(mesh.tri_verts).astype(np.int64)
 
 
-def to_trimesh(solid: Manifold) -> trimesh.Trimesh:
+def to_trimesh(solid: Manifold) -> "trimesh.Trimesh":
     """Return a solid as a mesh (mm) with the same vertices."""
+    import trimesh  # takes 0.3 s, and masses need no mesh
+
     vertices, faces = vertices_and_faces(solid)
     return trimesh.Trimesh(vertices, faces, process=False)
 
@@ -37,6 +42,8 @@ def faults(stl: bytes) -> list[str]:
 
     Corners are joined where their 32-bit coordinates are equal, as slicers do.
     """
+    import trimesh
+
     mesh = trimesh.load_mesh(io.BytesIO(stl), file_type="stl")
     if len(mesh.faces) == 0:
         return ["it is empty"]

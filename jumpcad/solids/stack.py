@@ -30,22 +30,34 @@ NOTHING: Region = CrossSection()
 
 
 class Sections(NamedTuple):
-    """Cross-sections at heights (n,): the different outlines, the number of each section's outline, and its inset.
+    """Cross-sections at heights (n,).
 
-    Two heights have the same cross-section where their numbers `which` (n,) and insets `inset_mm` (n,) are the same.
+    Attributes
+    ----------
+    outlines
+        The different outlines.
+    which
+        The number of each section's outline and pocket (n,): two heights have the same cross-section where it and the
+        inset are the same.
+    inset_mm
+        Insets of chamfers (n,).
+    pockets
+        The outlines that are another one less a pocket inside it, which are not among `outlines`: they are numbered
+        after these. Each is the number of the other outline and the pocket.
     """
 
     outlines: Sequence[Region]
     which: Numbers
     inset_mm: Array
+    pockets: Sequence[tuple[int, Region]] = ()
 
 
 @dataclass(frozen=True, eq=False)
 class Slab:
-    """An outline, with its border set back by `inset_mm`, extruded from `z0_mm` to `z1_mm`.
+    """An outline, with its border set back by `inset_mm`, extruded from `z0_mm` to `z1_mm`, less a pocket inside it.
 
-    `number` is the outline's number within a stack: slabs of one number have one outline. Slabs are equal if their
-    numbers and the corners of their outlines are.
+    `number` is the outline's number within a stack: slabs of one number have one outline. `pocket_number` is likewise
+    that of the pocket, 0 without. Slabs are equal if their numbers and the corners of their outlines and pockets are.
     """
 
     z0_mm: float
@@ -53,11 +65,14 @@ class Slab:
     outline: Region
     inset_mm: float = 0.0
     number: int = 0
+    pocket: Region = NOTHING
+    pocket_number: int = 0
 
     @functools.cached_property
     def region(self) -> Region:
         """The region that is extruded."""
-        return self.outline.offset(-self.inset_mm, JoinType.Miter) if self.inset_mm else self.outline
+        outline = self.outline - self.pocket if self.pocket_number else self.outline
+        return outline.offset(-self.inset_mm, JoinType.Miter) if self.inset_mm else outline
 
     @property
     def height_mm(self) -> float:
@@ -65,13 +80,13 @@ class Slab:
         return self.z1_mm - self.z0_mm
 
     @property
-    def _numbers(self) -> tuple[float, float, float, int]:
-        return self.z0_mm, self.z1_mm, self.inset_mm, self.number
+    def _numbers(self) -> tuple[float, float, float, int, int]:
+        return self.z0_mm, self.z1_mm, self.inset_mm, self.number, self.pocket_number
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Slab) or self._numbers != other._numbers:
             return False
-        return self.outline is other.outline or corners_key(self.outline) == corners_key(other.outline)
+        return _same(self.outline, other.outline) and _same(self.pocket, other.pocket)
 
     def __hash__(self) -> int:
         return hash((self._numbers, self.outline.bounds()))  # quicker than the corners, which few slabs need
@@ -98,6 +113,23 @@ class Stack:
     def minus(self, slabs: "Iterable[SlabLike] | Stack") -> "Stack":
         """Return this stack without slabs (z0, z1, region), such as bores, pockets and engravings."""
         return _arranged(self.slabs, _listed(slabs))
+
+    def pocketed(self, pockets: Iterable[tuple[float, float, Region]]) -> "Stack":
+        """Return this stack without pockets (z0, z1, region) on top of each other, with a wall around each.
+
+        This is `minus`, but the outlines are left as they are: a part's layers that differ only in a pocket inside it
+        are made and weighed for little more than one.
+        """
+        cuts = [(_z(z0), _z(z1), region) for z0, z1, region in pockets]
+        levels = {z for z0, z1, _ in cuts for z in (z0, z1)}
+        slabs = []
+        for slab in _arranged(self.slabs, ()).slabs:
+            inside = {z for z in levels if slab.z0_mm < z < slab.z1_mm}
+            for z0, z1 in itertools.pairwise(sorted({slab.z0_mm, *inside, slab.z1_mm})):
+                cut = next((index for index, (low, high, _) in enumerate(cuts) if low <= z0 and z1 <= high), None)
+                pocket, number = (NOTHING, 0) if cut is None else (cuts[cut][2], cut + 1)
+                slabs.append(replace(slab, z0_mm=z0, z1_mm=z1, pocket=pocket, pocket_number=number))
+        return Stack(tuple(slabs))
 
     def through(self, *holes: Region) -> "Stack":
         """Return this stack with holes from bottom to top."""
@@ -194,11 +226,17 @@ class Stack:
 
     def sections_at(self, heights_mm: npt.ArrayLike) -> Sections:
         """Return the cross-sections at heights (n,) as outlines and the insets of chamfers."""
-        place = {number: index for index, number in enumerate(self._outlines)}
-        which = np.array([*(place[slab.number] for slab in self.slabs), len(place)])
+        outlines = [*self._outlines.values(), NOTHING]
+        place = {(number, 0): index for index, number in enumerate(self._outlines)}
+        pockets: list[tuple[int, Region]] = []
+        for slab in self.slabs:
+            if (slab.number, slab.pocket_number) not in place:
+                place[slab.number, slab.pocket_number] = len(outlines) + len(pockets)
+                pockets.append((place[slab.number, 0], slab.pocket))
+        which = np.array([*(place[slab.number, slab.pocket_number] for slab in self.slabs), len(outlines) - 1])
         insets = np.array([*(slab.inset_mm for slab in self.slabs), 0.0])
         slabs = self._slabs_at(heights_mm)
-        return Sections([*self._outlines.values(), NOTHING], which[slabs], insets[slabs])
+        return Sections(outlines, which[slabs], insets[slabs], pockets)
 
     def footprint(self) -> Region:
         """Return the outline seen from above."""
@@ -207,9 +245,10 @@ class Stack:
     def solid(self) -> Manifold:
         """Return the stack as one closed solid whose corners 32-bit floats hold exactly (on a grid of 1 µm)."""
         heights = [(slab.z0_mm, slab.z1_mm) for slab in self.slabs]
-        regions = {(slab.number, slab.inset_mm): slab.region for slab in self.slabs}
+        cases = [(slab.number, slab.pocket_number, slab.inset_mm) for slab in self.slabs]
+        regions = {case: slab.region for case, slab in zip(cases, self.slabs, strict=True)}
         clean = {case: without_slivers(region).to_polygons() for case, region in regions.items()}
-        vertices, faces = skin(heights, [clean[slab.number, slab.inset_mm] for slab in self.slabs])
+        vertices, faces = skin(heights, [clean[case] for case in cases])
         return Manifold(Mesh64(vertices, faces.astype(np.uint64)))
 
     @functools.cached_property
@@ -226,16 +265,19 @@ class Stack:
 
     def _widest(self) -> list[Region]:
         """Return the regions that matter for how far the stack reaches: without those that others contain."""
-        whole = {slab.number for slab in self.slabs if not slab.inset_mm}
-        return [slab.region for slab in self.slabs if not slab.inset_mm or slab.number not in whole]
+        whole = {slab.number: slab.outline for slab in self.slabs if not slab.inset_mm}
+        return [*whole.values(), *(slab.region for slab in self.slabs if slab.number not in whole)]
 
     def _mapped(self, change: Callable[[Region], Region], change_z: Callable[[float], float] = lambda z: z) -> "Stack":
         """Return the stack with every region and height changed."""
         changed = {number: change(outline) for number, outline in self._outlines.items()}
+        pockets = {0: NOTHING} | {slab.pocket_number: slab.pocket for slab in self.slabs}
+        pockets = {number: change(pocket) for number, pocket in pockets.items()}
         slabs = []
         for slab in self.slabs:
             low, high = sorted((_z(change_z(slab.z0_mm)), _z(change_z(slab.z1_mm))))
-            slabs.append(replace(slab, z0_mm=low, z1_mm=high, outline=changed[slab.number]))
+            outline, pocket = changed[slab.number], pockets[slab.pocket_number]
+            slabs.append(replace(slab, z0_mm=low, z1_mm=high, outline=outline, pocket=pocket))
         return Stack(tuple(sorted(slabs, key=lambda slab: slab.z0_mm)))
 
 
@@ -282,6 +324,11 @@ def _apart(a: Region, b: Region) -> bool:
     ax0, ay0, ax1, ay1 = a.bounds()
     bx0, by0, bx1, by1 = b.bounds()
     return bool(ax1 <= bx0 or bx1 <= ax0 or ay1 <= by0 or by1 <= ay0)
+
+
+def _same(a: Region, b: Region) -> bool:
+    """Tell whether two regions have the same corners."""
+    return a is b or corners_key(a) == corners_key(b)
 
 
 def _listed(slabs: Iterable[SlabLike] | Stack) -> tuple[SlabLike, ...]:

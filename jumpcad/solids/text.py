@@ -2,16 +2,17 @@
 
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import matplotlib
 import numpy as np
 from manifold3d import CrossSection, FillRule
-from matplotlib.ft2font import FT2Font, LoadFlags
-from matplotlib.path import Path as Curve
 
 from jumpcad.errors import JumpcadError
 from jumpcad.solids.outline import SAGITTA_MM, Region
 from jumpcad.transforms import Array
+
+if TYPE_CHECKING:
+    from matplotlib.ft2font import FT2Font
 
 FONT = "DejaVuSans-Bold.ttf"  # shipped with the plotting library, so the same letters everywhere
 TRACED_AT = 100.0  # size at which letters are traced: large enough for smooth curves, small enough for few corners
@@ -49,14 +50,20 @@ def engravable(label: str) -> str:
 
 
 @lru_cache(maxsize=1)
-def _font() -> FT2Font:
+def _font() -> "FT2Font":
+    import matplotlib  # takes a tenth of a second, and most robots that are built have no name
+    from matplotlib.ft2font import FT2Font
+
     font = FT2Font(str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / FONT))
     font.set_size(TRACED_AT, 72)
     return font
 
 
-def _letter(font: FT2Font, letter: str) -> tuple[float, list[Array]]:
+def _letter(font: "FT2Font", letter: str) -> tuple[float, list[Array]]:
     """Return the advance width of a letter, and its closed contours (n, 2)."""
+    from matplotlib.ft2font import LoadFlags
+    from matplotlib.path import Path as Curve
+
     glyph = font.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
     vertices, codes = font.get_path()
     polygons = [np.asarray(polygon) for polygon in Curve(vertices, codes).to_polygons()] if len(vertices) else []

@@ -58,6 +58,13 @@ def clipped_pins(catalogue: Catalogue, bought: BoughtParts) -> Rod | None:
     return None if thick else catalogue.rods[SOFT]
 
 
+def pin_head_mm(catalogue: Catalogue, bought: BoughtParts) -> float:
+    """Return the largest diameter of a pin of foot or leg as it is put in: its head, or the clip at its left end."""
+    if clipped_pins(catalogue, bought):
+        return catalogue.clip_for(bought.axle_mm).outer_mm
+    return catalogue.clevis_pin_for(bought.axle_mm).head_mm
+
+
 def pin_bar(workshop: Workshop) -> RoundBar:
     """Return a pin of foot or leg: a clevis pin with its split pin, or a rod with clips."""
     bought, safety, catalogue = workshop.bought, workshop.safety, workshop.catalogue

@@ -187,7 +187,8 @@ class Safety(TomlTable):
     """Safety factors, limits of springs, motor and legs, and reserves for deviations from the computed robot.
 
     Loads are taken as those of the stiffest springs within `spring_rate_scatter`, and more by `stress_reserve`. Other
-    reserves are kept below the motor's torque and the cam's pressure angle, and above gaps; `kick_reserve` is added to
+    reserves are kept below the motor's torque and the cam's pressure angle, above gaps, and in the room for the rest
+    stop and between main leg and front link; `kick_reserve` is added to
     the torque peak at the gear motor when the released cam strikes.
     """
 
@@ -202,6 +203,7 @@ class Safety(TomlTable):
     motor_torque_reserve: Annotated[float, Field(ge=0, le=0.9)]
     pressure_angle_reserve_deg: Annotated[float, Field(ge=0, le=20)]
     gap_reserve_mm: Annotated[float, Field(ge=0, le=1)]
+    room_reserve_mm: Annotated[float, Field(ge=0, le=5)]
     jumps: Annotated[float, Field(ge=1, le=1e9)]
     landing_stop_mm: Length
     roll_reserve_deg: Annotated[float, Field(ge=0, le=45)]

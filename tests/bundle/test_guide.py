@@ -1,5 +1,6 @@
 """assembly.md: everything in the bill of materials is in the guide, and the springs ordered are those of the design."""
 
+import math
 import re
 from pathlib import Path
 
@@ -98,3 +99,25 @@ def test_a_preload_and_stock_springs_are_in_the_order() -> None:
     assert "- 26.36 N·mm/° each, ±10 %; the design asks for 4.60 N·mm/°" in guide
     assert "- loaded from 5.0° to " in guide
     assert "- the preload adds 132 N·mm to the loaded torque of each" in guide  # 26.36 · 5
+
+
+@pytest.mark.parametrize(("name", "newtons"), [("kenan-2.0", 2), ("best-bo", 6)])
+def test_both_plates_hold_the_springs_pin_before_an_arm_is_pushed(name: str, newtons: int) -> None:
+    """An arm that is too wide is pushed aside at its pin with moment over lever; both plates are screwed on by then.
+
+    The widest that is used loads the springs by no more than the reserve for stiff ones, 10 %.
+    """
+    robot = built(name)
+    spring, guide = robot.layout.drive.spring, write_guide(robot)
+    wound = math.degrees(spring.wound_rad)
+    wider = math.floor(0.1 * wound)
+    assert newtons == round(wider * spring.rate_nmm_per_deg / spring.arms.lever_mm)
+    assert f"then the right one's; {newtons} N at most" in guide
+    places = [
+        guide.index(title) for title in ("left plate for good", "without springs\n", "The springs' pin in the leg\n")
+    ]
+    assert places == sorted(places)
+    free = math.degrees(spring.free_arm_angle_rad)
+    assert f"the arms are {free - 10.0:.0f} to {free + wider:.0f}° apart" in guide
+    stored = ((wound + wider) ** 2 - wider**2) / wound**2
+    assert f"{wider}° wider {100.0 * (stored - 1.0):.0f} % more" in guide

@@ -13,10 +13,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from jumpcad.building import build
+from jumpcad.bundle.compared import compared_of
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.uncertainty import uncertainty_of
+from jumpcad.calibration.measurements import load_measurements
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
+from jumpcad.files import template_names
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.simulation import Jump, Settings, simulate, uncertain_jump
@@ -71,6 +74,38 @@ def test_how_sure_agrees_with_four_times_as_many_jumps(robot: Robot) -> None:
     assert few is not None
     for figure, near_m in (("ballistic_range_m", 0.004), ("com_rise_m", 0.002)):
         assert few.quantiles[figure] == pytest.approx(many.quantiles[figure], abs=near_m)
+
+
+def test_a_prototype_stands_beside_what_was_measured(robot: Robot, jump: Jump) -> None:
+    """The study measured 35 cm, 12 cm and 1.3 J; the distance is outside every interval, the height inside one."""
+    page = write_report(robot, {}, jump)
+    rows = {key: row for key, row in cells(page).items() if key.startswith(("distance, as", "height", "energy from"))}
+    assert [row[1] for row in rows.values()] == ["350 mm"] * 3 + ["120 mm"] * 2 + ["1.30 J"]
+    low, middle, high = (float(value) for value in rows["distance, as ballistic range"][2][:-3].split("…"))
+    assert low < middle < high < 350.0
+    assert "does not predict the measured distance: no interval" in page
+    assert "jumpcad calibrate kenan-1.0 --predict kenan-2.0" in page
+
+
+def test_other_designs_have_no_such_section(robot: Robot, jump: Jump) -> None:
+    design = robot.design.model_copy(update={"stiffness_nmm_per_deg": 9.3})
+    assert compared_of(design) is None
+    assert "prototype" not in write_report(replace(robot, design=design), {}, jump)
+
+
+def test_shipped_predictions_are_of_the_shipped_measurements() -> None:
+    """Their measured values are those of `templates/measurements`, and one prototype is predicted by the other."""
+    names = template_names("compared")
+    assert names == template_names("measurements")
+    for name in names:
+        found = compared_of(load_design(name))
+        measured, _ = load_measurements(name)
+        (series,) = measured.jumps
+        assert found is not None
+        assert (found.design, {found.design, found.calibrated_on}) == (name, set(names))
+        values = {row.what: row.measured for row in found.rows}
+        mean = (series.distance_mm[0] / 1000.0, series.height_mm[0] / 1000.0, series.battery_j[0])
+        assert (values["distance"], values["height"], values["battery"]) == pytest.approx(mean)
 
 
 def test_is_closed_html_that_asks_for_nothing_else(robot: Robot, jump: Jump) -> None:

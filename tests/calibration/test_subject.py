@@ -10,6 +10,7 @@ from jumpcad.calibration.subject import Subject, load_subject, renamed
 from jumpcad.errors import JumpcadError
 
 HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
+FAR, HIGH = '[[jumps]]\ndistance_of = "first-touchdown"\n', '[[jumps]]\nheight_of = "rise"\n'
 JUMP = '[[jumps]]\ndistance_of = "centre-of-mass"\nheight_of = "rise"\n'
 
 
@@ -34,6 +35,21 @@ JUMP = '[[jumps]]\ndistance_of = "centre-of-mass"\nheight_of = "rise"\n'
             r"height_mm = 150 with distance_mm = 350: takes 0.203 J for 103 g, and the springs hold 0.133 J: measure",
         ),
         ("[mass.parts_g]\nwing = 3.0", r"mass.weighed_g.wing: no such part"),
+        ("[mass.parts_g]\nmain_leg = 47.0", r"parts_g.main_leg = 47: the model has \d\.\d+ g: a digit too many\?"),
+        ("[floor]\nslope_deg = [0.6]", r"slope_deg = 0.6: is a friction of 0.0105: give the slope's angle in degrees"),
+        ("[floor]\npull_n = [0.3]\nslope_deg = [45.0]", r"one of 1.00: one floor has one friction"),
+        (
+            FAR + "distance_mm = [90.0, 430.0]",
+            r"= 90 and 430, both first-touchdown: one robot does not jump 4.8 times as far: leave failed jumps out",
+        ),
+        (
+            FAR + "distance_mm = [210.0]\n" + FAR.replace("first-touchdown", "resting-place") + "distance_mm = [120.0]",
+            r"the resting place, 120, lies before the first touchdown, 210: is one the other\?",
+        ),
+        (
+            HIGH + "height_mm = [150.0]\n" + HIGH.replace("rise", "absolute") + "height_mm = [120.0]",
+            r"a rise of 150 is 2\d\d mm above the floor, and the absolute height is 120",
+        ),
         ('[[videos]]\npoints = "no.csv"\npoint = "body"', r"no.csv: no such file"),
     ],
 )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.built import LONG_TOES, built, geared, placed
 
-from jumpcad.building import build
+from jumpcad.building import assembly, build
 from jumpcad.checks.assembly import assembly_findings, assembly_ways, paths, tools
 from jumpcad.design import load_design
 from jumpcad.findings import errors
@@ -50,7 +50,7 @@ def _reordered(monkeypatch: pytest.MonkeyPatch, first: str, then: str) -> None:
     ("first", "then", "blocked"),
     [
         ("close", "legs", "leg_axle"),  # a plate over the bores: nothing gets between the plates
-        ("close", "arm", "leg_spring_pin"),  # the pin lies behind the left plate
+        ("arm", "legs", "main_leg"),  # the pin stands where the leg goes
         ("cam", "legs", "main_leg"),  # the cam gear covers the roller's lever
     ],
 )
@@ -61,6 +61,13 @@ def test_another_order_is_blocked(monkeypatch: pytest.MonkeyPatch, first: str, t
         assert {"roller", "roller_screw", "main_leg"} & set(found)
     else:
         assert blocked in found
+
+
+def test_a_pin_whose_head_is_wider_than_its_hole_is_blocked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its head has 5 mm (ISO 2341)."""
+    monkeypatch.setattr(assembly, "pin_head_mm", lambda *_: 4.0)
+    found = [blocked for _, blocked in paths(assembly_ways(build(load_design("kenan-2.0")))) if blocked]
+    assert {(blocked.name, blocked.by) for blocked in found} == {("leg_spring_pin", "body_plate_left")}
 
 
 def test_a_thick_tool_does_not_reach_the_motors_cap(monkeypatch: pytest.MonkeyPatch) -> None:

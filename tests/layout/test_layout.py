@@ -14,12 +14,13 @@ from support.built import LONG_TOES, built, geared, in_body
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import SEARCH_BOUNDS, Design
-from jumpcad.dimensions import CLEAR_MM, TRAY_MM
+from jumpcad.dimensions import CLEAR_MM, GAP_MM, TRAY_MM
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import LEVER_HEAD_MM, LEVER_NUT_MM, Layout, make_layout
+from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop
@@ -28,6 +29,8 @@ LARGE_CAM = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 28.683
 """A robot with no room above it: its cam reaches up to 87 mm."""
 NARROW = Design.from_vector([196.404194, 0.958431, 0.696797, 0.679536, 0.783564, 66.619678, 27.823059, 26.157418])
 """A robot whose spring pin has a place of a few degrees, between main leg and cam gear."""
+TIGHT = Design.from_vector([100.0, 1.0040919, 0.5, 1.1190977, 0.8, 70.0, 30.0, 18.2459887])
+"""A robot with hardly any room for its rest stop."""
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", LONG_TOES]
 
 
@@ -62,7 +65,8 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "linkage": layout.linkage, "sections": layout.sections, "drive": layout.drive,
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
         "plate_mm": load_workshop("default").body.plate_mm, "roller_width_mm": 4.0, "axle_mm": 3.0,
-        "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
+        "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "stop_rad": layout.stop.angle_rad, "stop_pad": layout.stop.pad,
+        "reserve_mm": load_workshop("default").safety.room_reserve_mm,
         "toe_half_width_mm": layout.toe_half_width_mm, "switch": layout.fittings.switch,
         "sensor": layout.sensor.needs if layout.sensor else None,
     }  # fmt: skip
@@ -197,13 +201,35 @@ def larger(layout: Layout, what: str) -> dict[str, Any]:
         ("motor", r"^no room for the motor: \d+\.\d mm too little beside the [\w ]+: raise d_coef or carrying_link_mm"),
         ("spring pin", r"^no room for the spring pin: \d+\.\d mm too little beside the lever: lower stiffness_nmm"),
         ("battery", r"^no room for the battery and electronics: \d+\.\d mm .*: raise d_coef .* or choose a smaller b"),
-        ("leg", r"^main leg and front link come \d+\.\d mm nearer than the 0\.5 mm that they need between them: lower"),
+        ("leg", r"^main leg and front link come \d+\.\d mm nearer than the 0\.8 mm that they need between them: lower"),
     ],
 )
 def test_what_finds_no_room_is_refused_with_what_is_in_its_way(what: str, words: str) -> None:
     layout = layout_of(LARGE_CAM, load_workshop("default"))[0] if what == "battery" else plans()["kenan-2.0"]
     with pytest.raises(CannotBuildError, match=words):
         plan_again(layout, **larger(layout, what))
+
+
+def test_the_reserve_is_kept_in_the_stops_room_and_between_the_legs() -> None:
+    """A robot with little room is refused as soon as the reserve is larger than that, with what misses."""
+    shop = load_workshop("default")
+
+    def planned(reserve_mm: float) -> Layout:
+        safety = shop.safety.model_copy(update={"room_reserve_mm": reserve_mm})
+        return layout_of(TIGHT, shop.model_copy(update={"safety": safety}))[0]
+
+    free = planned(0.0)
+    assert 0.0 < free.stop.room_mm < shop.safety.room_reserve_mm
+    apart = legs_apart_mm(free.linkage, free.sections) - GAP_MM
+    kept = planned(free.stop.room_mm - 0.01)
+    assert kept.stop.room_mm == pytest.approx(0.01)
+    for reserve, limit, misses in (
+        (free.stop.room_mm + 0.01, "stop_room", 0.01),
+        (apart + 0.02, "legs_apart", 0.02),
+    ):
+        with pytest.raises(CannotBuildError) as refused:
+            planned(reserve)
+        assert (refused.value.limit, refused.value.margin) == (limit, pytest.approx(-misses))
 
 
 def test_a_cam_gear_in_the_legs_axle_is_refused() -> None:

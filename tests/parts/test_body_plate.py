@@ -67,6 +67,24 @@ def test_plates(kenan: Robot, name: str) -> None:
         assert measured(kenan, name, y, place) == pytest.approx(diameter, abs=TOLERANCE_MM)
 
 
+def test_the_springs_pin_stands_in_a_boss_of_the_right_plate(kenan: Robot) -> None:
+    """Up to 0.5 mm beside the spring, at most 4 mm: then, with the plate's bore, nearly two diameters deep."""
+    layout = kenan.layout
+    plate, spring = layout.lateral.right_plate, layout.lateral.spring_right
+    assert layout.spring_boss_mm == min(4.0, spring[0] - 0.5 - plate[1])
+    assert measured(kenan, "body_plate_right", plate[1] + 3.9, layout.spring_pin_mm) == pytest.approx(
+        RUNNING, abs=TOLERANCE_MM
+    )
+    beside = placed(kenan, "body_plate_right")
+    wall = layout.spring_pin_mm + np.array([0.0, 1.7 + 0.9])
+    ends, _, _ = beside.ray.intersects_location([[wall[0], plate[0] - 1.0, wall[1]]], [[0.0, 1.0, 0.0]])
+    assert ends[:, 1].max() == pytest.approx(plate[1] + 4.0, abs=1e-3)
+
+
+def test_a_spring_close_to_the_plate_leaves_no_boss() -> None:
+    assert built("best-bo").layout.spring_boss_mm == 0.0
+
+
 def test_motor_seat(kenan: Robot) -> None:
     """The N20's gearbox is 10 by 12 mm; it slides into its socket, and M2 screws cut their thread beside it."""
     layout = kenan.layout

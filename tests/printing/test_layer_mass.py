@@ -112,7 +112,7 @@ class Turned:
         self.bounds_mm = shape.bounds_mm
 
     def sections_at(self, heights_mm):
-        outlines, which, inset_mm = self.shape.sections_at(heights_mm)
+        outlines, which, inset_mm, _ = self.shape.sections_at(heights_mm)
         turned = [outline.rotate(self.angle_deg).translate((1.234567, -0.7654321)) for outline in outlines]
         return Sections(turned, which, inset_mm)
 
@@ -157,3 +157,13 @@ def test_a_cavity_of_one_layer_makes_the_layers_around_it_solid():
     walls = 0.8 * math.pi * ((r + shell) ** 2 - r**2) - 0.0215 * border + 0.8 * 0.25 * s * 2.0 * math.pi * (r + shell)
     more = 0.2 * (solid + walls - 0.2 * area)
     assert grams(cavity) - grams(Stack.of([(0, 8.2, wide)])) == pytest.approx(more / 1000.0, rel=0.01)
+
+
+def test_pockets_in_one_outline_weigh_what_outlines_of_their_own_do():
+    block = Stack.of([(0, 6, rectangle((40, 30), corner_radius_mm=4)), (6, 8, disc(12))]).chamfered(0.4, 0.2)
+    pockets = [(2 + 0.2 * n, 2.2 + 0.2 * n, disc(12 - 0.3 * n, (9, 3)) - disc(5, (9, 3))) for n in range(20)]
+    shapes = block.pocketed(pockets), block.minus(pockets)
+    kept, cut = (mass_properties(shape, 1.24, PROCESS, 0.4) for shape in shapes)
+    assert kept.mass_kg == pytest.approx(cut.mass_kg, rel=1e-9)
+    assert kept.com_m == pytest.approx(cut.com_m, rel=1e-7)
+    assert kept.inertia_kg_m2 == pytest.approx(cut.inertia_kg_m2, rel=1e-7, abs=1e-15)

@@ -11,15 +11,10 @@ from jumpcad.design import PARAMETERS, load_design
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.robust import (
-    active_bounds,
-    best_apart,
-    plan_rounds,
-    rank_candidates,
-    varied_parameters,
-)
-from jumpcad.search.tolerances import LENGTHS_ALONE, Making
+from jumpcad.search.robust import active_bounds, best_apart, plan_rounds, rank_candidates
+from jumpcad.search.tolerances import LENGTHS_ALONE, MADE, Making, as_made, varied_parameters
 from jumpcad.search.variant import Variant
+from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation import simulate
 
 
@@ -93,6 +88,15 @@ def test_the_pick_keeps_to_its_evaluations_and_spends_most_on_the_winner(evaluat
     assert sum(new for _, new in rounds) <= 32
 
 
+def test_where_no_neighbour_is_rejected_the_last_candidate_gets_what_is_left(evaluator):
+    one = evaluator(model=Spiked())
+    one.evaluate([SMALL.to_design([0.5, 0.5, shift]) for shift in (0.2, 0.4, 0.6, 0.8)], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=40)
+    spent = [candidate.neighbours for candidate in ranked]
+    assert 40 - len(spent) <= sum(spent) <= 40
+    assert spent[0] == max(spent) > 20
+
+
 def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     one = evaluator()
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
@@ -161,11 +165,12 @@ def test_active_bounds_and_their_worth(evaluator):
 def test_making_varies_rate_mass_and_floor_as_a_single_jump_does():
     """Their deviations are those that were asked for; rate over mass is one factor of the springs."""
     design = load_design("kenan-2.0")
-    making = Making(0.2, rate=0.05, mass=0.04, floor=0.15, friction=0.8)
+    making = Making(0.2, rate=0.05, mass=0.04, floor=0.15, printed=True)
     made = [one for seed in range(40) for one in making.neighbours(Variant(design), np.random.default_rng(seed))]
-    assert {one.design.stiffness_nmm_per_deg for one in made} == {design.stiffness_nmm_per_deg}
+    assert {one.design for one in made} == {design}
+    assert {key for one in made for key in one.workshop} <= set(MADE) - {"made.stiffness_nmm_per_deg"}
     springs = np.array([one.workshop["made.spring_factor"] for one in made])
-    floors = np.log(np.array([one.workshop["ground.friction"] for one in made]) / 0.8)
+    floors = np.log(np.array([one.workshop["made.friction_factor"] for one in made]))
     assert springs.std() == pytest.approx(np.hypot(0.05, 0.04), rel=0.05)
     assert floors.std() == pytest.approx(0.15, rel=0.05)
     assert abs(np.corrcoef(springs, floors)[0, 1]) < 0.1
@@ -181,3 +186,25 @@ def test_springs_as_made_change_the_jump_and_not_the_robot():
     assert found.metrics["mass_kg"] == pytest.approx(robot.mass_kg)
     assert found.metrics["ballistic_range_m"] == pytest.approx(jump.ballistic_range_m, rel=1e-6)
     assert found.metrics["ballistic_range_m"] > 1.03 * model(design).metrics["ballistic_range_m"]
+
+
+def test_lengths_as_made_are_those_of_the_built_robot():
+    """A design a hair from a limit of its layout has neighbours: what is printed is not laid out anew."""
+    design, generator = load_design("kenan-2.0"), np.random.default_rng(0)
+    making, robot = robot_model().making, build(design, name="")
+    assert making.length_mm == 2.0 * robot.workshop.fits.sliding_mm
+    lengths = np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm])
+    for one in making.neighbours(Variant(design), generator)[:4]:
+        made, settings = as_made(robot, Settings(), one.workshop)
+        bodies = made.bodies.values()
+        assert [body.mass_kg for body in bodies] == [body.mass_kg for body in robot.bodies.values()]
+        links = made.design
+        errors = np.array([links.l2_mm, links.l3_mm, links.l4_mm, links.l5_mm]) - lengths
+        assert 0.0 < np.abs(errors).max() <= making.length_mm + 1e-9
+        assert np.linalg.norm(made.joint("ankle").origin_m) == pytest.approx(links.l2_mm / 1000.0)
+        assert made.loop.point_a_m[0] == pytest.approx(links.l3_mm / 1000.0)
+        friction = coefficients(made, settings).ground / coefficients(robot, Settings()).ground
+        assert friction == pytest.approx(one.workshop["made.friction_factor"])
+    stiffer = design.stiffness_nmm_per_deg * 1.01
+    made, _ = as_made(robot, Settings(), {"made.stiffness_nmm_per_deg": stiffer})
+    assert made.spring.energy_j == pytest.approx(1.01 * robot.spring.energy_j)

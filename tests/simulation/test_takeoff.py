@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 import pytest
+from support.machines import rubbing
 
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.settings import Settings
@@ -26,10 +27,15 @@ class Scripted:
     joint_damping_j = slip_j = 0.0
 
     def __init__(
-        self, start: State, flights_s: list[tuple[float, float]], speed_m_s: float, opening_s: float = 0.0
+        self,
+        start: State,
+        flights_s: list[tuple[float, float]],
+        speed_m_s: float,
+        opening_s: float = 0.0,
+        hop_m: float = 0.0,
     ) -> None:
         self.flights_s, self.steps, self.start = flights_s, 0, start
-        self.speed_m_s, self.opening_s = speed_m_s, opening_s
+        self.speed_m_s, self.opening_s, self.hop_m = speed_m_s, opening_s, hop_m
 
     def advance(self, steps: int) -> float:
         """Return the coordinate of a leg that opens by 1 rad/s and comes to rest after `opening_s`."""
@@ -45,7 +51,9 @@ class Scripted:
             return self.start
         velocity = 0.0 * self.start.velocity_m_s
         velocity[:, 2] = self.speed_m_s
-        return replace(self.start, velocity_m_s=velocity, leg_rad=0.0)
+        com = self.start.com_m.copy()
+        com[:, 2] += 0.0 if self.loaded() else self.hop_m
+        return replace(self.start, com_m=com, velocity_m_s=velocity, leg_rad=0.0)
 
 
 @contextmanager
@@ -55,11 +63,17 @@ def released(mechanism: Mechanism) -> Iterator[State]:
 
 
 def takeoff_s(
-    mechanism: Mechanism, flights_s: list[tuple[float, float]], speed_m_s: float = 0.1, opening_s: float = 0.0
+    mechanism: Mechanism,
+    flights_s: list[tuple[float, float]],
+    speed_m_s: float = 0.1,
+    opening_s: float = 0.0,
+    hop_m: float = 0.0,
+    **settings: float,
 ) -> float | None:
-    """Return when a robot with these flights is said to take off."""
+    """Return when a robot with these flights, of that height, is said to take off."""
     with released(mechanism) as start:
-        run = Run(Scripted(start, flights_s, speed_m_s, opening_s), mechanism, Settings(dt_s=DT_S))
+        world = Scripted(start, flights_s, speed_m_s, opening_s, hop_m)
+        run = Run(world, mechanism, Settings(dt_s=DT_S, **settings))
         run.go()
     return run.takeoff.time_s if run.takeoff else None
 
@@ -77,6 +91,17 @@ def test_a_hop_while_the_springs_still_push_is_a_part_of_the_push_off(kenan: Mec
     assert takeoff_s(kenan, [hop, flight]) == pytest.approx(0.010)
     assert takeoff_s(kenan, [hop, flight], opening_s=0.020) == pytest.approx(0.030)
     assert takeoff_s(kenan, [hop, flight], opening_s=0.040) == pytest.approx(0.030)
+
+
+def test_a_printed_robot_clears_the_ground_by_a_millimetre(kenan: Mechanism) -> None:
+    """A robot with friction of its own is a printed one; the study's capsules, and whoever asks, take any hop."""
+    flight = [(0.020, 0.060)]
+    printed = rubbing(kenan)
+    assert takeoff_s(kenan, flight, hop_m=0.0005) == pytest.approx(0.020)
+    assert takeoff_s(printed, flight, hop_m=0.0005) is None
+    assert takeoff_s(printed, flight, hop_m=0.0015) == pytest.approx(0.020)
+    assert takeoff_s(printed, flight, hop_m=0.0005, takeoff_clearance_m=0.0) == pytest.approx(0.020)
+    assert takeoff_s(kenan, flight, hop_m=0.0005, takeoff_clearance_m=0.002) is None
 
 
 def test_a_robot_that_sinks_has_not_taken_off(kenan: Mechanism) -> None:

@@ -54,7 +54,7 @@ def test_what_is_removed_is_removed_and_equal_heights_are_one_outline():
     block = Blocks(
         (Bar(rectangle((10.0, 4.0), (0.0, 2.0)), ((0.0, 5.0),)),), (Bar(rectangle((2.0, 2.0)), ((-1.0, 6.0),)),)
     )
-    outlines, which, inset = block.sections_at([0.2, 0.8, 1.2, 3.0])
+    outlines, which, inset, _ = block.sections_at([0.2, 0.8, 1.2, 3.0])
     assert [outline.area() for outline in outlines] == pytest.approx([40.0, 50.0])
     assert which.tolist() == [0, 0, 1, 1]
     assert not inset.any()

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import trimesh
-from manifold3d import Manifold, OpType
+from manifold3d import Error, Manifold, OpType
 from support.stacks import random_stack
 
 from jumpcad.errors import JumpcadError
@@ -73,7 +73,7 @@ def test_a_chamfer_is_the_slope_sampled_in_the_middle_of_each_layer():
 
 def test_steps_of_a_chamfer_are_one_outline_set_back():
     block = Stack.of([(0, 3, rectangle((20, 20))), (3, 5, disc(10))]).chamfered(0.35, 0.2)
-    outlines, which, inset = block.sections_at([0.1, 0.3, 1.0, 4.0, 5.0])
+    outlines, which, inset, _ = block.sections_at([0.1, 0.3, 1.0, 4.0, 5.0])
     assert which.tolist()[:3] == [which[0]] * 3
     assert inset == pytest.approx([0.25, 0.05, 0.0, 0.0, 0.0])
     assert [outlines[number].area() for number in which] == pytest.approx([400, 400, 400, disc(10).area(), 0])
@@ -161,3 +161,19 @@ def test_corners_survive_32_bits():
 
 def test_the_same_stack_gives_the_same_bytes():
     assert stl(random_stack(np.random.default_rng(9))) == stl(random_stack(np.random.default_rng(9)))
+
+
+def test_a_pocket_cuts_what_subtracting_it_cuts():
+    block = Stack.of([(0, 6, rectangle((30, 20))), (6, 9, rectangle((20, 20)))]).through(disc(3)).chamfered(0.4, 0.2)
+    pockets = [(2, 3, disc(4, (6, 0))), (3, 7, disc(5, (6, 0))), (8, 9, disc(5, (-6, 0)))]
+    cut, made = block.minus(pockets), block.pocketed(pockets)
+    for placed in (made, made.moved(1, 2, 3), made.rotated(30), made.flipped(), made.mirrored()):
+        assert placed.volume_mm3 == pytest.approx(cut.volume_mm3)
+    assert made.flipped().moments == pytest.approx(cut.flipped().moments, rel=1e-9, abs=1e-9)
+    heights = np.linspace(0.1, 8.9, 23)
+    for one, other in zip(made.regions_at(heights), cut.regions_at(heights), strict=True):
+        assert (one - other).area() + (other - one).area() < 1e-9
+    assert made.bounds_mm == pytest.approx(cut.bounds_mm)
+    assert made.solid().volume() == pytest.approx(cut.solid().volume())
+    assert made.solid().status() == Error.NoError
+    assert made == block.pocketed(pockets) != block.pocketed([(2, 3, disc(4, (6, 1))), *pockets[1:]])

@@ -1,0 +1,94 @@
+"""Mechanical articles: ball bearings, torsion springs from stock, and pads."""
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from jumpcad.catalogue.articles import Article, Length, Mass, Positive, Source
+from jumpcad.files import Contradiction
+
+RINGS_MM = 2.0
+"""Least difference of outside diameter and bore of a bearing: that of the smallest of ISO 15, 1 x 3 mm."""
+TURNS_OFF = 0.1
+"""By how much a spring's turns may differ from what its arms' angle says; judgement: makers round to a quarter."""
+GENT = 0.64
+"""Factor of the shape of a rubber block's free sides, of Shore A 60 to 70 (Gent)."""
+
+
+class Bearing(Article):
+    """A ball bearing."""
+
+    bore_mm: Length
+    outer_mm: Length
+    width_mm: Annotated[Length, Field(le=50)]
+    mass_g: Mass
+    static_load_n: Positive
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield a bearing without room for its rings and balls."""
+        if self.outer_mm < self.bore_mm + RINGS_MM:
+            reason = f"must be at least bore_mm + {RINGS_MM:g} = {self.bore_mm + RINGS_MM:g}: rings and balls between"
+            yield ("outer_mm",), self.outer_mm, reason
+
+
+class StockSpring(Article):
+    """A torsion spring from stock, of which shops keep both hands: its arms are tangents of the coil.
+
+    `arm_angle_deg` is the angle between the relaxed arms, 180 where they point in opposite directions; loading in the
+    closing direction lowers it. `rate_nmm_per_deg` is the torque per degree.
+    """
+
+    wire_mm: Annotated[Length, Field(le=10)]
+    inside_diameter_mm: Length
+    turns: Annotated[float, Field(ge=0.1, le=100)]
+    arm_angle_deg: Annotated[float, Field(ge=0, le=360)]
+    arm_length_mm: Length
+    rate_nmm_per_deg: Positive
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield wire that is too thick for the inside diameter."""
+        if self.wire_mm >= self.inside_diameter_mm:
+            reason = f"must be less than inside_diameter_mm = {self.inside_diameter_mm:g}"
+            yield ("wire_mm",), self.wire_mm, reason
+        if abs(self.wound_turns - self.turns) > TURNS_OFF:
+            angle = (180.0 - 360.0 * self.turns) % 360.0
+            reason = f"{self.turns:g} turns with tangent arms have {angle:.0f}° between them: correct one of the two"
+            yield ("arm_angle_deg",), self.arm_angle_deg, reason
+
+    @property
+    def wound_turns(self) -> float:
+        """Turns of the relaxed body at which tangent arms have `arm_angle_deg`: those nearest to `turns`."""
+        fraction = (0.5 - self.arm_angle_deg / 360.0) % 1.0
+        return fraction + round(self.turns - fraction)
+
+
+class Pad(Article):
+    """A soft strip, glued under nose and toes or on the rest stop: `description` is what to order.
+
+    `modulus_mpa` is Young's modulus for small strains, as hardness gives it; `friction_min` and `friction_max` are
+    the range of coefficients of dry friction on a clean floor. One that is `printed` has STL files instead of a size
+    to cut.
+    """
+
+    description: Source
+    printed: bool = False
+    thickness_mm: Annotated[Length, Field(ge=0.3, le=6)]
+    density_g_cm3: Annotated[float, Field(ge=0.1, le=3)]
+    modulus_mpa: Annotated[float, Field(ge=0.2, le=200)]
+    friction_min: Annotated[float, Field(ge=1e-3, le=2)]
+    friction_max: Annotated[float, Field(ge=1e-3, le=2)]
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield a range of friction whose limits are exchanged."""
+        if self.friction_max < self.friction_min:
+            yield ("friction_max",), self.friction_max, f"must be at least friction_min = {self.friction_min:g}"
+
+    def rate_n_per_mm(self, width_mm: float, length_mm: float) -> float:
+        """Return the stiffness of a block pressed flat: E·(1 + 2·φ·S²)·A/t with φ = 0.64, S = loaded over free area.
+
+        Gent, Engineering with Rubber, for a block that both faces hold; one that slips is softer.
+        """
+        area = width_mm * length_mm
+        shape = area / (2.0 * (width_mm + length_mm) * self.thickness_mm)
+        return self.modulus_mpa * (1.0 + 2.0 * GENT * shape**2) * area / self.thickness_mm

@@ -1,0 +1,87 @@
+"""What is inside a part's perimeters, and what of it other layers leave open.
+
+A cross-section that is an outline less a pocket inside it is treated as the outline, once for all its pockets, and
+the pocket.
+"""
+
+from collections.abc import Sequence
+
+from manifold3d import CrossSection, JoinType, OpType
+
+from jumpcad.solids.moments import areas_and_borders, borders_mm
+from jumpcad.solids.outline import Region, rectangle, union
+from jumpcad.solids.stack import NOTHING, Sections
+from jumpcad.transforms import Array
+
+OUTLINE_TOLERANCE_MM = 0.01
+"""Corners nearer than this to a straight line are left out where shells and infill are concerned, for speed."""
+
+
+def section_moments(sections: Sections) -> tuple[Array, Array]:
+    """Return the area moments (n, 6) of the n different cross-sections, and those along their borders."""
+    count = len(sections.outlines)
+    areas, borders = areas_and_borders([*sections.outlines, *(pocket for _, pocket in sections.pockets)])
+    around = [number for number, _ in sections.pockets]
+    areas[count:] = areas[around] - areas[count:]
+    borders[count:] = borders[around] + borders[count:]
+    return areas, borders
+
+
+def cores(sections: Sections, numbers: Sequence[int], shell_mm: float, spacing_mm: float) -> dict[int, Region]:
+    """Return what is inside the perimeters of cross-sections, each under its number.
+
+    It is empty where all of it is narrower than a line, as perimeters then widen to fill it; the same in PrusaSlicer
+    (PerimeterGenerator.cpp, process_arachne). A strip of width w has an area of w·border/2.
+    """
+    inside: dict[int, Region] = {}
+    for number in numbers:
+        around, pocket = _parted(sections, number)
+        if around not in inside:
+            inside[around] = _set_back(sections.outlines[around], shell_mm)
+        if number != around:
+            inside[number] = inside[around] ^ _apart_from(pocket, sections.outlines[around], shell_mm)
+    borders = borders_mm([inside[number] for number in numbers]).tolist()
+    found = {}
+    for number, border in zip(numbers, borders, strict=True):
+        core = inside[number]
+        slim = 2.0 * core.area() < spacing_mm * border
+        narrow = slim and core.offset(-spacing_mm / 2.0, JoinType.Miter).is_empty()
+        found[number] = NOTHING if narrow else core
+    return found
+
+
+def shared(core: Region, number: int, others: Sequence[int], sections: Sections) -> Region:
+    """Return a region that has the same of the core of a cross-section as all of some others have."""
+    around, pocket = _parted(sections, number)
+    regions, beyond = [], []
+    for outline, other in (_parted(sections, other) for other in others):
+        if outline == around:
+            beyond.append(other - pocket)
+        else:
+            regions.append(sections.outlines[outline] - other if not other.is_empty() else sections.outlines[outline])
+    if beyond:
+        regions.append(_around(core, 1.0) - union(beyond))
+    return CrossSection.batch_boolean(regions, OpType.Intersect)
+
+
+def _parted(sections: Sections, number: int) -> tuple[int, Region]:
+    """Return the number of a cross-section's outline, and the pocket in it."""
+    count = len(sections.outlines)
+    return sections.pockets[number - count] if number >= count else (number, NOTHING)
+
+
+def _set_back(outline: Region, distance_mm: float) -> Region:
+    """Return what is at least a distance inside an outline."""
+    return outline.simplify(OUTLINE_TOLERANCE_MM).offset(-distance_mm, JoinType.Miter)
+
+
+def _apart_from(pocket: Region, outline: Region, distance_mm: float) -> Region:
+    """Return a region that contains an outline, less what is nearer to a pocket than a distance."""
+    return _set_back(_around(outline, 2.0 * distance_mm) - pocket, distance_mm)
+
+
+def _around(region: Region, margin_mm: float) -> Region:
+    """Return a rectangle that is larger than a region by a margin on all sides."""
+    x0, y0, x1, y1 = region.bounds()
+    size = x1 - x0 + 2.0 * margin_mm, y1 - y0 + 2.0 * margin_mm
+    return rectangle(size, ((x0 + x1) / 2.0, (y0 + y1) / 2.0))

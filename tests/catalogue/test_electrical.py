@@ -1,0 +1,22 @@
+"""Electrical articles: voltages of lithium cells, and figures of motors that energy forbids."""
+
+import pytest
+
+from jumpcad.catalogue import Battery, load_catalogue
+
+
+@pytest.mark.parametrize(("voltage_v", "cells", "empty_v", "full_v"), [(3.7, 1, 3.3, 4.2), (7.4, 2, 6.6, 8.4)])
+def test_a_pack_has_the_voltage_of_its_cells(voltage_v: float, cells: int, empty_v: float, full_v: float) -> None:
+    pack = Battery(
+        name="own", source="a label", description="pack", length_mm=30.0, width_mm=20.0, height_mm=8.0, mass_g=9.0,
+        voltage_v=voltage_v, capacity_mah=300.0,
+    )  # fmt: skip
+    assert pack.cells == cells
+    assert pack.range_v == pytest.approx((empty_v, full_v))
+    assert pack.bears_ma == 300.0  # 1 C
+
+
+def test_a_motor_gives_no_more_power_than_it_draws() -> None:
+    for motor in load_catalogue().motors.values():
+        in_nmm = motor.model_copy(update={"stall_torque_nm": 1000.0 * motor.stall_torque_nm})
+        assert [place for place, *_ in in_nmm.contradictions()] == [("stall_torque_nm",)]

@@ -1,0 +1,33 @@
+"""Mechanical articles: the stiffness of rubber blocks, the turns of springs with tangent arms, room in a bearing."""
+
+import pytest
+
+from jumpcad.catalogue import load_catalogue
+
+
+def test_a_wide_pad_is_stiffer_than_its_area_says() -> None:
+    """Gent's block between plates: 1 + 2·φ·S² times that of a free one, S = loaded over free area."""
+    for pad in load_catalogue().pads.values():
+        narrow, thickness = 2.0, pad.thickness_mm
+        shape = narrow * narrow / (4.0 * narrow * thickness)
+        free = pad.modulus_mpa * narrow * narrow / thickness
+        assert pad.rate_n_per_mm(narrow, narrow) == pytest.approx(free * (1.0 + 1.28 * shape**2))
+        assert pad.rate_n_per_mm(2.0 * narrow, 2.0 * narrow) > 4.0 * pad.rate_n_per_mm(narrow, narrow)
+
+
+@pytest.mark.parametrize(("angle_deg", "turns"), [(180.0, 4.0), (90.0, 4.25), (270.0, 3.75)])
+def test_turns_follow_from_the_angle_between_tangent_arms(angle_deg: float, turns: float) -> None:
+    """Opposite arms of whole turns; each quarter turn more closes the angle by 90°."""
+    spring = next(iter(load_catalogue().springs.values())).model_copy(
+        update={"turns": turns, "arm_angle_deg": angle_deg}
+    )
+    assert spring.wound_turns == turns
+    assert not [place for place, *_ in spring.contradictions() if place == ("arm_angle_deg",)]
+    wrong = spring.model_copy(update={"turns": turns + 0.25})
+    assert [place for place, *_ in wrong.contradictions()] == [("arm_angle_deg",)]
+
+
+def test_a_bearing_has_room_for_its_balls() -> None:
+    bearing = next(iter(load_catalogue().bearings.values()))
+    thin = bearing.model_copy(update={"outer_mm": bearing.bore_mm + 1.0})
+    assert [place for place, *_ in thin.contradictions()] == [("outer_mm",)]
