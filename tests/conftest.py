@@ -1,13 +1,14 @@
 """What several packages share: robots and bundles made once, and the options `--all-installed` and `--costs`."""
 
-from collections.abc import Callable, Iterator, Sequence
+import os
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
-from functools import cache, wraps
+from functools import cache, cached_property, wraps
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from support.built import built
 from support.costs import Costs
@@ -17,28 +18,43 @@ from jumpcad import checks
 from jumpcad.bundle.export import export
 from jumpcad.checks import Check
 from jumpcad.findings import Finding
+from jumpcad.parts.part import Drawing, Shape
 from jumpcad.robot import Robot
-from jumpcad.solids.skin import skin
+from jumpcad.solids.stack import Stack
 
-KEPT = 1000
-"""Skins kept, those of 17 robots: 80 MB."""
+KEPT = 600
+"""Shapes kept, those of some 20 robots."""
+
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # else every program that a test starts compiles the package: 0.2 s
+sys.dont_write_bytecode = False
 
 
 @pytest.fixture(scope="session", autouse=True)
-def skins() -> Iterator[None]:
-    """Keep the skins of solids by their outlines: most solids of a robot are those of the robot before."""
-    known: dict[object, tuple[np.ndarray, np.ndarray]] = {}
+def shapes() -> Iterator[None]:
+    """Draw equal shapes once, and keep them with their masses: most parts of a robot are those of the robot before."""
+    known: dict[Shape, dict[str, Any]] = {}
 
-    def kept(heights_mm: Sequence[tuple[float, float]], contours_mm: Sequence[Sequence[np.ndarray]]) -> Any:
-        key = (tuple(heights_mm), tuple(tuple(contour.tobytes() for contour in slab) for slab in contours_mm))
-        if key not in known:
-            if len(known) == KEPT:
+    def once(name: str, make: Callable[[Any], Any], shape_of: Callable[[Any], Shape]) -> Callable[[Any], Any]:
+        def get(asked: Any) -> Any:
+            shape = shape_of(asked)
+            if shape not in known and len(known) == KEPT:
                 del known[next(iter(known))]  # the oldest
-            known[key] = skin(heights_mm, contours_mm)
-        return known[key]
+            made = known.setdefault(shape, {})
+            if name not in made:
+                made[name] = make(asked)
+            return made[name]
+
+        return get
+
+    def kept(name: str) -> cached_property[Any]:
+        made = cached_property(once(name, vars(Drawing)[name].func, lambda drawing: drawing.shape))
+        made.__set_name__(Drawing, name)
+        return made
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("jumpcad.solids.stack.skin", kept)
+        patch.setattr(Stack, "solid", once("solid", Stack.solid, lambda stack: stack))
+        for name in ("mesh", "look"):
+            patch.setattr(Drawing, name, kept(name))
         yield
 
 

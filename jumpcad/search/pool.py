@@ -195,7 +195,9 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     def open_executor() -> Executor:
         import loky
 
-        executor: Executor = loky.ProcessPoolExecutor(workers, initializer=start_worker, env=ONE_THREAD)
+        executor: Executor = loky.ProcessPoolExecutor(
+            workers, initializer=start_worker, initargs=(os.getpid(),), env=ONE_THREAD
+        )
         return executor
 
     return Pool(open_executor, lambda executor: executor.shutdown(kill_workers=True), workers, limit_s)

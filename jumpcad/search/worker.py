@@ -26,12 +26,13 @@ class Failure:
     text: str
 
 
-def start_worker() -> None:
+def start_worker(parent: int) -> None:
+    """Prepare a worker of the process `parent`, which may have been killed while the worker started."""
     # Ctrl-C is sent to the whole process group; only the parent answers it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # Engines print a banner; the parent may be printing one JSON document.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
+    threading.Thread(target=_end_with_parent, args=(parent,), daemon=True).start()
 
 
 def _end_with_parent(parent: int) -> None:

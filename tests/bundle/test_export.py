@@ -46,10 +46,12 @@ def test_masses_in_the_manifest_add_up(small_robot: Robot, tmp_path: Path) -> No
     assert {line["source"] for line in manifest["masses"]} == {"solid", "catalogue"}
 
 
-def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path) -> None:
+def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 4)
     export(small_robot, tmp_path / "here")
     code = (
         "from support.robots import make_small_robot; from jumpcad.bundle.export import export; import sys;"
+        "from jumpcad.bundle import renders; renders.JUMP_FRAMES = 4;"
         "export(make_small_robot(), sys.argv[1])"
     )
     paths = os.pathsep.join([str(TESTS), str(ROOT)])

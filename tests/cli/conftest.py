@@ -1,10 +1,16 @@
 """The command line as a function, and a bundle."""
 
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
 from support.commands import Run, exit_code_of
+from support.kept import once, robot_key
 from support.places import ROOT
+
+from jumpcad.bundle import export
+from jumpcad.exporters.registry import Exporter, Files
+from jumpcad.robot import Robot
 
 
 @pytest.fixture
@@ -18,6 +24,25 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
         return code, captured.out, captured.err
 
     return call
+
+
+@pytest.fixture(scope="session", autouse=True)
+def contents() -> Iterator[None]:
+    """Let the files of a bundle without pictures be made once: these tests show what commands do with them."""
+    make = export.contents
+    known = once({}, make, robot_key)
+
+    def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool) -> Files:
+        return make(robot, exporters, pictures) if pictures else known(robot, exporters, pictures)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(export, "contents", contents)
+        yield
+
+
+@pytest.fixture(autouse=True)
+def findings(checked_once: None) -> None:
+    """Let a robot be checked once: these tests show what commands do with its findings."""
 
 
 @pytest.fixture(scope="session")

@@ -63,7 +63,7 @@ def test_nothing_jumps_is_exit_code_1(folder):
 
 def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):
     command = [*JUMPCAD, "optimize", "ga", "--model", "capsule", "--evaluations", "400", "--study", "s.db", "--json",
-               "--settings", "fine"]  # fmt: skip
+               "--settings", "fine", "--workers", "1"]  # fmt: skip
     process = subprocess.Popen(
         command,
         stdout=subprocess.PIPE,
@@ -72,13 +72,10 @@ def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):
         start_new_session=True,
         preexec_fn=interruptible,
     )
-    deadline = time.monotonic() + 60.0
-    while time.monotonic() < deadline:
+    while process.poll() is None and not (Path("s.db").exists() and data_or_none("s.db")):
         time.sleep(0.2)
-        if Path("s.db").exists() and data_or_none("s.db"):
-            break
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does it: to the workers too
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate()
     assert process.returncode == 130
     assert out == ""
     assert err.strip() == "jumpcad: interrupted"

@@ -59,7 +59,7 @@ def test_the_program_sees_a_leg_that_no_stop_holds(bundle_of: Callable[[str], Pa
     """Turned 8° farther past rest than the stop and its pad let it, the leg runs into the stop's bar."""
     room = Bundle(bundle_of("kenan-2.0"))
     room.stop += math.radians(8.0)
-    assert ("stop_bar", "main_leg") in {(a, b) for a, b, _, _ in room.meetings()}
+    assert any(pair[:2] == ("stop_bar", "main_leg") for pair in room.meetings())
 
 
 def test_the_program_sees_a_part_in_the_way(bundle_of: Callable[[str], Path]) -> None:
@@ -74,4 +74,4 @@ def test_the_program_sees_a_part_in_the_way(bundle_of: Callable[[str], Path]) ->
             np.reshape(one.bounding_box(), (2, 3)).mean(axis=0) for one in (solid, pieces["standoff_1"].solid)
         )
         room.pieces[number] = replace(pieces["standoff_1"], solid=pieces["standoff_1"].solid.translate(there - here))
-        assert name in {other for pair in room.meetings() if "standoff_1" in pair for other in pair[:2]}
+        assert any({"standoff_1", name} <= set(pair[:2]) for pair in room.meetings())

@@ -14,8 +14,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import matplotlib
+import matplotlib.font_manager  # writes its list of fonts, if there is none
 import pytest
 from support.commands import exit_code_of
+from support.kept import once, robot_key
+from support.robots import make_small_robot
 from support.sandbox import Sandbox
 from support.slicers import OBEDIENT
 
@@ -23,13 +27,14 @@ from jumpcad.bundle import export as bundle_export
 from jumpcad.bundle import renders
 from jumpcad.coupon import export as coupon_export
 from jumpcad.coupon.pieces import Piece
-from jumpcad.robot import Robot
 from jumpcad.simulation.engines import engine_named
 from jumpcad.workshop import Workshop
 
 ENGINES = tuple(name for name in ("pybullet", "mujoco") if importlib.util.find_spec(name))
 MEMORY = "/dev/shm"
 """A file system in memory, as Linux has it."""
+FONTS = matplotlib.get_cachedir()
+"""Where matplotlib finds its list of fonts, which takes it seconds to make, whatever `HOME` is."""
 TRIES: Counter[str] = Counter()
 FAILURES: Counter[str] = Counter()
 SPENT_S: defaultdict[str, float] = defaultdict(float)
@@ -37,9 +42,10 @@ SPENT_S: defaultdict[str, float] = defaultdict(float)
 
 @dataclass(frozen=True)
 class Originals:
-    """Good files, made once: a robot's bundle, a coupon, and a study of a few evaluations."""
+    """Good files, made once: a bundle of a robot of few parts, Kenan 2.0's, a coupon, a study of a few evaluations."""
 
     bundle: Path
+    whole: Path
     coupon: Path
     study: Path
 
@@ -64,43 +70,29 @@ def remembered() -> Iterator[dict[object, Any]]:
     """
     made: dict[object, Any] = {}
 
-    def once(make: Callable[..., Any], key: Callable[..., object]) -> Callable[..., Any]:
-        def contents(*arguments: Any) -> Any:
-            case = (make.__name__, key(*arguments))
-            if case not in made:
-                done = make(*arguments)
-                made[case] = tuple(done) if isinstance(done, Iterator) else done
-            return made[case]
-
-        return contents
-
-    def robot_key(robot: Robot, *more: Any) -> object:
-        return robot.design.to_toml(), robot.workshop and robot.workshop.to_toml(), robot.name, str(more)
-
     def mass_key(piece: Piece, workshop: Workshop) -> object:
         return piece.name, workshop.to_toml()
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bundle_export, "contents", once(bundle_export.contents, robot_key))
-        patch.setattr(coupon_export, "_contents", once(coupon_export._contents, lambda shop, *_: shop.to_toml()))
-        patch.setattr(coupon_export, "_mass_kg", once(coupon_export._mass_kg, mass_key))
-        patch.setattr(renders, "renders", once(renders.renders, robot_key))
-        patch.setattr(renders, "jump_gif", once(renders.jump_gif, lambda robot, *_: robot_key(robot)))
+        patch.setattr(bundle_export, "contents", once(made, bundle_export.contents, robot_key))
+        patch.setattr(coupon_export, "_contents", once(made, coupon_export._contents, lambda shop, *_: shop.to_toml()))
+        patch.setattr(coupon_export, "_mass_kg", once(made, coupon_export._mass_kg, mass_key))
+        patch.setattr(renders, "JUMP_FRAMES", 3)
+        patch.setattr(renders, "renders", once(made, renders.renders, robot_key))
+        patch.setattr(renders, "jump_gif", once(made, renders.jump_gif, lambda robot, *_: robot_key(robot)))
         yield made
 
 
 @pytest.fixture(scope="session")
 def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Originals]:
-    """Make the good files with the command line itself."""
+    """Make the good files, with the command line itself where it can."""
     folder = tmp_path_factory.mktemp("originals")
-    made = Originals(folder / "bundle", folder / "coupon", folder / "study.db")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MPLCONFIGDIR", str(folder / "matplotlib"))
-        assert exit_code_of("build", "kenan-2.0", "-o", str(made.bundle), "--no-pictures", "--json") == 0
-        assert exit_code_of("coupon", "-o", str(made.coupon), "--json") == 0
-        search = ("--model", "capsule", "--evaluations", "6", "--workers", "0", "--study", str(made.study), "--json")
-        assert exit_code_of("optimize", "nsga2", *search) == 0
-        assert exit_code_of("study", str(made.study), "--plots", str(folder / "plots"), "--json") == 0
+    made = Originals(folder / "bundle", folder / "whole", folder / "coupon", folder / "study.db")
+    bundle_export.export(make_small_robot(), made.bundle, pictures=False)
+    assert exit_code_of("build", "kenan-2.0", "-o", str(made.whole), "--no-pictures", "--json") == 0
+    assert exit_code_of("coupon", "-o", str(made.coupon), "--json") == 0
+    search = ("--model", "capsule", "--evaluations", "6", "--workers", "0", "--study", str(made.study), "--json")
+    assert exit_code_of("optimize", "nsga2", *search) == 0
     gc.freeze()  # collecting looks only at what comes after this
     yield made
     gc.unfreeze()
@@ -122,7 +114,7 @@ def sandbox(
     request: pytest.FixtureRequest,
 ) -> Iterator[Sandbox]:
     """Yield the folders in which a command is tried; every try in them is counted."""
-    monkeypatch.setenv("MPLCONFIGDIR", str(originals.bundle.parent / "matplotlib"))
+    monkeypatch.setenv("MPLCONFIGDIR", FONTS)
     place = Sandbox(tmp_path / "sandbox", monkeypatch, capfd)
     yield place
     request.node.user_properties.append(("tries", place.tries))
@@ -146,7 +138,7 @@ def findings(checked_once: None) -> None:
 
 @pytest.fixture
 def bundle(sandbox: Sandbox, originals: Originals) -> Path:
-    """Return the folder of a bundle in the sandbox, `robot`."""
+    """Return the folder of a bundle of few parts in the sandbox, `robot`."""
     return Path(shutil.copytree(originals.bundle, sandbox.work / "robot"))
 
 

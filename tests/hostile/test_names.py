@@ -123,7 +123,7 @@ COMMANDS = {
     "measured": ["coupon", "--measured=PATH", "-o", "w.toml"],
     "workshop": ["coupon", "--workshop=PATH", "-o", "gauges"],
     "settings": ["simulate", "kenan-2.0", "--capsule", "--settings=PATH"],
-    "around": ["explore", "sweep", "--model", "published", "--points", "2", "--around=PATH"],
+    "around": ["explore", "sweep", "--model", "published", "--points", "2", "--workers", "0", "--around=PATH"],
     "from": ["new", "copy.toml", "--from=PATH"],
 }
 

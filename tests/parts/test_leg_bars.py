@@ -8,7 +8,7 @@ import pytest
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.catalogue import load_catalogue
-from jumpcad.checks import check
+from jumpcad.checks import check, constraint_findings
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.robot import Robot
@@ -81,7 +81,9 @@ def test_the_mass_of_a_bar_is_its_section_times_its_length() -> None:
 
 def test_a_bar_that_is_too_weak_is_found() -> None:
     """Half of best-printable's torque is more than a tube of 4 x 3 mm bears in shear at its socket."""
-    (found,) = [one for one in check(robot("carbon-tube-4x3", "best-printable")) if one.name == "leg_bar_strength"]
+    (found,) = [
+        one for one in constraint_findings(robot("carbon-tube-4x3", "best-printable")) if one.name == "leg_bar_strength"
+    ]
     assert found.severity == "error"
     assert "bought.leg" in found.remedy
 

@@ -32,6 +32,8 @@ FIGURES = figures_of(LIKE) | {f"{name}_mass_kg": body.mass_kg for name, body in 
 class Quick(RobotModel):
     """Robots of which all is known: masses grow with the main leg and the springs, the rest is best-printable's."""
 
+    quick_score = None  # its first designs are spread
+
     def __call__(self, design, workshop=None):
         larger = design.carrying_link_mm / BEST.carrying_link_mm
         heavier = larger * (1.0 + 0.002 * design.stiffness_nmm_per_deg * larger)

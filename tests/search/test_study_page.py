@@ -2,6 +2,7 @@
 
 import re
 import xml.etree.ElementTree as ElementTree
+from functools import cache
 from urllib.parse import unquote
 
 import pytest
@@ -60,6 +61,11 @@ def studies(tmp_path_factory):
     return folder
 
 
+@cache
+def known_page_of(path):
+    return page_of(path)
+
+
 def page_of(path, name="study"):
     with StudyStore.read(path) as store:
         return write_study_page(store, name)
@@ -67,7 +73,7 @@ def page_of(path, name="study"):
 
 @pytest.mark.parametrize("method", ["bo", "nsga2", "ga"])
 def test_is_xml_that_asks_for_nothing_else_and_repeats(studies, method):
-    page = page_of(studies / f"{method}.db")
+    page = known_page_of(studies / f"{method}.db")
     root = parsed(page)
     assert page == page_of(studies / f"{method}.db")
     without_pictures = re.sub(r'src="data:[^"]*"', "", page)
@@ -79,7 +85,7 @@ def test_is_xml_that_asks_for_nothing_else_and_repeats(studies, method):
 
 
 def test_says_what_was_asked_and_found(studies):
-    page = page_of(studies / "bo.db")
+    page = known_page_of(studies / "bo.db")
     found = tables(page)
     asked = {row[0]: row for row in found["parameter"]}
     assert asked["compression_ratio"][2] == "0.1 … 0.8"
@@ -102,10 +108,10 @@ def test_says_what_was_asked_and_found(studies):
 def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(studies):
     with StudyStore.read(studies / "nsga2.db") as store:
         best = front(store.trials())
-    root = parsed(page_of(studies / "nsga2.db"))
+    root = parsed(known_page_of(studies / "nsga2.db"))
     sections = [one for one in root.iter("section") if one.get("class") == "design"]
     points = list(next(root.iter("svg")).iter("a"))
-    lines = tables(page_of(studies / "nsga2.db"))["design"][1:]
+    lines = tables(known_page_of(studies / "nsga2.db"))["design"][1:]
     assert len(sections) == len(points) == len(lines) == len(best) > 3
     for section, point, line, trial in zip(sections, points, lines, best, strict=True):
         assert point.get("href") == f"#{section.get('id')}"

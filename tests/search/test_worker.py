@@ -1,5 +1,8 @@
 """What runs in a worker process."""
 
+import subprocess
+import sys
+
 import pytest
 from support.hills import SMALL, Hill
 
@@ -21,3 +24,11 @@ def test_a_worker_with_another_program_computes_nothing():
     design = SMALL.to_design([0.5, 0.5, 0.5])
     with local_pool(0) as pool, pytest.raises(JumpcadError, match="a worker has hill 2, not 1"):
         list(pool.evaluate(Elsewhere(), [design]))
+
+
+def test_a_worker_that_starts_after_its_parent_was_killed_ends():
+    """Its parent is then another process: here, this test's child is told that it is its own parent."""
+    code = (
+        "import os, signal; from jumpcad.search.worker import start_worker; start_worker(os.getpid()); signal.pause()"
+    )
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 1

@@ -39,21 +39,25 @@ Snapshot = dict[str, State]
 
 def snapshot(root: Path) -> Snapshot:
     """Return the state of everything in a tree; links are not followed."""
-    found = {}
-    for folder, folders, files in os.walk(root):
-        for name in (*folders, *files):
-            path = os.path.join(folder, name)
-            found[os.path.relpath(path, root)] = _state(path)
+    found: Snapshot = {}
+    folders = [""]
+    while folders:
+        above = folders.pop()
+        with os.scandir(f"{root}/{above}") as entries:
+            for entry in entries:
+                found[f"{above}{entry.name}"] = state = _state(entry)
+                if state.kind == "folder":
+                    folders.append(f"{above}{entry.name}/")
     return found
 
 
-def _state(path: str) -> State:
-    status = os.lstat(path)
+def _state(entry: os.DirEntry[str]) -> State:
+    status = entry.stat(follow_symlinks=False)
     mode = stat.S_IMODE(status.st_mode)
     if stat.S_ISLNK(status.st_mode):
-        return State("link", mode, os.readlink(path))
+        return State("link", mode, os.readlink(entry.path))
     if stat.S_ISREG(status.st_mode):
-        with open(path, "rb") as file:
+        with open(entry.path, "rb", buffering=0) as file:
             return State("file", mode, file.read(), status.st_mtime_ns)
     return State("folder" if stat.S_ISDIR(status.st_mode) else "device", mode)
 

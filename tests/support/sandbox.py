@@ -82,6 +82,7 @@ class Sandbox:
         patch.setenv("HOME", str(self.home))
         patch.setenv("TMPDIR", str(self.tmp))
         patch.setattr(tempfile, "tempdir", None)
+        patch.setattr(sys, "dont_write_bytecode", True)  # on a full disk Python leaves half a file, and reads it later
         patch.setattr(logging.root, "handlers", [])  # as in a program: warnings go to standard error
         patch.chdir(self.work)
 
@@ -163,7 +164,8 @@ class Sandbox:
                 prepare()
 
         package = Path(__file__).parents[2]
-        variables = {**os.environ, "PYTHONPATH": str(package), "OPENBLAS_NUM_THREADS": "1", **(environment or {})}
+        here = {"PYTHONPATH": str(package), "OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+        variables = {**os.environ, **here, **(environment or {})}
         streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | streams
         with self._judged(arguments, exits, writes, (), leaves) as judge:
             command = [sys.executable, "-c", program, *arguments]
