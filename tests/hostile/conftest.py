@@ -51,11 +51,11 @@ class Originals:
 
     @property
     def urdf(self) -> bytes:
-        return (self.bundle / "urdf" / "kenan-2.0.urdf").read_bytes()
+        return (self.whole / "urdf" / "kenan-2.0.urdf").read_bytes()
 
     @property
     def loop(self) -> dict[str, Any]:
-        return json.loads((self.bundle / "urdf" / "kenan-2.0.loop.json").read_text())
+        return json.loads((self.whole / "urdf" / "kenan-2.0.loop.json").read_text())
 
     @property
     def manifest(self) -> dict[str, Any]:
