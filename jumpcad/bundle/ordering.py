@@ -38,8 +38,6 @@ SLIDER_MM = 1.5
 """Of a switch's slider outside the plate, for a fingertip; judgement."""
 PLUG_ROOM_MM = 0.5
 """By which the body of a USB plug is smaller than its window."""
-STRAP_THICK_MM = 1.2
-"""Of the battery's strap; twice that, hook on loop, is the gap above the battery."""
 THREAD_MM = 6.0
 """Of a screw inside its standoff."""
 OTHER = (
@@ -66,8 +64,8 @@ def order_lines(robot: Robot) -> Iterator[str]:
         "of each, for cuts that fail and legs that are too short"
     )
     yield (
-        f"- hook-and-loop strap 10 mm wide, at most {STRAP_THICK_MM:g} mm thick, hook and loop back to back: it passes "
-        "between the lower tray and the front link"
+        "- hook-and-loop strap: hook and loop back to back, no thicker than the bill says, since it passes between the "
+        "lower tray and the front link"
     )
     yield from _plug(robot)
     yield from _tape(robot)
@@ -100,10 +98,7 @@ def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
         f"- kitchen scale to 1 g or better, up to {scale_range_kg(robot):g} kg; pocket scale to 0.1 g or better, for "
         "the printed parts; caliper, protractor, two AA cells in a holder"
     )
-    yield (
-        "- for the springs' test: its drill, a nail, card, a block with a smooth edge as wide as the scale lets it "
-        "stand, a drop of oil"
-    )
+    yield ("- for the springs' test: its drill, a nail, card, a block with a smooth edge, a drop of oil")
     rod = math.floor(2.0 * (robot.layout.pin_hole.diameter_mm - ROD_ROOM_MM)) / 2.0
     yield (
         f"- rod of at most {rod:g} mm, 60 mm or longer, for the springs' pin through its hole in the left plate; block "
@@ -224,8 +219,7 @@ def _switch(robot: Robot) -> Iterator[str]:
     yield (
         f"- slide switch: {2.0 * SWITCH_SCREWS_MM:g} mm between the holes of its ears, at most {switch.length_mm:g} x "
         f"{switch.width_mm:g} mm, {switch.height_mm:g} mm high behind its ears, {switch.rated_a:g} A or more at "
-        f"{supply.full_v:g} V "
-        f"(the blocked motor draws {blocked_a:.2f} A). Its "
+        f"{supply.full_v:g} V (the blocked motor draws {blocked_a:.2f} A). Its "
         f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it "
         f"must stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No article with all of it is known here: "
         f"{SIMILAR_SWITCH}"

@@ -278,8 +278,12 @@ ORDER: tuple[Plan, ...] = (
         "power", "First power-up, on the bench", ROBOT, (),
         (
             Words("Nothing is on the motor's shaft yet. Lay right plate, left plate and both trays side by side as "
-                  "wired, switch off; plug the battery in, switch on. Connect the computer by USB, open the console "
-                  "(firmware/README.md)."),
+                  "wired, switch off, USB cable out; plug the battery in, switch on."),
+            Words("Multimeter on volts: across the plug's poles the battery's voltage, then between the controller's "
+                  "ground and {divider_pin}: {divider_share} of that ({divider_v} V at {nominal_v} V). Anything else: "
+                  "the resistors are exchanged, or a leg is not soldered; then nothing protects the battery. Switch "
+                  "off and mend it before you go on.", needs="wiring_resistor_upper"),
+            Words("Connect the computer by USB, open the console (firmware/README.md)."),
             Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
                   "and Enter, and let go at once, within {release_ms} ms: the motor stops {after_ms} ms later and the "
@@ -287,11 +291,6 @@ ORDER: tuple[Plan, ...] = (
             Words("Press and hold the sensor, wait 2 s, type `wind`: the motor must not turn, and the answer is "
                   "`fault` right after a jump, else `ready`. A broken lead reads the same.",
                   needs="wiring_resistor_pull_up"),
-            Words("Battery's measurement. USB cable out, switch on, multimeter on volts: across the plug's poles the "
-                  "battery's voltage, then between the controller's ground and {divider_pin}: {divider_share} of that "
-                  "({divider_v} V at {nominal_v} V). Anything else: the resistors are exchanged, or a leg is not "
-                  "soldered; then nothing protects the battery. Mend it before you go on.",
-                  needs="wiring_resistor_upper"),
             Words("Current. {usb_out}. Switch off; multimeter on its 10 A range, its leads on the switch's two "
                   "terminals: the current now passes it, and off is to take a lead away. Wind, and stop with the "
                   "sensor; then take the multimeter off.", needs="switch"),
