@@ -455,10 +455,10 @@ ORDER: tuple[Plan, ...] = (
             Words("It winds in about {dry_s} s and stops by itself, ready. After `jump` the leg falls within "
                   "{release_ms} ms. For {landing_s} s after that `wind` is only answered by the last message, and "
                   "nothing turns: give it again."),
-            Words("A motor that runs for {wind_max} s and says `fault` had no signal. `ready` at once, and after a "
-                  "jump `fault: sensor pressed too early`, mean a broken lead, or a cam that stands under the sensor: "
-                  "give `jump`, then `wind`. The same again is the lead. Mend the sensor before the springs are armed.",
-                  needs="wiring_resistor_pull_up"),
+            Words("A motor that runs for {wind_max} s and says `fault` had no signal. `ready` at once, or `fault: "
+                  "sensor pressed too early`: a broken lead, or a cam that stands under the sensor. Give `wind`, then "
+                  "`jump`: a jump that is counted was the cam, `fault: no release seen in time` is the lead. Mend the "
+                  "sensor before the springs are armed.", needs="wiring_resistor_pull_up"),
             Words("A motor that runs for {wind_max} s and says `fault` had no signal: mend the sensor before the "
                   "springs are armed.", lacks="wiring_resistor_pull_up"),
         ),

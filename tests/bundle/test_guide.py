@@ -59,7 +59,8 @@ def test_the_guide_asks_for_what_the_firmware_and_the_boards_do(robot: Robot) ->
 def test_what_the_guide_has_measured_is_what_ohms_and_kirchhoffs_laws_say(
     name: str, kit: str, share: tuple[float, float] | None, off: float, tmp_path: Path
 ) -> None:
-    """The divider: 200 over 200 kOhm, or 200 over 680: 0.227; exchanged 0.773. Energy is mean current, volts and time.
+    """The divider: 200 over 200 kOhm, or 200 over 680: 0.227; exchanged 0.773. Energy is mean current, volts and time;
+    the motor's voltage is the firmware's share of PWM of the battery's.
 
     A converter that is 35 mV off is 35 mV times the divider off at the battery.
     """
@@ -78,9 +79,9 @@ def test_what_the_guide_has_measured_is_what_ohms_and_kirchhoffs_laws_say(
     volts = robot.workshop.catalogue.batteries[robot.workshop.bought.battery].voltage_v
     assert volts * milliamperes / 1000.0 * seconds == pytest.approx(joules, rel=0.03)
     assert f"One jump takes {joules:.2f} J from the battery" in guide
-    mean_motor_a = milliamperes / 1000.0 - float(re.search(r"about (\d+) mA while the motor stands", guide)[1]) / 1000.0  # type: ignore[index]
     train = robot.layout.drive.train
-    assert train.motor_j == pytest.approx(volts * mean_motor_a * train.winding_s, rel=0.02)
+    mean_v = (values["PWM_CAP"] or 0.0) * volts
+    assert train.motor_j == pytest.approx(mean_v * train.mean_current_a * train.winding_s, rel=1e-3)
 
 
 def test_a_robot_that_winds_can_be_stopped_and_the_way_out_is_told(robot: Robot) -> None:
