@@ -50,7 +50,44 @@ def test_the_guide_asks_for_what_the_firmware_and_the_boards_do(robot: Robot) ->
     sensor = guide.split("Left plate with the sensor")[1]
     assert sensor.index("through the mount's window") < sensor.index("solder them to COM and NC")
     boards = guide.split("Upper tray with the boards")[1]
-    assert boards.index("solder every wire") < boards.index("foam tape, in its place")
+    assert boards.index("solder every wire") < boards.index("every board on its piece, in its place")
+
+
+@pytest.mark.parametrize(
+    ("name", "kit", "share", "off"), [("kenan-2.0", "light-1s", (0.5, 0.5), 0.1), ("best-bo", "strong-2s", None, 0.3)]
+)
+def test_what_the_guide_has_measured_is_what_ohms_and_kirchhoffs_laws_say(
+    name: str, kit: str, share: tuple[float, float] | None, off: float, tmp_path: Path
+) -> None:
+    """The divider: 200 over 200 kOhm, or 200 over 680: 0.227; exchanged 0.773. Energy is mean current, volts and time;
+    the motor's voltage is the firmware's share of PWM of the battery's.
+
+    A converter that is 35 mV off is 35 mV times the divider off at the battery.
+    """
+    path = tmp_path / "my.toml"
+    path.write_text(f'[bought]\nkit = "{kit}"', encoding="utf-8")
+    robot = build(load_design(name), load_workshop(path))
+    guide, values = write_guide(robot), numbers(robot)
+    low, high = map(float, re.search(r"ground and D1: ([\d.]+) to ([\d.]+) of that", guide).groups())  # type: ignore[union-attr]
+    ideal = 1.0 / (values["BATTERY_DIVIDER"] or 0.0)
+    assert 0.94 * ideal < low < ideal < high < 1.03 * ideal
+    assert ideal == pytest.approx(0.5 if share else 200.0 / 880.0, abs=1e-4)
+    assert f"`state` prints the battery's voltage, to {off} V of" in guide
+    jump = re.search(r"in about ([\d.]+) s\. .* computed: (\d+) mA .* at most, ([\d.]+) J", guide)
+    assert jump is not None
+    seconds, milliamperes, joules = map(float, jump.groups())
+    volts = robot.workshop.catalogue.batteries[robot.workshop.bought.battery].voltage_v
+    assert volts * milliamperes / 1000.0 * seconds == pytest.approx(joules, rel=0.03)
+    assert f"One jump takes {joules:.2f} J from the battery" in guide
+    train = robot.layout.drive.train
+    mean_v = (values["PWM_CAP"] or 0.0) * volts
+    assert train.motor_j == pytest.approx(mean_v * train.mean_current_a * train.winding_s, rel=1e-3)
+
+
+def test_a_robot_that_winds_can_be_stopped_and_the_way_out_is_told(robot: Robot) -> None:
+    for text in (write_guide(robot), dict(firmware_files(robot))["firmware/README.md"]):
+        assert "To stop it while it winds or before it jumps: press the same button once more" in text
+        assert "it winds on to the end; then let it jump" in text
 
 
 def test_two_cells_are_never_charged_inside_the_robot(tmp_path: Path) -> None:
