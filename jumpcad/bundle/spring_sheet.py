@@ -9,9 +9,10 @@ from html import escape
 
 import numpy as np
 
-from jumpcad.bundle.springs import ORDERED, PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
+from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
+from jumpcad.parts.spring_wire import ORDERED
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array
 

@@ -5,13 +5,12 @@ from collections.abc import Iterator
 from typing import Any
 
 from jumpcad.drive import TorsionSpring
+from jumpcad.parts.spring_wire import ORDERED
 from jumpcad.robot import Robot
 
 DIGITS = 6
 ARMS_OFF_DEG = 10.0
 """By which relaxed arms may be off at most; makers of stock springs allow 10 to 15 either way."""
-ORDERED = 2
-"""Springs of each hand to order: one of them is chosen by its torque; judgement."""
 PAIR_PERCENT = 5
 """By which the torques of the chosen pair may differ; judgement: the leg's hub tilts in its play."""
 
