@@ -477,8 +477,8 @@ ORDER: tuple[Plan, ...] = (
                   "from the front, towards the springs' other pin, the left spring's until the pin is in the leg, then "
                   "the right one's; {preload_n} N, and {arm_n} N where an arm is {wider}° wider than ordered. "
                   "Both plates hold the springs' other pin.", needs="preload"),
-            Words("Put the split pin through the pin's right end from the front, bend its ends around the pin and cut "
-                  "off what stands out.", needs="leg_spring_pin_split_pin"),
+            Words("Turn the pin until its cross hole points forwards, put the split pin through it from the front, "
+                  "bend its ends around the pin and cut off what stands out.", needs="leg_spring_pin_split_pin"),
             Words("Press the second clip into the groove at the pin's right end, from the front.",
                   needs="leg_spring_pin_clip_.*"),
         ),

@@ -70,6 +70,9 @@ class Inset:
     room: float = 1.0
 
 
+BEHIND = {"arm": r"leg_spring_pin_(split_pin|clip_1)"}
+"""What a plate hides in a step's picture, by the step's key: a detail shows it."""
+
 INSETS = (
     Inset("leg", "hub", "Hub and roller", "main_leg|hub_bearing_.*|roller.*", "hub_bearing_.*|roller.*",
           View(-40.0, 25.0)),
@@ -77,7 +80,7 @@ INSETS = (
     Inset("arm", "springs", "Springs, seen from the left: arms and pins",
           "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_(left|right).*|leg_spring_pin", View(75.0, 12.0)),
     Inset("arm", "retention", "The pin's right end and what keeps it, seen from the right",
-          "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "leg_spring_pin.*", View(-128.0, 20.0), room=1.5),
+          "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_right.*|" + BEHIND["arm"], View(-128.0, 20.0)),
     Inset("cam", "gear", "Cam gear from the right: the face with the pockets, towards the cam", "cam_gear", "cam_gear",
           View(-60.0, 15.0)),
     Inset("boards", "small", "Resistors and diode between the boards",
@@ -88,8 +91,6 @@ INSETS = (
 )  # fmt: skip
 
 
-BEHIND = {"arm": r"leg_spring_pin_(split_pin|clip_1)"}
-"""What a plate hides in a step's picture, by the step's key: a detail shows it."""
 TURNS = {"power": ("motor_shaft", 0), "trial": ("cam_gear", 1)}
 """What turns in a step, and its sense about +y; 0: the motor's, see `motor_sense`."""
 TURN_M = 0.008
