@@ -460,8 +460,8 @@ ORDER: tuple[Plan, ...] = (
                   "screwdriver from the front lift the outer arm of either spring until it lies against the springs' "
                   "other pin from below."),
             Words("Look before you push: both outer arms lie under the springs' other pin, and both inner arms between "
-                  "the leg's empty hole and that pin. A thin rod through the hole touches no arm when it is held at "
-                  "the hole's lower edge. If an inner arm is behind or below the hole, its spring is not yet turned "
+                  "the leg's empty hole and that pin. A thin rod through the hole, held at its edge away from that "
+                  "pin, touches no arm. If an inner arm is behind or below the hole, its spring is not yet turned "
                   "back: the pin would stand between its two arms and the springs would not push.",
                   needs="leg_spring_pin"),
             Words("Press a clip into the groove at one end of the pin; that end goes in last.",
