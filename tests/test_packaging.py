@@ -58,7 +58,7 @@ def test_wheel_holds_package_templates_and_licence(wheel: Path) -> None:
     templates = {
         f"jumpcad/templates/{path.relative_to(ROOT / 'templates')}"
         for path in (ROOT / "templates").rglob("*")
-        if path.is_file()
+        if path.is_file() and path.parent.name != "__pycache__"
     }
     assert "jumpcad/templates/robots/kenan-2.0.toml" in templates
     assert sources | templates | {"jumpcad/py.typed"} <= names

@@ -157,13 +157,14 @@ def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
         return None
     low, high = _extent(mover)
     low, high = np.minimum(low, low - path_mm), np.maximum(high, high - path_mm)
+    room = _swept(mover, path_mm)
     blocked = []
     for other in way.there:
         other_low, other_high = _extent(other)
         apart = bool((low >= other_high).any() or (other_low >= high).any())
         if apart or _passes(way.placed, other.name) or _intended(mover.name, other.name):
             continue
-        share = _covered(mover, other, path_mm) / min(length, _depth(other, path_mm / length))
+        share = _covered(mover, room, other, path_mm) / min(length, _depth(other, path_mm / length))
         if share > TOLERANCE_MM2:
             blocked.append(Blocked(way.step, mover.name, other.name, share))
     return max(blocked, key=_share, default=None)
@@ -186,18 +187,21 @@ def _share(blocked: Blocked) -> float:
     return blocked.share_mm2
 
 
-def _covered(mover: Component, other: Component, path_mm: Array) -> float:
-    """Return the volume that a part shares with another on its path (mm³); an upper estimate where it is sampled."""
-    if (room := _swept(mover, path_mm)) is not None:
+def _covered(mover: Component, room: Component | None, other: Component, path_mm: Array) -> float:
+    """Return the volume that a part shares with another on its path (mm³); an upper estimate where it is sampled.
+
+    `room` is what the part sweeps, if that is known.
+    """
+    if room is not None:
         return _shared(room, other)
-    if (room := _swept(other, -path_mm)) is not None:
-        return _shared(mover, room)
+    if (swept_by_other := _swept(other, -path_mm)) is not None:
+        return _shared(mover, swept_by_other)
     length = float(np.linalg.norm(path_mm))
     worst = 0.0
     for share in np.linspace(0.0, 1.0, int(length / SAMPLES_MM) + 2):
         pose = mover.T_body_part.copy()
         pose[:3, 3] -= share * path_mm
-        worst = max(worst, _shared(Component(mover.name, mover.body, mover.shape, pose), other))
+        worst = max(worst, shared_volume_mm3(mover, pose, other, other.T_body_part))
     return worst * length
 
 

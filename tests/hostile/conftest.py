@@ -51,11 +51,11 @@ class Originals:
 
     @property
     def urdf(self) -> bytes:
-        return (self.bundle / "urdf" / "kenan-2.0.urdf").read_bytes()
+        return (self.whole / "urdf" / "kenan-2.0.urdf").read_bytes()
 
     @property
     def loop(self) -> dict[str, Any]:
-        return json.loads((self.bundle / "urdf" / "kenan-2.0.loop.json").read_text())
+        return json.loads((self.whole / "urdf" / "kenan-2.0.loop.json").read_text())
 
     @property
     def manifest(self) -> dict[str, Any]:
@@ -77,7 +77,6 @@ def remembered() -> Iterator[dict[object, Any]]:
         patch.setattr(bundle_export, "contents", once(made, bundle_export.contents, robot_key))
         patch.setattr(coupon_export, "_contents", once(made, coupon_export._contents, lambda shop, *_: shop.to_toml()))
         patch.setattr(coupon_export, "_mass_kg", once(made, coupon_export._mass_kg, mass_key))
-        patch.setattr(renders, "JUMP_FRAMES", 3)
         patch.setattr(renders, "renders", once(made, renders.renders, robot_key))
         patch.setattr(renders, "jump_gif", once(made, renders.jump_gif, lambda robot, *_: robot_key(robot)))
         yield made
@@ -132,8 +131,9 @@ def slicer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True)
-def findings(checked_once: None) -> None:
-    """Let a robot be checked once: what is tried here is what becomes of the findings."""
+def findings(checked_once: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a robot be checked once, and a jump be drawn in few pictures: what is tried here is what becomes of them."""
+    monkeypatch.setattr(renders, "JUMP_FRAMES", 3)
 
 
 @pytest.fixture

@@ -174,7 +174,7 @@ def test_a_strangers_urdf_is_a_robot_or_is_refused(
     engine = ENGINES[list(CASES).index(case) % len(ENGINES)]
     spoilt = CASES[case].change(originals.urdf)
     sandbox.write("robot.urdf", spoilt)
-    sandbox.write("robot.loop.json", (originals.bundle / "urdf" / "kenan-2.0.loop.json").read_bytes())
+    sandbox.write("robot.loop.json", (originals.whole / "urdf" / "kenan-2.0.loop.json").read_bytes())
     try:
         sandbox.run("simulate", "robot.urdf", "--json", "--engine", engine, exits=CASES[case].exits)
     finally:
@@ -186,7 +186,7 @@ def test_an_entity_does_not_read_a_file(sandbox: Sandbox, originals: Originals) 
     text = with_head(f'<!DOCTYPE robot [<!ENTITY x SYSTEM "{secret.as_uri()}">]>')(originals.urdf)
     text = re.sub(rb'(<link name="body">)', rb"\1<verbatim>&x;</verbatim>", text)
     sandbox.write("robot.urdf", text.replace(b'value="0.', b'value="&x;0.', 1))
-    sandbox.write("robot.loop.json", (originals.bundle / "urdf" / "kenan-2.0.loop.json").read_bytes())
+    sandbox.write("robot.loop.json", (originals.whole / "urdf" / "kenan-2.0.loop.json").read_bytes())
     done = sandbox.run("simulate", "robot.urdf", "--json")
     assert "s3cr3t" not in done.out + done.err
 
@@ -194,7 +194,7 @@ def test_an_entity_does_not_read_a_file(sandbox: Sandbox, originals: Originals) 
 @pytest.mark.parametrize("kind", ["folder", "pipe", "loop", "dangling", "device", "no-loop-file", "loop-file-pipe"])
 def test_what_is_no_file_is_refused(sandbox: Sandbox, originals: Originals, kind: str) -> None:
     sandbox.write("robot.urdf", originals.urdf)
-    sandbox.write("robot.loop.json", (originals.bundle / "urdf" / "kenan-2.0.loop.json").read_bytes())
+    sandbox.write("robot.loop.json", (originals.whole / "urdf" / "kenan-2.0.loop.json").read_bytes())
     urdf, loop = sandbox.work / "robot.urdf", sandbox.work / "robot.loop.json"
     (loop if "loop-file" in kind else urdf).unlink()
     if kind == "folder":
