@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
+from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, early_torque_share, loaded_arms, torque_shares
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive import TorsionSpring
 from jumpcad.electronics.chosen import chosen_parts
@@ -75,8 +75,10 @@ def _springs(robot: Robot) -> Iterator[str]:
     shank = math.floor(2.0 * spring.mandrel_mm) / 2.0
     yield from (
         f"**Springs.** Glasses on. Relaxed, the arms are {free - narrower:.0f} to {free + wider:.0f}° apart "
-        f"(drawing in order/, 3:1, ordered {free:.0f}°). One reading on a kitchen scale then accepts a spring: its "
-        "torque with the arms where the loaded robot holds them, whatever its angle and its rate.",
+        f"(drawing in order/, 3:1, ordered {free:.0f}°). Wider ones are not used: they load the motor at the beginning "
+        f"of the lift, {wider:.0f}° by up to {100.0 * (early_torque_share(robot) - 1.0):.0f} % more than computed. One "
+        "reading on a kitchen scale then accepts a spring: its torque with the arms where the loaded robot holds them, "
+        "so that angle and rate count together.",
         "",
         f"Clamp the shank of a drill, {shank:g} mm or a little less, level in a vice and put the coil on it. Draw two "
         f"lines on a card behind it, both touching a circle of {spring.arms.mean_mm:.1f} mm around the drill: one "

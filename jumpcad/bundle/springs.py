@@ -31,11 +31,24 @@ def torque_shares(robot: Robot) -> tuple[float, float]:
 def arms_off_deg(robot: Robot) -> tuple[float, float]:
     """Return by how much relaxed arms of accepted springs may be narrower, and wider, than ordered (°).
 
-    The widest, in whole degrees, belong to the softest spring that has the largest torque accepted.
+    Wider by what the reserve for stiff springs would cover at the end of the lift, in whole degrees: more would load
+    the motor too much at its beginning (`early_torque_share`).
     """
-    wound, scatter = math.degrees(robot.layout.drive.spring.wound_rad), robot.workshop.safety.spring_rate_scatter
-    wider = wound * (torque_shares(robot)[1] / (1.0 - scatter) - 1.0)
-    return ARMS_OFF_DEG, math.floor(min(ARMS_OFF_DEG, wider) + 1e-9)
+    wound = math.degrees(robot.layout.drive.spring.wound_rad)
+    reserve = robot.workshop.safety.spring_rate_scatter * wound
+    return ARMS_OFF_DEG, math.floor(min(ARMS_OFF_DEG, reserve) + 1e-9)
+
+
+def early_torque_share(robot: Robot) -> float:
+    """Return the largest torque at the cam over the computed one, with the widest arms and the largest torque accepted.
+
+    The cam needs a constant torque T beyond its ramp, which computed springs loaded by q give; springs loaded by w more
+    take T·(q + w)/q, most at the ramp's end.
+    """
+    law, wider = robot.layout.drive.cam.law, math.radians(arms_off_deg(robot)[1])
+    loaded = float(law.wind_rad(law.ramp_rad)) + law.preload_rad
+    rate = torque_shares(robot)[1] / (1.0 + wider / robot.layout.drive.spring.wound_rad)
+    return rate * (loaded + wider) / loaded
 
 
 def loaded_arms(robot: Robot) -> str:

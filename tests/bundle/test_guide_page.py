@@ -74,5 +74,5 @@ def test_each_hand_has_its_drawing_with_the_rate() -> None:
         assert "4.60 N·mm/° ±10 %" in sheet
         assert "order 2 and choose" in sheet
         assert "agree within 5 %" in sheet
-        assert re.search(r"° \+6° / -10°; 180° is opposite directions", sheet)
+        assert re.search(r"° \+4° / -10°; 180° is opposite directions", sheet)
         assert f"rises to the {hand}" in sheet
