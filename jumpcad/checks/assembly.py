@@ -8,16 +8,13 @@ along the path are sampled.
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
-from manifold3d import Manifold
 
 from jumpcad.checks.interference import INTENDED, Component, shared_volume_mm3
 from jumpcad.findings import Finding
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.parts.part import Drawing, Part
-from jumpcad.parts.purchased import BoughtPart
+from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import Tool
 from jumpcad.scene.assembly_steps import SIDES, Placed, Step, assembly_steps, travel
@@ -130,24 +127,12 @@ def _snapped(way: Way, mover: Component, side: Array) -> Array:
     return next((path for path in paths if _in_the_way(way, mover, path) is None), paths[0])
 
 
-@dataclass(frozen=True)
-class _Piece(Component):
-    """A part on the robot, which shares the solid of its source."""
-
-    source: Drawing | BoughtPart
-
-    @cached_property
-    def solid(self) -> Manifold:
-        """The piece in its own frame (mm)."""
-        return self.source.solid
-
-
 def _piece(thing: Visual, T_world_body: Array) -> Component:
     """Return a part at its place in the world (mm)."""
     source = thing.source.drawing if isinstance(thing.source, Part) else thing.source
     pose = chained(T_world_body, thing.T_body_mesh)
     pose[:3, 3] *= 1000.0
-    return _Piece(thing.name, thing.body, source.shape, pose, source)
+    return Component(thing.name, thing.body, source.shape, pose, source)
 
 
 def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
