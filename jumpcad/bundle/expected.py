@@ -22,7 +22,8 @@ from jumpcad.bundle.operation import (
 from jumpcad.bundle.ordering import ROD_SHORT_MM
 from jumpcad.bundle.springs import arms_off_deg
 from jumpcad.bundle.wiring import wires
-from jumpcad.dimensions import AXLE_END_PLAY_MM
+from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
+from jumpcad.drive.socket import window_mm
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.electronics.supply import supply_of
@@ -38,6 +39,8 @@ FREE = ("no contact", "contact")
 """At the free sensor, by its pin's level at the ready position."""
 PRESS_N = 50.0
 """Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
+PRONG_MM, PRONG_ENDS_MM = 6.0, 2.0
+"""Width of the block on either side of the window, and length over the window's; judgement: screw heads stay free."""
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
 
@@ -118,8 +121,9 @@ def _springs(robot: Robot) -> dict[str, str]:
     """Return what hands feel of the springs."""
     spring = robot.layout.drive.spring
     preload = math.degrees(spring.preload_rad)
-    per_deg_n, (_, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
+    per_deg_n, (narrower, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
     return {
+        "slack": f"{max(0.0, narrower - preload):.0f}",
         "wider": f"{wider:.0f}",
         "arm_n": f"{max(1.0, (preload + wider) * per_deg_n):.0f}",
         "pin_hole": f"{robot.layout.pin_hole.diameter_mm:.1f}",
@@ -136,6 +140,7 @@ def _sizes(robot: Robot) -> dict[str, str]:
     articles = defaultdict(str, {item.name: item.article for item in robot.hardware})
     heights = defaultdict(float, {part.name: float(np.ptp(part.drawing.shape.bounds_mm[:, 2])) for part in robot.parts})
     outside = robot.layout.lateral.outside
+    window = window_mm(robot.layout.drive.train.motor)
     right, left = heights["front_spacer_right"], heights["front_spacer_left"]
     return {
         "eye_drill": f"{robot.layout.axle_mm + REAMED_MM:g}",
@@ -152,6 +157,10 @@ def _sizes(robot: Robot) -> dict[str, str]:
         "torque_m2": f"{TORQUE_M2_NM:g}",
         "torque_plastic": f"{TORQUE_PLASTIC_NM:g}",
         "press_n": f"{PRESS_N:.0f}",
+        "clamp": f"{MOTOR_CLAMP_MM:g}",
+        "window": f"{window[0]:g} x {window[1]:g}",
+        "block": f"{window[0] + 2.0 * PRONG_MM:g} x {window[1] + PRONG_ENDS_MM:g}",
+        "groove": f"{window[0]:g}",
     }
 
 

@@ -182,8 +182,9 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Solder the motor's two wires first ({motor_wire} mm each): its terminals are behind the plate's "
-                  "window later. The terminal with the mark is motor +. A shaft that stands out of "
-                  "the motor's back is cut off before that (Order and cut): it would stand in the window."),
+                  "window of {window} mm later, and no solder may stand out beyond it. The terminal with the mark is "
+                  "motor +. A shaft that stands out of the motor's back is cut off before that (Order and cut): it "
+                  "would stand in the window."),
             Words("Screw the standoffs to the right plate, the one with the motor's socket, from outside: "
                   "{torque_plastic} N·m. Then lay it on the bench, outside down: up is the robot's left from now on."),
             Words("Solder the switch's leads to it first, those of the table under Wiring: later there is no room for "
@@ -191,10 +192,15 @@ ORDER: tuple[Plan, ...] = (
             Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside. Ears "
                   "without thread: screws 2 mm longer, and an M2 nut behind each ear.", needs="switch"),
             Words("Lead the wires through the window and push the motor into its socket from above, its shaft up, its "
-                  "shorter side as the socket's. Put the cap on and turn its two screws into the plastic, in turns, "
-                  "until the motor has no play: {torque_m2} N·m."),
+                  "shorter side as the socket's, until its rear stands on the socket's floor. Its front is now level "
+                  "with the socket's rim or up to 0.4 mm above it ({clamp} mm as drawn). Higher: solder or a wire is "
+                  "on the floor. Lower: the motor is shorter; glue strips of card onto the floor, beside the window."),
+            Words("Put the cap on: it lies on the motor, not on the socket. Turn its two screws into the plastic, a "
+                  "quarter of a turn each in turns, until the motor has no play along its shaft, and no further: "
+                  "{torque_m2} N·m at most. The cap bends a little, a gap below its ears may remain."),
         ),
-        checks=(Words("The motor does not move in its socket, and nothing touches its shaft."),),
+        checks=(Words("Pushed at its shaft, and at its rear through the window, the motor does not move. Nothing "
+                      "touches its shaft."),),
     ),
     Plan(
         "lower", "Lower tray with the battery", LOWER,
@@ -425,8 +431,11 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Press the pinion onto the motor's shaft, flat to flat and its teeth between the wheel's, until it "
-                  "is level with the wheel: its ribs are cut. Support the motor from below; {press_n} N at most, more "
-                  "damages the gearhead."),
+                  "is level with the wheel: its ribs are cut. {press_n} N at most, more damages the gearhead."),
+            Words("The force goes through motor, socket floor and right plate: stand that plate on the end of a piece "
+                  "of wood of {block} mm with a groove {groove} mm wide and 10 mm deep sawn across the end, the groove "
+                  "along the window's longer side. The wood bears on the plate on both sides of the window, the wires "
+                  "lie in the groove and leave at its ends. Hold the robot level: it stands on the wood alone."),
             Words("Left plate and its screws for good, {torque_plastic} N·m. The closed bores of both plates hold the "
                   "axles.", lacks=".*_axle_(nut|clip_1)"),
             Words("Left plate and its screws for good, {torque_plastic} N·m. Put the axles' screws in from the left, "
@@ -439,7 +448,10 @@ ORDER: tuple[Plan, ...] = (
         (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),
         (
             Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
-                  "tolerance. The leg still swings freely."),
+                  "tolerance: try it at the springs' pin, the others are covered from end to end. The leg still "
+                  "swings freely.", lacks=".*_axle_(nut|clip_1)"),
+            Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
+                  "tolerance. The leg still swings freely.", needs=".*_axle_(nut|clip_1)"),
         ),
     ),
     Plan(
@@ -473,6 +485,14 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("Lay the robot on its right plate and hold the leg on its stop: its empty hole is then behind the "
                   "hole in the left plate, {pin_hole} mm wide, below the leg's axle.", needs="leg_spring_pin"),
+            Words("The slack springs swung backwards while the robot stood upright. Turn them back first: with a small "
+                  "screwdriver from the front lift the outer arm of either spring until it lies against the springs' "
+                  "other pin from below."),
+            Words("Look before you push: both outer arms lie under the springs' other pin, and both inner arms between "
+                  "the leg's empty hole and that pin. A thin rod through the hole, held at its edge away from that "
+                  "pin, touches no arm. If an inner arm is behind or below the hole, its spring is not yet turned "
+                  "back: the pin would stand between its two arms and the springs would not push.",
+                  needs="leg_spring_pin"),
             Words("Press a clip into the groove at one end of the pin; that end goes in last.",
                   needs="leg_spring_pin_clip_.*"),
             Words("Drop the pin ({leg_pin}) through that hole and push it with a thin rod through the leg, below the "
@@ -486,8 +506,8 @@ ORDER: tuple[Plan, ...] = (
                   "from the front, towards the springs' other pin, the left spring's until the pin is in the leg, then "
                   "the right one's; {preload_n} N, and {arm_n} N where an arm is {wider}° wider than ordered. "
                   "Both plates hold the springs' other pin.", needs="preload"),
-            Words("Put the split pin through the pin's right end from the front, bend its ends around the pin and cut "
-                  "off what stands out.", needs="leg_spring_pin_split_pin"),
+            Words("Turn the pin until its cross hole points forwards, put the split pin through it from the front, "
+                  "bend its ends around the pin and cut off what stands out.", needs="leg_spring_pin_split_pin"),
             Words("Press the second clip into the groove at the pin's right end, from the front.",
                   needs="leg_spring_pin_clip_.*"),
         ),
@@ -501,8 +521,9 @@ ORDER: tuple[Plan, ...] = (
                   "pin bent on the right, and pushed from either side it stays.", needs="leg_spring_pin_split_pin"),
             Words("The plate does not keep the pin, at rest its hole is open: both clips are in their grooves, and "
                   "pushed from either side it stays.", needs="leg_spring_pin_clip_.*"),
-            Words("The leg lies on its stop and springs back to it "
-                  "when its end is pulled forward a little: {foot_n} N there would load it completely, so do not."),
+            Words("The leg lies on its stop and springs back to it when its end is pulled forward a little: {foot_n} N "
+                  "there would load it completely, so do not. With arms narrower than ordered it is slack near the "
+                  "stop, for {slack}° at most, and springs back from there on; that is no fault."),
         ),
     ),
     Plan(
@@ -519,7 +540,8 @@ ORDER: tuple[Plan, ...] = (
                   needs="ankle_pin_split_pin"),
             Words("Press the clips into the grooves.", needs="ankle_pin_clip_.*"),
         ),
-        checks=(Words("The robot stands on nose and toes, the leg on its stop; pressed down, it comes up again."),),
+        checks=(Words("The robot stands on nose and toes, the leg on its stop; pressed down, it comes up again, with "
+                      "arms narrower than ordered but for the last {slack}° of the leg."),),
     ),
     Plan(
         "jump", "First winding and first jump", ROBOT, (),
