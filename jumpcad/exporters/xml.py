@@ -1,6 +1,7 @@
 """Elements and documents of the XML formats; numbers are written so that they read back as the same doubles."""
 
 import re
+import warnings
 import xml.etree.ElementTree as ET
 from typing import TypeAlias
 
@@ -77,7 +78,9 @@ def allowed(text: str) -> str:
 
 def rpy(rotation: Array) -> Array:
     """Return roll, pitch and yaw (3,) about fixed axes (rad) of a rotation (3, 3), as in URDF and SDF."""
-    angles: Array = Rotation.from_matrix(rotation).as_euler("xyz")
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Gimbal lock")  # at a pitch of 90° yaw is chosen as zero
+        angles: Array = Rotation.from_matrix(rotation).as_euler("xyz")
     return angles
 
 

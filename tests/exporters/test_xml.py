@@ -3,6 +3,7 @@
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from jumpcad.bundle.bom import bill_of_materials
@@ -10,7 +11,7 @@ from jumpcad.bundle.page import write_report
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.exporters.urdf import write_urdf
-from jumpcad.exporters.xml import add, allowed, document
+from jumpcad.exporters.xml import add, allowed, document, rpy
 from jumpcad.files.names import NAME
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
@@ -55,3 +56,19 @@ def test_every_article_of_a_bill_can_be_given_a_price(small_robot: Robot) -> Non
     """Prices are named by the beginnings of articles, which must therefore be names."""
     for item in bill_of_materials(small_robot).items:
         assert NAME.fullmatch(item.name[:50]), item.name
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("pitch_deg", [90.0, -90.0, 30.0])
+def test_angles_about_fixed_axes_turn_as_the_rotation_does(pitch_deg: float) -> None:
+    """R = Rz(yaw)·Ry(pitch)·Rx(roll), also where roll and yaw turn about one axis."""
+    rotation = _about(2, np.radians(40.0)) @ _about(1, np.radians(pitch_deg))
+    roll, pitch, yaw = rpy(rotation)
+    turned = _about(2, yaw) @ _about(1, pitch) @ _about(0, roll)
+    assert turned == pytest.approx(rotation, abs=1e-12)
+
+
+def _about(axis: int, angle: float) -> np.ndarray:
+    """Return the rotation (3, 3) about an axis, by Rodrigues' formula."""
+    cross = np.cross(np.eye(3), -np.eye(3)[axis])
+    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
