@@ -70,5 +70,5 @@ def test_angles_about_fixed_axes_turn_as_the_rotation_does(pitch_deg: float) -> 
 
 def _about(axis: int, angle: float) -> np.ndarray:
     """Return the rotation (3, 3) about an axis, by Rodrigues' formula."""
-    cross = np.cross(np.eye(3), -np.eye(3)[axis])
+    cross = np.cross(np.eye(3), np.eye(3)[axis])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
