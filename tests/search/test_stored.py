@@ -80,7 +80,7 @@ def test_a_study_of_a_format_before_is_read(tmp_path: Path, version: int) -> Non
         ({"made.spring_factor": -1.0, "made.friction_factor": 1.0}, "made.spring_factor = -1"),
         ({"made.spring_factor": 1.0, "made.friction_factor": "x"}, "made.friction_factor = 'x'"),
         ({"made.spring_factor": 1.0}, "made.friction_factor: missing"),
-        ({"made.l2_mm": 1e300}, "made.l2_mm = 1e+300"),
+        ({"made.carrying_link_mm": 1e300}, "made.carrying_link_mm = 1e+300"),
         ({"made.stiffness_nmm_per_deg": "x"}, "made.stiffness_nmm_per_deg = 'x'"),
     ],
 )
