@@ -43,6 +43,11 @@ MOTOR_CAP_MM = 2.4
 """Thickness of the cap that holds the motor in its socket; judgement: an M2 head sunk, 0.8 mm below it."""
 TERMINALS_MM = 0.5
 """Between the motor's rear face and the plate, in which a window lets its terminals through; judgement."""
+MOTOR_CLAMP_MM = 0.2
+"""Between the socket's rim and the cap, which bears on the motor: the screws pull it down, so that the motor has no
+play. Judgement: one printed layer; closing the gap bends the catalogue's caps by 1 %."""
+MOTOR_RIM_MM = 1.0
+"""Width of the socket's floor at either side, under the motor's rear end; judgement: its terminals stay free."""
 CAP_EAR_MM = 5.6
 """How far the ears for the motor cap's screws reach beyond the socket: an M2 head of 3.8 mm (ISO 14580) and a wall."""
 TOE_TIP_WIDTH_MM = 5.0

@@ -81,6 +81,7 @@ def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
         stall_share=safety.motor_share * safety.motor_stall_share,
         torque_max_nm=safety.motor_share * safety.motor_torque_max_nm,
         supply=supply_of(chosen_parts(workshop)),
+        blocked_nm=safety.motor_torque_max_nm,
         pair_efficiency=safety.gear_efficiency,
         backlash_circumferential_mm=fits.backlash_circumferential_mm,
         stress_mpa=workshop.material("gears").strength_in_plane_mpa / safety.printed_factor,

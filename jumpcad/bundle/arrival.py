@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.bundle.springs import arms_off_deg
+from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, early_torque_share, loaded_arms, torque_shares
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive import TorsionSpring
 from jumpcad.electronics.chosen import chosen_parts
@@ -28,50 +28,21 @@ def grams_at(spring: TorsionSpring, angle_deg: float) -> float:
     return 1000.0 * torque * math.cos(turned) ** 2 / lever / GRAVITY_M_S2
 
 
+def loaded_grams(spring: TorsionSpring) -> float:
+    """Return what a scale reads below an arm that is level and loaded as at the end of the lift."""
+    return 1000.0 * spring.torque_nmm / spring.arms.lever_mm / GRAVITY_M_S2
+
+
 def scale_range_kg(robot: Robot) -> float:
-    """Return the range of a scale for the springs' test, in whole kilograms: the stiffest spring that is accepted."""
+    """Return the range of a scale for the springs' test, in whole kilograms: a stiff spring's reading."""
     scatter = robot.workshop.safety.spring_rate_scatter
-    most = max(grams_at(robot.layout.drive.spring, angle) for angle in AT_DEG)
-    return math.ceil((1.0 + scatter) * most / 1000.0)
+    return math.ceil((1.0 + scatter) * loaded_grams(robot.layout.drive.spring) / 1000.0)
 
 
 def arrival_lines(robot: Robot) -> Iterator[str]:
     """Yield the section."""
-    spring, scatter = robot.layout.drive.spring, robot.workshop.safety.spring_rate_scatter
-    lever = spring.arms.lever_mm
-    free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
-    preload = math.degrees(spring.preload_rad)
-    narrower, wider = arms_off_deg(robot)
-    less, more = (
-        (max(0.0, wound + by) ** 2 - max(0.0, preload + by) ** 2) / (wound**2 - preload**2) for by in (-narrower, wider)
-    )
-    shank = math.floor(2.0 * spring.mandrel_mm) / 2.0
     yield from ("", "## When things arrive", "")
-    yield from (
-        f"**Springs.** Glasses on. Relaxed, the arms are {free - narrower:.0f} to {free + wider:.0f}° apart "
-        "(protractor, or the drawing in order/ at 3:1). Of several take the nearest to "
-        f"{free:.0f}°: both springs {narrower:.0f}° narrower store {100.0 * (1.0 - less):.0f} % less energy, "
-        f"{wider:.0f}° wider {100.0 * (more - 1.0):.0f} % more, with {100.0 * wider / wound:.0f} % more torque. Wider "
-        f"ones are not used: the parts' reserve for strong springs is {100.0 * scatter:.0f} %.",
-        "",
-        f"Rate: clamp the shank of a drill, {shank:g} mm or a little less, level in a vice and put the coil on it, a "
-        "nail beside one arm so that it cannot turn. The other arm points level to the side and leaves the coil at "
-        "its underside. Below it, on a kitchen scale, stands a block with a smooth, oiled edge, which touches the arm "
-        f"{lever:.1f} mm to the side of the drill's middle. Raise the scale until the arm has turned by an angle of "
-        "the table (draw it on card behind the arm): the spring closes. Read:",
-    )
-    yield from ("", "| turned by | scale, as computed | accept |", "|--:|--:|--:|")
-    for angle in AT_DEG:
-        if angle <= math.degrees(spring.wound_rad) + 1e-9:
-            grams = grams_at(spring, angle)
-            low, high = (1.0 - scatter) * grams, (1.0 + scatter) * grams
-            yield f"| {angle:.0f}° | {grams:.0f} g | {low:.0f} to {high:.0f} g |"
-    yield from (
-        "",
-        "Both springs must agree within 5 %. Hands: held upright, the wire in front of a right-hand coil rises to the "
-        "right, like the thread of a usual screw.",
-        "",
-    )
+    yield from _springs(robot)
     yield (
         f"**Fits.** A rod of {robot.layout.axle_mm:g} mm must drop through the spacers and turn in the plates' bores; "
         "the motor must slide into its socket without force. A bore that is too tight: turn a drill or reamer of "
@@ -88,4 +59,59 @@ def arrival_lines(robot: Robot) -> Iterator[str]:
         f"**Battery.** {battery.range_v[0]:g} to {battery.range_v[1]:g} V at its plug, not swollen, no larger than the "
         "bill says; its plus must meet the plus of the robot's plug. **Motor.** With 3 V at its leads (two "
         f"AA cells) the shaft turns; its flat is {robot.layout.drive.train.motor.shaft_flat_mm:g} mm thick."
+    )
+
+
+def _springs(robot: Robot) -> Iterator[str]:
+    """Yield how a spring is accepted: by one reading, its torque where the robot loads it."""
+    spring, scatter = robot.layout.drive.spring, robot.workshop.safety.spring_rate_scatter
+    lever, grams, wound = spring.arms.lever_mm, loaded_grams(spring), math.degrees(spring.wound_rad)
+    preload = math.degrees(spring.preload_rad)
+    least, most = torque_shares(robot)
+    narrower, wider = arms_off_deg(robot)
+    free = math.degrees(spring.free_arm_angle_rad)
+    off = (1.0 - scatter) * (max(0.0, wound - narrower) ** 2 - max(0.0, preload - narrower) ** 2)
+    stored = off / (wound**2 - preload**2)
+    shank = math.floor(2.0 * spring.mandrel_mm) / 2.0
+    yield from (
+        f"**Springs.** Glasses on. Relaxed, the arms are {free - narrower:.0f} to {free + wider:.0f}° apart "
+        f"(drawing in order/, 3:1, ordered {free:.0f}°). Wider ones are not used: they load the motor at the beginning "
+        f"of the lift, {wider:.0f}° by up to {100.0 * (early_torque_share(robot) - 1.0):.0f} % more than computed. One "
+        "reading on a kitchen scale then accepts a spring: its torque with the arms where the loaded robot holds them, "
+        "so that angle and rate count together.",
+        "",
+        f"Clamp the shank of a drill, {shank:g} mm or a little less, level in a vice and put the coil on it. Draw two "
+        f"lines on a card behind it, both touching a circle of {spring.arms.mean_mm:.1f} mm around the drill: one "
+        "level to the side, from the circle's lowest point, and one as the arm at the vice stands when both are "
+        f"{loaded_arms(robot)} (dashed in the drawing; turn it until its nearer arm is "
+        "the level one). A nail keeps the arm at the vice on its line, "
+        f"{lever:.1f} mm from the circle. Below the level line, on the scale, stands a block with a smooth, oiled "
+        f"edge, narrower than the coil is long, {lever:.1f} mm to the side of the drill's middle. Raise the scale: "
+        "the edge lifts the other arm and the spring closes. Stop when the arm at the edge is on the level line, and "
+        "read; go a little higher, come back to the line and read again. The mean of both is free of friction:",
+        "",
+        f"- **accept {least * grams:.0f} to {most * grams:.0f} g** ({grams:.0f} g as computed), and of several the "
+        f"right-hand and the left-hand one nearest to {grams:.0f} g that agree within {PAIR_PERCENT} %",
+        f"- more is not used: {most * grams:.0f} g are {100.0 * (most - 1.0):.0f} % more torque than computed, with "
+        f"{most * spring.stress_mpa:.0f} MPa in the wire ({spring.allowable_mpa:.0f} allowed); the parts' reserve is "
+        f"{100.0 * scatter:.0f} %",
+        "- less harms nothing, the robot jumps shorter: a pair with the lowest rate and the narrowest arms stores "
+        f"{100.0 * (1.0 - stored):.0f} % less energy",
+        "",
+        "The rate, for information: a rejected spring is stiff or has wide arms. Relaxed, the arm at the edge points "
+        "level to the side; the nail holds the other one where it then is. Raised by an angle of the table, the scale "
+        "reads:",
+        "",
+        f"| turned by | scale, as computed | rate within {100.0 * scatter:.0f} % |",
+        "|--:|--:|--:|",
+    )
+    for angle in AT_DEG:
+        if angle <= wound + 1e-9:
+            read = grams_at(spring, angle)
+            yield f"| {angle:.0f}° | {read:.0f} g | {(1.0 - scatter) * read:.0f} to {(1.0 + scatter) * read:.0f} g |"
+    yield from (
+        "",
+        "Hands: held upright, the wire in front of a right-hand coil rises to the right, like the thread of a usual "
+        "screw.",
+        "",
     )

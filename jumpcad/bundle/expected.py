@@ -8,14 +8,24 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from jumpcad.bundle.arrival import REAMED_MM
+from jumpcad.bundle.battery_reading import pin_share, state_off_v
 from jumpcad.bundle.firmware import AFTER_RELEASE_MS, LANDING_MS, numbers
-from jumpcad.bundle.operation import by_button, cable, charging, charging_loaded, switching_off
+from jumpcad.bundle.operation import (
+    by_button,
+    cable,
+    charging,
+    charging_loaded,
+    switching_off,
+    to_stop,
+    usb_out,
+)
 from jumpcad.bundle.ordering import ROD_SHORT_MM
 from jumpcad.bundle.springs import arms_off_deg
 from jumpcad.bundle.wiring import wires
-from jumpcad.dimensions import AXLE_END_PLAY_MM
+from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
+from jumpcad.drive.socket import window_mm
 from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import wiring_of
+from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
@@ -29,6 +39,8 @@ FREE = ("no contact", "contact")
 """At the free sensor, by its pin's level at the ready position."""
 PRESS_N = 50.0
 """Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
+PRONG_MM, PRONG_ENDS_MM = 6.0, 2.0
+"""Width of the block on either side of the window, and length over the window's; judgement: screw heads stay free."""
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
 
@@ -49,22 +61,29 @@ def _drive(robot: Robot) -> dict[str, str]:
     chosen, values = chosen_parts(workshop), numbers(robot)
     supply, wiring = supply_of(chosen), wiring_of(chosen, workshop.bought.pins)
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
-    boards_a = supply.boards_w / supply.nominal_v
+    duty = supply.duty(train.motor, workshop.safety.motor_torque_max_nm)
+    free_a, peak_a = (
+        duty * motor_a + supply.boards_w / supply.nominal_v  # PWM takes that share of the motor's current
+        for motor_a in (train.motor.no_load_current_a, train.peak_current_a)
+    )
     both = {1: "counter-clockwise", -1: "clockwise"}
     return {
         "free_rpm": f"{free.no_load_rpm:.0f}",
-        "free_ma": f"{1000.0 * train.motor.no_load_current_a:.0f}",
+        "boards_ma": f"{1000.0 * supply.boards_w / supply.nominal_v:.0f}",
+        "free_ma": f"{1000.0 * free_a:.0f}",
         "dry_s": f"{2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0):.1f}",
-        "dry_ma": f"{1000.0 * (train.motor.no_load_current_a + boards_a):.0f}",
         "wind_s": f"{train.winding_s:.1f}",
-        "wind_ma": f"{1000.0 * (train.mean_current_a + boards_a):.0f}",
-        "peak_ma": f"{1000.0 * (train.peak_current_a + boards_a):.0f}",
+        "wind_ma": f"{1000.0 * train.electrical_j / supply.nominal_v / train.winding_s:.0f}",
+        "wind_j": f"{train.electrical_j:.2f}",
+        "peak_ma": f"{1000.0 * peak_a:.0f}",
         "wind_max": f"{(values['WIND_MAX_MS'] or 0) / 1000.0:.1f}",
         "release_ms": f"{values['RELEASE_MAX_MS']}",
         "after_ms": f"{AFTER_RELEASE_MS}",
         "landing_s": f"{LANDING_MS / 1000.0:g}",
         "battery_v": f"{supply.nominal_v:g} to {supply.full_v:g}",
+        "nominal_v": f"{supply.nominal_v:g}",
         "min_v": f"{values['BATTERY_MIN_V']:g}",
+        **_measured(wiring, supply.nominal_v),
         "off": switching_off(chosen),
         "off_then": switching_off(chosen)[0].lower() + switching_off(chosen)[1:],
         "charge_how": charging(chosen),
@@ -72,6 +91,8 @@ def _drive(robot: Robot) -> dict[str, str]:
         "cable": cable(chosen.controller),
         "wind_by": by_button("wind", chosen.controller),
         "jump_by": by_button("jump", chosen.controller),
+        "stop_by": to_stop(chosen),
+        "usb_out": usb_out(chosen),
         "contact": wiring.contact,
         "free": FREE[wiring.ready_level],
         "pressed": FREE[1 - wiring.ready_level],
@@ -85,12 +106,24 @@ def _drive(robot: Robot) -> dict[str, str]:
     }
 
 
+def _measured(wiring: Wiring, volts: float) -> dict[str, str]:
+    """Return what is to be read at the battery's divider; at a nominal voltage of the battery."""
+    low, high = pin_share(wiring)
+    return {
+        "divider_pin": wiring.pins.get("battery", ""),
+        "divider_share": f"{low:.3f} to {high:.3f}",
+        "divider_v": f"{volts * low:.2f} to {volts * high:.2f}",
+        "state_off": f"{state_off_v(wiring, volts):.1f}",
+    }
+
+
 def _springs(robot: Robot) -> dict[str, str]:
     """Return what hands feel of the springs."""
     spring = robot.layout.drive.spring
     preload = math.degrees(spring.preload_rad)
-    per_deg_n, (_, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
+    per_deg_n, (narrower, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
     return {
+        "slack": f"{max(0.0, narrower - preload):.0f}",
         "wider": f"{wider:.0f}",
         "arm_n": f"{max(1.0, (preload + wider) * per_deg_n):.0f}",
         "pin_hole": f"{robot.layout.pin_hole.diameter_mm:.1f}",
@@ -107,6 +140,7 @@ def _sizes(robot: Robot) -> dict[str, str]:
     articles = defaultdict(str, {item.name: item.article for item in robot.hardware})
     heights = defaultdict(float, {part.name: float(np.ptp(part.drawing.shape.bounds_mm[:, 2])) for part in robot.parts})
     outside = robot.layout.lateral.outside
+    window = window_mm(robot.layout.drive.train.motor)
     right, left = heights["front_spacer_right"], heights["front_spacer_left"]
     return {
         "eye_drill": f"{robot.layout.axle_mm + REAMED_MM:g}",
@@ -123,6 +157,10 @@ def _sizes(robot: Robot) -> dict[str, str]:
         "torque_m2": f"{TORQUE_M2_NM:g}",
         "torque_plastic": f"{TORQUE_PLASTIC_NM:g}",
         "press_n": f"{PRESS_N:.0f}",
+        "clamp": f"{MOTOR_CLAMP_MM:g}",
+        "window": f"{window[0]:g} x {window[1]:g}",
+        "block": f"{window[0] + 2.0 * PRONG_MM:g} x {window[1] + PRONG_ENDS_MM:g}",
+        "groove": f"{window[0]:g}",
     }
 
 

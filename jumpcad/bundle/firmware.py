@@ -7,7 +7,17 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 
-from jumpcad.bundle.operation import BUTTON_DELAY_MS, by_button, cable, charging, charging_loaded, stops_the_motor
+from jumpcad.bundle.battery_reading import state_off_v
+from jumpcad.bundle.operation import (
+    BUTTON_DELAY_MS,
+    bootloader,
+    by_button,
+    cable,
+    charging,
+    charging_loaded,
+    stops_the_motor,
+    to_stop,
+)
 from jumpcad.catalogue import Battery
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.chosen import chosen_parts
@@ -97,7 +107,7 @@ WORDS = {
     "PIN_BATTERY": "None: not measured",
     "PIN_BUTTON": "on the board; None: serial commands alone",
     "PWM_CAP": "largest share of PWM: keeps gearbox and winding within their limits on a full battery",
-    "BATTERY_DIVIDER": "battery's voltage over that at its pin",
+    "BATTERY_DIVIDER": "battery's voltage over that at its pin; to calibrate it, see README.md",
     "BATTERY_MIN_V": "below this, at rest, it does not begin to wind",
     "BATTERY_EMPTY_V": "below this, at rest, it does not finish either what was begun",
     "BATTERY_SAG_V": "by this below the last, while it winds, it stops: the least voltage that the boards are checked "
@@ -114,6 +124,9 @@ WORDS = {
 }
 
 
+CALIBRATE = """The battery's voltage that `state` prints may be off by {off} V. Calibrate it once: measure the
+  voltage at the plug with a multimeter, motor off, multiply `BATTERY_DIVIDER` in `robot.py` by the multimeter's voltage
+  over that of `state`, and copy the file again (2). Without that the limits below are off by as much."""
 OPENING = """The sensor's contact opens when it is pressed, so a broken lead, a dirty contact or a missing ground reads
   as pressed: the motor stops. `wind` that says `ready` at once, or `fault: sensor pressed too early`, means a broken
   lead where the springs are not loaded. To unload springs that are: `wind`, `jump`, `wind`, `jump`, until the leg
@@ -146,6 +159,15 @@ def _module(robot: Robot, values: Mapping[str, float | int | None]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _calibrate(robot: Robot) -> str:
+    """Return how the battery's reading is calibrated, where it is measured."""
+    chosen = chosen_parts(robot.workshop)
+    wiring = wiring_of(chosen, robot.workshop.bought.pins)
+    if wiring.upper_ohm is None:
+        return "The battery's voltage is not measured: a robot that winds slowly needs charging."
+    return CALIBRATE.format(off=f"{state_off_v(wiring, chosen.battery.voltage_v):.1f}")
+
+
 def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -> str:
     chosen = chosen_parts(robot.workshop)
     facts = {
@@ -156,6 +178,10 @@ def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -
         "MIN_V": f"{values['BATTERY_MIN_V']:g}",
         "EMPTY_V": f"{values['BATTERY_EMPTY_V']:g}",
         "STOPS": stops_the_motor(chosen),
+        "STOP_BY": to_stop(chosen),
+        "BOOT": bootloader(chosen.controller),
+        "LANDING_S": f"{LANDING_MS / 1000.0:g}",
+        "CALIBRATE": _calibrate(robot),
         "IMAGE": chosen.controller.micropython or "look for the board's name or its chip",
         "CAP": f"{100.0 * (values['PWM_CAP'] or 0.0):g}",
         "CABLE": cable(chosen.controller),

@@ -10,6 +10,8 @@ STORED_V, DEAD_V = 3.8, 3.0
 """Per lithium polymer cell at rest: for storage, and below which it is spoiled; practice."""
 BUTTON_DELAY_MS = 3000
 """Time to step back after the button was pressed; judgement."""
+FULL_AFTER = 1.5
+"""Time to charge over that of the capacity at the full current, which falls at the end; judgement."""
 
 
 def charging(chosen: Chosen) -> str:
@@ -28,7 +30,9 @@ def charging(chosen: Chosen) -> str:
         )
     rate = controller.charge_ma / battery.capacity_mah
     bears = (
-        f"{way} Its charger gives {controller.charge_ma:.0f} mA, which cannot be set: {rate:.2f} C for this battery."
+        f"{way} Its charger gives {controller.charge_ma:.0f} mA, which cannot be set: {rate:.2f} C for this battery. "
+        f"An empty one is full after about {FULL_AFTER / rate:.1f} h: {battery.range_v[1]:g} V, and the board's charge "
+        "lamp goes out."
     )
     if rate <= 1.0:
         return bears
@@ -56,6 +60,15 @@ def fed_by_usb(chosen: Chosen) -> bool:
     return chosen.regulator is None
 
 
+def usb_out(chosen: Chosen) -> str:
+    """Return the beginning of a measurement of the battery's current: what else feeds the boards is taken away."""
+    if not chosen.controller.button:
+        return "USB cable in, whose computer feeds the board, so that only the motor's part is read"
+    if fed_by_usb(chosen):
+        return "USB cable out, since its charger would be read too, and commands by the board's button"
+    return "USB cable out, since it would feed the board, and commands by the board's button"
+
+
 def switching_off(chosen: Chosen) -> str:
     """Return how the motor's supply is cut, as the beginning of a sentence."""
     return "Pull the USB cable and switch off" if fed_by_usb(chosen) else "Switch off"
@@ -66,6 +79,29 @@ def stops_the_motor(chosen: Chosen) -> str:
     if fed_by_usb(chosen):
         return "only the switch, with the USB cable out, stops the motor: the board's charger feeds the driver too"
     return "only the switch stops the motor"
+
+
+def to_stop(chosen: Chosen) -> str:
+    """Return how a robot that winds, or is about to jump, is stopped, and what to do then."""
+    if chosen.controller.button:
+        by, resume = "press the same button once more, or switch off", "press the button"
+    else:
+        by, resume = f"type `stop`, or {switching_off(chosen)[0].lower()}{switching_off(chosen)[1:]}", "type `wind`"
+    return (
+        f"To stop it while it winds or before it jumps: {by}. The motor is off and the springs stay as they are, "
+        "held by the friction of the gearhead; should that give way, the cam turns back and they become slack. The way "
+        f"out: nothing in the leg's way, {resume} again, it winds on to the end; then let it jump."
+    )
+
+
+def bootloader(controller: Board) -> str:
+    """Return how a controller is put into its bootloader, before MicroPython is installed."""
+    if not controller.button:
+        return "Put the board into its bootloader as its maker says."
+    return (
+        f"Put the board into its bootloader: hold its button at {controller.button} (marked B or BOOT) while you plug "
+        "in the USB cable, and let go a second later."
+    )
 
 
 def after_use(chosen: Chosen) -> Iterator[str]:

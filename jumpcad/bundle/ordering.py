@@ -9,6 +9,7 @@ from jumpcad.bundle.arrival import REAMED_MM, scale_range_kg
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.wiring import wires
 from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
 from jumpcad.files.markdown import plain
 from jumpcad.parts.fittings import KNOB_MM, SWITCH_SCREWS_MM
 from jumpcad.printing.plates import packed
@@ -19,10 +20,20 @@ ROD_M = (0.33, 0.5, 1.0)
 """Lengths in which shops sell rods of 2 to 4 mm."""
 ROD_SHORT_MM = 0.3
 """By which a rod may be shorter; judgement, a saw and a file."""
+ROD_ROOM_MM = 0.5
+"""By which a rod is thinner than the hole that it passes, at least."""
 SAW_MM = 2.0
 """Lost at every cut; judgement."""
 STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
+SIMILAR_SWITCH = (
+    "those sold as SS-12F15 G5 have the size (19.8 x 5.6 mm, slider 3 x 3 x 5 mm that goes 3 mm), but sellers rate "
+    "them 0.3 or 0.5 A and few give the distance of the holes: compare the drawing. Found none: leave the switch and "
+    "its two screws out, and solder the wires of switch 2 to those of switch 1. The battery's plug is then the "
+    "switch: where this guide says switch on, plug it in; where it says switch off, pull it out; currents are read "
+    "with the multimeter in place of its red wire"
+)
+"""Sizes as public bills of material state them (several projects, the same figures); the ratings differ by seller."""
 SLIDER_MM = 1.5
 """Of a switch's slider outside the plate, for a fingertip; judgement."""
 PLUG_ROOM_MM = 0.5
@@ -50,7 +61,11 @@ def order_lines(robot: Robot) -> Iterator[str]:
     lengths = ", ".join(f"{colour} {length / 1000.0:.2f} m" for colour, length in sorted(total.items()) if length)
     yield (
         f"- wire AWG 28, silicone: {lengths}, ends included; the bill has each rounded up to 0.1 m: buy 0.2 m more "
-        f"of each, {', '.join(sorted(total))}, for cuts that fail and legs that are too short"
+        "of each, for cuts that fail and legs that are too short"
+    )
+    yield (
+        "- hook-and-loop strap: hook and loop back to back, no thicker than the bill says, since it passes between the "
+        "lower tray and the front link"
     )
     yield from _plug(robot)
     yield from _tape(robot)
@@ -74,11 +89,20 @@ def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
         charger = f", LiPo charger with a balance lead{adapter}"
     plug = robot.layout.fittings.usb_size_mm if robot.layout.fittings.usb_mm is not None else None
     body = "" if plug is None else f", plug body at most {plug[0] - PLUG_ROOM_MM:g} x {plug[1] - PLUG_ROOM_MM:g} mm"
-    yield f"- soldering iron, multimeter, computer, USB cable with data lines{body}{charger}"
+    yield (
+        "- soldering iron, wire stripper, heat gun or lighter for the tube, multimeter with a 10 A range, computer, "
+        f"USB cable with data lines{body}{charger}"
+    )
     yield "- on the computer: Python with `pip install esptool mpremote` (firmware/README.md)"
     yield (
-        f"- kitchen scale to 1 g or better, up to {scale_range_kg(robot):g} kg, caliper, protractor, drill of the "
-        "springs' test, two AA cells in a holder"
+        f"- kitchen scale to 1 g or better, up to {scale_range_kg(robot):g} kg; pocket scale to 0.1 g or better, for "
+        "the printed parts; caliper, protractor, two AA cells in a holder"
+    )
+    yield ("- for the springs' test: its drill, a nail, card, a block with a smooth edge, a drop of oil")
+    rod = math.floor(2.0 * (robot.layout.pin_hole.diameter_mm - ROD_ROOM_MM)) / 2.0
+    yield (
+        f"- rod of at most {rod:g} mm, 60 mm or longer, for the springs' pin through its hole in the left plate; block "
+        "of wood that supports the motor while the pinion is pressed on; super glue"
     )
     yield (
         "- cut-off disc, file, fine emery cloth, fine saw, knife, tweezers, cord, thin wooden stick, glasses that "
@@ -105,7 +129,9 @@ def print_lines(robot: Robot) -> Iterator[str]:
     yield from (
         "",
         "Where jumpcad is installed, print its fit coupon first (`jumpcad coupon -o coupon`): it shows which diameters "
-        "and clearances your printer makes. Put the seam of the "
+        "and clearances your printer makes. It is tested with the rods, bearings, motor and screws of this order "
+        "(coupon.md has the list): order, print the coupon, test it when they are there, and then print the robot. "
+        "Put the seam of the "
         "cam where its drop is, not on the lift. Break the first layer's edge in bores.",
     )
 
@@ -178,7 +204,7 @@ def _tape(robot: Robot) -> Iterator[str]:
     """Yield the pieces of foam tape under the boards."""
     boards = chosen_parts(robot.workshop).boards.items()
     pieces = ", ".join(f"{board.length_mm:g} x {board.width_mm:g} mm ({role})" for role, board in boards)
-    yield f"- double-sided foam tape 1 mm thick: {pieces}"
+    yield f"- double-sided foam tape 1 mm thick: {pieces}; cut out under pads that are soldered from below"
 
 
 def _switch(robot: Robot) -> Iterator[str]:
@@ -187,12 +213,16 @@ def _switch(robot: Robot) -> Iterator[str]:
     if fittings.switch is None or fittings.switch_mm is None:
         return
     switch, plate = fittings.switch, lateral.inside[0] - lateral.outside[0]
+    chosen, motor, safety = chosen_parts(robot.workshop), robot.layout.drive.train.motor, robot.workshop.safety
+    supply = supply_of(chosen)
+    blocked_a = supply.driven(motor, supply.full_v, safety.motor_torque_max_nm).stall_current_a
     yield (
         f"- slide switch: {2.0 * SWITCH_SCREWS_MM:g} mm between the holes of its ears, at most {switch.length_mm:g} x "
-        f"{switch.width_mm:g} mm, {switch.height_mm:g} mm high behind its ears, {switch.rated_a:g} A or more. Its "
+        f"{switch.width_mm:g} mm, {switch.height_mm:g} mm high behind its ears, {switch.rated_a:g} A or more at "
+        f"{supply.full_v:g} V (the blocked motor draws {blocked_a:.2f} A). Its "
         f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it "
-        f"must stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No maker's article with all of it is known "
-        "here: compare the drawing before you order"
+        f"must stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No article with all of it is known here: "
+        f"{SIMILAR_SWITCH}"
     )
 
 
@@ -220,5 +250,6 @@ def _motor(robot: Robot) -> Iterator[str]:
         f"{motor.stall_torque_nm:.3f} N·m and {motor.stall_current_a:g} A stalled, shaft {motor.shaft_mm:g} mm with a "
         f"flat, {motor.shaft_length_mm:g} mm long ({sure}: {plain(motor.source)}). Ratio, voltage, shaft and gearbox "
         "must agree; speed and torque may be 10 % off "
-        "(judgement). An extended shaft at its back: cut that off with the disc, the motor wrapped against filings"
+        "(judgement). An extended shaft at its back: cut that off with the disc before anything is soldered, the stub "
+        "held in pliers, the motor wrapped against filings"
     )

@@ -9,9 +9,10 @@ from html import escape
 
 import numpy as np
 
-from jumpcad.bundle.springs import arms_off_deg
+from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
+from jumpcad.parts.spring_wire import ORDERED
 from jumpcad.robot import Robot
 from jumpcad.transforms import Array
 
@@ -51,17 +52,23 @@ def _requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> 
     scatter = 100.0 * robot.workshop.safety.spring_rate_scatter
     free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
     narrower, wider = arms_off_deg(robot)
+    least, most = (100.0 * abs(share - 1.0) for share in torque_shares(robot))
     return [
-        ("robot", f"{robot.name}, spring on its {side} side, 1 piece"),
+        ("robot", f"{robot.name}, spring on its {side} side: 1 needed, order {ORDERED} and choose"),
         ("article", spring.stock or "torsion spring, close-coiled, made to order"),
         ("hand", f"{hand}-hand wound"),
-        ("RATE (requirement)", f"{spring.rate_nmm_per_deg:.2f} N·mm/° ±{scatter:.0f} %"),
+        (
+            "LOADED (requirement)",
+            f"{spring.torque_nmm:.0f} N·mm, +{most:.0f} % / -{least:.0f} %, closed by {wound:.1f}°: arms "
+            f"{loaded_arms(robot)}",
+        ),
+        ("right- and left-hand spring", f"their loaded torques agree within {PAIR_PERCENT} %"),
+        ("rate", f"{spring.rate_nmm_per_deg:.2f} N·mm/° ±{scatter:.0f} %"),
         ("wire", f"{spring.wire_mm:g} mm, EN 10270-1 SM" if not spring.stock else f"{spring.wire_mm:g} mm"),
         ("inside diameter", f"{spring.inside_diameter_mm:.2f} mm; may change to meet the rate"),
         ("turns of the body, relaxed", f"{spring.turns:.2f}"),
         ("arms, straight, tangent", f"{spring.arm_length_mm:.1f} ±{LENGTH_TOLERANCE_MM:g} mm from the coil"),
         ("angle between arms, relaxed", f"{free:.0f}° +{wider:.0f}° / -{narrower:.0f}°; 180° is opposite directions"),
-        ("loaded, closing", f"by {wound:.1f}° to {spring.torque_nmm:.0f} N·mm"),
         ("body length, loaded", f"{spring.body_length_mm:.1f} mm at most"),
         ("inside, loaded", f"runs on a mandrel of {spring.mandrel_mm:.2f} mm"),
     ]
@@ -76,16 +83,25 @@ def _end_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
     for line, colour in ((far, "#c3c7cc"), (near, "#4d535c")):
         yield _line(SCALE * line + END_VIEW_MM, colour, wire)
     yield from _cross(x, y, mean / 2.0 + 6.0)
+    loaded = _line(SCALE * _arms(spring, hand, spring.wound_rad)[0] + END_VIEW_MM, "#4d535c", 0.4)
+    yield loaded.replace("/>", ' stroke-dasharray="2 1"/>')
     (ax, ay), (bx, by) = (SCALE * arm[1] + END_VIEW_MM for arm in (near, far))
     yield _text(ax + 2.0, ay - 3.0, "nearer arm")
-    yield _text(bx + 2.0, by + 6.0, f"farther arm, {math.degrees(spring.free_arm_angle_rad):.0f}° from the nearer")
+    yield _text(
+        bx + 2.0,
+        by + 6.0,
+        f"farther arm, {math.degrees(spring.free_arm_angle_rad):.0f}° from the nearer; dashed: loaded",
+    )
     yield _text(x - 30.0, 16.0, f"along the axis, 3:1; d = {spring.wire_mm:g}, Di = {spring.inside_diameter_mm:.2f}")
 
 
-def _arms(spring: TorsionSpring, hand: str) -> tuple[Array, Array]:
-    """Return farther and nearer arm, each from its tangent point to its end (2, 2), from the axis, y down (mm)."""
+def _arms(spring: TorsionSpring, hand: str, closed_rad: float = 0.0) -> tuple[Array, Array]:
+    """Return farther and nearer arm, each from its tangent point to its end (2, 2), from the axis, y down (mm).
+
+    The farther one has turned by `closed_rad` from where it is relaxed; the coil is drawn relaxed.
+    """
     sense = -1.0 if hand == "right" else 1.0
-    turn = 2.0 * math.pi * spring.turns
+    turn = 2.0 * math.pi * spring.turns + closed_rad
     radius, length = spring.arms.mean_mm / 2.0, spring.arm_length_mm
     made = []
     for angle, outwards in ((math.pi / 2.0 + sense * turn, 1.0), (math.pi / 2.0, -1.0)):
@@ -113,8 +129,8 @@ def _side_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
 
 def _table(rows: Sequence[tuple[str, str]]) -> Iterator[str]:
     for number, (name, value) in enumerate(rows):
-        y = 128.0 + 6.4 * number
-        weight = ' font-weight="bold"' if "RATE" in name else ""
+        y = 124.0 + 6.4 * number
+        weight = ' font-weight="bold"' if "LOADED" in name else ""
         yield f'<line x1="15" y1="{y + 1.8:.1f}" x2="282" y2="{y + 1.8:.1f}" stroke="#cccccc" stroke-width="0.2"/>'
         yield f'<text x="16" y="{y:.1f}"{weight}>{escape(name)}</text>'
         yield f'<text x="90" y="{y:.1f}"{weight}>{escape(allowed(value))}</text>'

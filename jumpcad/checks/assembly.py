@@ -8,16 +8,13 @@ along the path are sampled.
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
-from manifold3d import Manifold
 
 from jumpcad.checks.interference import INTENDED, Component, shared_volume_mm3
 from jumpcad.findings import Finding
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.parts.part import Drawing, Part
-from jumpcad.parts.purchased import BoughtPart
+from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order import Tool
 from jumpcad.scene.assembly_steps import SIDES, Placed, Step, assembly_steps, travel
@@ -130,24 +127,12 @@ def _snapped(way: Way, mover: Component, side: Array) -> Array:
     return next((path for path in paths if _in_the_way(way, mover, path) is None), paths[0])
 
 
-@dataclass(frozen=True)
-class _Piece(Component):
-    """A part on the robot, which shares the solid of its source."""
-
-    source: Drawing | BoughtPart
-
-    @cached_property
-    def solid(self) -> Manifold:
-        """The piece in its own frame (mm)."""
-        return self.source.solid
-
-
 def _piece(thing: Visual, T_world_body: Array) -> Component:
     """Return a part at its place in the world (mm)."""
     source = thing.source.drawing if isinstance(thing.source, Part) else thing.source
     pose = chained(T_world_body, thing.T_body_mesh)
     pose[:3, 3] *= 1000.0
-    return _Piece(thing.name, thing.body, source.shape, pose, source)
+    return Component(thing.name, thing.body, source.shape, pose, source)
 
 
 def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
@@ -157,13 +142,14 @@ def _in_the_way(way: Way, mover: Component, path_mm: Array) -> Blocked | None:
         return None
     low, high = _extent(mover)
     low, high = np.minimum(low, low - path_mm), np.maximum(high, high - path_mm)
+    room = _swept(mover, path_mm)
     blocked = []
     for other in way.there:
         other_low, other_high = _extent(other)
         apart = bool((low >= other_high).any() or (other_low >= high).any())
         if apart or _passes(way.placed, other.name) or _intended(mover.name, other.name):
             continue
-        share = _covered(mover, other, path_mm) / min(length, _depth(other, path_mm / length))
+        share = _covered(mover, room, other, path_mm) / min(length, _depth(other, path_mm / length))
         if share > TOLERANCE_MM2:
             blocked.append(Blocked(way.step, mover.name, other.name, share))
     return max(blocked, key=_share, default=None)
@@ -186,18 +172,21 @@ def _share(blocked: Blocked) -> float:
     return blocked.share_mm2
 
 
-def _covered(mover: Component, other: Component, path_mm: Array) -> float:
-    """Return the volume that a part shares with another on its path (mm³); an upper estimate where it is sampled."""
-    if (room := _swept(mover, path_mm)) is not None:
+def _covered(mover: Component, room: Component | None, other: Component, path_mm: Array) -> float:
+    """Return the volume that a part shares with another on its path (mm³); an upper estimate where it is sampled.
+
+    `room` is what the part sweeps, if that is known.
+    """
+    if room is not None:
         return _shared(room, other)
-    if (room := _swept(other, -path_mm)) is not None:
-        return _shared(mover, room)
+    if (swept_by_other := _swept(other, -path_mm)) is not None:
+        return _shared(mover, swept_by_other)
     length = float(np.linalg.norm(path_mm))
     worst = 0.0
     for share in np.linspace(0.0, 1.0, int(length / SAMPLES_MM) + 2):
         pose = mover.T_body_part.copy()
         pose[:3, 3] -= share * path_mm
-        worst = max(worst, _shared(Component(mover.name, mover.body, mover.shape, pose), other))
+        worst = max(worst, shared_volume_mm3(mover, pose, other, other.T_body_part))
     return worst * length
 
 

@@ -17,7 +17,8 @@ from jumpcad.findings import Finding
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
-from jumpcad.parts.part import Shape
+from jumpcad.parts.part import Drawing, Shape
+from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.solids.stack import Stack, overlap_volume_mm3
 from jumpcad.transforms import Array, pose_about_y
@@ -46,17 +47,18 @@ INTENDED = (
 
 @dataclass(frozen=True)
 class Component:
-    """One printed or bought piece at its place in its body's frame."""
+    """One printed or bought piece at its place in its body's frame; pieces of one `source` share its solid."""
 
     name: str
     body: str
     shape: Shape
     T_body_part: Array
+    source: Drawing | BoughtPart | None = None
 
     @cached_property
     def solid(self) -> Manifold:
         """The piece in its own frame (mm)."""
-        return self.shape.solid()
+        return self.source.solid if self.source else self.shape.solid()
 
     @cached_property
     def corners(self) -> Array:
@@ -81,11 +83,11 @@ class Moment:
 def components(robot: Robot) -> list[Component]:
     """Return every piece of a robot, each copy separately."""
     printed = [
-        Component(part.name, placement.body, part.drawing.shape, placement.T_body_part)
+        Component(part.name, placement.body, part.drawing.shape, placement.T_body_part, part.drawing)
         for part in robot.parts
         for placement in part.placements
     ]
-    return printed + [Component(item.name, item.body, item.shape, item.T_body_part) for item in robot.hardware]
+    return printed + [Component(item.name, item.body, item.shape, item.T_body_part, item) for item in robot.hardware]
 
 
 def moments(robot: Robot) -> list[Moment]:

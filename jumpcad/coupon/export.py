@@ -83,6 +83,7 @@ def _guide(workshop: Workshop, holes: HoleSizes) -> str:
             axle=f"{holes.axle_mm:g}",
             example=f"{holes.axle_mm + 0.2:g}",
             bearing=bearing,
+            needs_bearings=_bearings(workshop, holes),
             body=workshop.material_name("body"),
             links=workshop.material_name("links"),
             lying=" ".join(engraved(step) for step in steps_mm(workshop.fits.lying_mm)),
@@ -90,6 +91,14 @@ def _guide(workshop: Workshop, holes: HoleSizes) -> str:
             readings=READINGS,
         )
     )
+
+
+def _bearings(workshop: Workshop, holes: HoleSizes) -> str:
+    """Return the bearings that are tried, as part of a list."""
+    names = [one.name for one in (holes.bearing, *seats(workshop)) if one is not None]
+    if not names:
+        return ""
+    return f"the bearing{'s' * (len(names) > 1)} {' and '.join(names)} (the robot has one kind of them), "
 
 
 def _seat(workshop: Workshop) -> str:

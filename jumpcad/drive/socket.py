@@ -1,7 +1,7 @@
 """Room that a motor needs in the body: its socket, and the distance from its front to its pinion (mm)."""
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import CAP_EAR_MM, MOTOR_CAP_MM, SOCKET_PLAY_MM, SOCKET_WALL_MM
+from jumpcad.dimensions import CAP_EAR_MM, MOTOR_CAP_MM, MOTOR_RIM_MM, SOCKET_PLAY_MM, SOCKET_WALL_MM
 
 
 def socket_half_mm(motor: Motor) -> tuple[float, float]:
@@ -13,3 +13,8 @@ def socket_half_mm(motor: Motor) -> tuple[float, float]:
 def front_length_mm(motor: Motor) -> float:
     """Return how far the cap, or a boss that is longer, reaches from the motor's front."""
     return max(MOTOR_CAP_MM, motor.boss_length_mm)
+
+
+def window_mm(motor: Motor) -> tuple[float, float]:
+    """Return width and height of the window in the socket's floor, through which terminals and wires pass."""
+    return motor.width_mm - 2.0 * MOTOR_RIM_MM, motor.height_mm - 2.0 * MOTOR_RIM_MM

@@ -23,8 +23,9 @@ class TrainLimits:
         Largest share of a motor's stall torque, and largest torque on its gearbox.
     pair_efficiency
         Efficiency of each printed gear pair.
-    supply
-        What drives the motor; without one it turns at its rated voltage.
+    supply, blocked_nm
+        What drives the motor, under the PWM with which the blocked motor gives no more than this torque: that of the
+        firmware. Without a supply it turns at its rated voltage.
     backlash_circumferential_mm
         Backlash of a pair, at the pitch circle.
     stress_mpa
@@ -80,6 +81,7 @@ class TrainLimits:
     cam_speed_max_rad_s: float = 4.6
     seconds_per_gram: float = 2.0
     supply: Supply | None = None
+    blocked_nm: float = math.inf
 
     def efficiency(self, pairs: int) -> float:
         """Return the share of the motor's work that reaches the springs through a number of gear pairs."""
@@ -87,15 +89,15 @@ class TrainLimits:
 
     def driven(self, motor: Motor) -> Motor:
         """Return a motor as it behaves at the supply's nominal voltage under load."""
-        return self.supply.driven(motor, self.supply.nominal_v, self.torque_max_nm) if self.supply else motor
+        return self.supply.driven(motor, self.supply.nominal_v, self.blocked_nm) if self.supply else motor
 
     def weakest(self, motor: Motor) -> Motor:
         """Return a motor as it behaves with an empty battery."""
-        return self.supply.driven(motor, self.supply.empty_v, self.torque_max_nm) if self.supply else motor
+        return self.supply.driven(motor, self.supply.empty_v, self.blocked_nm) if self.supply else motor
 
     def fastest(self, motor: Motor) -> Motor:
         """Return a motor as it behaves with a full battery."""
-        return self.supply.driven(motor, self.supply.full_v, self.torque_max_nm) if self.supply else motor
+        return self.supply.driven(motor, self.supply.full_v, self.blocked_nm) if self.supply else motor
 
     def beside(self, motor: Motor) -> Self:
         """Return the limits with those that a motor's shaft and socket set."""

@@ -33,12 +33,16 @@ CLIP_OPENING = 0.8
 
 @dataclass(frozen=True)
 class Place:
-    """Where an axle or pin is: its body, its axis (2,) in x-z, and the outer faces that it joins, an interval of y."""
+    """Where an axle or pin is: its body, its axis (2,) in x-z, and the outer faces that it joins, an interval of y.
+
+    `turn_rad` is the direction of its split pin in x-z: 0 along x.
+    """
 
     name: str
     body: str
     centre: Array
     faces: Interval
+    turn_rad: float = 0.0
 
 
 def axles(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[BoughtPart]:
@@ -63,7 +67,9 @@ def pins(layout: Layout, catalogue: Catalogue, chosen: BoughtParts) -> Iterator[
     places = (
         Place("ankle_pin", FOOT, np.zeros(2), (-ankle, ankle)),
         Place("front_eye_pin", FOOT, np.array([layout.design.l4_mm, 0.0]), (-lug, lug)),
-        Place("leg_spring_pin", MAIN_LEG, np.array([layout.leg_pin_mm, 0.0]), (-arm, arm)),
+        Place(
+            "leg_spring_pin", MAIN_LEG, np.array([layout.leg_pin_mm, 0.0]), (-arm, arm), np.pi / 2.0
+        ),  # across the leg
     )
     for place in places:
         if rod := clipped_pins(catalogue, chosen):
@@ -172,14 +178,14 @@ def _clevis(place: Place, diameter_mm: float, catalogue: Catalogue) -> Iterator[
     ]
     mass = catalogue.rod_mass_g(diameter_mm, length) + catalogue.rod_mass_g(pin.head_mm, pin.head_height_mm)
     article = f"clevis pin B {diameter_mm:g} x {length:g} ISO 2341"
-    yield bought(place.name, article, place.body, mass, slabs, _at(place, head - length))
+    yield bought(place.name, article, place.body, mass, slabs, _at(place, head - length), place.turn_rad)
     bent = rectangle((COTTER_SPAN_MM, 2.0 * cotter)) - disc(diameter_mm + 2.0 * COTTER_ROOM_MM)
     region = union([rectangle((COTTER_SPAN_MM, cotter)), bent])
     y = head - length + pin.end_mm - cotter / 2.0
     mass = catalogue.rod_mass_g(cotter, pin.cotter_length_mm)
     article = f"split pin {cotter:g} x {pin.cotter_length_mm:g} ISO 1234"
     slab = [(0.0, cotter, region)]
-    yield bought(f"{place.name}_split_pin", article, place.body, mass, slab, _at(place, y))
+    yield bought(f"{place.name}_split_pin", article, place.body, mass, slab, _at(place, y), place.turn_rad)
 
 
 def _at(place: Place, y_mm: float) -> tuple[float, float, float]:

@@ -11,7 +11,17 @@ import numpy.typing as npt
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.spatial import Delaunay
 
-from jumpcad.dimensions import CAP_EAR_MM, PAD_WALL_MM, SOCKET_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, TAB_MM, TRAY_MM
+from jumpcad.dimensions import (
+    CAP_EAR_MM,
+    MOTOR_CLAMP_MM,
+    PAD_WALL_MM,
+    SOCKET_WALL_MM,
+    STANDOFF_PAD_MM,
+    STOP_EDGE_MM,
+    TAB_MM,
+    TRAY_MM,
+)
+from jumpcad.drive.socket import window_mm
 from jumpcad.layout.layout import Layout
 from jumpcad.layout.stop import EAR_MM
 from jumpcad.mechanism.model import BODY
@@ -51,6 +61,9 @@ TEXT_STEP_MM = 1.0
 def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     """Return the left plate, at the side of the gears, and the right one with the socket that holds the motor.
 
+    The socket has a floor at the motor's rear end, open in the middle for terminals and wires, and ends a little below
+    the motor's front: the cap clamps the motor between the floor and itself.
+
     Without a name nothing is engraved; letters that the engraving's font lacks are left out.
     """
     label = engravable(name).strip() if name else ""
@@ -74,13 +87,15 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     common = closed - _bores(layout, holes)
     play = 2.0 * holes.fits.sliding_mm
     cavity = _motor_box(layout, motor.width_mm + play, motor.height_mm + play)
-    window = _motor_box(layout, motor.width_mm - 2.0, motor.height_mm - 2.0)
+    window = _motor_box(layout, *window_mm(motor))
     taps = union(hole(holes.fits.m2_tap_mm, place) for place in ear_places(layout))
-    socket = socket_outline(layout) - cavity - taps
+    around = socket_outline(layout) - taps
+    seat, rim = lateral.motor[0], lateral.motor[1] - MOTOR_CLAMP_MM
     slabs = [(y0 + floor, y1, common - window), *_floor(y0, y0 + floor, closed - window)]
     bosses = _boss(layout, holes, y1, y1 + layout.boss_mm) + _spring_boss(layout, holes, y1, cavity + taps)
-    levels = sorted({y1, lateral.motor[1], *(top for _, top, _ in bosses)})
+    levels = sorted({y1, seat, rim, *(top for _, top, _ in bosses)})
     for low, high in itertools.pairwise(levels):
+        socket = around - (window if high <= seat else cavity)
         slabs.append((low, high, union([socket, *(region for _, top, region in bosses if top >= high)])))
     right = _drawing("body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), name and f"{label} R".strip(), "right")
     return [left, right]

@@ -35,7 +35,7 @@ SCREW_END_MM = 4.0
 lengths are 2 mm apart, so that it stays below the 6 mm that are tapped."""
 SWITCH_EAR_MM = 0.5
 """Thickness of the ears of a slide switch, tapped M2; usual."""
-STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm", (10.0, 1.0), 0.8
+STRAP, STRAP_MM, STRAP_G = "hook-and-loop strap 10 x 150 mm, 1.2 mm thick at most", (10.0, 1.0), 0.8
 TIE, TIE_MM, TIE_G = "cable tie 2.5 x 100 mm, polyamide", (2.5, 1.1), 0.3
 BALANCE_HEIGHT_MM = 6.0
 """Of a balance lead's plug, which lies under its tie; judgement."""

@@ -14,15 +14,18 @@ STEPS_A_TURN = 24
 """Chords per turn of a drawn coil; judgement: at most 0.9 % of the radius inside the circle."""
 STEPS_MAX = 400
 """Chords of a whole coil at most, so that its mesh stays small."""
+ORDERED = 2
+"""Springs of each hand to order, of which one is chosen by its torque; judgement."""
 
 
 def spring_article(spring: TorsionSpring, hand: str) -> str:
     """Return what to order: a name from stock, or the figures that a spring maker needs."""
     if spring.stock:
-        return f"torsion spring {spring.stock}, {hand} hand, arms cut to {spring.arm_length_mm:.1f} mm"
+        cut = f"arms cut to {spring.arm_length_mm:.1f} mm"
+        return f"torsion spring {spring.stock}, {hand} hand, {cut}; order {ORDERED}, choose one"
     return (
         f"torsion spring, {spring.rate_nmm_per_deg:.2f} N·mm/°, wire {spring.wire_mm:g} mm, inside diameter "
-        f"{spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, {hand} hand"
+        f"{spring.inside_diameter_mm:.2f} mm, {spring.turns:.2f} turns, {hand} hand; order {ORDERED}, choose one"
     )
 
 

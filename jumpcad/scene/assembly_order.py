@@ -182,16 +182,25 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Solder the motor's two wires first ({motor_wire} mm each): its terminals are behind the plate's "
-                  "window later. The terminal with the mark is motor +."),
+                  "window of {window} mm later, and no solder may stand out beyond it. The terminal with the mark is "
+                  "motor +. A shaft that stands out of the motor's back is cut off before that (Order and cut): it "
+                  "would stand in the window."),
             Words("Screw the standoffs to the right plate, the one with the motor's socket, from outside: "
                   "{torque_plastic} N·m. Then lay it on the bench, outside down: up is the robot's left from now on."),
+            Words("Solder the switch's leads to it first, those of the table under Wiring: later there is no room for "
+                  "the iron.", needs="switch"),
             Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside. Ears "
                   "without thread: screws 2 mm longer, and an M2 nut behind each ear.", needs="switch"),
             Words("Lead the wires through the window and push the motor into its socket from above, its shaft up, its "
-                  "shorter side as the socket's. Put the cap on and turn its two screws into the plastic, in turns, "
-                  "until the motor has no play: {torque_m2} N·m."),
+                  "shorter side as the socket's, until its rear stands on the socket's floor. Its front is now level "
+                  "with the socket's rim or up to 0.4 mm above it ({clamp} mm as drawn). Higher: solder or a wire is "
+                  "on the floor. Lower: the motor is shorter; glue strips of card onto the floor, beside the window."),
+            Words("Put the cap on: it lies on the motor, not on the socket. Turn its two screws into the plastic, a "
+                  "quarter of a turn each in turns, until the motor has no play along its shaft, and no further: "
+                  "{torque_m2} N·m at most. The cap bends a little, a gap below its ears may remain."),
         ),
-        checks=(Words("The motor does not move in its socket, and nothing touches its shaft."),),
+        checks=(Words("Pushed at its shaft, and at its rear through the window, the motor does not move. Nothing "
+                      "touches its shaft."),),
     ),
     Plan(
         "lower", "Lower tray with the battery", LOWER,
@@ -202,7 +211,8 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Lay the battery on the lower tray, between the two stops at its ends, its leads to the front, over "
-                  "the stop. Close its strap: tight enough that it does not slide, not so tight that it dents. Gaps to "
+                  "the stop. Close its strap, the overlap on top of the battery: below the tray the front "
+                  "link passes it. Tight enough that it does not slide, not so tight that it dents. Gaps to "
                   "the stops of more than 1 mm are filled with foam tape on the stop. Do not plug it in yet. Later it "
                   "leaves the finished robot to the front: strap open, lifted over the stop."),
             Words("The plug of the balance lead lies ahead of the battery under its cable tie, its open end covered "
@@ -230,10 +240,12 @@ ORDER: tuple[Plan, ...] = (
                   "heat-shrink tube over each joint. The motor's wires go to the driver last: first through the "
                   "right plate's wire hole, from outside to inside, then solder them. The sensor's ends stay "
                   "free until step {step_left}."),
-            Words("Then lay every board on its piece of foam tape, in its place, against the tray's rim where there is "
-                  "one, the controller's USB socket to the right, and pull a cable tie over it. Plug and capacitor get "
-                  "a tie too: the plug opens forwards. Tie the wires together beside the boards, so that no joint "
-                  "bears a pull."),
+            Words("Cut the foam tape out where a board has wires or legs underneath, so that the board lies flat. Then "
+                  "lay every board on its piece, in its place, against the tray's rim where there is one, the "
+                  "controller's USB socket to the right, and pull a cable tie over it. Plug and capacitor get a tie "
+                  "too: the plug opens forwards. Heads of ties lie on top, beside what they hold, with their ends cut "
+                  "off; below the tray they would touch the battery's strap. None covers a button of the controller. "
+                  "Tie the wires together beside the boards, so that no joint bears a pull."),
             Words("Put the firmware on the controller over USB (firmware/README.md) before the battery is plugged in "
                   "for the first time."),
         ),
@@ -260,7 +272,9 @@ ORDER: tuple[Plan, ...] = (
                   needs="sensor"),
             Words("Put the sensor into the plate's opening from outside, its plunger through to the "
                   "inside, push the mount along the leads over it, and turn the two screws into the plastic: "
-                  "{torque_m2} N·m. Tie the leads at the hole so that its terminals bear no pull.", needs="sensor"),
+                  "{torque_m2} N·m. Tie the leads at the hole so that its terminals bear no pull, and hold "
+                  "them flat on the plate, straight from the mount to the hole, with a strip of adhesive tape every "
+                  "20 mm.", needs="sensor"),
         ),
         checks=(Words("Pressed on the inside, the plunger clicks and comes out again. Multimeter between the "
                       "controller's ground and its pin of the sensor, battery unplugged: {free}; pressed, {pressed}. "
@@ -270,8 +284,12 @@ ORDER: tuple[Plan, ...] = (
         "power", "First power-up, on the bench", ROBOT, (),
         (
             Words("Nothing is on the motor's shaft yet. Lay right plate, left plate and both trays side by side as "
-                  "wired, switch off; plug the battery in, switch on. Connect the computer by USB, open the console "
-                  "(firmware/README.md)."),
+                  "wired, switch off, USB cable out; plug the battery in, switch on."),
+            Words("Multimeter on volts: across the plug's poles the battery's voltage, then between the controller's "
+                  "ground and {divider_pin}: {divider_share} of that ({divider_v} V at {nominal_v} V). Anything else: "
+                  "the resistors are exchanged, or a leg is not soldered; then nothing protects the battery. Switch "
+                  "off and mend it before you go on.", needs="wiring_resistor_upper"),
+            Words("Connect the computer by USB, open the console (firmware/README.md)."),
             Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
                   "and Enter, and let go at once, within {release_ms} ms: the motor stops {after_ms} ms later and the "
@@ -279,6 +297,9 @@ ORDER: tuple[Plan, ...] = (
             Words("Press and hold the sensor, wait 2 s, type `wind`: the motor must not turn, and the answer is "
                   "`fault` right after a jump, else `ready`. A broken lead reads the same.",
                   needs="wiring_resistor_pull_up"),
+            Words("Current. {usb_out}. Switch off; multimeter on its 10 A range, its leads on the switch's two "
+                  "terminals: the current now passes it, and off is to take a lead away. Wind, and stop with the "
+                  "sensor; then take the multimeter off.", needs="switch"),
             Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
                   "not, exchange its two wires at the driver."),
         ),
@@ -287,8 +308,12 @@ ORDER: tuple[Plan, ...] = (
                   "a connected battery alone."),
         ),
         (
-            Words("Battery {battery_v} V at rest, at least {min_v} V. The shaft alone turns with about {free_rpm} rpm "
-                  "and draws about {free_ma} mA."),
+            Words("Battery {battery_v} V at rest, at least {min_v} V."),
+            Words("`state` prints the battery's voltage, to {state_off} V of the multimeter's at the plug. Calibrate "
+                  "it (firmware/README.md).", needs="wiring_resistor_upper"),
+            Words("The shaft alone turns with about {free_rpm} rpm. From the battery come about {boards_ma} mA while "
+                  "the motor stands and {free_ma} mA while it turns, the boards included. A third more or less is the "
+                  "scatter of motors and boards (judgement)."),
         ),
     ),
     Plan(
@@ -301,6 +326,9 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("{off}, unplug the battery. Push the tabs of both trays into the right plate's slots, the battery's "
                   "tray below. Lead the wires along the plate, away from leg, cam and gears, and tie them."),
+            Words("Outside, the motor's wires lie flat on the plate, straight from its window to the wire hole, clear "
+                  "of the opening for the USB plug and of the switch's slot; a strip of adhesive tape every 20 mm "
+                  "holds them."),
         ),
     ),
     Plan(
@@ -340,7 +368,7 @@ ORDER: tuple[Plan, ...] = (
                   "forced; an arm that does not lie "
                   "against its pin belongs to the spring of the other hand."),
         ),
-        (Words("The leg swings freely from the motor to its end, and falls by its own weight."),),
+        (Words("The leg turns freely about its axle."),),
     ),
     Plan(
         "stop", "Pad of the rest stop", STOP,
@@ -383,7 +411,8 @@ ORDER: tuple[Plan, ...] = (
                   "{cam_turn} as seen from the left. Then lay it down and take the plate off again."),
         ),
         checks=(
-            Words("The cam lifts the leg by {stroke}° over {lift}° of its turn; then the leg falls. Nothing rubs."),
+            Words("The leg swings freely and falls by its own weight. The cam lifts it by {stroke}° over {lift}° of "
+                  "its turn; then it falls. Nothing rubs."),
             Words("The sensor clicks {ready_deg}° before the drop, and again after it; nowhere else. Otherwise take "
                   "the plate off: is the gear on both jaws, its groove to the left, the sensor's base against its "
                   "mount?", needs="sensor"),
@@ -402,8 +431,11 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Press the pinion onto the motor's shaft, flat to flat and its teeth between the wheel's, until it "
-                  "is level with the wheel: its ribs are cut. Support the motor from below; {press_n} N at most, more "
-                  "damages the gearhead."),
+                  "is level with the wheel: its ribs are cut. {press_n} N at most, more damages the gearhead."),
+            Words("The force goes through motor, socket floor and right plate: stand that plate on the end of a piece "
+                  "of wood of {block} mm with a groove {groove} mm wide and 10 mm deep sawn across the end, the groove "
+                  "along the window's longer side. The wood bears on the plate on both sides of the window, the wires "
+                  "lie in the groove and leave at its ends. Hold the robot level: it stands on the wood alone."),
             Words("Left plate and its screws for good, {torque_plastic} N·m. The closed bores of both plates hold the "
                   "axles.", lacks=".*_axle_(nut|clip_1)"),
             Words("Left plate and its screws for good, {torque_plastic} N·m. Put the axles' screws in from the left, "
@@ -416,7 +448,10 @@ ORDER: tuple[Plan, ...] = (
         (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),
         (
             Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
-                  "tolerance. The leg still swings freely."),
+                  "tolerance: try it at the springs' pin, the others are covered from end to end. The leg still "
+                  "swings freely.", lacks=".*_axle_(nut|clip_1)"),
+            Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
+                  "tolerance. The leg still swings freely.", needs=".*_axle_(nut|clip_1)"),
         ),
     ),
     Plan(
@@ -429,9 +464,15 @@ ORDER: tuple[Plan, ...] = (
         ),
         (),
         (
-            Words("It winds in about {dry_s} s with about {dry_ma} mA and stops by itself, ready. After `jump` the leg "
-                  "falls within {release_ms} ms. A motor that runs for {wind_max} s and says `fault` had no signal, "
-                  "one that is `ready` at once has a broken lead: mend the sensor before the springs are armed."),
+            Words("It winds in about {dry_s} s and stops by itself, ready. After `jump` the leg falls within "
+                  "{release_ms} ms. For {landing_s} s after that `wind` is only answered by the last message, and "
+                  "nothing turns: give it again."),
+            Words("A motor that runs for {wind_max} s and says `fault` had no signal. `ready` at once, or `fault: "
+                  "sensor pressed too early`: a broken lead, or a cam that stands under the sensor. Give `wind`, then "
+                  "`jump`: a jump that is counted was the cam, `fault: no release seen in time` is the lead. Mend the "
+                  "sensor before the springs are armed.", needs="wiring_resistor_pull_up"),
+            Words("A motor that runs for {wind_max} s and says `fault` had no signal: mend the sensor before the "
+                  "springs are armed.", lacks="wiring_resistor_pull_up"),
         ),
     ),
     Plan(
@@ -444,6 +485,14 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("Lay the robot on its right plate and hold the leg on its stop: its empty hole is then behind the "
                   "hole in the left plate, {pin_hole} mm wide, below the leg's axle.", needs="leg_spring_pin"),
+            Words("The slack springs swung backwards while the robot stood upright. Turn them back first: with a small "
+                  "screwdriver from the front lift the outer arm of either spring until it lies against the springs' "
+                  "other pin from below."),
+            Words("Look before you push: both outer arms lie under the springs' other pin, and both inner arms between "
+                  "the leg's empty hole and that pin. A thin rod through the hole, held at its edge away from that "
+                  "pin, touches no arm. If an inner arm is behind or below the hole, its spring is not yet turned "
+                  "back: the pin would stand between its two arms and the springs would not push.",
+                  needs="leg_spring_pin"),
             Words("Press a clip into the groove at one end of the pin; that end goes in last.",
                   needs="leg_spring_pin_clip_.*"),
             Words("Drop the pin ({leg_pin}) through that hole and push it with a thin rod through the leg, below the "
@@ -457,8 +506,8 @@ ORDER: tuple[Plan, ...] = (
                   "from the front, towards the springs' other pin, the left spring's until the pin is in the leg, then "
                   "the right one's; {preload_n} N, and {arm_n} N where an arm is {wider}° wider than ordered. "
                   "Both plates hold the springs' other pin.", needs="preload"),
-            Words("Put the split pin through the pin's right end from the front, bend its ends around the pin and cut "
-                  "off what stands out.", needs="leg_spring_pin_split_pin"),
+            Words("Turn the pin until its cross hole points forwards, put the split pin through it from the front, "
+                  "bend its ends around the pin and cut off what stands out.", needs="leg_spring_pin_split_pin"),
             Words("Press the second clip into the groove at the pin's right end, from the front.",
                   needs="leg_spring_pin_clip_.*"),
         ),
@@ -472,8 +521,9 @@ ORDER: tuple[Plan, ...] = (
                   "pin bent on the right, and pushed from either side it stays.", needs="leg_spring_pin_split_pin"),
             Words("The plate does not keep the pin, at rest its hole is open: both clips are in their grooves, and "
                   "pushed from either side it stays.", needs="leg_spring_pin_clip_.*"),
-            Words("The leg lies on its stop and springs back to it "
-                  "when its end is pulled forward a little: {foot_n} N there would load it completely, so do not."),
+            Words("The leg lies on its stop and springs back to it when its end is pulled forward a little: {foot_n} N "
+                  "there would load it completely, so do not. With arms narrower than ordered it is slack near the "
+                  "stop, for {slack}° at most, and springs back from there on; that is no fault."),
         ),
     ),
     Plan(
@@ -490,7 +540,8 @@ ORDER: tuple[Plan, ...] = (
                   needs="ankle_pin_split_pin"),
             Words("Press the clips into the grooves.", needs="ankle_pin_clip_.*"),
         ),
-        checks=(Words("The robot stands on nose and toes, the leg on its stop; pressed down, it comes up again."),),
+        checks=(Words("The robot stands on nose and toes, the leg on its stop; pressed down, it comes up again, with "
+                      "arms narrower than ordered but for the last {slack}° of the leg."),),
     ),
     Plan(
         "jump", "First winding and first jump", ROBOT, (),
@@ -498,6 +549,7 @@ ORDER: tuple[Plan, ...] = (
             Words("Wear glasses. Put the robot on a floor that is not slippery, with {far} m free ahead of it and "
                   "{high} m above. Plug the battery in, switch on. {cable} {wind_by}"),
             Words("{jump_by} For {landing_s} s after a jump it ignores everything."),
+            Words("{stop_by}"),
         ),
         (
             Words("Wound springs stay loaded when the battery is empty or unplugged. To slacken them, hold the robot "
@@ -510,7 +562,8 @@ ORDER: tuple[Plan, ...] = (
                   "give `wind` again. Refused again: {charge_loaded} Then `wind` again, and `jump`."),
         ),
         (
-            Words("It winds in about {wind_s} s with {wind_ma} mA, {peak_ma} mA at most. As computed it jumps {range} "
+            Words("It winds in about {wind_s} s. Of that, computed: {wind_ma} mA from the battery on average, "
+                  "{peak_ma} mA at most, {wind_j} J; do not connect a multimeter for it. As computed it jumps {range} "
                   "mm far and {rise} mm high; what others measured on the bench was 77 to 87 % of the computed energy "
                   "at best, so expect less."),
             Words("Half of that: does a foot slip, does a link rub, is the springs' rate right, does the roller leave "

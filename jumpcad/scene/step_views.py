@@ -70,12 +70,17 @@ class Inset:
     room: float = 1.0
 
 
+BEHIND = {"arm": r"leg_spring_pin_(split_pin|clip_1)"}
+"""What a plate hides in a step's picture, by the step's key: a detail shows it."""
+
 INSETS = (
     Inset("leg", "hub", "Hub and roller", "main_leg|hub_bearing_.*|roller.*", "hub_bearing_.*|roller.*",
           View(-40.0, 25.0)),
     Inset("foot", "pads", "Pads from below", "foot|toe_.*|nose_pad_.*", "nose_pad_.*", View(35.0, -30.0), room=2.6),
     Inset("arm", "springs", "Springs, seen from the left: arms and pins",
           "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_(left|right).*|leg_spring_pin", View(75.0, 12.0)),
+    Inset("arm", "retention", "The pin's right end and what keeps it, seen from the right",
+          "spring_.*|main_leg|leg_spring_pin.*|leg_axle", "spring_right.*|" + BEHIND["arm"], View(-128.0, 20.0)),
     Inset("cam", "gear", "Cam gear from the right: the face with the pockets, towards the cam", "cam_gear", "cam_gear",
           View(-60.0, 15.0)),
     Inset("boards", "small", "Resistors and diode between the boards",
@@ -147,6 +152,8 @@ def _view(
     `beside` the assemblies beside it on the bench.
     """
     added = [thing for placed in step.placed for thing in placed.things]
+    if inset is None and step.key in BEHIND:
+        added = [thing for thing in added if not re.fullmatch(BEHIND[step.key], thing.name)]
     moved, beside = moved | _on_bench(before, beside or {}, poses), beside or {}
     things = [*before, *added, *(thing for others in beside.values() for thing in others)]
     if inset is not None:

@@ -1,7 +1,7 @@
 """Runs the robot: reads sensor, button, battery and serial commands, and turns the motor as `winder` returns.
 
 Commands over USB, one a line: `wind`, `jump`, `stop`, `state`. The button on the board winds, and then releases after
-a delay, in which you step back.
+a delay, in which you step back. While it winds a press stops the motor, and during the delay it takes the jump back.
 """
 
 import select
@@ -10,7 +10,7 @@ import time
 
 import robot
 from machine import ADC, PWM, Pin
-from winder import READY, Winder
+from winder import READY, WINDING, Winder
 
 STEP_MS = 2
 LONGEST = 20  # characters of a line that are kept
@@ -89,26 +89,31 @@ def run():
             word = console.command()
             down = board.button is not None and not board.button.value()
             pressed = button.pressed(now, down)
-            if pressed and winder.state == READY and release_at is None:
+            if pressed and release_at is not None:
+                release_at = None
+                print("no jump; the springs stay loaded")
+            elif pressed and winder.state == READY:
                 release_at = now + robot.BUTTON_DELAY_MS
                 print("jump in %d s" % (robot.BUTTON_DELAY_MS // 1000))
             due = release_at is not None and now >= release_at
             if winder.state != READY or due or word == "stop":
                 release_at = None
+            volts = board.battery_v()
             share = winder.step(
                 now,
                 board.ready.value() == robot.READY_LEVEL,
-                board.battery_v(),
+                volts,
                 wind=word == "wind" or (pressed and winder.state != READY),
                 jump=word == "jump" or due,
-                stop=word == "stop",
+                stop=word == "stop" or (pressed and winder.state == WINDING),
             )
             board.turn(share)
             if word and word not in COMMANDS:
                 print("unknown command; there are: %s" % ", ".join(COMMANDS))
             elif word or winder.said != told:  # each command is answered, also one that does nothing in this state
                 told = winder.said
-                print("%s: %s; %d jumps" % (winder.state, told, winder.jumps))
+                battery = "" if volts is None else "; battery %.2f V" % volts
+                print("%s: %s; %d jumps%s" % (winder.state, told, winder.jumps, battery))
             time.sleep_ms(STEP_MS)
     finally:
         board.turn(0.0)

@@ -46,7 +46,7 @@ def test_every_number_in_the_texts_is_filled_in() -> None:
     guide = write_guide(robot)
     assert not re.search(r"\{\w+\}", guide)
     row = re.search(r"\| 20° \| (\d+) g \|", guide)
-    lever = re.search(r"touches the arm ([\d.]+) mm to the side", guide)
+    lever = re.search(r"narrower than the coil is long, ([\d.]+) mm to the side", guide)
     assert row is not None
     assert lever is not None
     spring, side = robot.layout.drive.spring, float(lever[1])
@@ -72,5 +72,7 @@ def test_each_hand_has_its_drawing_with_the_rate() -> None:
     for hand, sheet in zip(("right", "left"), sheets.values(), strict=True):
         ET.fromstring(sheet)
         assert "4.60 N·mm/° ±10 %" in sheet
-        assert re.search(r"° \+[4-6]° / -10°; 180° is opposite directions", sheet)
+        assert "order 2 and choose" in sheet
+        assert "agree within 5 %" in sheet
+        assert re.search(r"° \+4° / -10°; 180° is opposite directions", sheet)
         assert f"rises to the {hand}" in sheet

@@ -132,7 +132,7 @@ def test_main_winds_and_releases_on_command(monkeypatch: pytest.MonkeyPatch, cap
     assert bench.awake[6] == 0
     said = capsys.readouterr().out.splitlines()
     assert [line.partition(":")[0] for line in said] == ["idle", "winding", "ready", "releasing", "idle", "idle"]
-    assert said[-1].endswith("1 jumps")
+    assert "; 1 jumps;" in said[-1]
 
 
 def test_a_broken_lead_stops_the_motor(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -157,6 +157,48 @@ def test_the_button_winds_and_releases_after_a_delay(monkeypatch: pytest.MonkeyP
     run_main(bench, monkeypatch)
     assert turned[-1] < 1100.0  # 2.9 s after the button
     assert bench.turned_ms >= 1100.0
+
+
+def test_the_button_stops_what_winds_and_winds_on_later(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    """Winding takes 1 s of motor: stopped after 0.4 s it stands, and the next press winds the rest."""
+    bench = Bench({2900: "state"})
+    bench.presses = (500, 900, 3000)
+    stood: list[float] = []
+    read = bench.read
+
+    def noted(count: int) -> bytes:
+        stood.append(bench.turned_ms)
+        return read(count)
+
+    monkeypatch.setattr(bench, "read", noted)
+    run_main(bench, monkeypatch)
+    assert 250.0 <= stood[0] == stood[-1] <= 400.0 + 50.0
+    assert 1000.0 <= bench.turned_ms <= 1000.0 + 20.0
+    states = [line.partition(":")[0] for line in capsys.readouterr().out.splitlines()]
+    assert states == ["idle", "winding", "idle", "idle", "winding", "ready"]
+
+
+def test_the_button_takes_a_jump_back_before_it_is_due(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    """Pressed again within the 3 s of the delay; a third press later releases after another 3 s."""
+    bench = Bench({7900: "state"})
+    bench.presses = (500, 3000, 4500, 8200)
+    run_main(bench, monkeypatch)
+    said = capsys.readouterr().out
+    assert said.index("no jump; the springs stay loaded") < said.rindex("ready: keep away from the leg; 0 jumps")
+    assert said.count("jump in 3 s") == 2
+    assert "jump 1" in said
+    assert bench.turned_ms >= 1100.0
+
+
+def test_state_tells_the_batterys_voltage(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
+    bench = Bench({500: "state"})
+    bench.battery_v = 3.86
+    run_main(bench, monkeypatch)
+    assert capsys.readouterr().out.splitlines()[-1].endswith("; battery 3.86 V")
 
 
 def test_keys_that_come_one_by_one_do_not_stop_the_loop(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -61,7 +61,7 @@ def test_screws_have_lengths_that_are_sold(robot: Robot) -> None:
 
 def test_the_two_springs_mirror_each_other(robot: Robot) -> None:
     left, right = (next(item for item in robot.hardware if item.name == f"spring_{side}") for side in ("left", "right"))
-    assert left.article.removesuffix("right hand") == right.article.removesuffix("left hand")
+    assert left.article.replace("right hand", "left hand") == right.article
     assert left.mass.mass_kg == pytest.approx(right.mass.mass_kg)
     assert left.mass.com_m * [1.0, -1.0, 1.0] == pytest.approx(right.mass.com_m, abs=1e-6)
 

@@ -28,6 +28,19 @@ def test_labels_name_what_is_put_on_and_lead_to_its_place(views: dict[str, list[
     assert {"left-hand spring", "right-hand spring"} <= {label.text for label in views["legs"][0].labels}
 
 
+def test_the_split_pin_goes_through_the_springs_pin_along_its_own_length(views: dict[str, list[StepView]]) -> None:
+    """From the front, in a picture without the plates; the step's own picture, where the plate hides it, lacks it."""
+    step, *details = views["arm"]
+    assert "leg_spring_pin_split_pin" not in {thing.name for thing in step.things}
+    (detail,) = [view for view in details if view.name == "retention"]
+    assert not any("plate" in thing.name for thing in detail.things)
+    (label,) = [label for label in detail.labels if label.text == "leg spring pin split pin"]
+    assert label.at_m[0] > label.place_m[0] + 0.005
+    at = next(k for k, thing in enumerate(detail.things) if thing.name == "leg_spring_pin_split_pin")
+    corners = detail.things[at].mesh.vertices @ detail.poses[at][:3, :3].T
+    assert np.argmax(np.ptp(corners, axis=0)) == 0
+
+
 def test_two_meshing_gears_turn_oppositely_and_three_alike() -> None:
     assert motor_sense(built("kenan-2.0")) == -1
     assert motor_sense(geared()) == 1
