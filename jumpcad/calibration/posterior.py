@@ -12,7 +12,7 @@ import numpy as np
 from jumpcad.arguments import typed
 from jumpcad.calibration.likelihood import Datum, Model, Parameter, Predicted, energy_per_mass, predict
 from jumpcad.calibration.priors import QUANTILES
-from jumpcad.calibration.subject import load_subject, renamed
+from jumpcad.calibration.subject import load_subject, renamed, require_each_once
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array
 
@@ -118,13 +118,14 @@ def calibrate(files: Sequence[str | Path], seed: int = 0) -> Posterior:
     Raises
     ------
     JumpcadError
-        If a measurement contradicts another or the robot, its unit or its method is not clear, there is too little to
-        calibrate on, or emcee is not installed.
+        If a file is named twice, a measurement contradicts another or the robot, its unit or its method is not clear,
+        there is too little to calibrate on, or emcee is not installed.
     CannotBuildError
         If a design cannot be built.
     """
     if not files:
         raise JumpcadError("no measurements: name at least one file, or the template kenan-1.0")
+    require_each_once(files)
     return sampled(Model(renamed([load_subject(file) for file in files])), seed)
 
 

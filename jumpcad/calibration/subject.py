@@ -1,6 +1,7 @@
 """One measured robot: built in its workshop, and its measurements, checked against the built model."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -148,6 +149,25 @@ def load_subject(name_or_path: str | Path) -> Subject:
     subject = Subject(path.stem, measured, robot, seen)
     _require_plausible(subject, str(path))
     return subject
+
+
+def require_each_once(names: Sequence[str | Path]) -> None:
+    """Require that no measurements are named twice, nor under two names: their jumps would count as other jumps.
+
+    Raises
+    ------
+    JumpcadError
+        If some are, or a file cannot be read.
+    """
+    known: list[tuple[str | Path, Path, Measurements, list[Path]]] = []
+    for name in names:
+        measured, path = load_measurements(name)
+        videos = [(path.parent / video.points).resolve() for video in measured.videos]
+        for other, at, theirs, seen in known:
+            if at == path.resolve() or (measured, videos) == (theirs, seen):
+                same = "twice" if str(other) == str(name) else f"too, under the name {other}"
+                raise JumpcadError(f"{name}: is given {same}: name the measurements of each robot once")
+        known.append((name, path.resolve(), measured, videos))
 
 
 def _beside(path: Path, name: str) -> str | Path:

@@ -44,10 +44,14 @@ def read_points(path: Path) -> Array:
     Raises
     ------
     JumpcadError
-        If the file cannot be read, a column is missing, a value is no finite number (with file and line), there are too
-        few points, or t does not increase.
+        If the file cannot be read, or not as CSV, a column is missing, a value is no finite number (with file and
+        line), there are too few points, or t does not increase.
     """
-    rows = list(csv.reader(read_text(path, "a CSV file").splitlines()))
+    reader = csv.reader(read_text(path, "a CSV file").splitlines())
+    try:
+        rows = list(reader)
+    except csv.Error as error:
+        raise JumpcadError(f"{path}:{reader.line_num}: cannot be read as CSV: {error}") from None
     head = [cell.strip() for cell in rows[0]] if rows else []
     if missing := [name for name in COLUMNS if name not in head]:
         raise JumpcadError(f"{path}: no column {missing[0]}: the first line must be t,x,z")

@@ -5,23 +5,25 @@
 import _signal as signal  # type: ignore[import-not-found]
 import sys
 
+from jumpcad.interrupts import holding, seen
+
 TYPE_CHECKING = False  # as in `jumpcad`
 if TYPE_CHECKING:
-    from types import FrameType
+    from types import FrameType, TracebackType
 
 INTERRUPTED = 130
 IMPORTING = "<frozen importlib._bootstrap>"
 """File name of the code of Python's import system."""
-_seen: list[int] = []
-"""Interrupts during the command."""
 
 
 def main() -> None:
     """Run the command line; exit codes are those of `jumpcad.cli.commands.run`, and 130 for an interrupt."""
-    _seen.clear()
+    seen.clear()
     listening = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # nohup and & have it ignored
+    hooks = sys.excepthook, sys.unraisablehook
     if listening:
         signal.signal(signal.SIGINT, _interrupt)
+        sys.excepthook, sys.unraisablehook = _unhandled, _unraisable
     try:
         from jumpcad.cli.commands import run
 
@@ -30,10 +32,12 @@ def main() -> None:
     except KeyboardInterrupt:
         _ignore_interrupts(listening)
         code = INTERRUPTED
-    if _seen or code == INTERRUPTED:  # a library may have caught the KeyboardInterrupt
+    if seen or code == INTERRUPTED:  # a library may have caught the KeyboardInterrupt
         from jumpcad.cli.output import complain
 
         code = complain("interrupted", INTERRUPTED)
+    seen.clear()
+    sys.excepthook, sys.unraisablehook = hooks
     sys.exit(code)
 
 
@@ -43,20 +47,48 @@ def _ignore_interrupts(listening: bool) -> None:
 
 
 def _interrupt(number: int, frame: "FrameType | None") -> None:
-    """Raise KeyboardInterrupt; during an import, after it, in the code that imports.
+    """Raise KeyboardInterrupt; during an import, after it, in the code that imports; while it is held, not yet.
 
     Raised while a compiled module is imported it would abort the process, or look like a failure of the module.
     """
-    _seen.append(number)
+    seen.append(number)
+    if holding:
+        return
+    asking = _asking(frame)
+    if asking is None:
+        raise KeyboardInterrupt
+    _raise_in(asking)
+
+
+def _unraisable(ignored: "sys.UnraisableHookArgs") -> None:
+    """Raise an interrupt that compiled code or a finalizer ignored in the code that called it; show other errors."""
+    if ignored.exc_type is not KeyboardInterrupt:
+        sys.__unraisablehook__(ignored)
+        return
+    calling = sys._getframe().f_back
+    if calling is not None:
+        _raise_in(_asking(calling) or calling)
+
+
+def _unhandled(kind: "type[BaseException]", error: BaseException, trace: "TracebackType | None") -> None:
+    """Print nothing of an interrupt: Cython prints what it ignores here too."""
+    if kind is not KeyboardInterrupt:
+        sys.__excepthook__(kind, error, trace)
+
+
+def _asking(frame: "FrameType | None") -> "FrameType | None":
+    """Return the frame of the command that asks for the outermost import under way; None if none is."""
     outermost = None
     while frame is not None and frame.f_code is not main.__code__:
         if frame.f_code.co_filename == IMPORTING:
             outermost = frame
         frame = frame.f_back
-    asking = outermost and outermost.f_back
-    if not asking:
-        raise KeyboardInterrupt
-    asking.f_trace, asking.f_trace_opcodes = _raise, True  # before its next step
+    return outermost and outermost.f_back
+
+
+def _raise_in(frame: "FrameType") -> None:
+    """Raise KeyboardInterrupt in a frame before its next step."""
+    frame.f_trace, frame.f_trace_opcodes = _raise, True
     sys.settrace(lambda *_: None)
 
 

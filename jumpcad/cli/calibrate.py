@@ -39,6 +39,7 @@ def calibrate(
     from jumpcad.calibration import calibrate as run
     from jumpcad.calibration import load_subject, predicted_jump, settings_toml
     from jumpcad.calibration.plots import PICTURES
+    from jumpcad.calibration.subject import renamed, require_each_once
     from jumpcad.files.outputs import require_apart, require_free, require_target, write_atomically
 
     require_apart({"--output": output, "--plots": plots}, {f"measurements {name}": name for name in files})
@@ -46,7 +47,8 @@ def calibrate(
         require_target(output, (".toml",), force)
     for name in PICTURES if plots else ():
         require_free(Path(str(plots)) / f"{name}.svg", force)
-    others = [load_subject(name) for name in predict or ()]
+    require_each_once([*files, *(predict or ())])
+    others = renamed([load_subject(name) for name in predict or ()])
     with status("simulating the robots, sampling the posterior …"):
         posterior = run(files, seed)
         predictions = [predicted_jump(posterior, other, seed) for other in others]

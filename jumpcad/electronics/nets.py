@@ -4,13 +4,13 @@ Terminals have the names printed on the boards. Pins of the controller are chose
 workshop (`[bought.pins]`).
 """
 
-import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from jumpcad.catalogue import Board
+from jumpcad.catalogue.electrical import GPIO
 from jumpcad.electronics.chain import supply_pin
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.errors import CannotBuildError
@@ -32,7 +32,6 @@ SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": ""}
 """Signals of the controller in the order in which they get their pins, and what a pin must be able to do."""
 AVOIDED = ("strapping", "boot_log")
 """Functions that make a pin unsuitable: its level at start chooses how the chip boots, or the chip writes on it."""
-GPIO = re.compile("gpio([0-9]{1,3})")
 COLOURS = {"supply": "red", "logic": "orange", "ground": "black", "motor": "blue", "signal": "yellow"}
 
 
@@ -187,7 +186,9 @@ def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:
         functions = chosen.controller.pins.get(pin, ())
         wrong += [f"{pin} ({signal}) is a {bad.replace('_', ' ')} pin" for bad in AVOIDED if bad in functions]
         needed = SIGNALS[signal]
-        if needed and needed not in functions:
+        if not any(map(GPIO.fullmatch, functions)):
+            wrong.append(f"{pin} ({signal}) has no GPIO")
+        elif needed and needed not in functions:
             wrong.append(f"{pin} ({signal}) has no {needed}")
     message = "; ".join(wrong) or "no strapping pin is used, and every pin does what its signal needs"
     return _yes_or_no("wiring_strapping", not wrong, "error", message, "name another pin in [bought.pins]")

@@ -6,7 +6,7 @@ import importlib.util
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -34,6 +34,8 @@ from jumpcad.workshop.varied import Value
 NEIGHBOURS = 10
 """Neighbours of a design that the objective p10 looks at, half of each kind."""
 MODELS = ("printed", "capsule", "published")
+PUBLISHED_FIGURES = ("fitness", "base_distance_m", "base_height_m", "spring_energy_j")
+"""Figures of a jump of the published robot."""
 PRESENTATION = ("bundle", "calibration", "cli", "coupon", "studio")
 """The packages of jumpcad that do not affect the trials of a study."""
 
@@ -155,6 +157,22 @@ class RobotModel:
         """What is searched for unless the user says something else: only a printed robot has a size."""
         return "body_lengths" if self.name == "printed" else "fitness"
 
+    def require_figures(self, objective: Objective) -> None:
+        """Require that a jump of this robot has the figures of a named objective; a printed robot has them all.
+
+        Raises
+        ------
+        JumpcadError
+            If one is missing.
+        """
+        plain = find_objective(objective.neighbours_of) if objective.neighbours_of else objective
+        if self.name == "printed" or plain.code:
+            return
+        from jumpcad.simulation.jump import Jump
+
+        names = PUBLISHED_FIGURES if self.name == "published" else [one.name for one in fields(Jump)]
+        plain.score(Evaluation("jump", dict.fromkeys(names, 1.0)))
+
     def admits(self, design: Design) -> bool:
         """Whether the feasibility checks that need neither solids nor simulation accept a design (microseconds)."""
         if errors(geometry_findings(design)):
@@ -231,12 +249,9 @@ class RobotModel:
         from jumpcad.paper import published
 
         jump = published.simulate(design)
-        metrics = {
-            "fitness": jump.distance_m / (design.l_max_mm / 1000.0),
-            "base_distance_m": jump.distance_m,
-            "base_height_m": jump.base_height_m,
-            "spring_energy_j": jump.energy_j,
-        }
+        fitness = jump.distance_m / (design.l_max_mm / 1000.0)
+        figures = (fitness, jump.distance_m, jump.base_height_m, jump.energy_j)
+        metrics = dict(zip(PUBLISHED_FIGURES, figures, strict=True))
         return Evaluation("jump" if jump.distance_m > 0 else "no_takeoff", metrics, tuple(geometry_findings(design)))
 
 

@@ -22,9 +22,10 @@ from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
+from jumpcad.interrupts import raise_if_seen
 from jumpcad.search.objective import QUARANTINED, Evaluation, Model
 from jumpcad.search.variant import Variant
-from jumpcad.search.worker import Failure, evaluate_task, start_worker
+from jumpcad.search.worker import Failure, evaluate_task
 
 TASK_S = 0.1
 """Longest duration of a task, which has several evaluations; sending one takes 0.3 ms."""
@@ -35,9 +36,6 @@ ANSWER_S = 10.0
 MOST_WORKERS = 256
 SHORTEST_S, LONGEST_S = 0.1, 86400.0
 """Least timeout per evaluation, below which no evaluation could end, and largest."""
-
-ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
-"""Environment of a local worker: as many workers as cores, one thread each."""
 
 
 @dataclass(frozen=True)
@@ -108,12 +106,14 @@ class Pool:
         waiting = deque(self._tasks(len(designs)))
         running: dict[Future[Any], list[int]] = {}
         while waiting or running:
+            raise_if_seen()
             while waiting and len(running) < self.workers + 1:  # one more keeps workers busy while results travel
                 task = waiting.popleft()
                 running[self._submit(sent, [designs[index] for index in task])] = task
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 yield from self._collect(future, running.pop(future), suspects)
         for index, reason in suspects.items():
+            raise_if_seen()
             self.notice(f"an evaluation failed and is repeated alone: {reason}")
             again: dict[int, str] = {}
             yield from self._collect(self._submit(sent, [designs[index]]), [index], again)
@@ -193,14 +193,11 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
         return Pool(InProcess, InProcess.shutdown, 1)
 
     def open_executor() -> Executor:
-        import loky
+        from jumpcad.search.local_workers import LocalWorkers
 
-        executor: Executor = loky.ProcessPoolExecutor(
-            workers, initializer=start_worker, initargs=(os.getpid(),), env=ONE_THREAD
-        )
-        return executor
+        return LocalWorkers(workers)
 
-    return Pool(open_executor, lambda executor: executor.shutdown(kill_workers=True), workers, limit_s)
+    return Pool(open_executor, lambda executor: executor.end(), workers, limit_s)
 
 
 @typed

@@ -126,6 +126,8 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
             if value > most:
                 raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
+        if isinstance(self.model, RobotModel):
+            self.model.require_figures(self.aim)
         if self.screen:
             self._require_screen()
         if self.widen and self.is_front:

@@ -21,7 +21,7 @@ from jumpcad.search.stored import (
     stored_text,
     stored_workshop,
 )
-from jumpcad.search.tolerances import MADE
+from jumpcad.search.tolerances import MADE, require_made
 from jumpcad.search.trial import LEARNING_PHASES, PHASES, Trial
 
 APPLICATION_ID = 0x4A554D50
@@ -84,11 +84,12 @@ def read_trial(record: dict[str, Any], free: int, keys: Sequence[str]) -> Trial:
         step, proposal = stored_count(record, "step"), stored_proposal(record, free)
         if phase in LEARNING_PHASES and step % STEPS and "theta" not in proposal:
             raise JumpcadError("proposal.theta: missing")
+        workshop = stored_workshop(record, keys, MADE if phase == "robust" else ())
+        require_made(workshop)
         return Trial(
             phase, step, stored_count(record, "place"), stored_design(record),
             stored_evaluation(record), score, sys.intern(stored_text(record, "model")),
-            stored_figure(record, "duration_s"), proposal,
-            stored_workshop(record, keys, MADE if phase == "robust" else ()),
+            stored_figure(record, "duration_s"), proposal, workshop,
         )  # fmt: skip
     except JumpcadError as error:
         name = " ".join(shown(record[key]).removeprefix("b") for key in ("phase", "step", "place"))

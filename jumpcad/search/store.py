@@ -234,15 +234,15 @@ class StudyStore:
         self._check_format()
         # A commit does not wait for the disk: the file stays valid, and only a power cut can lose the last batches.
         self._connection.execute("PRAGMA synchronous = NORMAL")
-        difference = _difference(self.identity, json.loads(json.dumps(identity)))
-        if difference.startswith("versions."):
+        differs = difference(self.identity, json.loads(json.dumps(identity)))
+        if differs.startswith("versions."):
             raise JumpcadError(
-                f"{self.path}: was made by another program ({difference}), whose trials do not mix with this one's; "
+                f"{self.path}: was made by another program ({differs}), whose trials do not mix with this one's; "
                 f"go on with that program, or name another file (`--from-study {self.path}` learns from this one)"
             )
-        if difference:
+        if differs:
             raise JumpcadError(
-                f"{self.path}: holds another study ({difference}); repeat its own request or name another file"
+                f"{self.path}: holds another study ({differs}); repeat its own request or name another file"
             )
 
     def _require(self, key: str, value: Any) -> None:
@@ -268,11 +268,11 @@ class StudyStore:
             raise sqlite3.DatabaseError("damaged")
 
 
-def _difference(there: Any, here: Any, name: str = "") -> str:
+def difference(there: Any, here: Any, name: str = "") -> str:
     """Name the first value in which two identities differ."""
     if isinstance(there, dict) and isinstance(here, dict):
         for key in [*there, *(key for key in here if key not in there)]:
-            found = _difference(there.get(key), here.get(key), f"{name}.{key}" if name else key)
+            found = difference(there.get(key), here.get(key), f"{name}.{key}" if name else key)
             if found:
                 return found
         return ""

@@ -13,11 +13,12 @@ from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.methods import METHODS, STEPS, Task
+from jumpcad.search.models import versions
 from jumpcad.search.pool import Pool
-from jumpcad.search.request import Request, Stage, plan_stages
+from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
 from jumpcad.search.robust import MOST_PICK, active_bounds, rank_candidates
-from jumpcad.search.store import StudyStore
+from jumpcad.search.store import StudyStore, difference
 from jumpcad.search.trial import SEARCH_PHASES, Trial, best_trial, count_rejections
 from jumpcad.search.widening import Widened, widen
 
@@ -45,6 +46,25 @@ class Hopeless:
         return ""
 
 
+class Clock:
+    """The time limit of a search; it counts only what is computed: trials in the study file are all read before."""
+
+    def __init__(self, hours: float) -> None:
+        self._limit_s = 3600.0 * (hours or math.inf)
+        self._start_s = time.monotonic()
+        self._runs = False
+
+    def see(self, computed: bool) -> None:
+        """Look at a trial; the time starts after the last one that was read before any was computed."""
+        self._runs = self._runs or computed
+        if not self._runs:
+            self._start_s = time.monotonic()
+
+    def is_over(self) -> bool:
+        """Whether the time is over."""
+        return self._runs and time.monotonic() >= self._start_s + self._limit_s
+
+
 @typed
 def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watch = ignore) -> Result:
     """Run a study, or continue the one in a file; None keeps it in memory.
@@ -59,15 +79,15 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if remark:
             store.note_once(remark)
         stages = _stages(request, store, len(prior))
-        hopeless, allowance = Hopeless(), 0
+        hopeless, clock, allowance = Hopeless(), Clock(request.hours), 0
         widened: list[Widened] = []
 
         def watched(trial: Trial, computed: bool) -> None:
+            clock.see(computed)
             if warning := hopeless.warning(trial):
                 store.note_once(warning)
             watch(trial, computed)
 
-        end_s = time.monotonic() + 3600.0 * (request.hours or math.inf)
         evaluator = Evaluator(
             request.space,
             request.aim,
@@ -76,7 +96,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             pool,
             prior,
             watched,
-            lambda: time.monotonic() >= end_s or evaluator.spent >= allowance,
+            lambda: clock.is_over() or evaluator.spent >= allowance,
         )
         for number, stage in enumerate(stages):
             allowance += stage.evaluations
@@ -118,8 +138,8 @@ def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
         more = request.searched - held
         if more < 0:
             raise JumpcadError(
-                f"{store.path}: its search is planned for {held} evaluations, not {request.searched} of "
-                f"{request.evaluations}; ask for more, or name another file"
+                f"{store.path}: evaluations = {request.evaluations} leave {request.searched} for its search, which is "
+                f"planned for {held}: ask for more, or name another file"
             )
         stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more)
     store.remember("stages", [asdict(stage) for stage in stages])
@@ -133,9 +153,10 @@ def _read_prior(request: Request) -> tuple[list[Trial], str]:
     with StudyStore.read(request.prior) as store:
         theirs, ours = store.identity["model"], json.loads(json.dumps(request.model.describe()))
         if theirs != ours:
-            raise JumpcadError(
-                f"{request.prior}: was made with another model ({theirs['name']}, or other settings) than this search"
-            )
+            program = store.identity.get("versions") != request.model.versions() | versions(*LEARNING_VERSIONS)
+            by = " by another program" if program else ""
+            where = difference(theirs, ours, "model")
+            raise JumpcadError(f"{request.prior}: was made{by} with another model than this search ({where})")
         objective = request.aim
         trials = [
             replace(trial, score=objective.score(trial.evaluation))

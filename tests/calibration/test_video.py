@@ -80,3 +80,14 @@ def test_columns_in_any_order_and_empty_lines(tmp_path: Path) -> None:
     rows = [f"{x},{z},{t}" for t, x, z in flight()]
     path.write_text("x, z, t\n" + "\n\n".join(rows) + "\n")
     assert np.array_equal(read_points(path), flight())
+
+
+@pytest.mark.parametrize("cell", ["1" * 300_000, '"' + "1,\n" * 150_000])
+def test_a_cell_that_is_too_long_is_one_line(tmp_path: Path, cell: str) -> None:
+    path = tmp_path / "long.csv"
+    path.write_text(f"t,x,z\n0.0,0.0,0.0\n{cell},1.0,1.0\n")
+    with pytest.raises(
+        JumpcadError, match=r"long\.csv:\d+: cannot be read as CSV: field larger than field limit"
+    ) as caught:
+        read_points(path)
+    assert "\n" not in str(caught.value)

@@ -131,6 +131,8 @@ def test_strapping_pins_are_left_alone_and_the_divider_stays_in_range(kit: str, 
     [
         ('motor = "D0"', "wiring_strapping", r"D0 \(motor\) is a strapping pin"),
         ('battery = "D4"', "wiring_strapping", r"D4 \(battery\) has no adc"),
+        ('ready = "GND"', "wiring_strapping", r"GND \(ready\) has no GPIO"),
+        ('ready = "D99"', "wiring_strapping", r"D99 \(ready\) has no GPIO"),
         ('motor = "D4"\nready = "D4"', "wiring_pins", r"D4 is used twice, by motor and ready"),
     ],
 )

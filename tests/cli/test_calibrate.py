@@ -1,6 +1,7 @@
 """`jumpcad calibrate` and `jumpcad simulate --uncertain`: documents, files, one-line errors."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -84,3 +85,20 @@ def test_an_output_over_the_measurements(run: Run, tmp_path: Path) -> None:
     code, _, err = run("calibrate", "mine.toml", "-o", "mine.toml")
     assert code == 2
     assert "is measurements mine.toml itself" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("kenan-1.0", "kenan-1.0"), "kenan-1.0: is given twice"),
+        (("kenan-1.0", "--predict", "kenan-1.0"), "kenan-1.0: is given twice"),
+        (("kenan-2.0", "--predict", "kenan-1.0", "--predict", "kenan-1.0"), "kenan-1.0: is given twice"),
+        (("kenan-1.0", "copy.toml"), "copy.toml: is given too, under the name kenan-1.0"),
+        (("linked.toml", "--predict", "copy.toml"), "copy.toml: is given too, under the name linked.toml"),
+    ],
+)
+def test_jumps_count_once(run: Run, tmp_path: Path, arguments: tuple[str, ...], message: str) -> None:
+    shutil.copy(templates_folder() / "measurements" / "kenan-1.0.toml", tmp_path / "copy.toml")
+    (tmp_path / "linked.toml").symlink_to("copy.toml")
+    expected = f"jumpcad: {message}: name the measurements of each robot once\n"
+    assert run("calibrate", *arguments) == (2, "", expected)

@@ -266,6 +266,58 @@ def test_ctrl_c_just_before_the_end_is_not_lost(sandbox: Sandbox, case: str) -> 
     assert sandbox.process("simulate", exits=(130,), program=program).err == "jumpcad: interrupted\n"
 
 
+LONGER = ("optimize", "ga", "--model", "capsule", "--evaluations", "120", "--study", "s.db")
+PRESS = "os.kill(os.getpid(), signal.SIGINT)"
+
+
+def test_a_worker_that_starts_is_not_interrupted(sandbox: Sandbox) -> None:
+    """A terminal sends the signal to all processes: here each worker gets it before its first module."""
+    sandbox.write(
+        "trap/sitecustomize.py",
+        f"import os, signal, sys\nif 'loky' in ' '.join(sys.orig_argv) and '--pipe' in sys.orig_argv: {PRESS}\n",
+    )
+    package = Path(__file__).parents[2]
+    done = sandbox.process(
+        *LONGER, "--workers", "2", "--json", exits=(0, 1), writes=["s.toml"], leaves=["s.db", "s.db-wal", "s.db-shm"],
+        environment={"PYTHONPATH": f"{sandbox.work / 'trap'}:{package}"},
+    )  # fmt: skip
+    assert "Traceback" not in done.err
+    assert "repeated" not in done.out
+
+
+IGNORED = {
+    "scipy, which reads its numbers for the first designs": (
+        "def hook(event, arguments):\n"
+        f"    if event == 'open' and '_sobol_direction_numbers' in str(arguments[0]): {PRESS}\n"
+        "sys.addaudithook(hook)\n"
+    ),
+    "a finalizer": (
+        "class Last:\n"
+        f"    def __del__(self): {PRESS}\n"
+        "import jumpcad.search.evaluator as module\n"
+        "def ignored(*_): Last()\n"
+        "module.Evaluator._require_a_working_model = ignored\n"
+    ),
+    "a library's bare except": (
+        "import jumpcad.search.evaluator as module\n"
+        "def ignored(*_):\n"
+        f"    try: {PRESS}\n"
+        "    except: pass\n"
+        "module.Evaluator._require_a_working_model = ignored\n"
+    ),
+}
+
+
+@pytest.mark.parametrize("case", IGNORED)
+def test_a_search_ends_at_an_interrupt_that_was_ignored(sandbox: Sandbox, case: str) -> None:
+    """It would go on, with numbers that were not read, and write a winner."""
+    program = f"import os, signal, sys\n{IGNORED[case]}from jumpcad.cli import main\nmain()\n"
+    done = sandbox.process(
+        *LONGER, "--workers", "0", exits=(130,), leaves=["s.db", "s.db-wal", "s.db-shm"], program=program
+    )
+    assert done.err == "jumpcad: interrupted\n"
+
+
 @pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("list",), ("--help",)])
 def test_a_full_standard_output_is_said(sandbox: Sandbox, command: tuple[str, ...]) -> None:
     with open("/dev/full", "wb") as full:
@@ -361,4 +413,11 @@ def test_ctrl_c_is_answered_before_anything_is_loaded() -> None:
     """
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
     done = subprocess.run([sys.executable, "-c", BEFORE], capture_output=True, text=True, env=environment, check=True)
-    assert set(done.stdout.split()) <= {"atexit", "jumpcad", "jumpcad.cli", "jumpcad.faces", "jumpcad.version"}
+    assert set(done.stdout.split()) <= {
+        "atexit",
+        "jumpcad",
+        "jumpcad.cli",
+        "jumpcad.faces",
+        "jumpcad.interrupts",
+        "jumpcad.version",
+    }

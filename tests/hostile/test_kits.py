@@ -68,6 +68,61 @@ REFUSED = {
 }
 
 
+PINS = 'button = ""\npins = { %s }'
+NO_BOARD = {
+    "one number at several pins": (
+        PINS % ", ".join(f'D{pin} = ["gpio2", "pwm"]' for pin in range(5)),
+        r"boards\.own\.pins\.D1 = 'gpio2': is the GPIO of D0 already: each pin has its own number; .*D4 = 'gpio2'",
+    ),
+    "one number at a pin and at the button's": (
+        'button = "D9"\npins = { D0 = ["gpio9"], D9 = ["gpio9"] }',
+        r"pins\.D9 = 'gpio9': is the GPIO of D0 already",
+    ),
+    "a number that no chip has": (PINS % 'D0 = ["gpio999999"]', r"pins\.D0 = 'gpio999999': must be at most gpio63"),
+    "two numbers at one pin": (PINS % 'D0 = ["gpio2", "gpio3"]', r"pins\.D0 = 'gpio3': is a second GPIO of one pin"),
+    "an unknown function": (
+        PINS % 'D0 = ["gpio2", "frobnicate"]',
+        r"pins\.D0 = 'frobnicate': is no function of a pin: use ground, battery, out, adc, .*, or gpio and its number",
+    ),
+    "a pin twice at a side": ('left = ["D0", "D0"]', r"my\.toml:6: boards\.own\.left = 'D0': stands at two places"),
+    "a pin at both sides": ('left = ["D8"]', r"boards\.own\.left = 'D8': stands at two places: name each pin once"),
+    "a diode at no input": (
+        'diode_at = ["nope"]',
+        r"boards\.own\.diode_at = 'nope': is none of the inputs in supply_v, BAT\+, 5V",
+    ),
+    "a diode where no input is": (
+        "supply_v = {}",
+        r"boards\.own\.diode_at = '5V': is none of the inputs in supply_v, of which it has none",
+    ),
+    "a button at no pin": (
+        'button = "D99"',
+        r"my\.toml:6: boards\.own\.button = 'D99': is none of its pins with a GPIO",
+    ),
+    "a button at ground": ('button = "GND"', r"my\.toml:6: boards\.own\.button = 'GND': is none of its pins"),
+}
+
+
+@pytest.mark.parametrize("case", NO_BOARD)
+def test_a_board_that_contradicts_itself_is_refused_when_it_is_read(case: str, tmp_path: Path) -> None:
+    figures, words = NO_BOARD[case]
+    path = tmp_path / "my.toml"
+    path.write_text(own("controller", figures), encoding="utf-8")
+    with pytest.raises(JumpcadError, match=words) as refusal:
+        load_workshop(path)
+    assert "\n" not in str(refusal.value)
+
+
+def test_boards_that_are_sold_do_not_contradict_themselves() -> None:
+    """Ground is at several places of many boards."""
+    from jumpcad.catalogue import load_catalogue
+
+    boards = load_catalogue().boards
+    for board in boards.values():
+        assert not list(board.contradictions())
+    several = boards["xiao-esp32c3"].model_copy(update={"left": ("GND", "D0", "D1", "GND", "not connected")})
+    assert not list(several.contradictions())
+
+
 @pytest.mark.parametrize("case", REFUSED)
 def test_what_does_not_fit_is_refused_in_one_line(case: str, tmp_path: Path) -> None:
     text, words = REFUSED[case]

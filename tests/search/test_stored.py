@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import sqlite3
 from contextlib import closing
 from dataclasses import replace
@@ -70,3 +71,22 @@ def test_a_study_of_a_format_before_is_read(tmp_path: Path, version: int) -> Non
         old.commit()
     with StudyStore.read(tmp_path / "old.db") as store:
         assert store.trials() == trials(3)
+
+
+@pytest.mark.parametrize(
+    ("made", "message"),
+    [
+        ({"made.spring_factor": 1e300, "made.friction_factor": 1.0}, "must be a number of 0.01 to 100"),
+        ({"made.spring_factor": -1.0, "made.friction_factor": 1.0}, "made.spring_factor = -1"),
+        ({"made.spring_factor": 1.0, "made.friction_factor": "x"}, "made.friction_factor = 'x'"),
+        ({"made.spring_factor": 1.0}, "made.friction_factor: missing"),
+        ({"made.carrying_link_mm": 1e300}, "made.carrying_link_mm = 1e+300"),
+        ({"made.stiffness_nmm_per_deg": "x"}, "made.stiffness_nmm_per_deg = 'x'"),
+    ],
+)
+def test_what_cannot_be_made_is_a_damaged_row(tmp_path: Path, made: dict[str, object], message: str) -> None:
+    (trial,) = trials(1, phase="robust")
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        store.append([replace(trial, workshop=made)])
+        with pytest.raises(JumpcadError, match=f"is damaged: row 'robust' 0 0: .*{re.escape(message)}"):
+            store.trials()

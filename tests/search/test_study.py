@@ -97,7 +97,7 @@ def test_a_larger_budget_lengthens_a_study(tmp_path, method):
     assert len(result.trials) == 22
     after = contents(tmp_path / "s.db")
     assert all(trial in after for trial in before)
-    with pytest.raises(JumpcadError, match="its search is planned for 22 evaluations, not 16 of 16"):
+    with pytest.raises(JumpcadError, match="evaluations = 16 leave 16 for its search, which is planned for 22"):
         run(request, tmp_path / "s.db")
 
 
@@ -163,6 +163,15 @@ def test_it_ends_when_its_time_is_over_and_the_same_request_goes_on(tmp_path):
         assert [trial.key for trial in whole.trials] == [trial.key for trial in run(request).trials]
 
 
+@pytest.mark.parametrize("method", ["ga", "ga+bo", "pareto"])
+def test_a_finished_study_is_read_whole_however_short_the_time(tmp_path, method):
+    request = replace(REQUEST, method=method, evaluations=40)
+    whole = run(request, tmp_path / "s.db")
+    again = run(replace(request, hours=1e-12), tmp_path / "s.db")
+    assert again.trials == whole.trials
+    assert (again.winner, again.candidates) == (whole.winner, whole.candidates)
+
+
 def test_everything_refused_has_no_best():
     space = Space.parse(fix=["compression_ratio=0.75"])
     result = run(Request(space, Hill(), method="ga", evaluations=12))
@@ -176,7 +185,7 @@ def test_a_prior_study_of_the_same_model_is_learned_from(tmp_path):
     learned = run(replace(REQUEST, method="bo", evaluations=6, prior=tmp_path / "old.db"))
     assert learned.best.score > 9.9
     assert learned.notes == []
-    with pytest.raises(JumpcadError, match="another model"):
+    with pytest.raises(JumpcadError, match=r'was made with another model than this search \(model.name: "hill" there'):
         run(replace(REQUEST, model=Hill(name="other"), prior=tmp_path / "old.db"))
 
 
@@ -189,6 +198,21 @@ def test_a_prior_study_of_another_program_is_said_to_be_one(tmp_path):
     for _ in range(2):
         (note,) = run(request, tmp_path / "new.db").notes
         assert "old.db was made by another program" in note
+
+
+def test_a_prior_study_whose_model_had_other_values_in_another_program_is_said_to_be_of_it(tmp_path):
+    class Older(Hill):
+        def describe(self):
+            return super().describe() | {"gravity": 9.8}
+
+        def versions(self):
+            return super().versions() | {"jumpcad": "0.0.1"}
+
+    run(replace(REQUEST, model=Older(), method="ga", evaluations=20), tmp_path / "old.db")
+    with pytest.raises(
+        JumpcadError, match=r"was made by another program with another model .*model.gravity: 9.8 there"
+    ):
+        run(replace(REQUEST, prior=tmp_path / "old.db"))
 
 
 @pytest.mark.parametrize(
