@@ -33,7 +33,7 @@ def changed(table: str, **values: Any) -> Workshop:
     [
         ("safety", "spring_stress_share", 0.3, "spring", {"stress_share"}),
         ("safety", "motor_stall_share", 0.2, "train", {"stall_share"}),
-        ("safety", "motor_torque_max_nm", 0.1, "train", {"torque_max_nm"}),
+        ("safety", "motor_torque_max_nm", 0.1, "train", {"torque_max_nm", "blocked_nm"}),
         ("safety", "gear_efficiency", 0.8, "train", {"pair_efficiency"}),
         ("safety", "strength_factor", 5.0, "train", {"stress_mpa"}),
         ("fits", "backlash_circumferential_mm", 0.3, "train", {"backlash_circumferential_mm"}),
