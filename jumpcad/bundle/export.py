@@ -20,6 +20,7 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
+from jumpcad.bundle.spring_dxf import spring_dxfs
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import spring_facts
 from jumpcad.bundle.stop import stop_facts
@@ -117,6 +118,7 @@ def _files_before_report(robot: Robot, exporters: Iterable[Exporter], pictures: 
     yield "bom.csv", write_bom(bill_of_materials(robot))
     yield from firmware_files(robot)
     yield from spring_sheets(robot)
+    yield from spring_dxfs(robot)
     if pictures:
         seen |= all_pictures(robot)
     files = {f"pictures/{picture}.png": png for picture, png in seen.items()}

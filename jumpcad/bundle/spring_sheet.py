@@ -33,7 +33,7 @@ def spring_sheets(robot: Robot) -> Iterator[tuple[str, str]]:
 
 def _sheet(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> str:
     width, height = PAGE_MM
-    rows = _requirements(robot, spring, side, hand)
+    rows = requirements(robot, spring, side, hand)
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}mm" '
@@ -48,7 +48,8 @@ def _sheet(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> str:
     )
 
 
-def _requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> list[tuple[str, str]]:
+def requirements(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> list[tuple[str, str]]:
+    """Return what a drawing of one spring asks for: name and value of each requirement."""
     scatter = 100.0 * robot.workshop.safety.spring_rate_scatter
     free, wound = math.degrees(spring.free_arm_angle_rad), math.degrees(spring.wound_rad)
     narrower, wider = arms_off_deg(robot)
@@ -79,11 +80,11 @@ def _end_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
     x, y = END_VIEW_MM
     mean, wire = SCALE * spring.arms.mean_mm, SCALE * spring.wire_mm
     yield f'<circle cx="{x:g}" cy="{y:g}" r="{mean / 2:.2f}" fill="none" stroke="#9aa0a8" stroke-width="{wire:.2f}"/>'
-    far, near = _arms(spring, hand)
+    far, near = arms_of(spring, hand)
     for line, colour in ((far, "#c3c7cc"), (near, "#4d535c")):
         yield _line(SCALE * line + END_VIEW_MM, colour, wire)
     yield from _cross(x, y, mean / 2.0 + 6.0)
-    loaded = _line(SCALE * _arms(spring, hand, spring.wound_rad)[0] + END_VIEW_MM, "#4d535c", 0.4)
+    loaded = _line(SCALE * arms_of(spring, hand, spring.wound_rad)[0] + END_VIEW_MM, "#4d535c", 0.4)
     yield loaded.replace("/>", ' stroke-dasharray="2 1"/>')
     (ax, ay), (bx, by) = (SCALE * arm[1] + END_VIEW_MM for arm in (near, far))
     yield _text(ax + 2.0, ay - 3.0, "nearer arm")
@@ -95,7 +96,7 @@ def _end_view(spring: TorsionSpring, hand: str) -> Iterator[str]:
     yield _text(x - 30.0, 16.0, f"along the axis, 3:1; d = {spring.wire_mm:g}, Di = {spring.inside_diameter_mm:.2f}")
 
 
-def _arms(spring: TorsionSpring, hand: str, closed_rad: float = 0.0) -> tuple[Array, Array]:
+def arms_of(spring: TorsionSpring, hand: str, closed_rad: float = 0.0) -> tuple[Array, Array]:
     """Return farther and nearer arm, each from its tangent point to its end (2, 2), from the axis, y down (mm).
 
     The farther one has turned by `closed_rad` from where it is relaxed; the coil is drawn relaxed.

@@ -118,7 +118,8 @@ def spring_order(robot: Robot) -> Iterator[str]:
         "- the right-hand one goes on the robot's left, the left-hand one on its right: wound the other way, a spring "
         "would be bent open"
     )
-    yield f"- a drawing of each for its maker: {' and '.join(f'order/spring-{hand}-hand.svg' for hand in spring.hands)}"
+    sheets = " and ".join(f"order/spring-{hand}-hand.svg" for hand in spring.hands)
+    yield f"- a drawing of each for its maker: {sheets}, and the same as DXF"
 
 
 def _made_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:

@@ -5,7 +5,7 @@ not in a flat drawing; it is printed and glued onto a cut plate.
 """
 
 import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
 import ezdxf
@@ -52,12 +52,22 @@ def sheet(part: Part, thickness_mm: float) -> tuple[Region, Region]:
 
 
 def write_dxf(cut: Region, engraved: Region) -> str:
-    """Return a DXF document (R2010) with closed polylines, the same text for the same regions."""
+    """Return a DXF document with closed polylines, the same text for the same regions."""
+
+    def draw(space: Modelspace) -> None:
+        for layer, region in ((CUT, cut), (ENGRAVE, engraved)):
+            _outlines(space, layer, region)
+
+    return dxf_document({CUT: RED, ENGRAVE: BLUE}, draw)
+
+
+def dxf_document(layers: Mapping[str, int], draw: Callable[[Modelspace], None]) -> str:
+    """Return a DXF document (R2010, mm) with layers, by name and colour, and what is drawn into its space."""
     with _fixed_metadata():
         document = new("R2010", units=MILLIMETRES)
-        for layer, colour, region in ((CUT, RED, cut), (ENGRAVE, BLUE, engraved)):
+        for layer, colour in layers.items():
             document.layers.add(layer, color=colour)
-            _outlines(document.modelspace(), layer, region)
+        draw(document.modelspace())
         stream = io.StringIO()
         # ezdxf would register the classes in use in the order of a set, which differs between processes
         for name in sorted(document.entitydb.dxf_types_in_use()):
