@@ -480,7 +480,8 @@ ORDER: tuple[Plan, ...] = (
         (
             Move("leg_spring_pin(_clip_2)?", "from the left", through="body_plate_left"),
             Move("leg_spring_pin_split_pin", "from the front", "bent", past="leg_spring_pin", tool=PLIERS),
-            Move("leg_spring_pin_clip_1", "from the front", "snapped", past="leg_spring_pin", tool=CLIP),
+            Move("leg_spring_pin_clip_1", "from the front", "snapped", past="leg_spring_pin|spring_right_leg_arm",
+                 tool=CLIP),
         ),
         (
             Words("Lay the robot on its right plate and hold the leg on its stop: its empty hole is then behind the "
@@ -508,7 +509,8 @@ ORDER: tuple[Plan, ...] = (
                   "Both plates hold the springs' other pin.", needs="preload"),
             Words("Turn the pin until its cross hole points forwards, put the split pin through it from the front, "
                   "bend its ends around the pin and cut off what stands out.", needs="leg_spring_pin_split_pin"),
-            Words("Press the second clip into the groove at the pin's right end, from the front.",
+            Words("Press the second clip into the groove at the pin's right end, from the front; an arm that "
+                  "touches the pliers gives way, the springs are slack.",
                   needs="leg_spring_pin_clip_.*"),
         ),
         (
