@@ -27,14 +27,15 @@ def stuck_items(robot: Robot) -> tuple[str, ...]:
         "colour, and they may have been exchanged at the driver). Cut both outside the right plate, strip the ends "
         "that lead to the motor, and keep them apart. The leg still tied, put two crocodile clips from a battery of "
         f"the kit's kind ({cells}), plus to the marked wire, until the roller has dropped off the cam, and take one "
-        "off at once. A cam that turns the other way: exchange the clips. Nothing turns within a second: take one off "
-        "at once, the motor is blocked or dead.",
+        "off at once. A leg that was partly loaded is lifted on first, and the cord catches it. A cam that turns the "
+        "other way: exchange the clips. Nothing turns within a second: take one off at once, the motor is blocked or "
+        "dead.",
         "Motor blocked or dead: do not take off left plate, motor cap, axles or pins. The plates hold the springs' "
         "pins, and without them the load comes free. The leg tied, cut the printed pinion's teeth away with side "
         "cutters, from where it is seen between the plates, hands outside, until the cam's gear is free of it; print "
         "a new one later. Then turn the gear with the stick, the way it winds until the roller has passed the drop; "
-        "or back, until the cam has gone from under the roller, where it is far from the drop. A pinion that the "
-        "cutters do not reach: leave the leg tied.",
+        "or, with springs partly loaded, back, until the cam has gone from under the roller, where it is far from "
+        "the drop. A pinion that the cutters do not reach: leave the leg tied.",
         "Then slacken the cord slowly, from the side, feet away from you; a knot that does not open is cut with a "
         "long knife, no hand in the leg's way. The leg goes to its stop. Only when it lies there, and springs back "
         "when pulled a little, is anything taken apart.",

@@ -307,12 +307,12 @@ ORDER: tuple[Plan, ...] = (
             Words("Press and hold the sensor, wait 2 s, type `wind`: the motor must not turn, and the answer is "
                   "`fault` right after a jump, else `ready`. A broken lead reads the same.",
                   needs="wiring_resistor_pull_up"),
+            Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
+                  "not, exchange its two wires at the driver."),
             Words("Current. {usb_out}. Switch off; multimeter on its 10 A range, its leads on the switch's two "
                   "terminals by two crocodile clips that do not touch: the current now passes it, and off is to take "
                   "a clip away. Wind, and stop with the sensor. Then take the clips off, switch off, USB cable out, "
                   "and unplug the battery.", needs="switch"),
-            Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
-                  "not, exchange its two wires at the driver."),
         ),
         (
             Words("Something becomes hot or smells: {off_then}, unplug the battery, look for the short. Do not leave "
