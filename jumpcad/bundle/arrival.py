@@ -80,13 +80,16 @@ def _springs(robot: Robot) -> Iterator[str]:
         "reading on a kitchen scale then accepts a spring: its torque with the arms where the loaded robot holds them, "
         "so that angle and rate count together.",
         "",
-        f"Clamp the shank of a drill, {shank:g} mm or a little less, level in a vice and put the coil on it. Draw two "
-        f"lines on a card behind it, both touching a circle of {spring.arms.mean_mm:.1f} mm around the drill: one "
-        "level to the side, from the circle's lowest point, and one as the arm at the vice stands when both are "
+        f"Clamp a wooden board upright in a vice, bore a hole through it and push in the shank of a drill, {shank:g} "
+        "mm or a little less, level and fast. Put the coil on it. Draw two "
+        f"lines on a card on the board behind it, both touching a circle of {spring.arms.mean_mm:.1f} mm around "
+        "the drill: one "
+        "level to the side, from the circle's lowest point, and one as the arm at the nail stands when both are "
         f"{loaded_arms(robot)} (dashed in the drawing; turn it until its nearer arm is "
-        "the level one). A nail keeps the arm at the vice on its line, "
+        "the level one). A nail in the board keeps that arm on its line, "
         f"{lever:.1f} mm from the circle. Below the level line, on the scale, stands a block with a smooth, oiled "
-        f"edge, narrower than the coil is long, {lever:.1f} mm to the side of the drill's middle. Raise the scale: "
+        f"edge, narrower than the coil is long, {lever:.1f} mm to the side of the drill's middle; set the scale to "
+        "zero with the block on it. Raise the scale by pushing two wedges below it, from both sides: "
         "the edge lifts the other arm and the spring closes. Stop when the arm at the edge is on the level line, and "
         "read; go a little higher, come back to the line and read again. The mean of both is free of friction:",
         "",

@@ -19,7 +19,7 @@ from jumpcad.bundle.operation import (
     to_stop,
     usb_out,
 )
-from jumpcad.bundle.ordering import ROD_SHORT_MM
+from jumpcad.bundle.ordering import ROD_SHORT_MM, strap_mm
 from jumpcad.bundle.springs import arms_off_deg
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
@@ -71,6 +71,8 @@ def _drive(robot: Robot) -> dict[str, str]:
         "free_rpm": f"{free.no_load_rpm:.0f}",
         "boards_ma": f"{1000.0 * supply.boards_w / supply.nominal_v:.0f}",
         "free_ma": f"{1000.0 * free_a:.0f}",
+        "boards_a": f"{supply.boards_w / supply.nominal_v:.2f}",
+        "free_a": f"{free_a:.2f}",
         "dry_s": f"{2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0):.1f}",
         "wind_s": f"{train.winding_s:.1f}",
         "wind_ma": f"{1000.0 * train.electrical_j / supply.nominal_v / train.winding_s:.0f}",
@@ -94,6 +96,10 @@ def _drive(robot: Robot) -> dict[str, str]:
         "stop_by": to_stop(chosen),
         "usb_out": usb_out(chosen),
         "contact": wiring.contact,
+        "driver_supply": " and ".join(
+            f"the {start}" for _, start, end, *_ in wires(robot) if end.part == "capacitor" and start.part == "driver"
+        )
+        or "the driver's supply pins",
         "free": FREE[wiring.ready_level],
         "pressed": FREE[1 - wiring.ready_level],
         "ready_deg": f"{values['READY_DEG'] or 0:.0f}",
@@ -161,6 +167,7 @@ def _sizes(robot: Robot) -> dict[str, str]:
         "window": f"{window[0]:g} x {window[1]:g}",
         "block": f"{window[0] + 2.0 * PRONG_MM:g} x {window[1] + PRONG_ENDS_MM:g}",
         "groove": f"{window[0]:g}",
+        "strap": f"{strap_mm(robot):.0f}",
     }
 
 

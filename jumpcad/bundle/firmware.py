@@ -18,6 +18,7 @@ from jumpcad.bundle.operation import (
     stops_the_motor,
     to_stop,
 )
+from jumpcad.bundle.stuck import UNTRIED, stuck_items
 from jumpcad.catalogue import Battery
 from jumpcad.checks.sensor import RUN_ON_S
 from jumpcad.electronics.chosen import chosen_parts
@@ -189,5 +190,6 @@ def _filled(text: str, robot: Robot, values: Mapping[str, float | int | None]) -
         "JUMP_BY": by_button("jump", chosen.controller),
         "CHARGE": charging(chosen),
         "CHARGE_LOADED": charging_loaded(chosen),
+        "STUCK": "\n".join((UNTRIED, *(f"  {n}. {item}" for n, item in enumerate(stuck_items(robot), start=1)))),
     }
     return re.sub(r"\{([A-Z_]+)\}", lambda found: facts[found[1]], text)

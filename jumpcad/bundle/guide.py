@@ -10,6 +10,7 @@ from jumpcad.bundle.expected import expected, filled
 from jumpcad.bundle.operation import after_use
 from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_lines
 from jumpcad.bundle.springs import spring_order
+from jumpcad.bundle.stuck import HEADING, UNTRIED, stuck_items
 from jumpcad.bundle.wiring import wiring_lines
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
@@ -41,6 +42,8 @@ def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
         *wiring_lines(robot),
         *_steps(robot, steps, pictures),
         *after_use(chosen_parts(robot.workshop)),
+        *("", f"## {HEADING}", "", UNTRIED, ""),
+        *(f"{number}. {item}" for number, item in enumerate(stuck_items(robot), start=1)),
         *weigh_lines(robot),
     ]
     return "\n".join(lines) + "\n"

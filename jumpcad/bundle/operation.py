@@ -70,8 +70,8 @@ def usb_out(chosen: Chosen) -> str:
 
 
 def switching_off(chosen: Chosen) -> str:
-    """Return how the motor's supply is cut, as the beginning of a sentence."""
-    return "Pull the USB cable and switch off" if fed_by_usb(chosen) else "Switch off"
+    """Return how all supplies but the battery's plug are cut, as the beginning of a sentence."""
+    return "Pull the USB cable and switch off" if fed_by_usb(chosen) else "Switch off, pull the USB cable"
 
 
 def stops_the_motor(chosen: Chosen) -> str:
@@ -86,7 +86,8 @@ def to_stop(chosen: Chosen) -> str:
     if chosen.controller.button:
         by, resume = "press the same button once more, or switch off", "press the button"
     else:
-        by, resume = f"type `stop`, or {switching_off(chosen)[0].lower()}{switching_off(chosen)[1:]}", "type `wind`"
+        off = "pull the USB cable and switch off" if fed_by_usb(chosen) else "switch off"
+        by, resume = f"type `stop`, or {off}", "type `wind`"
     return (
         f"To stop it while it winds or before it jumps: {by}. The motor is off and the springs stay as they are, "
         "held by the friction of the gearhead; should that give way, the cam turns back and they become slack. The way "
@@ -99,8 +100,8 @@ def bootloader(controller: Board) -> str:
     if not controller.button:
         return "Put the board into its bootloader as its maker says."
     return (
-        f"Put the board into its bootloader: hold its button at {controller.button} (marked B or BOOT) while you plug "
-        "in the USB cable, and let go a second later."
+        f"Put the board into its bootloader: hold the button of pin {controller.button} (marked B or BOOT), on the "
+        "board beside its USB socket, while you plug in the USB cable, and let go a second later."
     )
 
 
@@ -109,7 +110,10 @@ def after_use(chosen: Chosen) -> Iterator[str]:
     battery, supply = chosen.battery, supply_of(chosen)
     hours = battery.capacity_mah / 1000.0 * battery.voltage_v / supply.boards_w
     yield from ("", "## After use", "")
-    yield "- Release the springs: `jump`; where they are partly loaded, `wind` first. The leg then lies on its stop."
+    yield (
+        "- Release the springs: `jump`; where they are partly loaded, `wind` first. The leg then lies on its stop. "
+        "Where nothing turns, see the next section."
+    )
     yield f"- {switching_off(chosen)}, unplug the battery: boards left on empty a full one in {hours:.0f} h."
     yield (
         f"- Store it outside the robot, at about {STORED_V * battery.cells:.1f} V, where nothing near it can burn. "
@@ -132,7 +136,7 @@ def by_button(command: str, controller: Board) -> str:
     if command == "jump":
         return f"Press the same button again and step back: it releases after {BUTTON_DELAY_MS / 1000.0:g} s."
     return (
-        f"Press the board's button at its pin {controller.button} (marked B or BOOT) with a thin wooden stick, from "
-        "above between the plates: it winds until it is ready and the motor stops. "
+        f"Press the button of pin {controller.button} (marked B or BOOT), on the board beside its USB socket, with a "
+        "thin wooden stick, from above between the plates: it winds until it is ready and the motor stops. "
         "The other button, R or RESET, restarts the program; the springs stay as they are: press the first again."
     )

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from jumpcad.bundle.arrival import REAMED_MM, scale_range_kg
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.wiring import wires
+from jumpcad.dimensions import STRAP_SLOT_MM, TRAY_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.files.markdown import plain
@@ -28,12 +29,20 @@ STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
 SIMILAR_SWITCH = (
     "those sold as SS-12F15 G5 have the size (19.8 x 5.6 mm, slider 3 x 3 x 5 mm that goes 3 mm), but sellers rate "
-    "them 0.3 or 0.5 A and few give the distance of the holes: compare the drawing. Found none: leave the switch and "
-    "its two screws out, and solder the wires of switch 2 to those of switch 1. The battery's plug is then the "
-    "switch: where this guide says switch on, plug it in; where it says switch off, pull it out; currents are read "
-    "with the multimeter in place of its red wire"
+    "them 0.3 or 0.5 A and few give the distance of the holes: compare the drawing"
 )
 """Sizes as public bills of material state them (several projects, the same figures); the ratings differ by seller."""
+NO_SWITCH = (
+    ". Found none: leave the switch and "
+    "its two screws out, and solder the wires of switch 2 to those of switch 1. The battery's plug is then the "
+    "switch: solder the robot's half to leads of 50 mm that come out between the plates, with a loop of cord tied "
+    "behind the battery's half to pull it by. Where this guide says switch on, plug it in; where it says switch off, "
+    "pull it out; currents are read with the multimeter in place of its red wire"
+)
+"""For one cell; judgement."""
+NEEDS_SWITCH = ". The kit of two cells is not built without one: its plug would spark and leave no quick way to stop"
+STRAP_OVERLAP_MM = 20.0
+"""Of a strap, hook on loop; judgement."""
 SLIDER_MM = 1.5
 """Of a switch's slider outside the plate, for a fingertip; judgement."""
 PLUG_ROOM_MM = 0.5
@@ -65,12 +74,19 @@ def order_lines(robot: Robot) -> Iterator[str]:
     )
     yield (
         "- hook-and-loop strap: hook and loop back to back, no thicker than the bill says, since it passes between the "
-        "lower tray and the front link"
+        f"lower tray and the front link; cut to {strap_mm(robot):.0f} mm"
     )
     yield from _plug(robot)
     yield from _tape(robot)
     yield from _switch(robot)
     yield f"- besides: {OTHER}"
+
+
+def strap_mm(robot: Robot) -> float:
+    """Return the length of the battery's strap: around battery and tray through both slots, and the overlap."""
+    battery = chosen_parts(robot.workshop).battery
+    across, upright = battery.width_mm + 2.0 * STRAP_SLOT_MM[0], battery.height_mm + TRAY_MM
+    return 5.0 * math.ceil((2.0 * (across + upright) + STRAP_OVERLAP_MM) / 5.0)
 
 
 def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
@@ -90,7 +106,8 @@ def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
     plug = robot.layout.fittings.usb_size_mm if robot.layout.fittings.usb_mm is not None else None
     body = "" if plug is None else f", plug body at most {plug[0] - PLUG_ROOM_MM:g} x {plug[1] - PLUG_ROOM_MM:g} mm"
     yield (
-        "- soldering iron, wire stripper, heat gun or lighter for the tube, multimeter with a 10 A range, computer, "
+        "- soldering iron, wire stripper, heat gun or lighter for the tube, multimeter with a 10 A range, two leads "
+        "with crocodile clips, computer, "
         f"USB cable with data lines{body}{charger}"
     )
     yield "- on the computer: Python with `pip install esptool mpremote` (firmware/README.md)"
@@ -98,7 +115,10 @@ def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
         f"- kitchen scale to 1 g or better, up to {scale_range_kg(robot):g} kg; pocket scale to 0.1 g or better, for "
         "the printed parts; caliper, protractor, two AA cells in a holder"
     )
-    yield ("- for the springs' test: its drill, a nail, card, a block with a smooth edge, a drop of oil")
+    yield (
+        "- for the springs' test: a wooden board, 20 mm or thicker, that the vice holds upright, with its drill and a "
+        "nail in it, card, a block with a smooth edge, two wedges below the scale, a drop of oil"
+    )
     rod = math.floor(2.0 * (robot.layout.pin_hole.diameter_mm - ROD_ROOM_MM)) / 2.0
     yield (
         f"- rod of at most {rod:g} mm, 60 mm or longer, for the springs' pin through its hole in the left plate; block "
@@ -196,7 +216,7 @@ def _plug(robot: Robot) -> Iterator[str]:
     if plug is not None:
         yield (
             f"- {plain(plug.description)}: the half that mates with the battery's plug. Where plus does not meet plus, "
-            "exchange the contacts of the robot's half, not the battery's"
+            "exchange the contacts of the robot's half, or solder its leads the other way round; not the battery's"
         )
 
 
@@ -222,7 +242,7 @@ def _switch(robot: Robot) -> Iterator[str]:
         f"{supply.full_v:g} V (the blocked motor draws {blocked_a:.2f} A). Its "
         f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it "
         f"must stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No article with all of it is known here: "
-        f"{SIMILAR_SWITCH}"
+        f"{SIMILAR_SWITCH}{NO_SWITCH if chosen.regulator is None else NEEDS_SWITCH}"
     )
 
 

@@ -137,8 +137,8 @@ ORDER: tuple[Plan, ...] = (
             Words("Cut the bars of leg and front link to length, sand their ends, degrease them and the sockets. Glue "
                   "each bar with epoxy into the sockets of its two ends, as deep as it goes, lying on a flat plate, "
                   "and let it cure.", needs="main_leg_bar"),
-            Words("Press one bearing into either side of the hub, between flat jaws with a sheet of card, until it is "
-                  "flush: push on its outer ring alone.", needs="hub_bearing.*"),
+            Words("Press one bearing into either side of the hub, between flat jaws with a sheet of card, pressing "
+                  "lightly, until it is flush: push on its outer ring alone.", needs="hub_bearing.*"),
             Words("Open the eye at the leg's lower end with a drill or reamer of {eye_drill} mm, turned by hand, until "
                   "the pin turns in it without rocking."),
             Words("Open the leg's hole for the springs' pin too, until its pin goes in under the push of a thumb; the "
@@ -186,7 +186,8 @@ ORDER: tuple[Plan, ...] = (
                   "motor +. A shaft that stands out of the motor's back is cut off before that (Order and cut): it "
                   "would stand in the window."),
             Words("Screw the standoffs to the right plate, the one with the motor's socket, from outside: "
-                  "{torque_plastic} N·m. Then lay it on the bench, outside down: up is the robot's left from now on."),
+                  "{torque_plastic} N·m. Then lay it on two strips of wood on the bench, outside down, so that screws, "
+                  "slider and wires are free below it: up is the robot's left from now on."),
             Words("Solder the switch's leads to it first, those of the table under Wiring: later there is no room for "
                   "the iron.", needs="switch"),
             Words("Put the switch into its opening, its slider outwards, and turn its two screws in from outside. Ears "
@@ -211,12 +212,18 @@ ORDER: tuple[Plan, ...] = (
         ),
         (
             Words("Lay the battery on the lower tray, between the two stops at its ends, its leads to the front, over "
-                  "the stop. Close its strap, the overlap on top of the battery: below the tray the front "
-                  "link passes it. Tight enough that it does not slide, not so tight that it dents. Gaps to "
-                  "the stops of more than 1 mm are filled with foam tape on the stop. Do not plug it in yet. Later it "
-                  "leaves the finished robot to the front: strap open, lifted over the stop."),
+                  "the stop. Cut its strap to {strap} mm: once around battery and tray through both slots, and an "
+                  "overlap of 20 mm. Close it with the overlap on top of the battery and one layer below the tray, "
+                  "where the front link passes it. A piece of adhesive tape under the upper end, 10 to 15 mm of it "
+                  "standing out to the front, is what opens it later. Tight enough that it does not slide, not so "
+                  "tight that it dents. Gaps to the stops of more than 1 mm are filled with foam tape on the stop. Do "
+                  "not plug it in yet. Later it leaves the finished robot to the front: strap open, lifted over the "
+                  "stop."),
+            Words("Once it fits, take it out again and lay it aside, away from soldering iron and tools, strap and "
+                  "tray with it. It is strapped in for good in step {step_trays}."),
             Words("The plug of the balance lead lies ahead of the battery under its cable tie, its open end covered "
-                  "with adhesive tape: its pins must touch nothing. To charge, pull it out from under the tie.",
+                  "with adhesive tape: its pins must touch nothing. The tie is only so tight that the plug slides out "
+                  "from under it: to charge, pull it out.",
                   needs="tie_balance_lead"),
         ),
         (
@@ -237,9 +244,9 @@ ORDER: tuple[Plan, ...] = (
                   "(under Wiring), a piece of heat-shrink tube over each leg, and lay the bodies where the "
                   "picture shows them, on a strip of foam tape."),
             Words("Then solder every wire of the table under Wiring to its boards, the shortest first, and slide "
-                  "heat-shrink tube over each joint. The motor's wires go to the driver last: first through the "
-                  "right plate's wire hole, from outside to inside, then solder them. The sensor's ends stay "
-                  "free until step {step_left}."),
+                  "heat-shrink tube over each joint in the air. The motor's wires go to the driver last: first through "
+                  "the right plate's wire hole, from outside to inside, then solder them. The sensor's ends stay free "
+                  "until step {step_left}."),
             Words("Cut the foam tape out where a board has wires or legs underneath, so that the board lies flat. Then "
                   "lay every board on its piece, in its place, against the tray's rim where there is one, the "
                   "controller's USB socket to the right, and pull a cable tie over it. Plug and capacitor get a tie "
@@ -273,8 +280,9 @@ ORDER: tuple[Plan, ...] = (
             Words("Put the sensor into the plate's opening from outside, its plunger through to the "
                   "inside, push the mount along the leads over it, and turn the two screws into the plastic: "
                   "{torque_m2} N·m. Tie the leads at the hole so that its terminals bear no pull, and hold "
-                  "them flat on the plate, straight from the mount to the hole, with a strip of adhesive tape every "
-                  "20 mm.", needs="sensor"),
+                  "them flat on the plate with a strip of adhesive tape every 20 mm, 5 mm or "
+                  "more below the standoff's hole: straight from the mount to the wire hole they could come under the "
+                  "screw's head in step {step_close}.", needs="sensor"),
         ),
         checks=(Words("Pressed on the inside, the plunger clicks and comes out again. Multimeter between the "
                       "controller's ground and its pin of the sensor, battery unplugged: {free}; pressed, {pressed}. "
@@ -285,10 +293,12 @@ ORDER: tuple[Plan, ...] = (
         (
             Words("Nothing is on the motor's shaft yet. Lay right plate, left plate and both trays side by side as "
                   "wired, switch off, USB cable out; plug the battery in, switch on."),
-            Words("Multimeter on volts: across the plug's poles the battery's voltage, then between the controller's "
-                  "ground and {divider_pin}: {divider_share} of that ({divider_v} V at {nominal_v} V). Anything else: "
-                  "the resistors are exchanged, or a leg is not soldered; then nothing protects the battery. Switch "
-                  "off and mend it before you go on.", needs="wiring_resistor_upper"),
+            Words("Multimeter on volts, the switch on: between {driver_supply} the battery's voltage; keep "
+                  "off the plug's poles, they are too near to each other.", needs="driver"),
+            Words("Then between the controller's ground and {divider_pin}: {divider_share} of that ({divider_v} V at "
+                  "{nominal_v} V). Anything else: the resistors are exchanged, or a leg is not soldered; then nothing "
+                  "protects the battery. {off}, unplug the battery, and mend it before you go on.",
+                  needs="wiring_resistor_upper"),
             Words("Connect the computer by USB, open the console (firmware/README.md)."),
             Words("Type `state`: the controller answers `idle`. Type `wind`: the motor turns for {wind_max} s at most. "
                   "Press the sensor by hand: the motor stops at once, and `state` says `ready`. Hold it, type `jump` "
@@ -297,11 +307,12 @@ ORDER: tuple[Plan, ...] = (
             Words("Press and hold the sensor, wait 2 s, type `wind`: the motor must not turn, and the answer is "
                   "`fault` right after a jump, else `ready`. A broken lead reads the same.",
                   needs="wiring_resistor_pull_up"),
-            Words("Current. {usb_out}. Switch off; multimeter on its 10 A range, its leads on the switch's two "
-                  "terminals: the current now passes it, and off is to take a lead away. Wind, and stop with the "
-                  "sensor; then take the multimeter off.", needs="switch"),
             Words("Seen from the robot's left, so onto the shaft, it must turn {motor_turn} (red arrow). If it does "
                   "not, exchange its two wires at the driver."),
+            Words("Current. {usb_out}. Switch off; multimeter on its 10 A range, its leads on the switch's two "
+                  "terminals by two crocodile clips that do not touch: the current now passes it, and off is to take "
+                  "a clip away. Wind, and stop with the sensor. Then take the clips off, switch off, USB cable out, "
+                  "and unplug the battery.", needs="switch"),
         ),
         (
             Words("Something becomes hot or smells: {off_then}, unplug the battery, look for the short. Do not leave "
@@ -312,7 +323,8 @@ ORDER: tuple[Plan, ...] = (
             Words("`state` prints the battery's voltage, to {state_off} V of the multimeter's at the plug. Calibrate "
                   "it (firmware/README.md).", needs="wiring_resistor_upper"),
             Words("The shaft alone turns with about {free_rpm} rpm. From the battery come about {boards_ma} mA while "
-                  "the motor stands and {free_ma} mA while it turns, the boards included. A third more or less is the "
+                  "the motor stands and {free_ma} mA while it turns, the boards included; the 10 A range shows "
+                  "{boards_a} and {free_a} A, its last digit uncertain. A third more or less is the "
                   "scatter of motors and boards (judgement)."),
         ),
     ),
@@ -324,10 +336,13 @@ ORDER: tuple[Plan, ...] = (
             Move("tie_motor_leads", way="laid"),
         ),
         (
-            Words("{off}, unplug the battery. Push the tabs of both trays into the right plate's slots, the battery's "
-                  "tray below. Lead the wires along the plate, away from leg, cam and gears, and tie them."),
+            Words("{off}, unplug the battery. Now strap it in as in step {step_lower}."),
+            Words("Lay the right plate on two strips of wood, outside down. Push the tabs of both trays into its "
+                  "slots, the battery's tray below. Lead the wires along the plate, away from leg, cam and gears, and "
+                  "tie them."),
             Words("Outside, the motor's wires lie flat on the plate, straight from its window to the wire hole, clear "
-                  "of the opening for the USB plug and of the switch's slot; a strip of adhesive tape every 20 mm "
+                  "of the opening for the USB plug and of the switch's slot, and below the heads of the standoffs' "
+                  "screws, never under one; a strip of adhesive tape every 20 mm "
                   "holds them."),
         ),
     ),
@@ -445,13 +460,20 @@ ORDER: tuple[Plan, ...] = (
                   "end of every axle.", needs=".*_axle_clip_1"),
             Words("Pull the strip of tape off the springs' pin.", lacks=".*_axle_nut|spring_boss"),
         ),
-        (Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),),
+        (
+            Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),
+            Words("No wire under the screws' heads: look at the sensor's leads before each screw is turned home.",
+                  needs="sensor"),
+        ),
         (
             Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
                   "tolerance: try it at the springs' pin, the others are covered from end to end. The leg still "
                   "swings freely.", lacks=".*_axle_(nut|clip_1)"),
             Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
                   "tolerance. The leg still swings freely.", needs=".*_axle_(nut|clip_1)"),
+            Words("The sensor's check of step {step_left} once more, battery unplugged: multimeter between the "
+                  "controller's ground and its pin of the sensor, {free} where the cam does not press it; and neither "
+                  "lead has contact with a standoff's screw.", needs="sensor"),
         ),
     ),
     Plan(
@@ -560,6 +582,8 @@ ORDER: tuple[Plan, ...] = (
             Words("`fault: sensor pressed too early`: a lead of the sensor is broken, the springs may be partly "
                   "loaded. Nothing in the leg's way, type `wind`, then `jump`, until the leg falls: each turns the cam "
                   "a little. Then mend the lead.", needs="wiring_resistor_pull_up"),
+            Words("Springs loaded and board, driver, wires or motor fail: the way out is at the guide's end, under "
+                  "Springs loaded, and nothing turns."),
             Words("Battery low while it winds: the springs are partly loaded and cannot be released. Wait a minute and "
                   "give `wind` again. Refused again: {charge_loaded} Then `wind` again, and `jump`."),
         ),

@@ -12,7 +12,9 @@ from jumpcad.building import build
 from jumpcad.bundle.bom import BilledPlate, bill_of_materials
 from jumpcad.bundle.firmware import firmware_files, numbers
 from jumpcad.bundle.guide import with_bill, write_guide
+from jumpcad.bundle.ordering import strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
+from jumpcad.bundle.stuck import stuck_items
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
@@ -91,6 +93,20 @@ def test_a_robot_that_winds_can_be_stopped_and_the_way_out_is_told(robot: Robot)
     for text in (write_guide(robot), dict(firmware_files(robot))["firmware/README.md"]):
         assert "To stop it while it winds or before it jumps: press the same button once more" in text
         assert "it winds on to the end; then let it jump" in text
+
+
+def test_guide_and_firmware_tell_how_springs_are_slackened_without_board_or_motor(robot: Robot) -> None:
+    readme = dict(firmware_files(robot))["firmware/README.md"]
+    for item in stuck_items(robot):
+        assert item in write_guide(robot)
+        assert item in readme
+    assert "from driver AOUT1" in stuck_items(robot)[1]  # not the mark at the motor: its wires may be exchanged
+
+
+def test_the_strap_goes_once_around_battery_and_tray() -> None:
+    robot = built("kenan-2.0")
+    assert strap_mm(robot) == 85.0  # 2 x (20 + 2 x 2 and 6 + 1.6) + 20, in whole 5 mm
+    assert "Cut its strap to 85 mm" in write_guide(robot)
 
 
 def test_two_cells_are_never_charged_inside_the_robot(tmp_path: Path) -> None:

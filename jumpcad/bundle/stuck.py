@@ -1,0 +1,42 @@
+"""How loaded springs are slackened where board, driver, wires or motor fail: words of guide and firmware's README."""
+
+from jumpcad.bundle.operation import switching_off
+from jumpcad.bundle.wiring import wires
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.robot import Robot
+
+HEADING = "Springs loaded, and nothing turns"
+UNTRIED = (
+    "Where board, driver, a motor wire or the motor has failed, `wind` and `jump` cannot slacken loaded springs. What "
+    "follows is a judgement, not tried on a robot. If you are not sure, leave the leg tied and open nothing."
+)
+
+
+def stuck_items(robot: Robot) -> tuple[str, ...]:
+    """Return what to do, in this order: tie the leg, then let the motor, or else the cut pinion, free the cam."""
+    chosen, spring = chosen_parts(robot.workshop), robot.layout.drive.spring
+    pull_n = 2.0 * spring.torque_nmm / robot.design.carrying_link_mm
+    plus = next((str(start) for _, start, end, *_ in wires(robot) if (end.part, end.pin) == ("motor", "+")), "motor +")
+    cells = "one cell" if chosen.battery.cells == 1 else f"{chosen.battery.cells} cells"
+    return (
+        "Glasses on. Lay the robot on its side, feet away from you. Tie leg and body together with strong cord: two "
+        "turns around the main leg near its lower end and around both plates, tight and knotted, so that the leg "
+        f"cannot swing out. The springs pull there with up to {pull_n:.0f} N. Guide the cord with a wooden stick and "
+        f"keep fingers out from between leg and body. {switching_off(chosen)}, unplug the battery.",
+        f"Board, driver or motor wire dead: find the motor's wire that comes from {plus} and mark it (both have one "
+        "colour, and they may have been exchanged at the driver). Cut both outside the right plate, strip the ends "
+        "that lead to the motor, and keep them apart. The leg still tied, put two crocodile clips from a battery of "
+        f"the kit's kind ({cells}), plus to the marked wire, until the roller has dropped off the cam, and take one "
+        "off at once. A leg that was partly loaded is lifted on first, and the cord catches it. A cam that turns the "
+        "other way: exchange the clips. Nothing turns within a second: take one off at once, the motor is blocked or "
+        "dead.",
+        "Motor blocked or dead: do not take off left plate, motor cap, axles or pins. The plates hold the springs' "
+        "pins, and without them the load comes free. The leg tied, cut the printed pinion's teeth away with side "
+        "cutters, from where it is seen between the plates, hands outside, until the cam's gear is free of it; print "
+        "a new one later. Then turn the gear with the stick, the way it winds until the roller has passed the drop; "
+        "or, with springs partly loaded, back, until the cam has gone from under the roller, where it is far from "
+        "the drop. A pinion that the cutters do not reach: leave the leg tied.",
+        "Then slacken the cord slowly, from the side, feet away from you; a knot that does not open is cut with a "
+        "long knife, no hand in the leg's way. The leg goes to its stop. Only when it lies there, and springs back "
+        "when pulled a little, is anything taken apart.",
+    )
