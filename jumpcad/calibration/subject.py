@@ -230,21 +230,25 @@ def _require_energy(
     heights_mm: tuple[float, ...],
     source: str,
 ) -> None:
-    """Reject a flight that needs more energy than the springs have, if range, rise and mass are all measured.
+    """Reject a flight that needs more energy than the springs have, if range and rise are both measured.
 
-    A parabola of range R and rise h, from take-off to the same height, needs m·g·(h + R²/16h).
+    A robot that was not weighed may be as light as the lightest that is believed. A parabola of range R and rise h,
+    from take-off to the same height, needs m·g·(h + R²/16h).
     """
     measured = subject.measured
     known = distance_of in ("centre-of-mass", "first-touchdown") and height_of == "rise"
-    if not (known and distances_mm and heights_mm and measured.mass.robot_g is not None):
+    if not (known and distances_mm and heights_mm):
         return
+    weighed = measured.mass.robot_g
+    mass_g = 1000.0 * subject.robot.mass_kg / LARGEST_FACTOR["mass"] if weighed is None else weighed
     distance, rise = float(np.mean(distances_mm)) / 1000.0, float(np.mean(heights_mm)) / 1000.0
-    needed = measured.mass.robot_g / 1000.0 * GRAVITY_M_S2 * (rise + distance**2 / (16.0 * rise))
+    needed = mass_g / 1000.0 * GRAVITY_M_S2 * (rise + distance**2 / (16.0 * rise))
     held = subject.robot.spring.energy_j * subject.rate.first
     if needed > MOST_ENERGY_SHARE * held:
+        of, measure = ("", "measure") if weighed else (" (not weighed)", "weigh the robot, measure")
         raise JumpcadError(
             f"{source}: jumps.height_mm = {1000.0 * rise:g} with distance_mm = {1000.0 * distance:g}: takes "
-            f"{needed:.3g} J for {measured.mass.robot_g:g} g, and the springs hold {held:.3g} J: measure the springs' "
+            f"{needed:.3g} J for {mass_g:.3g} g{of}, and the springs hold {held:.3g} J: {measure} the springs' "
             "rate, or say what distance and height are of"
         )
 

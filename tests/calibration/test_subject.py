@@ -34,6 +34,10 @@ JUMP = '[[jumps]]\ndistance_of = "centre-of-mass"\nheight_of = "rise"\n'
             "[mass]\nrobot_g = 103.0\n" + JUMP + "distance_mm = [350.0]\nheight_mm = [150.0]",
             r"height_mm = 150 with distance_mm = 350: takes 0.203 J for 103 g, and the springs hold 0.133 J: measure",
         ),
+        (
+            JUMP + "distance_mm = [900.0]\nheight_mm = [300.0]",
+            r"takes 0.21\d? J for 4\d.\d g \(not weighed\), and the springs hold 0.133 J: weigh the robot, measure",
+        ),
         ("[mass.parts_g]\nwing = 3.0", r"mass.weighed_g.wing: no such part"),
         ("[mass.parts_g]\nmain_leg = 47.0", r"parts_g.main_leg = 47: the model has \d\.\d+ g: a digit too many\?"),
         ("[floor]\nslope_deg = [0.6]", r"slope_deg = 0.6: is a friction of 0.0105: give the slope's angle in degrees"),
