@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, early_torque_share, loaded_arms, torque_shares
+from jumpcad.bundle.springs import PAIR_PERCENT, allowable_mpa, arms_off_deg, early_torque_share, loaded_arms, torque_shares
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive import TorsionSpring
 from jumpcad.electronics.chosen import chosen_parts
@@ -96,7 +96,7 @@ def _springs(robot: Robot) -> Iterator[str]:
         f"- **accept {least * grams:.0f} to {most * grams:.0f} g** ({grams:.0f} g as computed), and of several the "
         f"right-hand and the left-hand one nearest to {grams:.0f} g that agree within {PAIR_PERCENT} %",
         f"- more is not used: {most * grams:.0f} g are {100.0 * (most - 1.0):.0f} % more torque than computed, with "
-        f"{most * spring.stress_mpa:.0f} MPa in the wire ({spring.allowable_mpa:.0f} allowed); the parts' reserve is "
+        f"{most * spring.stress_mpa:.0f} MPa in the wire ({allowable_mpa(robot):.0f} allowed); the parts' reserve is "
         f"{100.0 * scatter:.0f} %",
         "- less harms nothing, the robot jumps shorter: a pair with the lowest rate and the narrowest arms stores "
         f"{100.0 * (1.0 - stored):.0f} % less energy",

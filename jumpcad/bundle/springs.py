@@ -23,9 +23,14 @@ def torque_shares(robot: Robot) -> tuple[float, float]:
     """
     spring, scatter = robot.layout.drive.spring, robot.workshop.safety.spring_rate_scatter
     wound = math.degrees(spring.wound_rad)
-    most = min(1.0 + scatter, spring.allowable_mpa / spring.stress_mpa)
+    most = min(1.0 + scatter, allowable_mpa(robot) / spring.stress_mpa)
     least = (1.0 - scatter) * max(0.0, 1.0 - ARMS_OFF_DEG / wound)
     return math.ceil(100.0 * least - 1e-9) / 100.0, max(1.0, math.floor(100.0 * most + 1e-9) / 100.0)
+
+
+def allowable_mpa(robot: Robot) -> float:
+    """Return the stress that the wire may have with the largest torque accepted, the reserve of loads used up."""
+    return robot.layout.drive.spring.allowable_mpa * (1.0 + robot.workshop.safety.stress_reserve)
 
 
 def arms_off_deg(robot: Robot) -> tuple[float, float]:
@@ -108,7 +113,7 @@ def spring_order(robot: Robot) -> Iterator[str]:
     )
     yield (
         f"- loaded from {math.degrees(spring.preload_rad):.1f}° to {math.degrees(spring.wound_rad):.1f}°, closing, to "
-        f"{spring.torque_nmm:.0f} N·mm each; {spring.stress_mpa:.0f} MPa at most ({spring.allowable_mpa:.0f} MPa "
+        f"{spring.torque_nmm:.0f} N·mm each; {spring.stress_mpa:.0f} MPa at most ({allowable_mpa(robot):.0f} MPa "
         f"allowed; EN 13906-3, inner fibre), {most * spring.stress_mpa:.0f} MPa with the largest torque accepted"
     )
     if spring.preload_rad > 0.0:
