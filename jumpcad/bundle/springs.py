@@ -56,6 +56,14 @@ def early_torque_share(robot: Robot) -> float:
     return rate * (loaded + wider) / loaded
 
 
+def least_energy_share(robot: Robot) -> float:
+    """Return the energy that springs of the lowest rate and the narrowest arms give, over the computed one."""
+    spring, narrower = robot.layout.drive.spring, math.radians(ARMS_OFF_DEG)
+    wound, preload = spring.wound_rad, spring.preload_rad
+    weak = max(0.0, wound - narrower) ** 2 - max(0.0, preload - narrower) ** 2
+    return (1.0 - robot.workshop.safety.spring_rate_scatter) * weak / (wound**2 - preload**2)
+
+
 def loaded_arms(robot: Robot) -> str:
     """Return where the arms of a spring stand to each other at the end of the lift."""
     spring = robot.layout.drive.spring
