@@ -32,6 +32,7 @@ from jumpcad.search.rows import (
     to_row,
 )
 from jumpcad.search.stored import require_remembered, stored_text
+from jumpcad.search.stored_evaluation import stored_names
 from jumpcad.search.trial import SEARCH_PHASES, Trial
 
 MOST_NOTES, LONGEST_NOTE = 200, 1000
@@ -151,14 +152,15 @@ class StudyStore:
         """Return all trials in the order of their study."""
         columns = [f"CAST({name} AS BLOB)" if name in TEXTS else name for name in COLUMNS]
         with plain_errors(self.path):
-            if self._format() < FORMAT:
+            if self._format() < 3:
                 columns[COLUMNS.index("workshop")] = "CAST('{}' AS BLOB)"
             space = self.identity.get("space", {})
             free, keys = sum("fixed" not in part for part in space.values()), [name for name in space if "." in name]
             # Row by row: all of them as text would take more memory than the trials.
             records = self._connection.execute(f"SELECT {', '.join(columns)} FROM evaluations")
             try:
-                trials = [read_trial(dict(zip(COLUMNS, record, strict=True)), free, keys) for record in records]
+                names = self._names()
+                trials = [read_trial(dict(zip(COLUMNS, record, strict=True)), free, keys, names) for record in records]
             except JumpcadError as error:
                 raise JumpcadError(f"{self.path}: is damaged: {error}") from None
         trials.sort(key=lambda trial: trial.position)
@@ -181,9 +183,21 @@ class StudyStore:
         """Add trials, all or none."""
         marks = ", ".join("?" * len(COLUMNS))
         with self._transaction():
-            self._connection.executemany(
-                f"INSERT INTO evaluations VALUES ({marks})", [to_row(trial) for trial in trials]
-            )
+            rows = [to_row(trial, self._number_of) for trial in trials]
+            self._connection.executemany(f"INSERT INTO evaluations VALUES ({marks})", rows)
+
+    def _number_of(self, names: str) -> int:
+        """Return the number of a list of names, which is kept if it is new."""
+        self._connection.execute("INSERT OR IGNORE INTO names (names) VALUES (?)", (names,))
+        (number,) = self._connection.execute("SELECT number FROM names WHERE names = ?", (names,)).fetchone()
+        return int(number)
+
+    def _names(self) -> dict[int, tuple[Any, ...]]:
+        """Return the lists of names that rows share, by their numbers."""
+        if self._format() < FORMAT:
+            return {}
+        rows = self._connection.execute("SELECT number, CAST(names AS BLOB) FROM names")
+        return {number: stored_names(names) for number, names in rows}
 
     def _is_empty(self) -> bool:
         with suppress(JumpcadError), plain_errors(self.path):

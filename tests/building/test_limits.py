@@ -51,7 +51,7 @@ def test_a_figure_of_the_workshop_is_a_limit(table: str, key: str, value: float,
 
 
 def test_the_default_workshop_has_the_limits_of_its_comments() -> None:
-    """70 % of the wire's strength over the reserve of 5 %, PETG's 45 MPa over 3, a 623 roller, a spring's bushing of 5 mm on a 3 mm axle."""
+    """70 % of a wire's strength over 5 % reserve, PETG's 45 MPa over 3, a 623 roller, a bushing of 5 mm on 3 mm."""
     found = default_limits()
     assert found.spring.stress_share == pytest.approx(0.7 / 1.05)
     assert found.spring.mandrel_min_mm == pytest.approx(3.0 + 2 * 0.2 + 2 * 0.8)

@@ -51,6 +51,10 @@ SCHEMES = {
     "format-zero": "PRAGMA user_version = 0",
     "notes-of-bytes": "INSERT INTO notes VALUES (x'ff00')",
     "notes-of-a-terminal": "INSERT INTO notes VALUES (char(27) || '[2J' || char(10) || char(155))",
+    "no-names": "DELETE FROM names",
+    "names-of-numbers": "UPDATE names SET names = '[' || number || ']'",
+    "names-of-a-terminal": "UPDATE names SET names = '[\"' || char(27) || '[2J' || number || '\"]'",
+    "names-exchanged": "UPDATE names SET number = -number",
     "utf-16": "VACUUM",
 }
 
