@@ -30,9 +30,9 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
         (
             Words("{off}, unplug the battery. Now strap it in as in step {step_lower}."),
             Words("Lay the right plate on two strips of wood, outside down. Push the tabs of both trays into its "
-                  "slots, the battery's tray below. Lead the wires along the plate, away from leg, cam and gears, and "
-                  "tie them."),
-            Words("Outside, the motor's wires lie flat on the plate, straight from its window to the wire hole, clear "
+                  "slots, the battery's tray below. Lead the wires along the plate as leads.svg shows (under Wiring), "
+                  "away from leg, cam and gears, and tie them."),
+            Words("Outside, the motor's wires lie flat on the plate, from its window to the wire hole, clear "
                   "of the opening for the USB plug and of the switch's slot, and below the heads of the standoffs' "
                   "screws, never under one; a strip of adhesive tape every 20 mm "
                   "holds them."),
