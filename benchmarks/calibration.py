@@ -18,7 +18,7 @@ import numpy as np
 from jumpcad.calibration import Model, calibrate, explanations, load_subject, predicted_jump
 from jumpcad.calibration.likelihood import ANGLE_DEG, JUMP_SHARE, MODEL_SHARE, STUDENT_T_DEGREES
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.posterior import Posterior, sampled
+from jumpcad.calibration.posterior import CalibrationPosterior, sampled
 from jumpcad.calibration.prediction import growth
 from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, modelled_mass
 from jumpcad.calibration.subject import Subject
@@ -136,7 +136,7 @@ def paper(seed: int) -> dict[str, Any]:
     }
 
 
-def _plain(posterior: Posterior) -> dict[str, list[float]]:
+def _plain(posterior: CalibrationPosterior) -> dict[str, list[float]]:
     return {one["key"]: [round(value, 3) for value in one["posterior"]] for one in posterior.summaries()}
 
 

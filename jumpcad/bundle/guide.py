@@ -16,7 +16,7 @@ from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_order import ROBOT
+from jumpcad.scene.assembly_order.plan import ROBOT
 from jumpcad.scene.assembly_steps import Step, assembly_steps
 from jumpcad.scene.step_views import label_of
 from jumpcad.scene.visuals import Visual

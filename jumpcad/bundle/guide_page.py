@@ -22,6 +22,7 @@ blockquote { margin: 0.8em 0; padding: 0.1em 1em; border-left: 5px solid #b3322b
 pre { background: #8882; padding: 0.6em 1em; overflow-x: auto; }
 nav { columns: 2; }
 @media (max-width: 34em) { nav { columns: 1; } }
+@media (min-width: 34em) { th, td { overflow-wrap: break-word; } }
 @media print { h2 { break-before: page; } nav { display: none; } img { max-height: 14cm; } }
 """
 TYPES = {"png": "image/png", "svg": "image/svg+xml"}

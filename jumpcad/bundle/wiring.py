@@ -1,13 +1,15 @@
-"""wiring.svg and the guide's wiring table: every wire with its ends as the boards name them, its colour and length."""
+"""wiring.svg and the guide's wiring table: every wire with its ends as the boards name them, colour, length and way."""
 
 from collections.abc import Iterator
 from html import escape
 
 from jumpcad.bundle.electronics import jumps_per_charge
+from jumpcad.bundle.lead_drawing import STROKES, leads_svg
 from jumpcad.bundle.operation import charging
 from jumpcad.bundle.soldering import soldering_svg
 from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.nets import Net, Terminal, Wiring, wiring_of
+from jumpcad.parts.lead_ways import way_words
 from jumpcad.parts.leads import lead_lengths
 from jumpcad.robot import Robot
 
@@ -15,11 +17,15 @@ ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
            ("controller", "sensor", "upper resistor", "lower resistor", "pull-up resistor"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
-STROKES = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}
-
 BY_METER = (
     "- sensor, by multimeter: COM and NC have contact only while the plunger is free, COM and NO only while it is",
     "  pressed. Switch: 1 and 2 are the two terminals that have contact in one position only",
+)
+WAYS = (
+    "- numbers are those of the table. Lines end in the middle of a part; its terminals are in the table and under",
+    "  wiring.svg. Seen from above, a lead beside a plate runs above the boards, at the height of wire hole or switch",
+    "- wire hole: the round one, one in each plate. A cable tie through the two slots above it holds the leads,",
+    "  outside, as strain relief; inside they are tied together beside the boards",
 )
 OPENS = (
     "- use COM and NC: pressed, the contact opens and the pin goes high. A broken lead or a dirty contact reads as",
@@ -33,7 +39,7 @@ CLOSES = (
 
 def drawings_of(robot: Robot) -> dict[str, str]:
     """Return the drawings of the wiring by their files; an empty one is not written."""
-    return {"wiring.svg": wiring_svg(robot), "soldering.svg": soldering_svg(robot)}
+    return {"wiring.svg": wiring_svg(robot), "leads.svg": leads_svg(robot), "soldering.svg": soldering_svg(robot)}
 
 
 def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
@@ -45,9 +51,12 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
     """Yield the guide's section on wiring."""
     chosen = chosen_parts(robot.workshop)
     wiring, train = wiring_of(chosen, robot.workshop.bought.pins), robot.layout.drive.train
-    yield from ("", "## Wiring", "", "![wiring](wiring.svg)", "", "| from | to | colour | mm |", "|---|---|---|--:|")
-    for _, start, end, colour, length in wires(robot):
-        yield f"| {start} | {end} | {colour} | {f'{length:.0f}' if length else 'none'} |"
+    yield from ("", "## Wiring", "", "![wiring](wiring.svg)", "")
+    yield from ("| no. | from | to | colour | mm | way |", "|--:|---|---|---|--:|---|")
+    for number, (_, start, end, colour, length) in enumerate(wires(robot), start=1):
+        way, cut = way_words(robot.layout, start.part, end.part), f"{length:.0f}" if length else "none"
+        yield f"| {number} | {start} | {end} | {colour} | {cut} | {way} |"
+    yield from ("", "![leads](leads.svg)", "", *WAYS)
     if soldering_svg(robot):
         yield from ("", "![soldering](soldering.svg)")
     yield from ("", *_notes(chosen, wiring), "")

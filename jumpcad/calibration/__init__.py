@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from jumpcad.calibration.likelihood import Model as Model
     from jumpcad.calibration.measurements import Measurements as Measurements
     from jumpcad.calibration.measurements import load_measurements as load_measurements
-    from jumpcad.calibration.posterior import Posterior as Posterior
+    from jumpcad.calibration.posterior import CalibrationPosterior as CalibrationPosterior
     from jumpcad.calibration.posterior import calibrate as calibrate
     from jumpcad.calibration.prediction import explanations as explanations
     from jumpcad.calibration.prediction import predicted_jump as predicted_jump
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from jumpcad.calibration.subject import load_subject as load_subject
 
 _HOMES = {
+    "CalibrationPosterior": "posterior",
     "Measurements": "measurements",
     "Model": "likelihood",
-    "Posterior": "posterior",
     "Subject": "subject",
     "calibrate": "posterior",
     "explanations": "prediction",

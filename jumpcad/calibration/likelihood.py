@@ -37,7 +37,7 @@ STUDENT_T_DEGREES = 4.0
 
 
 @dataclass(frozen=True)
-class Parameter:
+class CalibrationParameter:
     """A parameter: its key, its name in plots and tables, its prior."""
 
     key: str
@@ -113,28 +113,30 @@ class Model:
         self.data = [datum for subject in subjects for datum in data_of(subject)]
 
     @cached_property
-    def parameters(self) -> list[Parameter]:
+    def parameters(self) -> list[CalibrationParameter]:
         """All parameters, shared ones first."""
         shared = [
-            Parameter("spring_efficiency", "spring efficiency", priors.SPRING_EFFICIENCY),
-            Parameter("pin_friction", "friction of pins", priors.PIN_FRICTION),
+            CalibrationParameter("spring_efficiency", "spring efficiency", priors.SPRING_EFFICIENCY),
+            CalibrationParameter("pin_friction", "friction of pins", priors.PIN_FRICTION),
         ]
         if any(subject.measured.release != "dog" for subject in self.subjects):
-            shared.append(Parameter("back_efficiency", "back efficiency of release", priors.BACK_EFFICIENCY))
+            shared.append(CalibrationParameter("back_efficiency", "back efficiency of release", priors.BACK_EFFICIENCY))
         if any(datum.what == "battery" for datum in self.data):
-            shared.append(Parameter("drive_efficiency", "drive efficiency / model", priors.DRIVE_EFFICIENCY))
-        own: dict[str, Parameter] = {}
+            shared.append(CalibrationParameter("drive_efficiency", "drive efficiency / model", priors.DRIVE_EFFICIENCY))
+        own: dict[str, CalibrationParameter] = {}
         for subject in self.subjects:
             key = f"rate:{subject.pair}"
             if key not in own or own[key].prior.source != "measured":
-                own[key] = Parameter(key, f"{subject.pair}: spring rate / design", subject.rate)
+                own[key] = CalibrationParameter(key, f"{subject.pair}: spring rate / design", subject.rate)
             for name, label, prior in (
                 ("mass", "mass / model", subject.mass), ("floor", "friction of floor", subject.floor),
             ):  # fmt: skip
-                own[f"{name}:{subject.name}"] = Parameter(f"{name}:{subject.name}", f"{subject.name}: {label}", prior)
+                own[f"{name}:{subject.name}"] = CalibrationParameter(
+                    f"{name}:{subject.name}", f"{subject.name}: {label}", prior
+                )
             if any("resting-place" in datum.readings for datum in self.data if datum.subject == subject.name):
                 key = f"travel:{subject.name}"
-                own[key] = Parameter(key, f"{subject.name}: travel after landing (mm)", priors.TRAVEL_MM)
+                own[key] = CalibrationParameter(key, f"{subject.name}: travel after landing (mm)", priors.TRAVEL_MM)
         return [*shared, *own.values()]
 
     def values(self, z: Array) -> dict[str, Array]:

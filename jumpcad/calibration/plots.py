@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from jumpcad.calibration.posterior import Posterior
+from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, labels, panels
 from jumpcad.transforms import Array
 
@@ -16,7 +16,7 @@ TITLES = {"distance": "distance (m)", "height": "height (m)", "battery": "batter
           "angle": "angle (°)"}  # fmt: skip
 
 
-def parameters(posterior: Posterior) -> Figure:
+def parameters(posterior: CalibrationPosterior) -> Figure:
     """Draw prior (grey) and posterior (blue) of every parameter."""
     figure, all_axes = panels(len(posterior.model.parameters), 2.9, 2.1)
     normal = np.random.default_rng(0).standard_normal(len(posterior.z))
@@ -32,7 +32,7 @@ def parameters(posterior: Posterior) -> Figure:
     return figure
 
 
-def measurements(posterior: Posterior) -> Figure:
+def measurements(posterior: CalibrationPosterior) -> Figure:
     """Draw what the posterior predicts (10 to 90 %) beside what was measured, with the likeliest reading."""
     rows = posterior.residuals()
     kinds = list(dict.fromkeys(row["what"] for row in rows))

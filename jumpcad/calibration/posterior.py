@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from jumpcad.arguments import typed
-from jumpcad.calibration.likelihood import Datum, Model, Parameter, Predicted, energy_per_mass, predict
+from jumpcad.calibration.likelihood import CalibrationParameter, Datum, Model, Predicted, energy_per_mass, predict
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import load_subject, renamed, require_each_once
 from jumpcad.errors import JumpcadError
@@ -31,7 +31,7 @@ CORRELATED = 0.5
 
 
 @dataclass(frozen=True, repr=False)
-class Posterior:
+class CalibrationPosterior:
     """Draws of a calibration's parameters.
 
     `z` (draws, parameters) are standard normals under the prior; `autocorrelation` is the longest autocorrelation time
@@ -105,7 +105,7 @@ class Posterior:
 
 
 @typed
-def calibrate(files: Sequence[str | Path], seed: int = 0) -> Posterior:
+def calibrate(files: Sequence[str | Path], seed: int = 0) -> CalibrationPosterior:
     """Calibrate on the measurements of one or several robots.
 
     Parameters
@@ -131,7 +131,7 @@ def calibrate(files: Sequence[str | Path], seed: int = 0) -> Posterior:
 
 def sampled(
     model: Model, seed: int = 0, steps: int = STEPS, most_steps: int = MOST_STEPS, walkers_each: int = WALKERS_EACH
-) -> Posterior:
+) -> CalibrationPosterior:
     """Sample the posterior of a model; chains are doubled until they have converged or have `most_steps`.
 
     `walkers_each` is the number of walkers per parameter; `steps` is the first length of the chains.
@@ -168,7 +168,7 @@ def sampled(
     chain = sampler.get_chain(discard=burn_in, flat=True)
     # At random: every n-th draw could be from the same few walkers.
     chosen = np.sort(generator.choice(len(chain), min(KEPT, len(chain)), replace=False))
-    return Posterior(model, chain[chosen], autocorrelation, left, walkers)
+    return CalibrationPosterior(model, chain[chosen], autocorrelation, left, walkers)
 
 
 def require_data(model: Model) -> None:
@@ -208,7 +208,7 @@ def _emcee() -> Any:
     return emcee
 
 
-def _quantiles(parameter: Parameter) -> list[float]:
+def _quantiles(parameter: CalibrationParameter) -> list[float]:
     return list(parameter.prior.quantiles(QUANTILES))
 
 

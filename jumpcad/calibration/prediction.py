@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, Datum, Model, Predicted, energy_per_mass, predict
-from jumpcad.calibration.posterior import Posterior
+from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import QUANTILES
 from jumpcad.calibration.subject import Subject
 from jumpcad.calibration.surface import ENERGY
@@ -70,7 +70,7 @@ class Prediction:
         }
 
 
-def predicted_jump(posterior: Posterior, subject: Subject, seed: int = 0) -> Prediction:
+def predicted_jump(posterior: CalibrationPosterior, subject: Subject, seed: int = 0) -> Prediction:
     """Return the predicted jump of a robot that was not calibrated on; its own measured jumps are not used."""
     generator = np.random.default_rng([seed, 1])
     draws = len(posterior.z)
@@ -116,7 +116,7 @@ def explanations(prediction: Prediction, distance_m: float) -> list[Explanation]
     ]
 
 
-def growth(posterior: Posterior, name: str, prediction: Prediction) -> Array:
+def growth(posterior: CalibrationPosterior, name: str, prediction: Prediction) -> Array:
     """Return the predicted range over that of a robot that was calibrated on (draws,); NaN without a jump."""
     times: Array = prediction.predicted.jump.range_m / posterior.predicted[name].jump.range_m
     return times

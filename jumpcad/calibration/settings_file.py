@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jumpcad.calibration.posterior import Posterior
+from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.files import to_toml
 from jumpcad.files.outputs import sealed
 
@@ -12,7 +12,7 @@ DIGITS = 4
 KEYS = ("spring_efficiency", "pin_friction")
 
 
-def settings_toml(posterior: Posterior) -> str:
+def settings_toml(posterior: CalibrationPosterior) -> str:
     """Return the settings file of a calibration.
 
     The friction of the floor is written only if there was one robot and its floor was tested. Mass and rate of the

@@ -9,7 +9,7 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, escaped, print_json, status
 from jumpcad.cli.searching import PlotsOption
 
 if TYPE_CHECKING:
-    from jumpcad.calibration import Posterior
+    from jumpcad.calibration import CalibrationPosterior
 
 SETTINGS = Path("my-settings.toml")
 UNITS = {"distance": (1000.0, "mm"), "height": (1000.0, "mm"), "battery": (1.0, "J"), "speed": (1.0, "m/s"),
@@ -69,7 +69,7 @@ def calibrate(
         print("\n".join(map(escaped, _lines(document))))
 
 
-def _document(posterior: "Posterior", seed: int) -> dict[str, Any]:
+def _document(posterior: "CalibrationPosterior", seed: int) -> dict[str, Any]:
     return {
         "robots": [subject.name for subject in posterior.model.subjects],
         "parameters": posterior.summaries(),
@@ -91,7 +91,7 @@ def _document(posterior: "Posterior", seed: int) -> dict[str, Any]:
     }
 
 
-def _pictures(posterior: "Posterior", folder: Path) -> list[str]:
+def _pictures(posterior: "CalibrationPosterior", folder: Path) -> list[str]:
     from jumpcad.calibration import plots
     from jumpcad.search.figures import save_figure
 

@@ -49,9 +49,13 @@ def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left",
         yield rectangle(fittings.usb_size_mm, fittings.usb_mm, 1.0)
 
 
+def wire_hole_mm(place_mm: Array) -> tuple[float, float]:
+    """Return the middle (x, z) of the hole for leads in the plate's room for it and its tie."""
+    return float(place_mm[0]), float(place_mm[1] - HOLE_HALF_MM[1] + HOLE_MM)
+
+
 def _wire_hole(place_mm: Array) -> Iterator[Region]:
-    x, z = place_mm
-    yield hole(HOLE_MM, (x, z - HOLE_HALF_MM[1] + HOLE_MM))
+    x, z = wire_hole_mm(place_mm)
+    yield hole(HOLE_MM, (x, z))
     for sign in (-1.0, 1.0):
-        up = z - HOLE_HALF_MM[1] + HOLE_MM + RELIEF_UP_MM
-        yield rectangle(RELIEF_SLOT_MM, (x + sign * RELIEF_APART_MM / 2.0, up), 0.5)
+        yield rectangle(RELIEF_SLOT_MM, (x + sign * RELIEF_APART_MM / 2.0, z + RELIEF_UP_MM), 0.5)

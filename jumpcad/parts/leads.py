@@ -43,8 +43,7 @@ def metres_by_colour(layout: Layout, wiring: Wiring) -> dict[str, float]:
 
 def lead_mm(layout: Layout, one: str, other: str) -> float:
     """Return the length to cut between two parts: outside straight, inside along the trays, with slack; 0 for none."""
-    own = any(part in OWN_LEGS and board == AT[part] for part, board in ((one, other), (other, one)))
-    if own or {one, other} == {"battery", "plug"}:
+    if has_own_legs(one, other) or {one, other} == {"battery", "plug"}:
         return 0.0
     way, length = (way_in(layout, one), way_in(layout, other)), SLACK_MM
     for outside in way:
@@ -52,6 +51,11 @@ def lead_mm(layout: Layout, one: str, other: str) -> float:
     length += float(np.abs(way[0][-1] - way[1][-1]).sum())
     length += APART_MM if one in APART or other in APART else 0.0
     return STEP_MM * math.ceil(length / STEP_MM - 1e-6)
+
+
+def has_own_legs(one: str, other: str) -> bool:
+    """Tell whether one of two parts is soldered to the other by its own legs."""
+    return any(part in OWN_LEGS and board == AT[part] for part, board in ((one, other), (other, one)))
 
 
 def way_in(layout: Layout, role: str) -> list[Array]:

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_order import ORDER, ROBOT, Move, Plan, Words
+from jumpcad.scene.assembly_order import ORDER
+from jumpcad.scene.assembly_order.plan import ROBOT, Move, Plan, Words
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.transforms import Array, chained
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from jumpcad.search.objective import Objective as Objective
     from jumpcad.search.objective import find_objective as find_objective
     from jumpcad.search.optimization import optimize as optimize
-    from jumpcad.search.parameter import Parameter as Parameter
+    from jumpcad.search.parameter import SearchParameter as SearchParameter
     from jumpcad.search.pool import Pool as Pool
     from jumpcad.search.pool import dask_pool as dask_pool
     from jumpcad.search.pool import local_pool as local_pool
@@ -53,11 +53,11 @@ _HOMES = {
     "MODELS": "models",
     "OBJECTIVES": "objective",
     "Objective": "objective",
-    "Parameter": "parameter",
     "Pool": "pool",
     "Request": "request",
     "Result": "result",
     "RobotModel": "models",
+    "SearchParameter": "parameter",
     "Space": "space",
     "StudyStore": "store",
     "Trial": "trial",

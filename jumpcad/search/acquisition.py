@@ -8,7 +8,7 @@ import numpy.typing as npt
 from scipy.optimize import minimize
 
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import Posterior
+from jumpcad.search.surrogate import SearchPosterior
 from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
 
@@ -42,7 +42,7 @@ class Proposal:
 
 def propose(
     space: Space,
-    posterior: Posterior,
+    posterior: SearchPosterior,
     best: float,
     elite: Array,
     admits: Callable[[Variant], bool],

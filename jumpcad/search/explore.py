@@ -10,7 +10,7 @@ from jumpcad.arguments import typed
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.parameter import Parameter
+from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.surrogate import Surrogate, warped
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
@@ -204,7 +204,7 @@ def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: s
     return FeasibilityMap(x_name, y_name, x, y, lines, parameters[x_name].names, parameters[y_name].names)
 
 
-def _grid(parameter: Parameter, points: int) -> Array:
+def _grid(parameter: SearchParameter, points: int) -> Array:
     return np.array(parameter.choices) if parameter.choices else np.linspace(parameter.lower, parameter.upper, points)
 
 
@@ -219,7 +219,7 @@ def _start(evaluator: Evaluator, around: Design) -> Variant:
     return Variant(around, held)
 
 
-def _with(start: Variant, values: dict[Parameter, float]) -> Variant:
+def _with(start: Variant, values: dict[SearchParameter, float]) -> Variant:
     return start.changed({parameter.name: parameter.value(value) for parameter, value in values.items()})
 
 

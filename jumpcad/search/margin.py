@@ -14,7 +14,7 @@ from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods.bayesian import incumbent, learned_trials, unproposed
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import Posterior
+from jumpcad.search.surrogate import SearchPosterior
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
@@ -59,7 +59,7 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
     generator = np.random.default_rng([seed, 7, step])
     proposals: list[Proposal] = []
     with threadpool_limits(1):
-        posterior = Posterior.from_trials(space, learned_trials(space, known, best=0), thetas, fit=())
+        posterior = SearchPosterior.from_trials(space, learned_trials(space, known, best=0), thetas, fit=())
         for confidence in CONFIDENCES:
             admits, penalty = unproposed(evaluator, proposals), _missed(space, posterior, confidence, scatter)
             proposal = propose(space, posterior, 0.0, elite, admits, generator, penalty)
@@ -70,7 +70,7 @@ def propose_robust(evaluator: Evaluator, trials: Sequence[Trial], step: int, see
     return [trial for trial in found if trial is not None]
 
 
-def _missed(space: Space, posterior: Posterior, confidence: float, scatter: float) -> Callable[[Array], Array]:
+def _missed(space: Space, posterior: SearchPosterior, confidence: float, scatter: float) -> Callable[[Array], Array]:
     """Return a penalty: 0 where a neighbour is feasible with enough confidence, and growing fast elsewhere."""
     offset = np.array([parameter.lower / parameter.width for parameter in space.free])
 

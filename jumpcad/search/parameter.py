@@ -26,7 +26,7 @@ FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", "
 
 
 @dataclass(frozen=True)
-class Parameter:
+class SearchParameter:
     """The values of one parameter in a search, in the parameter's own unit.
 
     ``lower == upper`` means fixed; ``choices``, sorted, are the only values allowed. If the values are names, ``names``
@@ -40,7 +40,7 @@ class Parameter:
     names: tuple[str, ...] = ()
 
     @classmethod
-    def of_names(cls, name: str, names: Sequence[str]) -> "Parameter":
+    def of_names(cls, name: str, names: Sequence[str]) -> "SearchParameter":
         """Return a parameter whose values are names."""
         last = len(names) - 1
         return cls(name, 0.0, float(last), tuple(map(float, range(last + 1))) if last else (), tuple(names))
@@ -88,7 +88,7 @@ class Parameter:
         return {"lower": self.lower, "upper": self.upper}
 
     @classmethod
-    def from_record(cls, name: str, record: Mapping[str, Any]) -> "Parameter":
+    def from_record(cls, name: str, record: Mapping[str, Any]) -> "SearchParameter":
         """Return the parameter of a record that `describe` returned."""
         values = record.get("choices", [record["fixed"]] if "fixed" in record else [])
         if any(isinstance(value, str) for value in values):
@@ -144,7 +144,7 @@ def _number(text: str, whole: str) -> float:
         raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
 
 
-def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = None) -> dict[str, Parameter]:
+def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = None) -> dict[str, SearchParameter]:
     """Return the changed parameters by name; values of the workshop are checked by it.
 
     Raises
@@ -152,7 +152,7 @@ def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = No
     JumpcadError
         If a name is unknown or given twice, or a value is impossible.
     """
-    changed: dict[str, Parameter] = {}
+    changed: dict[str, SearchParameter] = {}
     for change in changes:
         name = change.name
         if name in changed:
@@ -168,7 +168,7 @@ def changed_parameters(changes: Iterable[Change], workshop: Workshop | None = No
     return changed
 
 
-def _of_workshop(change: Change, workshop: Workshop) -> Parameter:
+def _of_workshop(change: Change, workshop: Workshop) -> SearchParameter:
     """Return a parameter that is a value of the workshop, which checks every value.
 
     If the workshop's own value is a whole number, the parameter's choices are whole numbers.
@@ -184,7 +184,7 @@ def _of_workshop(change: Change, workshop: Workshop) -> Parameter:
         return parameter
     if change.kind == "bound" or len(texts) < len(values):
         raise JumpcadError(f"{name}: names and numbers do not mix: choose among names, or give a range of numbers")
-    return Parameter.of_names(name, list(dict.fromkeys(texts)))
+    return SearchParameter.of_names(name, list(dict.fromkeys(texts)))
 
 
 def _tried(workshop: Workshop, name: str, value: Any) -> Value:
@@ -205,7 +205,7 @@ def _tried(workshop: Workshop, name: str, value: Any) -> Value:
     raise complaint
 
 
-def _parameter(change: Change, values: Sequence[float]) -> Parameter:
+def _parameter(change: Change, values: Sequence[float]) -> SearchParameter:
     name = change.name
     if change.kind == "bound":
         if len(values) != 2:
@@ -215,11 +215,11 @@ def _parameter(change: Change, values: Sequence[float]) -> Parameter:
             raise JumpcadError(
                 f"{name} = {lower:g}:{upper:g} is an empty range: the first must be less than the second"
             )
-        return Parameter(name, lower, upper)
+        return SearchParameter(name, lower, upper)
     choices = tuple(sorted(set(values)))
     if not choices:
         raise JumpcadError(f"{name} has no values to choose from; give at least one")
-    return Parameter(name, choices[0], choices[-1], choices if len(choices) > 1 else ())
+    return SearchParameter(name, choices[0], choices[-1], choices if len(choices) > 1 else ())
 
 
 def several(name: str, values: Any) -> tuple[Any, ...]:
@@ -255,7 +255,7 @@ def known_name(name: str) -> str:
     return name
 
 
-def narrowed(parameter: Parameter, centre: float, percent: float) -> Parameter:
+def narrowed(parameter: SearchParameter, centre: float, percent: float) -> SearchParameter:
     """Return a parameter with its range narrowed to a share (%) of its width on either side of a centre."""
     if not 0 < percent <= 100:
         raise JumpcadError(f"within {percent:g} % is outside 0…100 %: a share of each parameter's range")

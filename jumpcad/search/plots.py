@@ -16,9 +16,9 @@ from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.figures import BLUE, GREY, ORANGE, RED, heat, labels, panels
 from jumpcad.search.fronts import energy_j, front
 from jumpcad.search.objective import Objective
-from jumpcad.search.parameter import Parameter
+from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import Posterior, unwarped, warped
+from jumpcad.search.surrogate import SearchPosterior, unwarped, warped
 from jumpcad.search.trial import Trial, best_trial, feasible_trials
 from jumpcad.transforms import Array
 
@@ -59,7 +59,7 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
     order = np.arange(len(feasible))
     for axes, parameter in zip(all_axes, space.free, strict=True):
 
-        def at(trial: Trial, parameter: Parameter = parameter) -> float:
+        def at(trial: Trial, parameter: SearchParameter = parameter) -> float:
             return parameter.number(trial.variant.value(parameter.name))
 
         _name_ticks(axes, parameter.names)
@@ -178,7 +178,7 @@ def feasibility(found: FeasibilityMap, centre: Design | None = None) -> Figure:
 
 
 @typed
-def acquisition(space: Space, trials: Sequence[Trial], posterior: Posterior, objective: Objective) -> Figure:
+def acquisition(space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective) -> Figure:
     """Draw surrogate and expected improvement over the one or two free parameters of a Bayesian search."""
     best = max((trial.score for trial in trials if trial.score is not None), default=0.0)
     return (
@@ -189,7 +189,7 @@ def acquisition(space: Space, trials: Sequence[Trial], posterior: Posterior, obj
 
 
 def _one_parameter(
-    space: Space, trials: Sequence[Trial], posterior: Posterior, objective: Objective, best: float
+    space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, best: float
 ) -> Figure:
     figure, (above, below) = panels(2, 6.4, 2.6, columns=1)
     unit = np.linspace(0.0, 1.0, 401)
@@ -211,7 +211,9 @@ def _one_parameter(
     return figure
 
 
-def _two(space: Space, trials: Sequence[Trial], posterior: Posterior, objective: Objective, best: float) -> Figure:
+def _two(
+    space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, best: float
+) -> Figure:
     figure, (left, right) = panels(2, 4.6, 3.8)
     unit = np.linspace(0.0, 1.0, 61)
     points = np.stack(np.meshgrid(unit, unit), axis=-1).reshape(-1, 2)
@@ -232,14 +234,14 @@ def _two(space: Space, trials: Sequence[Trial], posterior: Posterior, objective:
     return figure
 
 
-def _log_acquisition(posterior: Posterior, points: Array, best: float) -> Array:
+def _log_acquisition(posterior: SearchPosterior, points: Array, best: float) -> Array:
     """Return the decimal logarithm of the acquisition (m,), no lower than `DECADES` below its maximum."""
     value = (posterior.log_improvement(points, best) + posterior.log_feasible(points)) / np.log(10.0)
     shown: Array = np.maximum(value, value.max() - DECADES)
     return shown
 
 
-def _end(parameter: Parameter, number: float) -> str:
+def _end(parameter: SearchParameter, number: float) -> str:
     value = parameter.value(number)
     return value if isinstance(value, str) else f"{value:g}"
 

@@ -20,7 +20,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.search.parameter import (
     Change,
     Kind,
-    Parameter,
+    SearchParameter,
     changed_parameters,
     known_name,
     narrowed,
@@ -37,7 +37,7 @@ from jumpcad.workshop.varied import Value
 class Space:
     """The parameters of a search: a design's in the order of `PARAMETERS`, then the workshop's by their keys."""
 
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[SearchParameter, ...]
 
     def __repr__(self) -> str:
         return f"<Space: {', '.join(p.name for p in self.free)} free>"
@@ -50,7 +50,7 @@ class Space:
     @classmethod
     def default(cls) -> Self:
         """Return the bounds that the published study searched."""
-        return cls(tuple(Parameter(name, limits.lower, limits.upper) for name, limits in SEARCH_BOUNDS.items()))
+        return cls(tuple(SearchParameter(name, limits.lower, limits.upper) for name, limits in SEARCH_BOUNDS.items()))
 
     @classmethod
     @typed
@@ -137,21 +137,21 @@ class Space:
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
         for name, limits in SEARCH_BOUNDS.items():
-            parameter = Parameter(name, limits.lower, limits.upper)
+            parameter = SearchParameter(name, limits.lower, limits.upper)
             if only and name not in only:
-                parameter = Parameter(name, centre[name], centre[name])
+                parameter = SearchParameter(name, centre[name], centre[name])
             elif within_percent is not None:
                 parameter = narrowed(parameter, centre[name], within_percent)
             parameters.append(changed.pop(name, parameter))
         return cls((*parameters, *changed.values()))
 
     @cached_property
-    def free(self) -> tuple[Parameter, ...]:
+    def free(self) -> tuple[SearchParameter, ...]:
         """The parameters that the search moves."""
         return tuple(parameter for parameter in self.parameters if parameter.free)
 
     @property
-    def of_workshop(self) -> tuple[Parameter, ...]:
+    def of_workshop(self) -> tuple[SearchParameter, ...]:
         """The parameters that are values of the workshop, free or fixed."""
         return self.parameters[len(PARAMETERS) :]
 
@@ -252,7 +252,7 @@ class Space:
             if names and parameter.name not in names:
                 held = (parameter.names[round(number)],) if parameter.names else ()
                 at = 0.0 if held else number
-                parameter = Parameter(parameter.name, at, at, names=held)
+                parameter = SearchParameter(parameter.name, at, at, names=held)
             elif percent is not None and parameter.free and not parameter.choices:
                 reach = parameter.width * percent / 100.0
                 lower, upper = max(parameter.lower, number - reach), min(parameter.upper, number + reach)
@@ -263,7 +263,7 @@ class Space:
     @classmethod
     def from_record(cls, record: Mapping[str, Mapping[str, Any]]) -> Self:
         """Return the space of a record that `describe` returned."""
-        return cls(tuple(Parameter.from_record(name, part) for name, part in record.items()))
+        return cls(tuple(SearchParameter.from_record(name, part) for name, part in record.items()))
 
     def describe(self) -> dict[str, Any]:
         """Return the space as plain data, as the study file keeps it."""

@@ -13,7 +13,7 @@ from jumpcad.search.methods import FRONTS
 from jumpcad.search.objective import described_objective
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
-from jumpcad.search.surrogate import Posterior
+from jumpcad.search.surrogate import SearchPosterior
 from jumpcad.search.trial import LEARNING_PHASES, Trial, searched
 
 
@@ -37,7 +37,7 @@ def study_figures(store: StudyStore) -> dict[str, Callable[[], Figure]]:
         figures["pareto"] = partial(plots.pareto, trials, objective)
     if space.dimension <= 2:
         for name, number, count in _moments(trials):
-            posterior = Posterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=())
+            posterior = SearchPosterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=())
             figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective)
     return figures
 

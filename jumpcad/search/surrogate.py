@@ -157,7 +157,7 @@ class Surrogate:
 
 
 @dataclass(frozen=True)
-class Posterior:
+class SearchPosterior:
     """Processes fitted to trials: of the score, once two designs are feasible, and of each constraint's margin."""
 
     score: Surrogate | None
@@ -223,10 +223,10 @@ class Posterior:
         mean, deviation = self.score.predict(points)
         return np.log(deviation) + _log_h((mean - warped(best)) / deviation)
 
-    def condition_on(self, point: Array) -> "Posterior":
+    def condition_on(self, point: Array) -> "SearchPosterior":
         """Return the posterior with its own means at a point (d,) added as measurements (kriging believer)."""
         constraints = {name: surrogate.condition_on(point) for name, surrogate in self.constraints.items()}
-        return Posterior(None if self.score is None else self.score.condition_on(point), constraints)
+        return SearchPosterior(None if self.score is None else self.score.condition_on(point), constraints)
 
 
 def forwards(scores: Array) -> Array:

@@ -6,7 +6,7 @@ from typing import Any
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.parameter import Parameter, physical_limits
+from jumpcad.search.parameter import SearchParameter, physical_limits
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial, best_trial
 
@@ -98,7 +98,7 @@ def _allowed(evaluator: Evaluator, best: Trial) -> Callable[[str, float], bool]:
 def _wider(space: Space, moved: list[Widened]) -> Space:
     sides = {(one.name, one.side): one.beyond for one in moved}
 
-    def wider(parameter: Parameter) -> Parameter:
+    def wider(parameter: SearchParameter) -> SearchParameter:
         lower = sides.get((parameter.name, "lower"), parameter.lower)
         upper = sides.get((parameter.name, "upper"), parameter.upper)
         return replace(parameter, lower=lower, upper=upper)

@@ -82,6 +82,21 @@ def test_the_drawing_names_every_terminal_and_is_the_same_each_time(robot: Robot
     assert len(table) == len(wires(robot)) + 1
 
 
+def test_the_leads_drawing_has_every_number_of_the_table_in_its_colour(robot: Robot) -> None:
+    """A circle of the lead's colour, with its number of the table in it; own legs are on soldering.svg."""
+    strokes = {"red": "#c62828", "orange": "#ef6c00", "black": "#222222", "blue": "#1565c0", "yellow": "#c9a400"}
+    table = [line.split(" | ") for line in wiring_lines(robot) if line.startswith("| ") and "no." not in line]
+    assert [int(row[0].strip("| ")) for row in table] == list(range(1, len(table) + 1))
+    drawn = {row[0].strip("| "): strokes[row[3]] for row in table if row[5] != "own legs |"}
+    drawing = drawings_of(robot)["leads.svg"]
+    space, elements = "{http://www.w3.org/2000/svg}", list(ET.fromstring(drawing).iter())
+    circles = {(e.get("cx"), e.get("stroke")) for e in elements if e.tag == f"{space}circle"}
+    badges = [(e.text, e.get("x")) for e in elements if e.tag == f"{space}text" and (e.text or "").isdigit()]
+    assert {number for number, _ in badges} == set(drawn)
+    assert all((x, drawn[number or ""]) in circles for number, x in badges)
+    assert len({element.get("points") for element in elements if element.tag == f"{space}polyline"}) >= len(drawn)
+
+
 def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:
     shop = built("kenan-2.0").workshop
     bought = shop.bought.model_copy(update={"battery": "lipo-2s-180"})

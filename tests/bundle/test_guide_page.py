@@ -15,11 +15,11 @@ PNG = b"\x89PNG\r\n\x1a\n"
 def test_the_page_is_well_formed_and_needs_no_other_file() -> None:
     guide = write_guide(built("kenan-2.0"), ["step-1", "step-13-springs"])
     files = {"pictures/step-1.png": PNG, "pictures/step-13-springs.png": PNG, "wiring.svg": b"<svg/>"}
-    files["soldering.svg"] = b"<svg/>"
+    files |= {"soldering.svg": b"<svg/>", "leads.svg": b"<svg/>"}
     page = write_page(guide, "kenan-2.0", files)
     root = ET.fromstring(page.replace("<!DOCTYPE html>", "", 1))
     images = [image.get("src") or "" for image in root.iter("img")]
-    assert len(images) == 4
+    assert len(images) == 5
     assert all(source.startswith("data:image/") for source in images)
     assert not re.search(r"(src|href)=\"(?!data:|#)", page)
 

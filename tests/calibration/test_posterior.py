@@ -9,7 +9,7 @@ import pytest
 
 from jumpcad.calibration.likelihood import Model
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.posterior import Posterior, sampled
+from jumpcad.calibration.posterior import CalibrationPosterior, sampled
 from jumpcad.calibration.priors import FLOOR, SPRING_EFFICIENCY
 from jumpcad.calibration.subject import Subject
 from jumpcad.errors import JumpcadError
@@ -25,19 +25,19 @@ def measured(subject: Subject, **data: Any) -> Subject:
     return subject.remeasured(Measurements(**SAID, **data))
 
 
-def fitted(subject: Subject, **data: Any) -> Posterior:
+def fitted(subject: Subject, **data: Any) -> CalibrationPosterior:
     """Return the posterior of some measurements."""
     return sampled(Model([measured(subject, **data)]), 1, **SHORT)
 
 
 @pytest.fixture(scope="module")
-def posterior(subject: Subject) -> Posterior:
+def posterior(subject: Subject) -> CalibrationPosterior:
     """Of a weighed robot with a distance, and the energy of its battery; with chains as long as by default."""
     jumps = ({"distance_mm": (240.0,), "distance_of": "centre-of-mass", "battery_j": (1.6,)},)
     return sampled(Model([measured(subject, jumps=jumps, mass={"robot_g": 103.0})]), 1, STEPS)
 
 
-def test_the_drive_has_the_answer_of_normal_logarithms(posterior: Posterior, subject: Subject) -> None:
+def test_the_drive_has_the_answer_of_normal_logarithms(posterior: CalibrationPosterior, subject: Subject) -> None:
     """Prior ln d ~ N(ln 0.7, 0.4), datum ln d = ln(model/1.6) ± 0.1 (and the springs' rate ± 0.05): weights 1/σ²."""
     logs = np.log(posterior.values["drive_efficiency"])
     noise = math.hypot(0.10, 0.05)
@@ -47,24 +47,24 @@ def test_the_drive_has_the_answer_of_normal_logarithms(posterior: Posterior, sub
     assert logs.mean() == pytest.approx(middle, abs=0.04)  # the distance moves the rate a little
 
 
-def test_what_the_data_say_nothing_of_stays_at_its_prior(posterior: Posterior) -> None:
+def test_what_the_data_say_nothing_of_stays_at_its_prior(posterior: CalibrationPosterior) -> None:
     found = {row["key"]: row for row in posterior.summaries()}
     assert found["pin_friction"]["verdict"] == "stays at its prior"
     assert found["pin_friction"]["spread"] == pytest.approx(1.0, abs=0.15)
     assert found["drive_efficiency"]["verdict"] == "identified"
 
 
-def test_chains_are_long_enough_or_say_so(posterior: Posterior) -> None:
+def test_chains_are_long_enough_or_say_so(posterior: CalibrationPosterior) -> None:
     assert posterior.converged
     assert posterior.effective > 500
 
 
-def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: Posterior) -> None:
+def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: CalibrationPosterior) -> None:
     again = sampled(Model(posterior.model.subjects), 1, STEPS)
     assert np.array_equal(again.z, posterior.z)
 
 
-def test_distance_of_an_unknown_kind_is_wider(subject: Subject, posterior: Posterior) -> None:
+def test_distance_of_an_unknown_kind_is_wider(subject: Subject, posterior: CalibrationPosterior) -> None:
     open_kind = fitted(subject, jumps=({"distance_mm": (240.0,), "distance_of": "unknown"},), mass={"robot_g": 103.0})
     known = np.diff(np.quantile(posterior.values["spring_efficiency"], (0.1, 0.9)))
     (row,) = open_kind.residuals()
@@ -74,7 +74,7 @@ def test_distance_of_an_unknown_kind_is_wider(subject: Subject, posterior: Poste
     assert np.diff(np.quantile(open_kind.values["spring_efficiency"], (0.1, 0.9))) > 0.9 * known
 
 
-def test_a_weighed_robot_tells_more_of_its_springs(subject: Subject, posterior: Posterior) -> None:
+def test_a_weighed_robot_tells_more_of_its_springs(subject: Subject, posterior: CalibrationPosterior) -> None:
     jumps = ({"distance_mm": (240.0,), "distance_of": "centre-of-mass"},)
     light = fitted(subject, jumps=jumps)
     unweighed, weighed = (

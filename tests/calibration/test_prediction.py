@@ -7,7 +7,7 @@ import pytest
 
 from jumpcad.calibration.likelihood import Model
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.posterior import Posterior, sampled
+from jumpcad.calibration.posterior import CalibrationPosterior, sampled
 from jumpcad.calibration.prediction import explanations, growth, predicted_jump
 from jumpcad.calibration.settings_file import SAVED, settings_toml
 from jumpcad.calibration.subject import Subject
@@ -18,7 +18,7 @@ JUMPS = ({"distance_mm": (220.0,), "distance_of": "centre-of-mass"},)
 
 
 @pytest.fixture(scope="module")
-def posterior(subject: Subject) -> Posterior:
+def posterior(subject: Subject) -> CalibrationPosterior:
     """Of a weighed robot on a tested floor."""
     measured = Measurements(**SAID, jumps=JUMPS, mass={"robot_g": 103.0}, floor={"slope_deg": (38.0,)})
     return sampled(Model([subject.remeasured(measured)]), 0, 300, 300, 30)
@@ -31,7 +31,7 @@ def twin(subject: Subject, **data: Any) -> Subject:
     return found
 
 
-def test_shared_parameters_are_those_of_the_calibration(posterior: Posterior, subject: Subject) -> None:
+def test_shared_parameters_are_those_of_the_calibration(posterior: CalibrationPosterior, subject: Subject) -> None:
     found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
     assert found.values["spring_efficiency"] is posterior.values["spring_efficiency"]
     assert np.corrcoef(found.values["floor:twin"], posterior.values["floor:kenan-2.0"])[0, 1] == pytest.approx(
@@ -39,7 +39,7 @@ def test_shared_parameters_are_those_of_the_calibration(posterior: Posterior, su
     )
 
 
-def test_a_twin_jumps_as_far_with_a_wider_interval(posterior: Posterior, subject: Subject) -> None:
+def test_a_twin_jumps_as_far_with_a_wider_interval(posterior: CalibrationPosterior, subject: Subject) -> None:
     found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
     low, middle, high = found.quantiles()["ballistic_range_m"]
     own = np.quantile(posterior.predicted["kenan-2.0"].jump.range_m, (0.1, 0.5, 0.9))
@@ -51,7 +51,7 @@ def test_a_twin_jumps_as_far_with_a_wider_interval(posterior: Posterior, subject
     assert np.nanmedian(growth(posterior, "kenan-2.0", found)) == pytest.approx(middle / own[1], rel=0.1)
 
 
-def test_explanations_reach_the_distance(posterior: Posterior, subject: Subject) -> None:
+def test_explanations_reach_the_distance(posterior: CalibrationPosterior, subject: Subject) -> None:
     """The energy that is said to be needed does give the distance; the mass is its inverse."""
     found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
     energy, mass, rate, floor, travel = explanations(found, 0.35)
@@ -65,7 +65,7 @@ def test_explanations_reach_the_distance(posterior: Posterior, subject: Subject)
     assert travel.needed == pytest.approx(350.0 - 220.0, abs=30.0)
 
 
-def test_settings_are_read_back(posterior: Posterior, tmp_path: Any) -> None:
+def test_settings_are_read_back(posterior: CalibrationPosterior, tmp_path: Any) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(settings_toml(posterior))
     settings = load_settings(path)

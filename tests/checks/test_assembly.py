@@ -12,7 +12,7 @@ from jumpcad.design import load_design
 from jumpcad.findings import errors
 from jumpcad.robot import Robot
 from jumpcad.scene import assembly_order, assembly_steps
-from jumpcad.scene.assembly_order import Tool
+from jumpcad.scene.assembly_order.plan import Tool
 from jumpcad.workshop import load_workshop
 
 ROBOTS = {

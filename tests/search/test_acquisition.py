@@ -5,7 +5,7 @@ from support.hills import FIXED, SMALL
 
 from jumpcad.search.acquisition import propose
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import Posterior, Surrogate
+from jumpcad.search.surrogate import SearchPosterior, Surrogate
 
 STIFFNESS = "stiffness_nmm_per_deg"
 
@@ -13,7 +13,7 @@ STIFFNESS = "stiffness_nmm_per_deg"
 def fitted_to(function, count=40):
     """Return the posterior of a function (n, 3) to (n,) of the unit cube."""
     x = SMALL.spread(count, np.random.default_rng(0))
-    return Posterior(Surrogate(x, function(x)), {})
+    return SearchPosterior(Surrogate(x, function(x)), {})
 
 
 def test_bounds_become_active_where_the_top_is_beyond_them():

@@ -2,7 +2,7 @@
 
 import pytest
 
-from jumpcad.search.parameter import Parameter, narrowed, physical_limits
+from jumpcad.search.parameter import SearchParameter, narrowed, physical_limits
 
 
 def test_physical_limits_are_those_of_a_design():
@@ -10,15 +10,15 @@ def test_physical_limits_are_those_of_a_design():
 
 
 def test_a_place_in_the_unit_interval_is_a_value_or_the_nearest_choice():
-    free = Parameter("c_coef", 0.8, 1.2)
+    free = SearchParameter("c_coef", 0.8, 1.2)
     assert free.at([-0.1, 0.0, 0.25, 1.0, 1.1]) == pytest.approx([0.8, 0.8, 0.9, 1.2, 1.2])
-    chosen = Parameter("c_coef", 0.8, 1.2, (0.8, 0.9, 1.2))
+    chosen = SearchParameter("c_coef", 0.8, 1.2, (0.8, 0.9, 1.2))
     assert chosen.levels == pytest.approx((0.0, 0.25, 1.0))
     assert chosen.at([0.1, 0.2, 0.6, 0.7]).tolist() == [0.8, 0.9, 0.9, 1.2]
 
 
 def test_a_narrowed_range_stays_within_what_a_design_can_be():
-    angle = Parameter("rest_angle_deg", 20.0, 70.0)
+    angle = SearchParameter("rest_angle_deg", 20.0, 70.0)
     near = narrowed(angle, 50.0, 10.0)
     assert (near.lower, near.upper) == pytest.approx((45.0, 55.0))
     assert narrowed(angle, 88.0, 10.0).upper == 90.0

@@ -11,7 +11,7 @@ from jumpcad.findings import Finding
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.surrogate import (
     VERDICT,
-    Posterior,
+    SearchPosterior,
     Surrogate,
     _kernel,
     constraint_margins,
@@ -75,8 +75,8 @@ def rows_of(count, model=None):
 
 
 def test_scatter_counts_the_neighbours_that_are_refused():
-    posterior = Posterior.from_trials(SMALL, rows_of(60), {}, None)
-    posterior = Posterior(None, {"loop": posterior.constraints["loop"]})
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(60), {}, None)
+    posterior = SearchPosterior(None, {"loop": posterior.constraints["loop"]})
     edge = (0.7 - 0.1) / 0.7  # of the compression ratio, the first axis
     for inside in (0.02, 0.05):
         point, scatter = np.array([[edge - inside, 0.4, 0.6]]), np.array([[0.03, 0.1, 0.1]])
@@ -87,7 +87,7 @@ def test_scatter_counts_the_neighbours_that_are_refused():
 
 
 def test_expected_improvement_is_the_integral_over_the_posterior():
-    posterior = Posterior.from_trials(SMALL, rows_of(24), {}, None)
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
     points = SMALL.spread(8, np.random.default_rng(5))
     mean, deviation = posterior.score.predict(points)
     for best in (1.0, 8.0, 12.0):
@@ -101,7 +101,7 @@ def test_expected_improvement_is_the_integral_over_the_posterior():
 
 
 def test_improvement_keeps_its_slope_far_below_the_best():
-    posterior = Posterior.from_trials(SMALL, rows_of(24), {}, None)
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
     points = SMALL.spread(8, np.random.default_rng(5))
     far = [posterior.log_improvement(points, best) for best in (1e2, 1e4, 1e6, 1e8)]
     assert np.isfinite(far).all()
@@ -109,7 +109,7 @@ def test_improvement_keeps_its_slope_far_below_the_best():
 
 
 def test_probability_of_feasibility_learns_the_border():
-    posterior = Posterior.from_trials(SMALL, rows_of(64), {}, None)
+    posterior = SearchPosterior.from_trials(SMALL, rows_of(64), {}, None)
     border = [parameter.name for parameter in SMALL.free].index("compression_ratio")
     points = SMALL.spread(256, np.random.default_rng(7))
     ratio = 0.1 + 0.7 * points[:, border]
@@ -137,12 +137,12 @@ def test_a_margin_that_an_early_refusal_leaves_unknown_is_left_out():
     margins = constraint_margins(trials)
     flat = np.array([trial.design.rest_angle_deg < 40.0 for trial in trials])
     assert (np.isnan(margins["loop"]) == flat).all()
-    Posterior.from_trials(SMALL, trials, {}, None)
+    SearchPosterior.from_trials(SMALL, trials, {}, None)
 
 
 def test_nothing_feasible_yet_leaves_feasibility_to_decide():
     trials = [trial for trial in rows_of(64) if trial.score is None]
-    posterior = Posterior.from_trials(SMALL, trials, {}, None)
+    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None)
     assert posterior.score is None
     assert (posterior.log_improvement(np.full((2, 3), 0.5), 0.0) == 0.0).all()
 

@@ -18,7 +18,7 @@ from jumpcad.search.methods import Task
 from jumpcad.search.objective import SCREENED
 from jumpcad.search.space import Space
 from jumpcad.search.start import first_points
-from jumpcad.search.surrogate import Posterior
+from jumpcad.search.surrogate import SearchPosterior
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
@@ -31,7 +31,7 @@ the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 
 PATIENCE = 5
 """The search ends when so many proposals in a row promise too little; judgement: one or two do now and then."""
 
-Proposer = Callable[[Posterior, Sequence[Trial], int, np.random.Generator], list[Proposal]]
+Proposer = Callable[[SearchPosterior, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from the posterior, the trials that it was fitted to, and their greatest number."""
 
 
@@ -53,7 +53,7 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
     """
 
     def proposer(
-        posterior: Posterior, trials: Sequence[Trial], count: int, generator: np.random.Generator
+        posterior: SearchPosterior, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
         best, elite = incumbent(evaluator.space, trials)
         proposals: list[Proposal] = []
@@ -116,7 +116,7 @@ def run_steps(
             fit = None if len(known) <= REFIT_AFTER or step % REFIT_EVERY == 0 else ()
             # One thread: sums in a fixed order give the same bits however many cores there are.
             with threadpool_limits(1):
-                posterior = Posterior.from_trials(space, learned_trials(space, known), thetas, fit)
+                posterior = SearchPosterior.from_trials(space, learned_trials(space, known), thetas, fit)
                 proposals = proposer(posterior, known, count, np.random.default_rng([task.seed, 2, step]))
             thetas = thetas | posterior.thetas
             notes = [proposal.note() | {"theta": thetas} for proposal in proposals]

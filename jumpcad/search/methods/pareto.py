@@ -18,7 +18,7 @@ from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import incumbent, run_steps, unproposed
 from jumpcad.search.methods.genetic import Fitness, evolve
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import Posterior
+from jumpcad.search.surrogate import SearchPosterior
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
@@ -42,7 +42,7 @@ def run_pareto(evaluator: Evaluator, task: Task) -> None:
     caps = energy_caps_j(space)
 
     def proposer(
-        posterior: Posterior, trials: Sequence[Trial], count: int, generator: np.random.Generator
+        posterior: SearchPosterior, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
         proposals: list[Proposal] = []
         for cap in caps[:count]:

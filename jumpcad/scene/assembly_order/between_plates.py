@@ -1,0 +1,171 @@
+"""Stage 2: trays, axles, springs, leg, rest stop and gears between the plates, until both are screwed together."""
+
+from jumpcad.scene.assembly_order.plan import (
+    HEX_AXLE,
+    HEX_M3,
+    LEFT,
+    LEG,
+    LOWER,
+    NUT_M3,
+    PRESS,
+    ROBOT,
+    STOP,
+    UPPER,
+    Move,
+    Plan,
+    Words,
+    clip_moves,
+)
+
+AXLES = r"(leg|front|cam|idler)_axle"
+
+BETWEEN_PLATES: tuple[Plan, ...] = (
+    Plan(
+        "trays", "Trays into the right plate", ROBOT,
+        (
+            Move("", brings=LOWER),
+            Move("", brings=UPPER),
+            Move("tie_motor_leads", way="laid"),
+        ),
+        (
+            Words("{off}, unplug the battery. Now strap it in as in step {step_lower}."),
+            Words("Lay the right plate on two strips of wood, outside down. Push the tabs of both trays into its "
+                  "slots, the battery's tray below. Lead the wires along the plate as leads.svg shows (under Wiring), "
+                  "away from leg, cam and gears, and tie them."),
+            Words("Outside, the motor's wires lie flat on the plate, from its window to the wire hole, clear "
+                  "of the opening for the USB plug and of the switch's slot, and below the heads of the standoffs' "
+                  "screws, never under one; a strip of adhesive tape every 20 mm "
+                  "holds them."),
+        ),
+    ),
+    Plan(
+        "legs", "Axles, springs and legs", ROBOT,
+        (
+            Move(f"{AXLES}|spring_pin", retention=("plates", "clips")),
+            Move("spring_bushing_right"),
+            Move("spring_right(_leg_arm)?"),
+            Move("", brings=LEG),
+            Move("spring_left(_leg_arm)?"),
+            Move("spring_bushing_left"),
+            Move("front_spacer_right"),
+            Move(r"front_link(_\d|_bar)?"),
+            Move("front_spacer_left"),
+            Move("cam_spacer_right"),
+            Move("idler_spacer_right"),
+        ),
+        (
+            Words("Stand the axles and the springs' pin in their bores. They lean until the left plate is on: the tube "
+                  "that comes first on each holds it upright, so push that down to the plate.", lacks=".*_axle_nut"),
+            Words("The springs' pin has no tube: a strip of adhesive tape from it to the plate, on the side away from "
+                  "the leg, holds it upright. It comes off in step {step_close}, with tweezers.",
+                  lacks=".*_axle_nut|spring_boss"),
+            Words("The springs' pin has no tube: its boss on the plate holds it.", needs="spring_boss",
+                  lacks=".*_axle_nut"),
+            Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
+                  "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
+            Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
+                  "up; the RIGHT-HAND spring; the bushing of {bushing_left} mm. If a bushing has a thicker "
+                  "end, that is at the leg. Seen on the standing robot, the outer arm of either "
+                  "spring lies below the springs' pin, and the inner arms beside the leg, above the hole for its pin. "
+                  "Left-hand: held upright, the wire in front rises to the left."),
+            Words("Front axle: tube, front link, tube ({front_tubes}). Cam axle: its tube ({cam_tube} mm)."),
+        ),
+        (
+            Words("Wear glasses whenever you handle springs. They are slack in this step. Nothing may have to be "
+                  "forced; an arm that does not lie "
+                  "against its pin belongs to the spring of the other hand."),
+        ),
+        (Words("The leg turns freely about its axle."),),
+    ),
+    Plan(
+        "stop", "Pad of the rest stop", STOP,
+        (Move("stop_bar"), Move("stop_pad", "from the leg", "straight")),
+        (Words("Glue the pad into its seat in the bar, the one with raised edges."),),
+    ),
+    Plan(
+        "cam", "Rest stop, cam and gears", ROBOT,
+        (
+            Move("", brings=STOP),
+            Move("cam"),
+            Move("cam_gear"),
+            Move("cam_spacer_left"),
+            Move("idler"),
+        ),
+        (
+            Words("Push the stop's tab into the right plate behind the leg, its pad towards the leg."),
+            Words("Grease the jaws, the roller's path and the teeth thinly (silicone or lithium grease). On the cam "
+                  "axle go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
+            Words("The gear's face with the pockets goes towards the cam, the face with the sensor's ring groove to "
+                  "the left, up. It fits the jaws in one position only: where its pockets do not take both jaws, turn "
+                  "it by half a turn."),
+            Words("Then the idler, its small wheel down.", needs="idler"),
+        ),
+        checks=(
+            Words("The cam turns in its gear freely from jaw to jaw, by {dog_play}°: this play is needed, do not glue "
+                  "it."),
+        ),
+    ),
+    Plan(
+        "trial", "Trial: left plate on, cam turned by hand", ROBOT,
+        (Move("", brings=LEFT, trial=True),),
+        (
+            Words("The pinion is still off. Put the left plate on for a trial, without screws: hold it level and "
+                  "guide the axles into their bores with tweezers: first the leg's, then the cam's, the front one, the "
+                  "springs' pin last; then the trays' and the stop's tabs. Do "
+                  "not press: where it does not go down, something is beside its bore."),
+            Words("Hold the plates together with thumb and finger, the robot upright and its leg hanging, and "
+                  "turn the cam gear by hand one full turn, "
+                  "{cam_turn} as seen from the left. Then lay it down and take the plate off again."),
+        ),
+        checks=(
+            Words("The leg swings freely and falls by its own weight. The cam lifts it by {stroke}° over {lift}° of "
+                  "its turn; then it falls. Nothing rubs."),
+            Words("The sensor clicks {ready_deg}° before the drop, and again after it; nowhere else. Otherwise take "
+                  "the plate off: is the gear on both jaws, its groove to the left, the sensor's base against its "
+                  "mount?", needs="sensor"),
+        ),
+    ),
+    Plan(
+        "close", "Pinion; left plate for good", ROBOT,
+        (
+            Move("motor_pinion", past="motor_shaft", tool=PRESS, reach="from the left"),
+            Move("", brings=LEFT),
+            Move("standoff_\\d+_screw_left", "from the left", tool=HEX_M3),
+            Move(f"{AXLES}|spring_pin", "from the left", tool=HEX_AXLE, retention=("nuts",)),
+            Move(f"({AXLES}|spring_pin)_nut", "from the right", past=f"{AXLES}|spring_pin", tool=NUT_M3,
+                 reach="from the right"),
+            *clip_moves(f"{AXLES}|spring_pin"),
+        ),
+        (
+            Words("Press the pinion onto the motor's shaft, flat to flat and its teeth between the wheel's, until it "
+                  "is level with the wheel: its ribs are cut. {press_n} N at most, more damages the gearhead."),
+            Words("The force goes through motor, socket floor and right plate: stand that plate on the end of a piece "
+                  "of wood of {block} mm with a groove {groove} mm wide and 10 mm deep sawn across the end, the groove "
+                  "along the window's longer side. The wood bears on the plate on both sides of the window, the wires "
+                  "lie in the groove and leave at its ends. Hold the robot level: it stands on the wood alone."),
+            Words("Left plate and its screws for good, {torque_plastic} N·m. The closed bores of both plates hold the "
+                  "axles.", lacks=".*_axle_(nut|clip_1)"),
+            Words("Left plate and its screws for good, {torque_plastic} N·m. Put the axles' screws in from the left, "
+                  "each pushing its rod out, and turn the lock nuts on until the plates just bear no load.",
+                  needs=".*_axle_nut"),
+            Words("Left plate and its screws for good, {torque_plastic} N·m. Press a clip into the groove at either "
+                  "end of every axle.", needs=".*_axle_clip_1"),
+            Words("Pull the strip of tape off the springs' pin.", lacks=".*_axle_nut|spring_boss"),
+        ),
+        (
+            Words("From here on do not turn cam or gears by hand: that would drive the gear motor backwards."),
+            Words("No wire under the screws' heads: look at the sensor's leads before each screw is turned home.",
+                  needs="sensor"),
+        ),
+        (
+            Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
+                  "tolerance: try it at the springs' pin, the others are covered from end to end. The leg still "
+                  "swings freely.", lacks=".*_axle_(nut|clip_1)"),
+            Words("Axles can be moved along by {end_play} mm where rods were cut at the lower "
+                  "tolerance. The leg still swings freely.", needs=".*_axle_(nut|clip_1)"),
+            Words("The sensor's check of step {step_left} once more, battery unplugged: multimeter between the "
+                  "controller's ground and its pin of the sensor, {free} where the cam does not press it; and neither "
+                  "lead has contact with a standoff's screw.", needs="sensor"),
+        ),
+    ),
+)  # fmt: skip
