@@ -7,12 +7,11 @@ from collections.abc import Iterator
 
 from jumpcad.bundle.arrival import REAMED_MM, scale_range_kg
 from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.switch_order import switch_order
 from jumpcad.bundle.wiring import wires
 from jumpcad.dimensions import STRAP_SLOT_MM, TRAY_MM
 from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.supply import supply_of
 from jumpcad.files.markdown import plain
-from jumpcad.parts.fittings import KNOB_MM, SWITCH_SCREWS_MM
 from jumpcad.printing.plates import packed
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import Step
@@ -27,24 +26,8 @@ SAW_MM = 2.0
 """Lost at every cut; judgement."""
 STANDOFFS_MM = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 60.0)
 """Lengths of M3 standoffs, female to female, polyamide, that shops have."""
-SIMILAR_SWITCH = (
-    "those sold as SS-12F15 G5 have the size (19.8 x 5.6 mm, slider 3 x 3 x 5 mm that goes 3 mm), but sellers rate "
-    "them 0.3 or 0.5 A and few give the distance of the holes: compare the drawing"
-)
-"""Sizes as public bills of material state them (several projects, the same figures); the ratings differ by seller."""
-NO_SWITCH = (
-    ". Found none: leave the switch and "
-    "its two screws out, and solder the wires of switch 2 to those of switch 1. The battery's plug is then the "
-    "switch: solder the robot's half to leads of 50 mm that come out between the plates, with a loop of cord tied "
-    "behind the battery's half to pull it by. Where this guide says switch on, plug it in; where it says switch off, "
-    "pull it out; currents are read with the multimeter in place of its red wire"
-)
-"""For one cell; judgement."""
-NEEDS_SWITCH = ". The kit of two cells is not built without one: its plug would spark and leave no quick way to stop"
 STRAP_OVERLAP_MM = 20.0
 """Of a strap, hook on loop; judgement."""
-SLIDER_MM = 1.5
-"""Of a switch's slider outside the plate, for a fingertip; judgement."""
 PLUG_ROOM_MM = 0.5
 """By which the body of a USB plug is smaller than its window."""
 THREAD_MM = 6.0
@@ -78,7 +61,7 @@ def order_lines(robot: Robot) -> Iterator[str]:
     )
     yield from _plug(robot)
     yield from _tape(robot)
-    yield from _switch(robot)
+    yield from switch_order(robot)
     yield f"- besides: {OTHER}"
 
 
@@ -225,25 +208,6 @@ def _tape(robot: Robot) -> Iterator[str]:
     boards = chosen_parts(robot.workshop).boards.items()
     pieces = ", ".join(f"{board.length_mm:g} x {board.width_mm:g} mm ({role})" for role, board in boards)
     yield f"- double-sided foam tape 1 mm thick: {pieces}; cut out under pads that are soldered from below"
-
-
-def _switch(robot: Robot) -> Iterator[str]:
-    """Yield what a slide switch must be like: shops sell many of one name."""
-    fittings, lateral = robot.layout.fittings, robot.layout.lateral
-    if fittings.switch is None or fittings.switch_mm is None:
-        return
-    switch, plate = fittings.switch, lateral.inside[0] - lateral.outside[0]
-    chosen, motor, safety = chosen_parts(robot.workshop), robot.layout.drive.train.motor, robot.workshop.safety
-    supply = supply_of(chosen)
-    blocked_a = supply.driven(motor, supply.full_v, safety.motor_torque_max_nm).stall_current_a
-    yield (
-        f"- slide switch: {2.0 * SWITCH_SCREWS_MM:g} mm between the holes of its ears, at most {switch.length_mm:g} x "
-        f"{switch.width_mm:g} mm, {switch.height_mm:g} mm high behind its ears, {switch.rated_a:g} A or more at "
-        f"{supply.full_v:g} V (the blocked motor draws {blocked_a:.2f} A). Its "
-        f"slider passes a slot of {KNOB_MM[0]:g} x {KNOB_MM[1]:g} mm, both positions, in a plate of {plate:.1f} mm: it "
-        f"must stand out of the ears by {plate + SLIDER_MM:.1f} mm or more. No article with all of it is known here: "
-        f"{SIMILAR_SWITCH}{NO_SWITCH if chosen.regulator is None else NEEDS_SWITCH}"
-    )
 
 
 def _strips(robot: Robot) -> Iterator[str]:
