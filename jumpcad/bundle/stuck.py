@@ -13,10 +13,11 @@ UNTRIED = (
 
 
 def stuck_items(robot: Robot) -> tuple[str, ...]:
-    """Return what to do, in this order: tie the leg, then let the motor, or else the cut pinion, free the cam."""
+    """Return what to do, in this order: tie the leg; free the cam by the motor, else by softening the pinion's bore."""
     chosen, spring = chosen_parts(robot.workshop), robot.layout.drive.spring
     pull_n = 2.0 * spring.torque_nmm / robot.design.carrying_link_mm
     plus = next((str(start) for _, start, end, *_ in wires(robot) if (end.part, end.pin) == ("motor", "+")), "motor +")
+    hole_mm = robot.layout.drive.train.motor.shaft_mm + 2.0 * robot.workshop.fits.loose_mm
     cells = "one cell" if chosen.battery.cells == 1 else f"{chosen.battery.cells} cells"
     return (
         "Glasses on. Lay the robot on its side, feet away from you. Tie leg and body together with strong cord: two "
@@ -31,11 +32,15 @@ def stuck_items(robot: Robot) -> tuple[str, ...]:
         "other way: exchange the clips. Nothing turns within a second: take one off at once, the motor is blocked or "
         "dead.",
         "Motor blocked or dead: do not take off left plate, motor cap, axles or pins. The plates hold the springs' "
-        "pins, and without them the load comes free. The leg tied, cut the printed pinion's teeth away with side "
-        "cutters, from where it is seen between the plates, hands outside, until the cam's gear is free of it; print "
-        "a new one later. Then turn the gear with the stick, the way it winds until the roller has passed the drop; "
-        "or, with springs partly loaded, back, until the cam has gone from under the roller, where it is far from "
-        "the drop. A pinion that the cutters do not reach: leave the leg tied.",
+        "pins, and without them the load comes free. The pinion's teeth that hold the gears are between the wheels, "
+        "where no cutter reaches them; the pinion is freed on its shaft instead. The leg tied, lay the robot on its "
+        f"right plate. In the left plate's hole of {hole_mm:.1f} mm beside the sensor is the end of the motor's shaft: "
+        "press the tip of a soldering iron against it, set as for solder, off the plate, the room aired. The shaft heats the printed "
+        "pinion until its bore is soft and it turns on the shaft; a minute or two. The gears may then turn back by "
+        "themselves, and the cord catches the leg. Otherwise, the iron still there, push the teeth of the cam's gear, "
+        "which stand out of the plates above and behind, with the stick: the way it winds until the roller has passed "
+        "the drop; or, with springs partly loaded, back, until the cam has gone from under the roller, where it is far "
+        "from the drop. Nothing yields within five minutes: leave the leg tied. Print a new pinion later.",
         "Then slacken the cord slowly, from the side, feet away from you; a knot that does not open is cut with a "
         "long knife, no hand in the leg's way. The leg goes to its stop. Only when it lies there, and springs back "
         "when pulled a little, is anything taken apart.",
