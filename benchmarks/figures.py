@@ -21,6 +21,7 @@ from start import children_cpu_s
 
 from jumpcad import published
 from jumpcad.building import build
+from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
@@ -200,6 +201,21 @@ def of_best_printable() -> dict[str, str]:
         "bounds": f"{len(bounds)} parameters: {', '.join(bounds)}",
         "neighbours": f"Of {len(neighbours)} neighbours, half with parameters ±1 %, half with lengths "
         f"±{making.length_mm:g} mm, {refused or 'none'} {'is' if refused < 2 else 'are'} rejected",
+    }
+
+
+def of_springs() -> dict[str, str]:
+    """Return how far accepted springs may be off on the templates, and what that does (`jumpcad.bundle.springs`)."""
+    robots = [built(name)[0] for name in ROBOTS]
+    more = ", ".join(f"{100.0 * (torque_shares(robot)[1] - 1.0):.0f}" for robot in robots)
+    wider = sorted({arms_off_deg(robot)[1] for robot in robots})
+    early = [100.0 * (early_torque_share(robot) - 1.0) for robot in robots]
+    less = [100.0 * (1.0 - least_energy_share(robot)) for robot in robots]
+    return {
+        "torque accepted": f"{more} %",
+        "arms accepted": " or ".join(f"{angle:.0f}" for angle in wider) + "°",
+        "early torque": f"{min(early):.0f} to {max(early):.0f} %",
+        "weakest springs": f"{min(less):.0f} to {max(less):.0f} %",
     }
 
 

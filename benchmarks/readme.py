@@ -43,6 +43,7 @@ CHEAP: dict[Maker, float] = {
     figures.of_engines: 0.0,
     figures.of_prototypes: 0.0,
     figures.of_best_printable: 0.0,
+    figures.of_springs: 0.0,
     figures.of_assumptions: 0.0,
 }
 COSTLY: dict[str, tuple[Maker, float]] = {

@@ -50,7 +50,7 @@ def _spring_limits(
         pin_radius_min_mm=hub_radius + CLEAR_MM + axle / math.sqrt(2.0),
         pin_mm=axle,
         plate_pins_rad=plate_pins_rad,
-        stress_share=min(safety.spring_stress_share, spring_share(safety.jumps)),
+        stress_share=min(safety.spring_stress_share, spring_share(safety.jumps)) / (1.0 + safety.stress_reserve),
     )
 
 

@@ -3,7 +3,15 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, early_torque_share, loaded_arms, torque_shares
+from jumpcad.bundle.springs import (
+    PAIR_PERCENT,
+    allowable_mpa,
+    arms_off_deg,
+    early_torque_share,
+    least_energy_share,
+    loaded_arms,
+    torque_shares,
+)
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive import TorsionSpring
 from jumpcad.electronics.chosen import chosen_parts
@@ -66,12 +74,9 @@ def _springs(robot: Robot) -> Iterator[str]:
     """Yield how a spring is accepted: by one reading, its torque where the robot loads it."""
     spring, scatter = robot.layout.drive.spring, robot.workshop.safety.spring_rate_scatter
     lever, grams, wound = spring.arms.lever_mm, loaded_grams(spring), math.degrees(spring.wound_rad)
-    preload = math.degrees(spring.preload_rad)
     least, most = torque_shares(robot)
     narrower, wider = arms_off_deg(robot)
     free = math.degrees(spring.free_arm_angle_rad)
-    off = (1.0 - scatter) * (max(0.0, wound - narrower) ** 2 - max(0.0, preload - narrower) ** 2)
-    stored = off / (wound**2 - preload**2)
     shank = math.floor(2.0 * spring.mandrel_mm) / 2.0
     yield from (
         f"**Springs.** Glasses on. Relaxed, the arms are {free - narrower:.0f} to {free + wider:.0f}° apart "
@@ -96,10 +101,10 @@ def _springs(robot: Robot) -> Iterator[str]:
         f"- **accept {least * grams:.0f} to {most * grams:.0f} g** ({grams:.0f} g as computed), and of several the "
         f"right-hand and the left-hand one nearest to {grams:.0f} g that agree within {PAIR_PERCENT} %",
         f"- more is not used: {most * grams:.0f} g are {100.0 * (most - 1.0):.0f} % more torque than computed, with "
-        f"{most * spring.stress_mpa:.0f} MPa in the wire ({spring.allowable_mpa:.0f} allowed); the parts' reserve is "
+        f"{most * spring.stress_mpa:.0f} MPa in the wire ({allowable_mpa(robot):.0f} allowed); the parts' reserve is "
         f"{100.0 * scatter:.0f} %",
         "- less harms nothing, the robot jumps shorter: a pair with the lowest rate and the narrowest arms stores "
-        f"{100.0 * (1.0 - stored):.0f} % less energy",
+        f"{100.0 * (1.0 - least_energy_share(robot)):.0f} % less energy",
         "",
         "The rate, for information: a rejected spring is stiff or has wide arms. Relaxed, the arm at the edge points "
         "level to the side; the nail holds the other one where it then is. Raised by an angle of the table, the scale "

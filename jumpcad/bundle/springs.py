@@ -23,9 +23,14 @@ def torque_shares(robot: Robot) -> tuple[float, float]:
     """
     spring, scatter = robot.layout.drive.spring, robot.workshop.safety.spring_rate_scatter
     wound = math.degrees(spring.wound_rad)
-    most = min(1.0 + scatter, spring.allowable_mpa / spring.stress_mpa)
+    most = min(1.0 + scatter, allowable_mpa(robot) / spring.stress_mpa)
     least = (1.0 - scatter) * max(0.0, 1.0 - ARMS_OFF_DEG / wound)
     return math.ceil(100.0 * least - 1e-9) / 100.0, max(1.0, math.floor(100.0 * most + 1e-9) / 100.0)
+
+
+def allowable_mpa(robot: Robot) -> float:
+    """Return the stress that the wire may have with the largest torque accepted, the reserve of loads used up."""
+    return robot.layout.drive.spring.allowable_mpa * (1.0 + robot.workshop.safety.stress_reserve)
 
 
 def arms_off_deg(robot: Robot) -> tuple[float, float]:
@@ -49,6 +54,14 @@ def early_torque_share(robot: Robot) -> float:
     loaded = float(law.wind_rad(law.ramp_rad)) + law.preload_rad
     rate = torque_shares(robot)[1] / (1.0 + wider / robot.layout.drive.spring.wound_rad)
     return rate * (loaded + wider) / loaded
+
+
+def least_energy_share(robot: Robot) -> float:
+    """Return the energy that springs of the lowest rate and the narrowest arms give, over the computed one."""
+    spring, narrower = robot.layout.drive.spring, math.radians(ARMS_OFF_DEG)
+    wound, preload = spring.wound_rad, spring.preload_rad
+    weak = max(0.0, wound - narrower) ** 2 - max(0.0, preload - narrower) ** 2
+    return (1.0 - robot.workshop.safety.spring_rate_scatter) * weak / (wound**2 - preload**2)
 
 
 def loaded_arms(robot: Robot) -> str:
@@ -108,7 +121,7 @@ def spring_order(robot: Robot) -> Iterator[str]:
     )
     yield (
         f"- loaded from {math.degrees(spring.preload_rad):.1f}° to {math.degrees(spring.wound_rad):.1f}°, closing, to "
-        f"{spring.torque_nmm:.0f} N·mm each; {spring.stress_mpa:.0f} MPa at most ({spring.allowable_mpa:.0f} MPa "
+        f"{spring.torque_nmm:.0f} N·mm each; {spring.stress_mpa:.0f} MPa at most ({allowable_mpa(robot):.0f} MPa "
         f"allowed; EN 13906-3, inner fibre), {most * spring.stress_mpa:.0f} MPa with the largest torque accepted"
     )
     if spring.preload_rad > 0.0:

@@ -60,7 +60,8 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
 
 def _notes(chosen: Chosen, wiring: Wiring) -> Iterator[str]:
     """Yield what a table does not say."""
-    yield "- lengths follow the trays, those of sensor and motor pass the plates' holes; 30 mm are for bends and solder"
+    yield "- lengths follow the trays, those of sensor and motor pass the plates' holes; 30 mm are for bends and"
+    yield "  solder, 40 mm more at sensor and switch, which are soldered beside the robot and then put in their places"
     yield "- none: the part's own legs or leads, each leg in a piece of heat-shrink tube"
     yield "- a leg too short for its way around the board: solder 40 mm of wire to it, of that colour where it is there"
     yield "- joints of more than two wires, as at the plug's minus: in heat-shrink tube of 4 mm"

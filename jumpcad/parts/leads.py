@@ -15,6 +15,9 @@ SLACK_MM = 30.0
 """Added to a wire's way for bends and two soldered ends; judgement."""
 OWN_LEGS = ("upper resistor", "lower resistor", "pull-up resistor", "diode")
 """Parts whose own legs, 25 mm or more, reach every terminal of the board beside them: no wire is cut for those."""
+APART = ("sensor", "switch")
+APART_MM = 40.0
+"""Added to the leads of what is soldered beside the robot and then put in its place; judgement: room for both hands."""
 STEP_MM = 10.0
 """Lengths are rounded up to whole steps."""
 BESIDE_MM = 2.0
@@ -47,6 +50,7 @@ def lead_mm(layout: Layout, one: str, other: str) -> float:
     for outside in way:
         length += sum(math.dist(a, b) for a, b in itertools.pairwise(outside))
     length += float(np.abs(way[0][-1] - way[1][-1]).sum())
+    length += APART_MM if one in APART or other in APART else 0.0
     return STEP_MM * math.ceil(length / STEP_MM - 1e-6)
 
 
