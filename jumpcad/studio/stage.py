@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
+from jumpcad.scene.surface import seen
 from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.solids.tube import Wire
 from jumpcad.transforms import Array
 
 WRONG = (0.80, 0.16, 0.14)
@@ -78,9 +78,9 @@ class Stage:
                 if tuple(handle.position) != place or tuple(handle.wxyz) != turn:
                     handle.position, handle.wxyz = place, turn
                 continue
-            mesh = one.mesh
+            vertices_mm, triangles = seen(one)
             self.meshes[name] = key, self.server.scene.add_mesh_simple(
-                name, np.asarray(mesh.vertices) * 0.001, np.asarray(mesh.faces),
+                name, vertices_mm * 0.001, triangles,
                 color=colour, opacity=opacity, flat_shading=True, wxyz=turn, position=place,
             )  # fmt: skip
             sent += 1
@@ -89,7 +89,7 @@ class Stage:
 
 def _shape(one: Visual) -> object:
     """Return a key that is equal for equal meshes."""
-    source = one.source
-    if isinstance(source, Part):
-        return source.drawing.shape
-    return source.shape if source.wire is None else (source.wire.points_mm.tobytes(), source.wire.diameter_mm)
+    shape = one.shape
+    if isinstance(shape, Wire):  # it lies in its body's frame, and its mesh does not
+        return shape.points_mm.tobytes(), shape.diameter_mm, one.T_body_mesh.tobytes()
+    return shape
