@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import support.threads  # noqa: F401  # before numpy
 from support.built import built
 from support.costs import Costs
 from support.robots import make_small_robot

@@ -63,7 +63,7 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
     yield (
         f"One jump takes {train.electrical_j:.2f} J from the battery: {train.motor_j:.2f} J the motor, "
         f"{train.boards_j:.2f} J the boards while it winds for {train.winding_s:.1f} s; waiting takes more. A charge "
-        f"lasts for about {jumps_per_charge(robot)} jumps."
+        f"lasts for about {float(f'{jumps_per_charge(robot):.2g}'):.0f} jumps."
     )
 
 

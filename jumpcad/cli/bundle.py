@@ -61,8 +61,8 @@ def build(
 ) -> None:
     """Build a robot: parts to print, files to simulate, what to buy, and how far it jumps.
 
-    In a folder that holds the robot already, its files are replaced and everything else stays. A robot that does not
-    jump is refused.
+    In a folder that holds the robot already, its files are replaced and
+    everything else stays. A robot that does not jump is refused.
     """
     from jumpcad.bundle.export import export
     from jumpcad.files.outputs import require_apart

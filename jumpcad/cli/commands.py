@@ -5,7 +5,7 @@ import sys
 import traceback
 from collections.abc import Sequence
 from functools import cache
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from pydantic import ValidationError
@@ -109,8 +109,16 @@ def _carry_out(arguments: list[str]) -> int:
 
         return shell_complete(command, {}, "jumpcad", COMPLETE, asked)
     try:
-        with command.make_context("jumpcad", arguments) as context:
+        with _context(command, arguments) as context:
             command.invoke(context)
     except typer.Exit as end:
         return end.exit_code
     return 0
+
+
+def _context(command: Any, arguments: list[str]) -> Any:
+    """Return the context of parsed arguments; the options of completion end the program themselves."""
+    try:
+        return command.make_context("jumpcad", arguments)
+    except SystemExit as end:
+        raise typer.Exit(int(end.code or 0)) from None

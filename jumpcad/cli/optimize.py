@@ -88,8 +88,8 @@ def optimize(
 ) -> None:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
-    Every evaluation is kept in the study file; the same command continues after an interruption. The exit
-    code is 1 if every design is rejected.
+    Every evaluation is kept in the study file; the same command continues
+    after an interruption. The exit code is 1 if every design is rejected.
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target

@@ -10,7 +10,8 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from threading import Event, Thread
 from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
@@ -26,6 +27,8 @@ ForceFlag = Annotated[bool, typer.Option("--force", help="Replace files that are
 CONTROL_PATTERN = "[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]"
 """Characters that move the cursor, hide or reverse text, and lone surrogates (bytes of a path that are not UTF-8)."""
 COLOUR = "\x1b\\[[0-9;]*m"
+LINE_EVERY_S = 60.0
+"""Time between two lines of progress where standard error is no terminal."""
 LONGEST_LINE = 2000
 """Characters of an error; a path may have 4096."""
 
@@ -138,11 +141,31 @@ def console(**options: Any) -> "Console":
 
 @contextlib.contextmanager
 def status(doing: str) -> Iterator[Callable[[str], None]]:
-    """Show what is being done on standard error, if that is a terminal; yield a function that changes the text."""
+    """Show on standard error what is being done: always on a terminal, else one line per minute.
+
+    Yields a function that changes the text.
+    """
     from rich.text import Text
 
-    with console(stderr=True).status(Text(escaped(doing))) as shown:
-        yield lambda text: shown.update(Text(escaped(text)))
+    if sys.stderr.isatty():
+        with console(stderr=True).status(Text(escaped(doing))) as shown:
+            yield lambda text: shown.update(Text(escaped(text)))
+        return
+    texts, done = [doing], Event()
+    thread = Thread(target=_log, args=(texts, done), daemon=True)
+    thread.start()
+    try:
+        yield texts.append
+    finally:
+        done.set()
+        thread.join()
+
+
+def _log(texts: Sequence[str], done: Event) -> None:
+    """Print the newest text every `LINE_EVERY_S` until all is done."""
+    while not done.wait(LINE_EVERY_S):
+        with contextlib.suppress(OSError, ValueError):  # standard error is closed
+            print(f"jumpcad: {escaped(texts[-1])}", file=sys.stderr, flush=True)
 
 
 def print_json(data: Any) -> None:

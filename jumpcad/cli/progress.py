@@ -6,13 +6,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from jumpcad.cli.output import console
+from jumpcad.cli.output import LINE_EVERY_S, console
 
 if TYPE_CHECKING:
     from jumpcad.search.evaluator import Watch
     from jumpcad.search.trial import Trial
-
-LINE_EVERY_S = 60.0
 
 
 class Tally:

@@ -64,7 +64,8 @@ def simulate(
 ) -> None:
     """Simulate one jump: gate, release, take-off, flight.
 
-    The exit code is 0 for a jump and 1 if the design is rejected or does not jump.
+    The exit code is 0 for a jump, and 1 if the design is rejected or does not
+    jump.
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target

@@ -34,7 +34,8 @@ def slice_command(
 ) -> None:
     """Slice a bundle with PrusaSlicer: masses beside the model's, printing times, settings that it ignored.
 
-    The times are written into the bundle's bill of materials and guide, unless --workshop is given.
+    The times are written into the bundle's bill of materials and guide,
+    unless --workshop is given.
     """
     from jumpcad.bundle.sliced import slice_bundle, write_times
     from jumpcad.files.outputs import require_apart, require_target, write_atomically

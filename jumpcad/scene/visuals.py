@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jumpcad.parts.part import Part
+from jumpcad.parts.part import Part, Shape
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
+from jumpcad.solids.tube import Wire
 from jumpcad.transforms import Array, in_metres
 
 if TYPE_CHECKING:
@@ -63,6 +64,13 @@ class Visual:
     def mesh(self) -> "trimesh.Trimesh":
         """The mesh in its own frame (mm), as detailed as a picture needs."""
         return self.source.drawing.look if isinstance(self.source, Part) else self.source.look
+
+    @property
+    def shape(self) -> Shape | Wire:
+        """What the mesh is made from."""
+        if isinstance(self.source, Part):
+            return self.source.drawing.shape
+        return self.source.wire or self.source.shape
 
     @property
     def corners_m(self) -> Array:

@@ -40,12 +40,12 @@ class Printed:
         """Return figures and limits as tables in Markdown, with the differences of the figures from another robot's."""
         if self.robot is None or self.jump is None:
             return f"**cannot be built**: {self.reason}"
-        lines = [f"**{self.jump.verdict}**", "", "| printed robot | |", "|---|--:|"]
+        lines = [f"| printed robot | {self.jump.verdict} |", "|:--|--:|"]
         old = before.figures() if before else {}
         for name, (value, unit) in self.figures().items():
             change = f" ({value - old[name][0]:+.1f})" if name in old and abs(value - old[name][0]) >= 0.05 else ""
             lines.append(f"| {name} | {value:.1f} {unit}{change} |")
-        lines += ["", "| limit | used |", "|---|--:|"]
+        lines += ["", "| tightest limits | used |", "|:--|--:|"]
         for finding in self.findings:
             used = f"{100.0 * finding.use:.0f} %" if finding.use is not None else f"{finding.margin:.3g} {finding.unit}"
             lines.append(f"| {'**' + finding.name + '**' if finding.severity != 'info' else finding.name} | {used} |")

@@ -58,6 +58,7 @@ class Studio:
         self._wanted: Design | None = design
         self._playing = threading.Event()
         self.workshop: Workshop = load_workshop(workshops[0])
+        self.stage.look_at(design)
         self._make_panel(workshops)
 
     def start(self) -> None:
@@ -71,20 +72,24 @@ class Studio:
 
     def _make_panel(self, workshops: list[str]) -> None:
         gui = self.server.gui
+        gui.set_panel_label(self.name)
+        gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)  # sharing needs a network
         self.quick, self.figures = gui.add_markdown(""), gui.add_markdown("building …")
         self.sliders = {}
         for key, value in self.first.model_dump().items():
             low, high = _range(key, value)
-            slider = gui.add_slider(key, low, high, _step(high - low), value)
+            hint = Design.model_fields[key].description
+            slider = gui.add_slider(key, low, high, _step(high - low), value, hint=hint)
             slider.on_update(lambda _: self._ask())
             self.sliders[key] = slider
         choice = gui.add_dropdown("workshop", tuple(workshops), initial_value=workshops[0])
         choice.on_update(lambda _: self._change_workshop(choice.value))
-        for label, action in (
-            ("Reset", self._reset), ("Keep as ghost", self._keep), ("Play winding and jump", self._play),
-            ("Save design", self._save), ("Build bundle", self._build),
-        ):  # fmt: skip
-            gui.add_button(label).on_click(lambda _, action=action: self._run_action(action))
+        actions = {
+            "Play jump": self._play, "Keep as ghost": self._keep, "Reset": self._reset,
+            "Save design": self._save, "Build bundle": self._build,
+        }  # fmt: skip
+        buttons = gui.add_button_group("", tuple(actions))
+        buttons.on_click(lambda _: self._run_action(actions[buttons.value]))
         self.status = gui.add_markdown("")
 
     def _ask(self) -> None:

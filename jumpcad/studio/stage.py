@@ -6,16 +6,18 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from jumpcad.design import Design
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
+from jumpcad.scene.surface import seen
 from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.solids.tube import Wire
 from jumpcad.transforms import Array
 
 WRONG = (0.80, 0.16, 0.14)
 """Colour of a part that violates a limit."""
-EYE_M, MIDDLE_M = (0.25, -0.4, 0.2), (0.0, 0.0, 0.08)
-"""First position of the camera, and the point at which it looks; a robot is 0.1 to 0.3 m large."""
+SIDE, MIDDLE = np.array((0.7, -1.3, 0.7)), np.array((0.15, 0.0, 0.35))
+"""First position of the camera, and the point at which it looks, over the robot's size."""
 GHOST_COLOUR, GHOST_OPACITY = (0.5, 0.55, 0.6), 0.25
 
 
@@ -27,8 +29,13 @@ class Stage:
         self.meshes: dict[str, tuple[object, Any]] = {}
         self.frames: dict[str, Any] = {}
         server.scene.set_up_direction("+z")
-        server.initial_camera.position, server.initial_camera.look_at = EYE_M, MIDDLE_M
         server.scene.add_grid("/ground", 4.0, 4.0, cell_size=0.05, section_size=0.5, cell_thickness=0.5)
+
+    def look_at(self, design: Design) -> None:
+        """Put the camera of pages that are opened from now on where it sees a design's robot."""
+        size_m = design.carrying_link_mm * (1.0 + design.e_coef) / 1000.0
+        camera = self.server.initial_camera
+        camera.position, camera.look_at = tuple(size_m * SIDE), tuple(size_m * MIDDLE)
 
     def show(self, robot: Robot, wrong: frozenset[str] = frozenset()) -> int:
         """Show a robot at rest, the parts named in `wrong` in red; return how many meshes were sent."""
@@ -78,9 +85,9 @@ class Stage:
                 if tuple(handle.position) != place or tuple(handle.wxyz) != turn:
                     handle.position, handle.wxyz = place, turn
                 continue
-            mesh = one.mesh
+            vertices_mm, triangles = seen(one)
             self.meshes[name] = key, self.server.scene.add_mesh_simple(
-                name, np.asarray(mesh.vertices) * 0.001, np.asarray(mesh.faces),
+                name, vertices_mm * 0.001, triangles,
                 color=colour, opacity=opacity, flat_shading=True, wxyz=turn, position=place,
             )  # fmt: skip
             sent += 1
@@ -89,7 +96,7 @@ class Stage:
 
 def _shape(one: Visual) -> object:
     """Return a key that is equal for equal meshes."""
-    source = one.source
-    if isinstance(source, Part):
-        return source.drawing.shape
-    return source.shape if source.wire is None else (source.wire.points_mm.tobytes(), source.wire.diameter_mm)
+    shape = one.shape
+    if isinstance(shape, Wire):  # it lies in its body's frame, and its mesh does not
+        return shape.points_mm.tobytes(), shape.diameter_mm, one.T_body_mesh.tobytes()
+    return shape

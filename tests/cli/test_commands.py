@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -127,6 +128,22 @@ def test_help_texts_are_whole_at_80_columns(run: Run, monkeypatch: pytest.Monkey
                 words = "" if words == "True" else " ".join(words.split())
                 missing = [word for word in words.split() if word not in words_of(text)]
                 assert not missing, (name, parameter.name, missing)
+
+
+def test_paragraphs_of_help_are_not_broken_at_80_columns() -> None:
+    """Typer joins the lines of the first paragraph only; the frame takes a column on each side."""
+    for name, command in get_command(app).commands.items():
+        for paragraph in (command.help or "").split("\n\n")[1:]:
+            assert max(map(len, paragraph.splitlines())) <= 78, name
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="no bash on this system")
+def test_completion_is_installed_without_an_error(tmp_path: Path) -> None:
+    surroundings = {**os.environ, "HOME": str(tmp_path), "PYTHONPATH": str(ROOT)}
+    command = ["bash", "-c", '"$0" -m jumpcad --install-completion; exit $?', sys.executable]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=surroundings)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert f"bash completion installed in {tmp_path}" in done.stdout
 
 
 @pytest.mark.parametrize(

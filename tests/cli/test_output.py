@@ -4,11 +4,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from threading import Event
 
 import pytest
 from support.commands import Run, interruptible
 
-from jumpcad.cli.output import escaped
+from jumpcad.cli.output import escaped, status
 from jumpcad.design import load_design
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -75,6 +76,33 @@ def test_a_deleted_folder_is_one_line(tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "jumpcad: the current folder was deleted: change into another one\n"
+
+
+def test_what_is_being_done_is_logged_without_a_terminal(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One line each time that the wait for the end runs out, with the newest text; none after the end."""
+    asked, told = Event(), Event()
+
+    class Waits(Event):
+        def wait(self, timeout: float | None = None) -> bool:
+            asked.set()
+            told.wait()
+            told.clear()
+            return self.is_set()
+
+        def set(self) -> None:
+            super().set()
+            told.set()
+
+    monkeypatch.setattr("jumpcad.cli.output.Event", Waits)
+    with status("slicing …") as tell:
+        asked.wait()
+        tell("slicing foot\n…")
+        asked.clear()
+        told.set()
+        asked.wait()
+    assert capsys.readouterr().err == "jumpcad: slicing foot\\n…\n"
 
 
 PRESSED = """
