@@ -254,11 +254,12 @@ def _drawing(
 ) -> Drawing:
     """Lay a plate outside down and engrave its label where its face, the first slab, has room and nothing covers it."""
     stack, pose = laid(slabs, face)
-    bare = slabs[0][2] if covered is None else slabs[0][2] - covered
-    letters = _letters(label, bare, mirrored=face == "left") if label else None
-    if letters is not None:
-        cut, _ = laid([(*engraved_y, letters)], face)
-        stack = stack.minus(cut)
+    if label:
+        bare = slabs[0][2] if covered is None else slabs[0][2] - covered
+        letters = _letters(label, bare, mirrored=face == "left")
+        if letters is not None:
+            cut, _ = laid([(*engraved_y, letters)], face)
+            stack = stack.minus(cut)
     return Drawing(name, "body", holes.chamfered(stack), (Placement(BODY, pose),))
 
 
