@@ -42,7 +42,10 @@ def metres_by_colour(layout: Layout, wiring: Wiring) -> dict[str, float]:
 
 
 def _lead_mm(ways: Mapping[str, list[Array]], one: str, other: str) -> float:
-    """Return the length to cut between two parts with their ways in: outside straight, inside along the trays, with slack; 0 for none."""
+    """Return the length to cut between two parts: outside straight, inside along the trays, with slack; 0 for none.
+
+    `ways` are those of the parts' leads, by their names.
+    """
     own = any(part in OWN_LEGS and board == AT[part] for part, board in ((one, other), (other, one)))
     if own or {one, other} == {"battery", "plug"}:
         return 0.0
