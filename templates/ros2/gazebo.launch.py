@@ -40,6 +40,11 @@ def generate_launch_description():
                 executable="create",
                 arguments=["-topic", "robot_description", "-z", HEIGHT_M],
             ),
+            Node(
+                package="ros_gz_bridge",
+                executable="parameter_bridge",
+                arguments=["/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock"],
+            ),
             *spawners,
         ]
     )

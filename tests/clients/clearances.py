@@ -9,7 +9,7 @@ import json
 import math
 import sys
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -121,9 +121,9 @@ class Bundle:
         matrix[:3, 3] *= 1000.0
         return matrix
 
-    def meetings(self) -> Iterator[tuple[str, str, float, Pose]]:
-        """Yield the pieces that meet: names, shared volume (mm³), position."""
-        poses = self.poses()
+    def meetings(self, poses: Sequence[Pose] | None = None) -> Iterator[tuple[str, str, float, Pose]]:
+        """Yield the pieces that meet in some positions, those of `poses()` by default: names, shared volume (mm³)."""
+        poses = self.poses() if poses is None else poses
         places = [self._matrices(pose) for pose in poses]
         corners = [np.asarray(piece.solid.hull().to_mesh().vert_properties)[:, :3] for piece in self.pieces]
         boxes = np.array([[_box(*pair) for pair in zip(corners, matrices, strict=True)] for matrices in places])

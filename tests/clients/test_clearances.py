@@ -22,7 +22,7 @@ def test_nothing_meets_anything_in_sixty_positions(bundle: Bundle) -> None:
     assert len(poses) == 60
     assert min(pose.leg for pose in poses) == pytest.approx(bundle.wound, abs=math.radians(0.5))
     assert max(pose.leg for pose in poses) == pytest.approx(bundle.stop + bundle.give)
-    assert [(a, b, round(volume, 2)) for a, b, volume, _ in bundle.meetings()] == []
+    assert [(a, b, round(volume, 2)) for a, b, volume, _ in bundle.meetings(poses)] == []
 
 
 def test_the_leg_meets_the_pad_at_the_stops_angle_and_not_before(bundle: Bundle) -> None:

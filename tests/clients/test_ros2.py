@@ -3,9 +3,12 @@
 import ast
 import math
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -117,12 +120,62 @@ def test_the_package_format_is_ros_own(package: Path) -> None:
 
 def test_launch_files_compile_and_settings_are_yaml(robot: Robot, package: Path) -> None:
     for file in (package / "launch").iterdir():
-        assert "@" not in file.read_text()
+        assert not re.search("@[A-Z_]+@", file.read_text())
         ast.parse(file.read_text())
     controllers = yaml.safe_load((package / "config" / "controllers.yaml").read_text())
     assert controllers["cam"]["ros__parameters"]["joints"] == [robot.spring.joint]
     (view,) = (package / "rviz").iterdir()
     assert yaml.safe_load(view.read_text())["Visualization Manager"]["Global Options"]["Fixed Frame"] == "base_link"
+
+
+LAUNCH = {
+    "launch": ["LaunchDescription"],
+    "launch.actions": ["IncludeLaunchDescription", "SetEnvironmentVariable"],
+    "launch.launch_description_sources": ["PythonLaunchDescriptionSource"],
+    "launch.substitutions": ["Command"],
+    "launch_ros": [],
+    "launch_ros.actions": ["Node"],
+    "launch_ros.parameter_descriptions": ["ParameterValue"],
+    "ament_index_python": [],
+    "ament_index_python.packages": ["get_package_share_directory"],
+}
+"""Modules and names of ROS that launch files use."""
+
+
+@pytest.mark.parametrize("name", ["view_robot", "gazebo"])
+def test_launch_files_start_nodes_that_the_package_depends_on(
+    package: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """With stand-ins for ROS that keep what they are given; its xacro command is run as it stands."""
+    nodes: list[dict[str, Any]] = []
+    commands: list[str] = []
+    for module, names in LAUNCH.items():
+        stand_in = ModuleType(module)
+        for one in names:
+            setattr(stand_in, one, lambda *given, **named: (given, named))
+        monkeypatch.setitem(sys.modules, module, stand_in)
+    monkeypatch.setattr(sys.modules["launch_ros.actions"], "Node", lambda **named: nodes.append(named))
+    monkeypatch.setattr(sys.modules["launch.substitutions"], "Command", lambda parts: commands.append("".join(parts)))
+    folders = {package.name: package, "ros_gz_sim": Path("/ros_gz_sim")}
+    monkeypatch.setattr(
+        sys.modules["ament_index_python.packages"], "get_package_share_directory", lambda one: str(folders[one])
+    )
+    runpy.run_path(str(package / "launch" / f"{name}.launch.py"))["generate_launch_description"]()
+
+    needed = set(re.findall("<exec_depend>(.*)</exec_depend>", (package / "package.xml").read_text()))
+    assert {node["package"] for node in nodes} <= needed
+    assert "robot_state_publisher" in {node["executable"] for node in nodes}
+    (command,) = commands
+    program, model, *arguments = command.split()
+    assert program == "xacro"
+    assert Path(model) == next((package / "urdf").glob("*.urdf.xacro"))
+    assert "child(1):  body" in run("check_urdf", urdf(package, *arguments))
+    given = [word for node in nodes for word in node.get("arguments", ())] + [one.split(":=")[-1] for one in arguments]
+    assert all(Path(word).is_file() for word in given if word.startswith(str(package)))
+    if name == "gazebo":  # the controllers that are started are those that the settings name
+        controllers = yaml.safe_load((package / "config" / "controllers.yaml").read_text())["controller_manager"]
+        started = {node["arguments"][0] for node in nodes if node["executable"] == "spawner"}
+        assert started == set(controllers["ros__parameters"]) - {"update_rate"}
 
 
 @pytest.mark.parametrize(

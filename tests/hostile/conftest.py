@@ -62,7 +62,7 @@ class Originals:
         return json.loads((self.bundle / "manifest.json").read_text())
 
 
-@pytest.fixture(scope="session", autouse=True)
+@pytest.fixture(scope="package", autouse=True)
 def remembered() -> Iterator[dict[object, Any]]:
     """Let the contents of a bundle, a coupon or pictures be made once: what is tried here is what becomes of them.
 
@@ -80,10 +80,11 @@ def remembered() -> Iterator[dict[object, Any]]:
         patch.setattr(renders, "renders", once(made, renders.renders, robot_key))
         patch.setattr(renders, "jump_gif", once(made, renders.jump_gif, lambda robot, *_: robot_key(robot)))
         yield made
+    made.clear()
 
 
-@pytest.fixture(scope="session")
-def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Originals]:
+@pytest.fixture(scope="package")
+def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> Originals:
     """Make the good files, with the command line itself where it can."""
     folder = tmp_path_factory.mktemp("originals")
     made = Originals(folder / "bundle", folder / "whole", folder / "coupon", folder / "study.db")
@@ -93,8 +94,7 @@ def originals(remembered: object, tmp_path_factory: pytest.TempPathFactory) -> I
     search = ("--model", "capsule", "--evaluations", "6", "--workers", "0", "--study", str(made.study), "--json")
     assert exit_code_of("optimize", "nsga2", *search) == 0
     gc.freeze()  # collecting looks only at what comes after this
-    yield made
-    gc.unfreeze()
+    return made
 
 
 @pytest.fixture
@@ -119,7 +119,7 @@ def sandbox(
     request.node.user_properties.append(("tries", place.tries))
 
 
-@pytest.fixture(scope="session", autouse=True)
+@pytest.fixture(scope="package", autouse=True)
 def slicer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Put a program that slices nothing in the slicer's place, where programs may run."""
     program = tmp_path_factory.mktemp("programs") / "prusa-slicer"
@@ -148,7 +148,7 @@ def study(sandbox: Sandbox, originals: Originals) -> Path:
     return Path(shutil.copy(originals.study, sandbox.work / "study.db"))
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def good_jump() -> dict[str, str]:
     """Return what each engine prints of a good robot; filled in before anything hostile is tried."""
     return {}

@@ -84,7 +84,7 @@ foot = 3.0
 """
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def robot(tmp_path_factory: pytest.TempPathFactory) -> Robot:
     """Return the robot of a workshop in which everything is the user's own: while it stays, its parts' masses do."""
     path = tmp_path_factory.mktemp("figures") / "own.toml"
@@ -94,7 +94,7 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Robot:
     return robot
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def own(robot: Robot) -> dict[str, Any]:
     """Return the data of its workshop."""
     return robot.workshop.model_dump()
