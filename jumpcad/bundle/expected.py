@@ -39,8 +39,9 @@ FREE = ("no contact", "contact")
 """At the free sensor, by its pin's level at the ready position."""
 PRESS_N = 50.0
 """Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
-PRONG_MM, PRONG_ENDS_MM = 6.0, 2.0
-"""Width of the block on either side of the window, and length over the window's; judgement: screw heads stay free."""
+PRONG_MM, PRONG_ENDS_MM = 6.0, -1.0
+"""Width of the block on either side of the window, and length over the window's; judgement: a standoff's screw head,
+which may stand beside a corner of the block, stays free by half a millimetre."""
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
 

@@ -35,12 +35,13 @@ def stuck_items(robot: Robot) -> tuple[str, ...]:
         "pins, and without them the load comes free. The pinion's teeth that hold the gears are between the wheels, "
         "where no cutter reaches them; the pinion is freed on its shaft instead. The leg tied, lay the robot on its "
         f"right plate. In the left plate's hole of {hole_mm:.1f} mm beside the sensor is the end of the motor's shaft: "
-        "press the fine tip of a soldering iron against it, set as for solder, off the plate, the room aired. The shaft "
-        "heats the printed pinion until its bore is soft and it turns on the shaft; a minute or two. The gears may then "
-        "turn back by themselves, and the cord catches the leg. Otherwise, the iron still there, push the teeth of the "
-        "cam's gear, which stand out of the plates above and behind, with the stick: the way it winds until the roller "
-        "has passed the drop; or, with springs partly loaded, back, until the cam has gone from under the roller, where it is far "
-        "from the drop. Nothing yields within five minutes: leave the leg tied. Print a new pinion later.",
+        "press the fine tip of a soldering iron against it, set as for solder, off the plate, the room aired. The "
+        "shaft heats the printed pinion until its bore is soft and it turns on the shaft; a minute or two. The gears "
+        "may then turn back by themselves, and the cord catches the leg. Otherwise, the iron still there, push the "
+        "teeth of the cam's gear, which stand out of the plates above and behind, with the stick: the way it winds "
+        "until the roller has passed the drop; or, with springs partly loaded, back, until the cam has gone from "
+        "under the roller, where it is far from the drop. Nothing yields within five minutes: leave the leg tied. "
+        "Print a new pinion later.",
         "Then slacken the cord slowly, from the side, feet away from you; a knot that does not open is cut with a "
         "long knife, no hand in the leg's way. The leg goes to its stop. Only when it lies there, and springs back "
         "when pulled a little, is anything taken apart.",

@@ -73,6 +73,9 @@ def largest_torques_nm(
         step = shortest
         if dog <= 0.0 and head <= 0.0:
             moving_j = 0.5 * (cam_kg_m2 * (cam - motor_rad_s) ** 2 + gear_kg_m2 * (gear - motor_rad_s) ** 2)
+            swing = abs(gear - rotor)
+            if cam < rotor - swing:  # the rotor is never slowed: the gear does not fall back on this cam again
+                moving_j = min(moving_j, 0.5 * gear_kg_m2 * swing**2)
             step += _flight_s(dog, cam - gear, head, gear - rotor, backlash_rad)
             if math.isinf(step) or moving_j < 0.5 * kick**2 / k:  # no later impact can be stronger
                 break

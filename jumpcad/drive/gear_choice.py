@@ -93,12 +93,12 @@ def _candidates(law: CamLaw, limits: TrainLimits, count: int) -> Array:
         last = last[last["distance_mm"] >= limits.motor_distance_min_mm]
         return np.column_stack([last["wheel"] / last["pinion"], _area(last), _teeth(last)])
     last = last[last["distance_mm"] >= limits.idler_distance_min_mm]
-    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(len(smallest)), np.arange(len(last)), indexing="ij"))
-    first, last = smallest[i], last[j]
+    first = smallest[:, None]  # each with every last pair
     fits = first["tip_mm"] + limits.axle_mm <= last["distance_mm"]
     fits &= first["distance_mm"] + last["distance_mm"] >= limits.motor_distance_min_mm
     fits &= _strong(first, torque / limits.pair_efficiency * last["pinion"] / last["wheel"], limits)
-    first, last = first[fits], last[fits]
+    i, j = np.nonzero(fits)
+    first, last = smallest[i], last[j]
     ratio = first["wheel"] / first["pinion"] * last["wheel"] / last["pinion"]
     return np.column_stack([ratio, _area(first) + _area(last), _teeth(first), _teeth(last)])
 
@@ -110,7 +110,10 @@ def _last_pairs(pairs: Pairs, law: CamLaw, limits: TrainLimits) -> Pairs:
 
 
 def _strong(pairs: Pairs, wheel_torque_nm: npt.ArrayLike, limits: TrainLimits) -> npt.NDArray[np.bool_]:
-    """Return which pairs (n,) are strong enough for torques (n,) on their wheels, by the pinion's Lewis stress."""
+    """Return which pairs are strong enough for torques on their wheels, by the pinion's Lewis stress.
+
+    Pairs (n,) with torques (n,), or (n, 1) with (m,): the result is then (n, m).
+    """
     force = 2000 * np.asarray(wheel_torque_nm) / (pairs["module"] * pairs["wheel"])
     stress = force / (limits.face_width_mm * pairs["module"] * pairs["lewis"])
     return np.asarray(stress <= limits.stress_mpa)

@@ -31,6 +31,8 @@ PIN_STEPS_DEG = (5.0, 1.0)
 """Between the directions tried, the second where the first finds no room; judgement."""
 MOTOR_WANTED_MM = np.array([0.0, 14.0])
 """Where the motor is wanted in the body frame; judgement: between the pivots, its socket just above their line."""
+ROUND_OFF_MM = 1e-5
+"""Larger than the error of a rounded place."""
 IDLER_STEP = 2
 """Every second free place of an idler is tried: 10° apart; judgement."""
 
@@ -161,18 +163,25 @@ def train_places(
     if len(stages) == 1:
         place, angle = motor_place(cam_axis, [])
         return None, place, angle
-    best: tuple[float, Array, Array, float] | None = None
-    for candidate in _idler_places(obstacles, drive, lateral, cam_axis)[::IDLER_STEP]:
+    idlers = _idler_places(obstacles, drive, lateral, cam_axis)[::IDLER_STEP]
+    away = np.linalg.norm(idlers - MOTOR_WANTED_MM, axis=1)
+    least = away + np.abs(away - stages[0].centre_distance_mm)
+    best: tuple[float, int, Array, float] | None = None
+    for index in np.argsort(least, kind="stable").tolist():
+        if best is not None and least[index] > best[0] + ROUND_OFF_MM:
+            break  # of what is left, no motor can be nearer
+        candidate = idlers[index]
         try:
             place, angle = motor_place(candidate, idler_obstacles(candidate, drive, lateral))
         except CannotBuildError:
             continue
         cost = float(np.linalg.norm(place - MOTOR_WANTED_MM) + np.linalg.norm(candidate - MOTOR_WANTED_MM))
-        if best is None or cost < best[0]:
-            best = (cost, candidate, place, angle)
+        if best is None or (cost, index) < best[:2]:
+            best = (cost, index, place, angle)
     if best is None:
         raise CannotBuildError(f"no room for the idler and the motor beside the cam: {remedy}")
-    return best[1:]
+    _, index, place, angle = best
+    return idlers[index], place, angle
 
 
 def _smaller(motor: Motor) -> str:

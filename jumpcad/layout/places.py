@@ -18,6 +18,8 @@ TURN_STEPS = 72
 """Candidates on a ring, one every 5°; judgement."""
 BATCH = 24
 """Candidates measured at once, the cheapest first."""
+THINNED = 8
+"""One in so many of the discs in the way is looked at first."""
 ROUND_OFF_MM = 1e-6
 """Accepted shortfall: a synthesised drive may have a clearance of exactly 0."""
 
@@ -58,13 +60,15 @@ def best_place(
     """
     order = np.argsort(cost(centres_mm), kind="stable")
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
-    free = np.full(len(centres_mm), -np.inf)
     cloud = Cloud.of(obstacles, y_mm)
     for first in range(0, len(order), BATCH):
         batch = order[first : first + BATCH]
-        free[batch] = cloud.near(centres_mm[batch], half_mm).clearance(centres_mm[batch], half_mm, angles[batch])
-        if (free[batch] >= -ROUND_OFF_MM).any():
-            return int(batch[np.argmax(free[batch] >= -ROUND_OFF_MM)])
+        near = cloud.near(centres_mm[batch], half_mm)
+        for discs in (near.thinned(THINNED), near):  # most places collide with one of few discs
+            batch = batch[discs.clearance(centres_mm[batch], half_mm, angles[batch]) >= -ROUND_OFF_MM]
+        if batch.size:
+            return int(batch[0])
+    free = clearance(obstacles, centres_mm, half_mm, angles, y_mm)
     best = int(np.argmax(free))
     here, turn = centres_mm[best : best + 1], angles[best : best + 1]
     blocker = min(obstacles, key=lambda obstacle: clearance([obstacle], here, half_mm, turn, y_mm)[0])

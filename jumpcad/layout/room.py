@@ -113,6 +113,10 @@ class Cloud:
         kept = (x > low_x - reach) & (x < high_x + reach) & (z > low_z - reach) & (z < high_z + reach)
         return Cloud(self.points_mm[kept], self.radii_mm[kept])
 
+    def thinned(self, step: int) -> "Cloud":
+        """Return one disc in so many."""
+        return Cloud(self.points_mm[::step], self.radii_mm[::step])
+
     def clearance(self, centres_mm: Array, half_mm: npt.ArrayLike, angles_rad: Array) -> Array:
         """Return the smallest distance (k,) from k boxes to any disc; negative inside, infinite where there is none."""
         half_u, half_v = np.asarray(half_mm, dtype=float)

@@ -63,8 +63,7 @@ def leg_blow(bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_
     return Blow(state.leg_rad, (2.0 * max(left, 0.0) / inertia) ** 0.5, inertia)
 
 
-@dataclass(frozen=True)
-class _State:
+class _State(NamedTuple):
     """Leg angle and foot's angle with their rates, and the end of the foot that stays on the ground."""
 
     leg_rad: float
@@ -95,10 +94,12 @@ class _Chain:
         self.mass = np.array([bodies[name].mass_kg for name in BODY_NAMES])
         self.inertia = np.array([bodies[name].inertia_kg_m2[1, 1] for name in BODY_NAMES])
         self.leg = np.linspace(linkage.travel_rad[0], stop_rad, POSITIONS)
+        self._first, self._step = float(self.leg[0]), float(self.leg[1] - self.leg[0])
         self.place, turns = seen_from_foot(bodies, linkage, self.leg)
         self.place1, self.place2 = self._rates(self.place)
         self.turn1, self.turn2 = self._rates(turns)
         self._table = np.stack([self.place, self.place1, self.place2, self.turn1, self.turn2], axis=1)
+        self._rows = self._table.transpose(0, 2, 1).tolist()
         self._bodies = list(zip(self.mass.tolist(), self.inertia.tolist(), strict=True))
 
     def _rates(self, values: Complex | Array) -> tuple[Complex, Complex]:
@@ -107,38 +108,44 @@ class _Chain:
 
     def at(self, leg_rad: float) -> Complex:
         """Return place, its two rates, and the two rates of the turn, (5, 4), at a leg angle."""
-        steps = (leg_rad - self.leg[0]) / (self.leg[1] - self.leg[0])
-        low = min(max(int(steps), 0), POSITIONS - 2)
-        share = steps - low
+        low, share = self._between(leg_rad)
         return np.asarray((1.0 - share) * self._table[low] + share * self._table[low + 1])
+
+    def _between(self, leg_rad: float) -> tuple[int, float]:
+        """Return the number of the position below a leg angle, and the share of the way to the next."""
+        steps = (leg_rad - self._first) / self._step
+        low = min(max(int(steps), 0), POSITIONS - 2)
+        return low, steps - low
 
     def equations(self, state: _State) -> _Equations:
         """Return the equations of motion for leg and foot; numbers, which is quicker than arrays for four bodies."""
         spin = cmath.exp(-1j * state.foot_rad)
         pivot = complex(state.pivot.centre_m[0], state.pivot.centre_m[2])
         leg, foot, radius = state.leg_rad_s, state.foot_rad_s, float(state.pivot.radius_m)
-        by_both = [0.0] * 8
-        for (mass, inertia), (place, place1, place2, turn1, turn2) in zip(
-            self._bodies, self.at(state.leg_rad).T.tolist(), strict=True
-        ):
+        low, share = self._between(state.leg_rad)
+        before = 1.0 - share
+        by_leg_leg = by_leg_foot = by_foot_foot = leg_nm = foot_nm = up_by_leg = up_by_foot = up = 0.0
+        for (mass, inertia), one, other in zip(self._bodies, self._rows[low], self._rows[low + 1], strict=True):
+            place = before * one[0] + share * other[0]
+            place1 = before * one[1] + share * other[1]
+            place2 = before * one[2] + share * other[2]
+            turn, bend = before * one[3].real + share * other[3].real, before * one[4].real + share * other[4].real
             arm = (place - pivot) * spin
             by_leg, by_foot = place1 * spin, radius - 1j * arm
             rest = (place2 * leg**2 - 2j * place1 * leg * foot) * spin - arm * foot**2
             pull = -1j * GRAVITY_M_S2 - rest
-            turn, swing = turn1.real, inertia * turn2.real * leg**2
-            terms = (
-                mass * (by_leg.real**2 + by_leg.imag**2) + inertia * turn**2,
-                mass * (by_leg.real * by_foot.real + by_leg.imag * by_foot.imag) + inertia * turn,
-                mass * (by_foot.real**2 + by_foot.imag**2) + inertia,
-                mass * (by_leg.real * pull.real + by_leg.imag * pull.imag) - swing * turn,
-                mass * (by_foot.real * pull.real + by_foot.imag * pull.imag) - swing,
-                mass * by_leg.imag,
-                mass * by_foot.imag,
-                mass * (rest.imag + GRAVITY_M_S2),
-            )
-            by_both = [total + term for total, term in zip(by_both, terms, strict=True)]
-        by_both[3] += float(self.spring.torque_nm(state.leg_rad))
-        return _Equations(*by_both)
+            swing = inertia * bend * leg**2
+            leg_x, leg_z, foot_x, foot_z = by_leg.real, by_leg.imag, by_foot.real, by_foot.imag
+            by_leg_leg += mass * (leg_x**2 + leg_z**2) + inertia * turn**2
+            by_leg_foot += mass * (leg_x * foot_x + leg_z * foot_z) + inertia * turn
+            by_foot_foot += mass * (foot_x**2 + foot_z**2) + inertia
+            leg_nm += mass * (leg_x * pull.real + leg_z * pull.imag) - swing * turn
+            foot_nm += mass * (foot_x * pull.real + foot_z * pull.imag) - swing
+            up_by_leg += mass * leg_z
+            up_by_foot += mass * foot_z
+            up += mass * (rest.imag + GRAVITY_M_S2)
+        leg_nm += float(self.spring.torque_nm(state.leg_rad))
+        return _Equations(by_leg_leg, by_leg_foot, by_foot_foot, leg_nm, foot_nm, up_by_leg, up_by_foot, up)
 
     def about_common(self, state: _State) -> tuple[float, float]:
         """Return angular momentum and kinetic energy of all bodies about their common centre."""
@@ -161,12 +168,14 @@ def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:
     state, flat = _State(float(chain.leg[0]), 0.0, 0.0, 0.0, toe), True
     for _ in range(round(GIVEN_UP_S / STEP_S)):
         if flat:
-            state, flat = _on_the_sole(chain, state, nose, toe)
-        rates, up = _accelerations(chain, state, flat)
+            state, flat, found = _on_the_sole(chain, state, nose)
+        else:
+            found = chain.equations(state)
+        rates, up = _accelerations(found, flat)
         if up <= 0.0 or state.leg_rad >= chain.leg[-1]:
             break
         half = _moved(state, rates, 0.5 * STEP_S, state)
-        rates, _ = _accelerations(chain, half, flat)
+        rates, _ = _accelerations(chain.equations(half), flat)
         state = _moved(state, rates, STEP_S, half)
         lifted = state.foot_rad if state.pivot is nose else -state.foot_rad
         if not flat and lifted < 0.0:  # the foot comes down flat, its other end without rebound
@@ -176,19 +185,23 @@ def _push_off(chain: _Chain, contacts: tuple[ContactSphere, ...]) -> _State:
     return state
 
 
-def _on_the_sole(chain: _Chain, state: _State, nose: ContactSphere, toe: ContactSphere) -> tuple[_State, bool]:
-    """Return a standing foot's state with the end on which it stays, and whether the other end stays too."""
-    for pivot, sign in ((toe, 1.0), (nose, -1.0)):
-        tried = _State(state.leg_rad, 0.0, state.leg_rad_s, 0.0, pivot)
-        found = chain.equations(tried)
-        if sign * (found.mixed * found.leg_nm / found.leg - found.foot_nm) > 0.0:  # the other end would need tension
-            return tried, False
-    return state, True
+def _on_the_sole(chain: _Chain, state: _State, nose: ContactSphere) -> tuple[_State, bool, _Equations]:
+    """Return the state of a foot that stands on its toes' tips and nose, with the end on which it stays.
+
+    And whether the other end stays too, and the equations of that state.
+    """
+    on_toe = chain.equations(state)
+    if on_toe.mixed * on_toe.leg_nm / on_toe.leg - on_toe.foot_nm > 0.0:  # the nose would need tension
+        return state, False, on_toe
+    tried = state._replace(pivot=nose)
+    on_nose = chain.equations(tried)
+    if on_nose.mixed * on_nose.leg_nm / on_nose.leg - on_nose.foot_nm < 0.0:  # the toes' tips would need tension
+        return tried, False, on_nose
+    return state, True, on_toe
 
 
-def _accelerations(chain: _Chain, state: _State, flat: bool) -> tuple[tuple[float, float], float]:
+def _accelerations(found: _Equations, flat: bool) -> tuple[tuple[float, float], float]:
     """Return leg's and foot's acceleration, and the ground's normal force."""
-    found = chain.equations(state)
     if flat:
         leg, foot = found.leg_nm / found.leg, 0.0
     else:

@@ -5,6 +5,7 @@ Drawn in the body frame and printed outside down, so that the motor's socket sta
 
 import itertools
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -69,9 +70,9 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     label = engravable(name).strip() if name else ""
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm
-    outline = _outline(layout, "left")
-    closed = outline - _openings(layout, holes, "left")
-    common = closed - _bores(layout, holes)
+    covers, bores = _covers(layout), _bores(layout, holes)
+    closed = _outline(layout, covers, "left") - _openings(layout, holes, "left")
+    common = closed - bores
     y0, y1 = lateral.left_plate
     shaft = hole(holes.loose(motor.shaft_mm), layout.motor_mm)
     covered = union([])
@@ -82,9 +83,8 @@ def plates(layout: Layout, holes: HoleSizes, name: str) -> list[Drawing]:
     words = name and f"{label} L".strip()
     left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
-    outline = _outline(layout, "right")
-    closed = outline - _openings(layout, holes, "right")
-    common = closed - _bores(layout, holes)
+    closed = _outline(layout, covers, "right") - _openings(layout, holes, "right")
+    common = closed - bores
     play = 2.0 * holes.fits.sliding_mm
     cavity = _motor_box(layout, motor.width_mm + play, motor.height_mm + play)
     window = _motor_box(layout, *window_mm(motor))
@@ -160,12 +160,18 @@ def _pads(layout: Layout, more_mm: float = 0.0) -> list[Region]:
     return pads
 
 
-def _outline(layout: Layout, side: Face) -> Region:
-    """Return the hull of all pads, with pockets between an edge, the pads and ribs that join their middles.
+class _Covers(NamedTuple):
+    """What both plates' outlines have in common: the hull of all pads, and its pockets."""
+
+    whole: Region
+    pockets: Region
+
+
+def _covers(layout: Layout) -> _Covers:
+    """Return the hull of all pads, and pockets between an edge, the pads and ribs that join their middles.
 
     The pockets' corners are round: what stands between them is drawn thicker by their radius, and they are widened by
-    it again. All ribs end within pads. Ears below that hull hold the rest stop; the left one has material around the
-    hole for the leg's pin too.
+    it again. All ribs end within pads.
     """
     pads = _pads(layout)
     around = hull(pads)
@@ -179,12 +185,20 @@ def _outline(layout: Layout, side: Face) -> Region:
         strips(layout.hub_mm, layout.front_mm, layout.axle_mm + 2.0 * PAD_WALL_MM + more),
     ]
     pockets = (grown(around, -EDGE_MM - POCKET_RADIUS_MM) - union(solid)).simplify(2.0 * SAGITTA_MM)
+    return _Covers(rounded(around, 2.0), grown(pockets, POCKET_RADIUS_MM))
+
+
+def _outline(layout: Layout, covers: _Covers, side: Face) -> Region:
+    """Return a plate's outline, with its pockets.
+
+    Ears below the hull of the pads hold the rest stop; the left one has material around the hole for the leg's pin too.
+    """
     axle = layout.axle_mm + 2.0 * PAD_WALL_MM
     base = strips(layout.hub_mm, layout.hub_mm + np.array([EAR_MM, 0.0]), axle)
     around_pin = [_pin_hole(layout, layout.pin_hole.pad_mm)] if side == "left" else []
     slot = rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)
     stop = hull([disc(axle, layout.hub_mm), base, slot, *around_pin])
-    return rounded(around, 2.0) - (grown(pockets, POCKET_RADIUS_MM) - stop) + stop
+    return covers.whole - (covers.pockets - stop) + stop
 
 
 def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
@@ -240,11 +254,12 @@ def _drawing(
 ) -> Drawing:
     """Lay a plate outside down and engrave its label where its face, the first slab, has room and nothing covers it."""
     stack, pose = laid(slabs, face)
-    bare = slabs[0][2] if covered is None else slabs[0][2] - covered
-    letters = _letters(label, bare, mirrored=face == "left") if label else None
-    if letters is not None:
-        cut, _ = laid([(*engraved_y, letters)], face)
-        stack = stack.minus(cut)
+    if label:
+        bare = slabs[0][2] if covered is None else slabs[0][2] - covered
+        letters = _letters(label, bare, mirrored=face == "left")
+        if letters is not None:
+            cut, _ = laid([(*engraved_y, letters)], face)
+            stack = stack.minus(cut)
     return Drawing(name, "body", holes.chamfered(stack), (Placement(BODY, pose),))
 
 

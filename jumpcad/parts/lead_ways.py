@@ -31,7 +31,7 @@ def plate_of(layout: Layout, part: str) -> str:
 def lead_way(layout: Layout, one: str, other: str) -> Array:
     """Return the corners (n, 3) of the way from one part to another, which end in the middle of each.
 
-    It is that of `lead_mm`, except that outside it keeps away from the standoffs' screws and from the opening for USB.
+    It is that of `_lead_mm`, except that outside it keeps away from the standoffs' screws and from the opening for USB.
     """
     start, end = (outer_way(layout, part) for part in (one, other))
     return np.stack([*start, *corners(layout, one, other, start[-1], end[-1]), *reversed(end)])

@@ -3,6 +3,7 @@
 import itertools
 import math
 from collections import defaultdict
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -26,8 +27,10 @@ BESIDE_MM = 2.0
 
 def lead_lengths(layout: Layout, wiring: Wiring) -> list[tuple[str, Terminal, Terminal, str, float]]:
     """Return every wire: its net, both ends, colour and length to cut."""
+    parts = {terminal.part for net in wiring.nets for wire in net.wires for terminal in wire}
+    ways = {part: way_in(layout, part) for part in parts}
     return [
-        (net.name, start, end, net.colour, lead_mm(layout, start.part, end.part))
+        (net.name, start, end, net.colour, _lead_mm(ways, start.part, end.part))
         for net in wiring.nets
         for start, end in net.wires
     ]
@@ -41,11 +44,14 @@ def metres_by_colour(layout: Layout, wiring: Wiring) -> dict[str, float]:
     return {colour: metres for colour, metres in lengths.items() if metres}
 
 
-def lead_mm(layout: Layout, one: str, other: str) -> float:
-    """Return the length to cut between two parts: outside straight, inside along the trays, with slack; 0 for none."""
+def _lead_mm(ways: Mapping[str, list[Array]], one: str, other: str) -> float:
+    """Return the length to cut between two parts: outside straight, inside along the trays, with slack; 0 for none.
+
+    `ways` are those of the parts' leads, by their names.
+    """
     if has_own_legs(one, other) or {one, other} == {"battery", "plug"}:
         return 0.0
-    way, length = (way_in(layout, one), way_in(layout, other)), SLACK_MM
+    way, length = (ways[one], ways[other]), SLACK_MM
     for outside in way:
         length += sum(math.dist(a, b) for a, b in itertools.pairwise(outside))
     length += float(np.abs(way[0][-1] - way[1][-1]).sum())

@@ -222,18 +222,21 @@ def test_the_block_under_the_motor_meets_the_plate_alone(name: str) -> None:
         along = np.einsum("ij,nj->ni", axes, outside)
         if len(along):
             low, high = along.min(axis=0), along.max(axis=0)
-            assert np.any((low > size / 2.0) | (high < -size / 2.0)), item.name
+            assert np.any((low > size / 2.0 + 0.5) | (high < -size / 2.0 - 0.5)), item.name  # sawn by hand
 
 
 def test_wide_arms_load_the_motor_where_the_cam_is_steepest() -> None:
     """At the end of the ramp of 30 in 310 degrees the leg has turned by the root of 15/295 of its stroke.
 
-    There a spring that is loaded by w more needs (theta + w)/theta of the torque.
+    There a spring that is loaded by w more needs (theta + w)/theta of the torque. The largest torque accepted where it
+    is loaded is 10 % more than computed, or less if the wire bears no more.
     """
     robot = built("kenan-2.0")
     law = robot.layout.drive.cam.law
     assert (math.degrees(law.ramp_rad), math.degrees(law.lift_rad)) == pytest.approx((30.0, 310.0))
     wound = math.degrees(robot.layout.drive.spring.wound_rad)
     theta = wound * math.sqrt(15.0 / 295.0)
-    share = (theta + 4.0) / theta * 1.04 / (1.0 + 4.0 / wound)
+    spring = robot.layout.drive.spring
+    most = min(1.1, math.floor(105.0 * spring.allowable_mpa / spring.stress_mpa) / 100.0)
+    share = (theta + 4.0) / theta * most / (1.0 + 4.0 / wound)
     assert f"4° by up to {100.0 * (share - 1.0):.0f} % more than computed" in write_guide(robot)

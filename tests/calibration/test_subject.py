@@ -17,8 +17,8 @@ JUMP = '[[jumps]]\ndistance_of = "centre-of-mass"\nheight_of = "rise"\n'
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[mass]\nrobot_g = 0.103", r"robot_g = 0.103: the model has 114 g: is that kg\? give it in g"),
-        ("[mass]\nrobot_g = 1030.0", r"robot_g = 1030: the model has 114 g: a digit too many\?"),
+        ("[mass]\nrobot_g = 0.103", r"robot_g = 0.103: the model has 1\d\d g: is that kg\? give it in g"),
+        ("[mass]\nrobot_g = 1030.0", r"robot_g = 1030: the model has 1\d\d g: a digit too many\?"),
         ("[spring]\nrate_nmm_per_deg = 527.0\nsprings = 2", r"is that per radian\? give it in N·mm/° for both"),
         ("[spring]\nrate_nmm_per_deg = 9.2\nsprings = 1", r"= 18.4: the model has 9.2"),
         ("[spring]\nrate_nmm_per_deg = 0.0092\nsprings = 2", r"is that N·m/deg\?"),

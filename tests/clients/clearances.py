@@ -128,6 +128,7 @@ class Bundle:
         corners = [np.asarray(piece.solid.hull().to_mesh().vert_properties)[:, :3] for piece in self.pieces]
         boxes = np.array([[_box(*pair) for pair in zip(corners, matrices, strict=True)] for matrices in places])
         near = self._near(boxes)
+        volumes: dict[tuple[tuple[int, float], ...], float] = {}  # many poses have the same leg, or the same cam
         for pose, matrices, box in zip(poses, places, boxes, strict=True):
             beyond = (box[:, None, :3] >= box[None, :, 3:]).any(axis=2)
             placed = {i: self.pieces[i].solid.transform(matrices[i][:3]) for i in self.moving}
@@ -138,8 +139,10 @@ class Bundle:
                 one, other = ((near[k, m] if k not in placed else placed[k]) for k, m in ((i, j), (j, i)))
                 if one.is_empty() or other.is_empty():
                     continue
-                volume = (one ^ other).volume()
-                if volume > (1.0 if a.printed or b.printed else 2.0) * TOLERANCE_MM3:
+                where = (i, self._angle(a, pose)), (j, self._angle(b, pose))
+                if where not in volumes:
+                    volumes[where] = (one ^ other).volume()
+                if (volume := volumes[where]) > (1.0 if a.printed or b.printed else 2.0) * TOLERANCE_MM3:
                     yield a.name, b.name, volume, pose
 
     def _near(self, boxes: np.ndarray) -> dict[tuple[int, int], Manifold]:
@@ -151,6 +154,10 @@ class Bundle:
         swept = {j: Manifold.cube((high[j] - low[j]).tolist()).translate(low[j].tolist()) for j in self.moving}
         fixed = [i for i in range(len(self.pieces)) if i not in swept]
         return {(i, j): self.pieces[i].solid ^ box for j, box in swept.items() for i in fixed}
+
+    def _angle(self, piece: Piece, pose: Pose) -> float:
+        """Return the angle on which a piece's place depends (rad)."""
+        return pose.cam if piece.name in TURNING else pose.leg if piece.link != "body" else 0.0
 
     def _moves(self, a: Piece, b: Piece, pose: Pose) -> bool:
         """Tell whether two pieces move past each other and may not meet."""

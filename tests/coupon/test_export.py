@@ -1,25 +1,36 @@
 """The coupon's folder: the same bytes for the same workshop, and no readings lost."""
 
+import shutil
 from pathlib import Path
 
 import pytest
 
+from jumpcad.coupon import export
 from jumpcad.coupon.export import export_coupon
 from jumpcad.errors import JumpcadError
 from jumpcad.workshop import load_workshop
 
 
-def test_the_same_workshop_gives_the_same_bytes(tmp_path: Path) -> None:
-    contents = []
-    for name in ("a", "b"):
-        folder = export_coupon(load_workshop("fine"), tmp_path / name).folder
-        contents.append({str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*.*")})
-    assert contents[0] == contents[1]
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*.*")}
 
 
-def test_readings_that_were_filled_in_are_not_lost(tmp_path: Path) -> None:
-    folder = export_coupon(load_workshop(), tmp_path / "c").folder
+@pytest.fixture(scope="module")
+def coupon(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A coupon's folder; not to be changed."""
+    return export_coupon(load_workshop("fine"), tmp_path_factory.mktemp("coupon") / "c").folder
+
+
+def test_the_same_workshop_gives_the_same_bytes(coupon: Path, tmp_path: Path) -> None:
+    assert contents(export_coupon(load_workshop("fine"), tmp_path / "b").folder) == contents(coupon)
+
+
+def test_readings_that_were_filled_in_are_not_lost(
+    coupon: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(export, "_contents", lambda *_: iter(contents(coupon).items()))
+    folder = Path(shutil.copytree(coupon, tmp_path / "c"))
     (folder / "readings.toml").write_text("[gears]\nturns_freely_mm = 0.1")
     with pytest.raises(JumpcadError, match=r"c: readings\.toml: edited or added since the bundle was written"):
-        export_coupon(load_workshop(), folder)
+        export_coupon(load_workshop("fine"), folder)
     assert "0.1" in (folder / "readings.toml").read_text()

@@ -74,3 +74,13 @@ def test_finer_steps_give_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     usual = largest_torques_nm((CAM, GEAR, ROTOR), 60.0, 1.5, 0.03, 150.0, 0.5)
     monkeypatch.setattr(blows, "STEP_SHARE", 0.002)
     assert usual == pytest.approx(largest_torques_nm((CAM, GEAR, ROTOR), 60.0, 1.5, 0.03, 150.0, 0.5), rel=0.01)
+
+
+def test_a_cam_that_flies_off_ends_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A light cam rebounds from a heavy gear more slowly than the motor turns the gear: the two never meet again."""
+    flights: list[float] = []
+    fly = blows._flight_s
+    monkeypatch.setattr(blows, "_flight_s", lambda *state: flights.append(state[1]) or fly(*state))
+    largest_torques_nm((8.3e-8, 1.67e-6, 0.0693), 1.99, 0.322, 0.014, 150.0, 0.5)
+    assert flights[1] < 0.0  # after the first impact the cam falls back
+    assert len(flights) < 10

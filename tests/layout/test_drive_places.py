@@ -10,6 +10,7 @@ from support.built import built, geared
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
+from jumpcad.layout import drive_places
 from jumpcad.layout.drive_places import (
     NoPinRoomError,
     arm_line,
@@ -98,3 +99,28 @@ def test_gears_mesh_and_the_motor_is_as_near_to_the_pivots_as_they_allow(stages:
         assert math.dist(idler, axis) == pytest.approx(drive.train.stages[-1].centre_distance_mm, abs=1e-5)
     names = [thing.name for thing in train_obstacles(motor, angle, idler, drive, layout.lateral)]
     assert names == ["motor", "pinion"] if idler is None else {"idler wheel", "idler axle"} < set(names)
+
+
+def test_of_all_idlers_the_one_with_the_motor_nearest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each idler alone: none brings motor and idler nearer to where they are wanted than the chosen one."""
+    layout = geared().layout
+    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
+    wanted, wall = np.array([0.0, 14.0]), disc("wall", axis + np.array([-9.0, 12.0]), 9.0, EVERYWHERE)
+    places = drive_places._idler_places([wall], drive, lateral, axis)
+
+    def cost(place: np.ndarray, motor: np.ndarray) -> float:
+        return float(np.linalg.norm(place - wanted) + np.linalg.norm(motor - wanted))
+
+    idler, motor, _ = train_places([wall], drive, lateral, axis)
+    assert idler is not None
+    costs = []
+    for number in range(0, len(places), 2):
+        monkeypatch.setattr(drive_places, "_idler_places", lambda *_, one=number: places[one : one + 1])
+        try:
+            alone, beside, _ = train_places([wall], drive, lateral, axis)
+        except CannotBuildError:
+            continue
+        assert alone is not None
+        costs.append(cost(alone, beside))
+    assert len(costs) > 5
+    assert cost(idler, motor) == min(costs)

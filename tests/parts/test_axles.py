@@ -52,8 +52,7 @@ def test_what_is_pushed_along_y_is_stopped(robot: Robot) -> None:
         for way in (-1.0, 1.0):
             whole = Manifold.batch_boolean(on_it, OpType.Add)
             moved = [whole.translate([0.0, way * by, 0.0]) for by in PUSHED_MM]
-            shared = max((solid ^ other).volume() for solid in moved for other in beside)
-            assert shared > 1.0, (name, way)
+            assert any((solid ^ other).volume() > 1.0 for solid in moved for other in beside), (name, way)
 
 
 def test_an_axle_weighs_its_rod() -> None:
