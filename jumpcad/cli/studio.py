@@ -49,9 +49,13 @@ def studio(
     workshops = [chosen, *(other for other in template_names("workshops") if other != chosen)]
     with contextlib.redirect_stdout(io.StringIO()):  # its banner has the address too
         server = viser.ViserServer(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
-    Studio(opened, name, workshops, server, Path.cwd()).start()
+    shown = Studio(opened, name, workshops, server, Path.cwd())
+    shown.start()
     print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio)")
-    server.sleep_forever()
+    try:
+        server.sleep_forever()
+    finally:
+        shown.end()
 
 
 def _best(file: Path) -> "Design":
