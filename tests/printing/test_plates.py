@@ -79,3 +79,21 @@ def test_the_order_of_parts_does_not_matter():
         return [(p.name, i.part.name, i.T_bed_part.tolist()) for p in packed(parts, BED, 5.0) for i in p.items]
 
     assert poses(PARTS) == poses(PARTS[::-1])
+
+
+@pytest.mark.parametrize(("side", "left"), [(100.0, 10.0), (109.0, 5.5), (118.0, 1.0), (120.0, 0.0)])
+def test_a_plate_lies_in_the_middle_of_the_bed(side, left):
+    (plate,) = packed([box("slab", (side, 60.0, 5.0))], (120.0, 100.0, 50.0), 5.0)
+    low, high = corners(plate.items[0])
+    assert (low[0], 120.0 - high[0]) == pytest.approx((left, left), abs=0.02)
+    assert (low[1], 100.0 - high[1]) == pytest.approx((20.0, 20.0), abs=0.02)
+
+
+def test_the_beds_edge_stays_free_where_that_takes_no_further_plate():
+    """Four slabs of 60 x 50 mm beside each other are 125 x 105 mm: on a bed of 135 x 115 mm, 5 mm are left around."""
+    slabs = [box("slab", (60.0, 50.0, 5.0), quantity=4)]
+    for bed, least in (((135.02, 115.02), 5.0), ((125.02, 105.02), 0.0)):
+        (plate,) = packed(slabs, (*bed, 50.0), 5.0)
+        lows, highs = zip(*map(corners, plate.items), strict=True)
+        room = min(np.min(lows, axis=0)[:2].min(), (np.array(bed) - np.max(highs, axis=0)[:2]).min())
+        assert room == pytest.approx(least, abs=0.03)
