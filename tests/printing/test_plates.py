@@ -6,6 +6,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 import trimesh
+from support.built import built
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.printing.plates import packed
@@ -90,10 +91,11 @@ def test_a_plate_lies_in_the_middle_of_the_bed(side, left):
 
 
 def test_the_beds_edge_stays_free_where_that_takes_no_further_plate():
-    """Four slabs of 60 x 50 mm beside each other are 125 x 105 mm: on a bed of 135 x 115 mm, 5 mm are left around."""
-    slabs = [box("slab", (60.0, 50.0, 5.0), quantity=4)]
-    for bed, least in (((135.02, 115.02), 5.0), ((125.02, 105.02), 0.0)):
-        (plate,) = packed(slabs, (*bed, 50.0), 5.0)
+    """Kenan 2.0 on a bed of 250 x 210 mm: two plates with 5 mm around, where a tight packing touches two edges."""
+    robot = built("kenan-2.0")
+    plates = packed(robot.parts, (250.0, 210.0, 220.0), robot.workshop.process.part_spacing_mm)
+    assert len(plates) == 2
+    for plate in plates:
         lows, highs = zip(*map(corners, plate.items), strict=True)
-        room = min(np.min(lows, axis=0)[:2].min(), (np.array(bed) - np.max(highs, axis=0)[:2]).min())
-        assert room == pytest.approx(least, abs=0.03)
+        assert np.min(lows, axis=0)[:2].min() >= 5.0
+        assert (np.array([250.0, 210.0]) - np.max(highs, axis=0)[:2]).min() >= 5.0
