@@ -57,6 +57,7 @@ def test_the_default_workshop_has_the_limits_of_its_comments() -> None:
     assert found.spring.mandrel_min_mm == pytest.approx(3.0 + 2 * 0.2 + 2 * 0.8)
     assert found.train.stress_mpa == pytest.approx(15.0 / (1.1 * 1.05))  # stiffest springs, and the reserve
     assert (found.cam.roller_radius_mm, found.cam.cam_width_mm) == (5.0, 4.0)
+    assert found.cam.roller_load_n == pytest.approx(220.0 / (1.1 * 1.05))  # static rating of a 623, both reserves
     assert limits(load_workshop()).motors == ("n20-298-mp",)
 
 

@@ -12,8 +12,11 @@ from jumpcad.building import build
 from jumpcad.bundle.electronics import electronics_facts, jumps_per_charge
 from jumpcad.bundle.export import export
 from jumpcad.bundle.firmware import numbers
+from jumpcad.bundle.lead_lines import leads_of
 from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
@@ -95,6 +98,54 @@ def test_the_leads_drawing_has_every_number_of_the_table_in_its_colour(robot: Ro
     assert {number for number, _ in badges} == set(drawn)
     assert all((x, drawn[number or ""]) in circles for number, x in badges)
     assert len({element.get("points") for element in elements if element.tag == f"{space}polyline"}) >= len(drawn)
+
+
+def test_drawn_leads_pass_the_plates_but_do_not_run_in_them(robot: Robot) -> None:
+    """A lead of AWG 28 in silicone is 1.2 mm thick: no corner of its line is nearer to a plate's face."""
+    lateral = robot.layout.lateral
+    for lead in leads_of(robot):
+        for low, high in (lateral.left_plate, lateral.right_plate):
+            y = lead.points_mm[:, 1]
+            assert ((y < low - 0.6) | (y > high + 0.6)).all(), (lead.number, lead.parts)
+
+
+def test_the_front_is_where_the_leads_drawing_points_to(robot: Robot) -> None:
+    """In every view two things whose places are known: the arrow points to where the larger x is drawn."""
+    fittings, layout, space = robot.layout.fittings, robot.layout, "{http://www.w3.org/2000/svg}"
+    texts = [
+        (element.text or "", float(element.get("x", "")))
+        for element in ET.fromstring(drawings_of(robot)["leads.svg"]).iter(f"{space}text")
+    ]
+    starts = [index for index, (words, _) in enumerate(texts) if "leads inside it" in words or "from above" in words]
+    views = [dict(texts[a:b]) for a, b in zip(starts, [*starts[1:], len(texts)], strict=True)]
+    hole, seats = "wire hole, tie above it", layout.electronics.seats(layout.lateral.inside)
+    known = (
+        {"sensor": layout.sensor.place_mm[0], hole: fittings.left_mm[0]},
+        {"motor": layout.motor_mm[0], hole: fittings.right_mm[0]},
+        {role: seats[role].x_mm for role in ("controller", "driver")},
+    )
+    assert len(views) == 3
+    for view, things in zip(views, known, strict=True):
+        (one, x), (other, ahead) = sorted(things.items(), key=lambda item: item[1])
+        arrow = "front →" if view[other] > view[one] else "← front"
+        assert ahead - x > 5.0
+        assert [words for words in view if "front" in words] == [arrow]
+        drawn = [at for words, at in view.items() if words in (one, other)]
+        assert view[arrow] >= max(drawn) if arrow == "front →" else view[arrow] <= min(drawn)
+
+
+def test_a_quick_turn_on_a_full_battery_is_not_taken_for_a_broken_lead(robot: Robot) -> None:
+    """No turn of the cam is quicker than that of the unloaded motor on a full battery, by Kirchhoff's law.
+
+    The sensor is believed from half of that time on; below a quarter a broken lead would hardly ever be noticed.
+    """
+    motor, found = robot.layout.drive.train.motor, numbers(robot)
+    full = 8.4 if robot.workshop.bought.regulator else 4.2
+    supply, winding = supply_of(chosen_parts(robot.workshop)), motor.voltage_v / motor.stall_current_a
+    lost, rated = (motor.no_load_current_a * ohm for ohm in (winding + supply.ohm, winding))
+    rpm = motor.no_load_rpm * (found["PWM_CAP"] * full - lost) / (motor.voltage_v - rated)
+    quickest_ms = 60_000.0 * robot.layout.drive.train.ratio / rpm
+    assert 0.25 * quickest_ms < found["WIND_MIN_MS"] <= 0.5 * quickest_ms * 1.01
 
 
 def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:

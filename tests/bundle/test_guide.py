@@ -14,6 +14,7 @@ from jumpcad.bundle.firmware import firmware_files, numbers
 from jumpcad.bundle.guide import with_bill, write_guide
 from jumpcad.bundle.ordering import strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
+from jumpcad.bundle.springs import arms_off_deg, early_torque_share, torque_shares
 from jumpcad.bundle.stuck import stuck_items
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY
@@ -240,3 +241,19 @@ def test_wide_arms_load_the_motor_where_the_cam_is_steepest() -> None:
     most = min(1.1, math.floor(105.0 * spring.allowable_mpa / spring.stress_mpa) / 100.0)
     share = (theta + 4.0) / theta * most / (1.0 + 4.0 / wound)
     assert f"4° by up to {100.0 * (share - 1.0):.0f} % more than computed" in write_guide(robot)
+
+
+def test_preloaded_springs_that_are_too_wide_load_the_motor_less_than_slack_ones() -> None:
+    """With a constant torque beyond the ramp the springs' energy grows with the cam's angle less half of the ramp.
+
+    At its end, 15 of 295 degrees of that, they are loaded by q: q² = p² + (wound² - p²)·15/295 with a preload p.
+    """
+    shop = load_workshop()
+    preloaded = shop.spring.model_copy(update={"preload_deg": 5.0})
+    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"spring": preloaded}))
+    wound = math.degrees(robot.layout.drive.spring.wound_rad)
+    loaded = math.sqrt(5.0**2 + (wound**2 - 5.0**2) * 15.0 / 295.0)
+    wider, most = arms_off_deg(robot)[1], torque_shares(robot)[1]
+    by_hand = (loaded + wider) / loaded * most / (1.0 + wider / wound)
+    assert wider >= 4.0
+    assert early_torque_share(robot) == pytest.approx(by_hand, rel=1e-6)

@@ -10,7 +10,7 @@ import shapely.affinity
 
 from jumpcad.building import build
 from jumpcad.checks.interference import Moment, components, pose_of
-from jumpcad.checks.sideways import play_rad, rolls, sideways_findings
+from jumpcad.checks.sideways import play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
@@ -86,6 +86,14 @@ def test_rolling_by_the_stance_brings_the_centre_of_mass_over_the_edge(
     turned = arm * math.cos(turn) + np.cross(edge, arm) * math.sin(turn) + edge * (edge @ arm) * (1.0 - math.cos(turn))
     outwards = np.cross(edge, [0.0, 0.0, 1.0])
     assert turned @ outwards == pytest.approx(0.0, abs=0.05)
+
+
+def test_a_centre_of_mass_to_the_right_tips_as_one_to_the_left(kenan: Robot) -> None:
+    """The foot is its own mirror image; whatever is heavier on one side, the nearer edge counts."""
+    com = np.array([[10.0, 40.0], [20.0, 60.0]])
+    left, middle, right = (stance_deg(kenan.layout, com, aside) for aside in (4.0, 0.0, -4.0))
+    assert right == pytest.approx(left)
+    assert (left < middle - 2.0).all()
 
 
 def test_narrow_toes_tip_and_bars_across_them_help() -> None:

@@ -90,3 +90,17 @@ def test_gears_come_in_the_order_of_their_mass_and_of_what_time_is_worth(seconds
         costs.append(grams + seconds / seconds_per_gram)
     assert len(costs) == 12
     assert costs == pytest.approx(sorted(costs))
+
+
+def test_of_two_pairs_every_pinion_bears_the_torque_with_the_losses_behind_it():
+    """From the cam towards the motor: 0.85 of cam and roller, 0.9 of the last pair; Lewis stress at the pinion."""
+    law, nearest = law_of("best-bo"), 0.0
+    for stress in (2.0, 3.0, 4.0, 6.0, 8.0):
+        limits = dataclasses.replace(LIMITS, stress_mpa=stress)
+        for _, (first, last) in itertools.islice(by_cost(law, MOTORS, limits, 2), 60):
+            at_wheel = law.peak_torque_nm / 0.85
+            of_last = last.pinion.lewis_stress_mpa(at_wheel / last.ratio)
+            of_first = first.pinion.lewis_stress_mpa(at_wheel / last.ratio / 0.9 / first.ratio)
+            assert max(of_last, of_first) <= stress * (1.0 + 1e-9)
+            nearest = max(nearest, of_first / stress)
+    assert nearest > 0.85  # some are near the limit

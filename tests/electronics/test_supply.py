@@ -5,6 +5,7 @@ import math
 import pytest
 
 from jumpcad.catalogue import load_catalogue
+from jumpcad.electronics.chain import chain
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import Supply, supply_of
 from jumpcad.workshop import load_workshop
@@ -94,3 +95,13 @@ def test_a_motor_that_an_empty_battery_does_not_turn_gets_no_gears() -> None:
     limits = replace(default_limits().train, supply=flat)
     assert allowed_nm(motor, limits) <= 0.6 * 0.2354 * (0.5 / (6.0 / 0.67 + 2.0) - 0.04) / 0.63 + 1e-9
     assert allowed_nm(motor, replace(limits, supply=None)) == pytest.approx(0.25 * 0.95 / 1.1 * 0.2354)
+
+
+def test_under_pwm_a_winding_gets_its_share_of_a_full_and_of_an_empty_battery() -> None:
+    """Two cells, 6.6 to 8.4 V, at a motor of 6 V: a share of 6/8.4, so that it gets 4.7 to 6.0 V."""
+    workshop, motor = load_workshop(), MOTORS["n20-30"]
+    kit = workshop.bought.model_copy(update=load_catalogue().kits["strong-2s"].model_dump())
+    chosen = chosen_parts(workshop.model_copy(update={"bought": kit}))
+    links = {link.role: link for link in chain(chosen, motor, supply_of(chosen), 0.0, UNLIMITED)}
+    assert links["motor"].gets_v == pytest.approx((6.6 * 6.0 / 8.4, 6.0))
+    assert links["driver"].gets_v == pytest.approx((6.6, 8.4))  # PWM is behind it

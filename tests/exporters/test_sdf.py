@@ -2,6 +2,7 @@
 
 import math
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -123,6 +124,17 @@ def test_the_spring_holds_the_designs_energy(mechanism: Mechanism) -> None:
     assert number(leg, "axis/dynamics/spring_reference") == 0.0
     energy = 0.5 * number(leg, "axis/dynamics/spring_stiffness") * mechanism.design.compression_rad**2
     assert energy == pytest.approx(mechanism.design.spring_energy_j, rel=1e-9)
+
+
+def test_a_preload_pushes_the_leg_on_at_rest(mechanism: Mechanism) -> None:
+    """SDF's torque is stiffness times (reference - angle); loading lowers the angle, 5 degrees are left at rest."""
+    preload = math.radians(5.0)
+    text = write_sdf(replace(mechanism, spring=replace(mechanism.spring, preload_rad=preload)))
+    (leg,) = (joint for joint in ET.fromstring(text).iter("joint") if joint.get("name") == "leg")
+    stiffness, rest = (number(leg, f"axis/dynamics/spring_{key}") for key in ("stiffness", "reference"))
+    assert stiffness * (rest - 0.0) == pytest.approx(mechanism.design.stiffness_nm_per_rad * preload)
+    wound = -mechanism.design.compression_rad
+    assert stiffness * (rest - wound) == pytest.approx(mechanism.design.stiffness_nm_per_rad * (preload - wound))
 
 
 def test_friction_is_the_grounds_times_the_surfaces(mechanism: Mechanism) -> None:

@@ -316,6 +316,23 @@ def test_stop_switches_the_motor_off_at_once_and_winding_goes_on_later() -> None
     assert world.drops == 0
 
 
+def test_what_was_stopped_after_a_jump_is_wound_on_without_a_fault() -> None:
+    """The rest of a turn takes less than the least time for a whole one, which counts right after a release alone."""
+    world = wound()
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    world.wait(2.0)
+    world.step(wind=True)
+    while world.cam_deg < 1.75 * TURN:
+        world.step()
+    world.step(stop=True)
+    world.wait(2.0)
+    world.step(wind=True)
+    assert 1000.0 * world.until(WINDER.READY, WINDER.FAULT) < NUMBERS.WIND_MIN_MS
+    assert world.winder.state == WINDER.READY
+    assert world.drops == 1
+
+
 def test_a_robot_that_was_switched_off_when_wound_knows_it() -> None:
     world = World()
     world.cam_deg = 355.0

@@ -1,6 +1,7 @@
 """Ways of leads: through the plates' holes, clear of screws and of the opening for USB, no longer than they are cut."""
 
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from jumpcad.building import build
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
-from jumpcad.parts.lead_ways import battery_way, lead_way, way_words
+from jumpcad.parts.lead_ways import battery_way, lead_way, plate_of, way_words
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import contained
 from jumpcad.workshop import load_workshop
@@ -99,6 +100,38 @@ def test_words_say_plate_hole_and_side(robot: Robot) -> None:
     assert "hole" not in words["plug", "switch"]
     assert words["controller", "pull-up resistor"] == "own legs"
     assert battery_way(robot.layout)[:, 0].max() > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
+
+
+def test_words_say_the_direction_in_which_the_lead_goes(robot: Robot) -> None:
+    """Forwards is towards the nose, +x: inside from the board to the hole or switch, outside from the hole on."""
+    said = 0
+    for _, (one, _), (other, _) in _ends(robot):
+        words = way_words(robot.layout, one, other)
+        found = re.search(r"from the ([\w ]+) across the upper tray to the \w+ plate", words)
+        if found is None:
+            continue
+        part = other if plate_of(robot.layout, other) else one
+        board = one if part == other else other
+        way, (low, high) = lead_way(robot.layout, board, part), robot.layout.lateral.inside
+        inside = way[(way[:, 1] > low) & (way[:, 1] < high)]
+        ahead = inside[-1, 0] - inside[0, 0]
+        within = words.partition(" inside it")[0]
+        assert ("forwards" in within) == (ahead > 2.0), words
+        assert ("backwards" in within) == (ahead < -2.0), words
+        if "outside it" in words:
+            along = "forwards" if way[-1, 0] > inside[-1, 0] else "backwards"
+            assert f"outside it {along}" in words
+        said += 1
+    assert said >= 6
+
+
+def test_what_is_soldered_beside_the_robot_has_longer_leads(robot: Robot) -> None:
+    """Its leads have 40 mm more than the others have for bends and solder, at least 10 mm: room for both hands."""
+    apart = {"sensor", "switch"}
+    for _, start, end, _, length in wires(robot):
+        if length and {start.part, end.part} & apart:
+            way = lead_way(robot.layout, start.part, end.part)
+            assert length - np.linalg.norm(np.diff(way, axis=0), axis=1).sum() >= 40.0 + SOLDERED_MM, (start, end)
 
 
 def _ends(robot: Robot) -> list[tuple[str, tuple[str, str], tuple[str, str]]]:

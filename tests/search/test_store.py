@@ -7,6 +7,7 @@ import sqlite3
 import subprocess
 import sys
 import textwrap
+from dataclasses import replace
 
 import pytest
 from support.places import TESTS
@@ -26,6 +27,17 @@ def test_rows_come_back_to_the_last_bit_and_in_order(tmp_path):
         assert store.trials() == [*second, *first]
         assert store.identity == IDENTITY
     assert os.listdir(tmp_path) == ["s.db"]
+
+
+@pytest.mark.parametrize("score", [0.0, -2.5, None])
+def test_a_score_of_nothing_is_not_the_score_of_a_rejected_design(tmp_path, score):
+    """An own objective may give 0, or less: such a design is scored, one that is rejected is not."""
+    (trial,) = trials(1)
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        store.append([replace(trial, score=score)])
+        (read,) = store.trials()
+    assert read.score == score
+    assert (read.score is None) == (score is None)
 
 
 def test_one_failing_row_undoes_its_batch(tmp_path):

@@ -37,5 +37,15 @@ def test_it_is_the_union_of_all_positions(path: tuple[float, float, float]) -> N
     assert room.volume_mm3 == pytest.approx(union.volume(), rel=0.005)
 
 
+@pytest.mark.parametrize("path", [(3.0, 4.0, 0.0), (0.0, 0.0, 5.0), (0.0, 0.0, -5.0)])
+def test_it_comes_from_before_its_place_and_does_not_go_beyond(path: tuple[float, float, float]) -> None:
+    stack = Stack.of([(0.0, 1.0, disc(4.0))])
+    room = swept(stack, np.array(path))
+    assert room is not None
+    low, high = stack.bounds_mm
+    assert room.bounds_mm[0] == pytest.approx(np.minimum(low, low - path))
+    assert room.bounds_mm[1] == pytest.approx(np.maximum(high, high - path))
+
+
 def test_an_oblique_path_is_not_swept() -> None:
     assert swept(PLATE, np.array([1.0, 0.0, 1.0])) is None

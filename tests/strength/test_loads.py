@@ -72,6 +72,24 @@ def test_feet_never_bear_more_than_the_ground_gives() -> None:
         assert np.all(forces.toes_n >= 0)
 
 
+@pytest.mark.parametrize("name", ["best-ga", "best-bo", "best-printable"])
+def test_the_foot_balances_on_nose_and_toes(name: str) -> None:
+    """A foot without mass: the ground's force, at its two ends, against leg and front link; moments about the ankle.
+
+    The front link's part is what the leg does not carry; the ground's friction has the foot's depth as its arm. In
+    other templates the nose bears nothing.
+    """
+    design, depth_mm = load_design(name), 10.0
+    forces = push_off(Linkage(design), BODY, depth_mm)
+    back_mm = design.l5_mm * math.cos(math.radians(design.ground_link_angle_deg))
+    (along, up), eye_up = forces.ground_n.T, (forces.ground_n - forces.ankle_n)[:, 1]
+    nose = up - forces.toes_n
+    on_both = (forces.toes_n > 1e-6) & (nose > 1e-6)
+    moment = nose * design.l4_mm - forces.toes_n * back_mm + along * depth_mm - eye_up * design.l4_mm
+    assert on_both.any()
+    assert moment[on_both] == pytest.approx(0.0, abs=1e-2 * np.abs(up * design.l4_mm).max())
+
+
 def test_landing_takes_up_the_energy_of_the_fall() -> None:
     design = load_design("kenan-2.0")
     force = landing_force_n(design, 0.1, 20.0, rise_m=0.3)

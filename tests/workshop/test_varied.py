@@ -16,6 +16,13 @@ def test_values_change_and_nothing_else_does():
     assert varied(changed, {"body.plate_mm": 2.4, "process.perimeters": 3.0, "bought.spring": ""}) == DEFAULT
 
 
+@pytest.mark.parametrize(("asked", "whole"), [(2.4, 2), (2.6, 3), (3.0, 3)])
+def test_whole_numbers_are_the_nearest_ones(asked, whole):
+    """A search varies numbers evenly: half of what lies between 2 and 3 perimeters is nearer to 3."""
+    found = varied(DEFAULT, {"process.perimeters": asked}).process.perimeters
+    assert (found, type(found)) == (whole, int)
+
+
 def test_a_varied_workshop_is_read_back_from_its_file(tmp_path):
     changed = varied(
         DEFAULT, {"roles.links": "PLA", "roles.gears": "PLA", "bought.kit": "strong-2s", "process.infill": 0.15}
