@@ -21,14 +21,10 @@ def limits(findings: Sequence[Finding]) -> Iterator[str]:
     """Yield the section of limits: violated ones, those with a use from the highest on, then the others."""
     violated = sum(finding.severity != "info" for finding in findings)
     yield "<h2>Limits</h2>"
-<<<<<<< HEAD
-    yield f"<p>{violated} of {len(findings)} are violated. A bar shows the used share of a limit, its mark the limit. "
-=======
     yield (
         f"<p>{violated} of {len(findings)} are violated. A bar shows how much of a limit is used; "
         "the mark is the limit. "
     )
->>>>>>> face6
     yield "<code>jumpcad check</code> also looks at printability, and at interference over the whole motion.</p>"
     near = [finding for finding in ordered(findings) if _near(finding)]
     far = [finding for finding in ordered(findings) if not _near(finding)]

@@ -142,12 +142,8 @@ def _gear_findings(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimit
         findings += [
             at_most(
                 f"gear_strength_{number}", stress, limits.stress_mpa, "MPa",
-<<<<<<< HEAD
-                f"bending of teeth, pair {number}: {stress:.1f} of {limits.stress_mpa:.1f} MPa (Lewis, load at a tip)",
-=======
                 f"bending of teeth, pair {number}: {stress:.1f} of {limits.stress_mpa:.1f} MPa "
                 "(Lewis, load at one tip)",
->>>>>>> face6
                 "wider gears, or a larger module",
             ),
             limit(
