@@ -15,6 +15,7 @@ from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.lead_lines import leads_of
 from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
+from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
@@ -175,6 +176,35 @@ def test_the_soldering_plan_joins_every_leg_to_its_pin(robot: Robot) -> None:
     to_wires = sum(word.startswith("wire to") for word in words)
     assert sum(at in pins for at in at_pins) == 2 * len(small) - to_wires
     assert to_wires == (2 if robot.workshop.bought.regulator else 0)
+
+
+def test_the_diodes_ring_is_on_its_body_at_the_cathode(robot: Robot) -> None:
+    """IEC 60747: the band marks the cathode, K; the letters stand at the two ends of the body."""
+    space = "{http://www.w3.org/2000/svg}"
+    root = ET.fromstring(drawings_of(robot)["soldering.svg"])
+    letters = {e.text: [float(e.get(key, "")) for key in ("x", "y")] for e in root.iter(f"{space}text")}
+    rings = [[float(e.get(key, "")) for key in ("x1", "y1", "y2")] for e in root.iter(f"{space}line")]
+    assert len(rings) == (1 if robot.workshop.bought.regulator else 0)
+    for x, top, bottom in rings:
+        bodies = [[float(e.get(key, "")) for key in ("x", "y", "width", "height")] for e in root.iter(f"{space}rect")
+                  if e.get("fill-opacity")]  # fmt: skip
+        (left, width) = next((a, w) for a, b, w, h in bodies if b < (top + bottom) / 2.0 < b + h)
+        assert left < x < left + width
+        assert abs(x - letters["K"][0]) < abs(x - letters["A"][0])
+
+
+def test_the_tie_over_the_balance_lead_has_walls_beside_its_slots(robot: Robot) -> None:
+    """Before the battery with its play of 0.5 mm and a stop of 1.2 mm, behind the tray's end: 1.6 mm to either side."""
+    things = {item.name: 1000.0 * item.mass.com_m[0] for item in robot.hardware}
+    if not robot.workshop.bought.regulator:
+        assert "tie_balance_lead" not in things
+        return
+    electronics = robot.layout.electronics
+    stop = things["battery"] + electronics.battery.length_mm / 2.0 + 0.5 + 1.2
+    end = robot.layout.tray_mm[0] + electronics.length_mm / 2.0
+    slot = TIE_SLOT_MM[1] / 2.0
+    assert things["tie_balance_lead"] - slot - stop >= 1.6 - 1e-6
+    assert end - things["tie_balance_lead"] - slot >= 1.6 - 1e-6
 
 
 def test_small_parts_lie_beside_the_controller_and_apart(robot: Robot) -> None:

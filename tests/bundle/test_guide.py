@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from jumpcad.building import build
 from jumpcad.bundle.bom import BilledPlate, bill_of_materials
 from jumpcad.bundle.firmware import firmware_files, numbers
 from jumpcad.bundle.guide import with_bill, write_guide
-from jumpcad.bundle.ordering import strap_mm
+from jumpcad.bundle.ordering import order_lines, strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, torque_shares
 from jumpcad.bundle.stuck import stuck_items
@@ -102,6 +103,32 @@ def test_guide_and_firmware_tell_how_springs_are_slackened_without_board_or_moto
         assert item in write_guide(robot)
         assert item in readme
     assert "from driver AOUT1" in stuck_items(robot)[1]  # not the mark at the motor: its wires may be exchanged
+
+
+def test_what_is_ordered_is_enough_for_all_pieces(robot: Robot) -> None:
+    """A strip gives its pieces one behind the other, with their longer sides along it."""
+    lines = [line for line in write_guide(robot).splitlines() if "mm of it, " in line]
+    assert len(lines) >= 2
+    for line in lines:
+        pieces = re.findall(r"(\d+) of ([\d.]+) x ([\d.]+) mm", line)
+        ordered = re.search(r"order (\d+) mm of it, ([\d.]+) mm wide", line)
+        assert ordered is not None
+        assert float(ordered[1]) >= sum(int(count) * max(float(a), float(b)) for count, a, b in pieces)
+        assert float(ordered[2]) >= max(min(float(a), float(b)) for _, a, b in pieces)
+
+
+@pytest.mark.parametrize(("length", "stock"), [("35.7", "0.33"), ("100.0", "0.5"), ("130.0", "1"), ("260.0", "2")])
+def test_a_rod_is_long_enough_for_all_its_pieces(length: str, stock: str) -> None:
+    """Four axles and pins of a robot, each with a cut of 2 mm; of the longest, two rods of 1 m would do too."""
+    robot = built("kenan-2.0")
+    hardware = tuple(
+        replace(item, article=re.sub(r"(rod .* x )[\d.]+( mm)", rf"\g<1>{length}\2", item.article))
+        for item in robot.hardware
+    )
+    (line,) = (line for line in order_lines(replace(robot, hardware=hardware)) if "cut from a rod" in line)
+    assert f"4 pieces of {length} mm" in line
+    assert f"cut from a rod of {stock} m" in line
+    assert 4.0 * (float(length) + 2.0) <= 1000.0 * float(stock)
 
 
 def test_the_strap_goes_once_around_battery_and_tray() -> None:
