@@ -10,7 +10,9 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
+from jumpcad.bundle.arrival import grams_at
 from jumpcad.bundle.bom import BilledPlate, bill_of_materials
+from jumpcad.bundle.expected import expected
 from jumpcad.bundle.firmware import firmware_files, numbers
 from jumpcad.bundle.guide import with_bill, write_guide
 from jumpcad.bundle.ordering import order_lines, strap_mm
@@ -103,6 +105,36 @@ def test_guide_and_firmware_tell_how_springs_are_slackened_without_board_or_moto
         assert item in write_guide(robot)
         assert item in readme
     assert "from driver AOUT1" in stuck_items(robot)[1]  # not the mark at the motor: its wires may be exchanged
+
+
+def test_under_pwm_the_battery_gives_the_motors_current_for_a_share_of_the_time() -> None:
+    """A motor of 6 V on two cells, 6/8.4 of the time, and beside it the boards, always."""
+    shop = load_workshop()
+    kit = shop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s", "motors": ("n20-298",)}
+    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": shop.bought.model_copy(update=kit)}))
+    words, motor, train = expected(robot, []), robot.layout.drive.train.motor, robot.layout.drive.train
+    boards = 1000.0 * (0.024 * 5.0 / 0.9 + 7.4 * (0.0017 + 0.001)) / 7.4
+    assert motor.name == "n20-298"
+    assert float(words["boards_ma"]) == pytest.approx(boards, abs=0.51)
+    assert float(words["free_ma"]) == pytest.approx(1000.0 * 6.0 / 8.4 * motor.no_load_current_a + boards, abs=0.51)
+    assert float(words["peak_ma"]) == pytest.approx(1000.0 * 6.0 / 8.4 * train.peak_current_a + boards, abs=0.51)
+
+
+@pytest.mark.parametrize("angle_deg", [1.0, 10.0, 20.0])
+def test_the_scale_reads_the_upright_part_of_the_force_square_to_the_arm(angle_deg: float) -> None:
+    """The arm, a tangent of the coil's circle, has turned; the edge touches it at the lever's distance to the side.
+
+    The moment about the axis is that of the force at that point, taken as a cross product.
+    """
+    spring = built("best-bo").layout.drive.spring
+    radius, turned = spring.arms.mean_mm / 2.0, math.radians(angle_deg)
+    along = np.array([math.cos(turned), math.sin(turned)])
+    square = np.array([-math.sin(turned), math.cos(turned)])
+    start = -radius * square  # at first the coil's lowest point
+    touched = start + along * (spring.arms.lever_mm - start[0]) / along[0]
+    assert touched[0] == pytest.approx(spring.arms.lever_mm)
+    force_n = spring.rate_nmm_per_deg * angle_deg / (touched[0] * square[1] - touched[1] * square[0])
+    assert grams_at(spring, angle_deg) == pytest.approx(1000.0 * force_n * square[1] / 9.80665, rel=1e-3)
 
 
 def test_what_is_ordered_is_enough_for_all_pieces(robot: Robot) -> None:
