@@ -1,12 +1,14 @@
 """Firmware, wiring and the manifest's `electronics` of a bundle, for both kits."""
 
+import itertools
+import math
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from support.built import built
+from support.built import built, placed
 
 from jumpcad.building import build
 from jumpcad.bundle.electronics import electronics_facts, jumps_per_charge
@@ -135,6 +137,21 @@ def test_the_front_is_where_the_leads_drawing_points_to(robot: Robot) -> None:
         assert view[arrow] >= max(drawn) if arrow == "front →" else view[arrow] <= min(drawn)
 
 
+def test_from_above_leads_are_dashed_where_the_upper_tray_hides_them(robot: Robot) -> None:
+    """The tray's height is measured on its mesh; a lead from board to board is drawn through, the battery's is not."""
+    tray = placed(robot, "electronics_tray_upper").vertices[:, 2]
+    space, expected = "{http://www.w3.org/2000/svg}", []
+    for lead in leads_of(robot):
+        seen = lead.points_mm[:, 2] > tray.min()
+        pieces = [bool(a and b) for a, b in itertools.pairwise(seen)]
+        expected += [("", lead.parts) if shown else ("dashed", lead.parts) for shown, _ in itertools.groupby(pieces)]
+    (group,) = ET.fromstring(drawings_of(robot)["leads.svg"]).iter(f"{space}g")
+    lines = list(group.iter(f"{space}polyline"))
+    assert ["dashed" if line.get("stroke-dasharray") else "" for line in lines] == [dashes for dashes, _ in expected]
+    assert ("dashed", ("battery", "plug")) in expected
+    assert ("", ("controller", "driver")) in expected
+
+
 def test_a_quick_turn_on_a_full_battery_is_not_taken_for_a_broken_lead(robot: Robot) -> None:
     """No turn of the cam is quicker than that of the unloaded motor on a full battery, by Kirchhoff's law.
 
@@ -147,6 +164,15 @@ def test_a_quick_turn_on_a_full_battery_is_not_taken_for_a_broken_lead(robot: Ro
     rpm = motor.no_load_rpm * (found["PWM_CAP"] * full - lost) / (motor.voltage_v - rated)
     quickest_ms = 60_000.0 * robot.layout.drive.train.ratio / rpm
     assert 0.25 * quickest_ms < found["WIND_MIN_MS"] <= 0.5 * quickest_ms * 1.01
+
+
+def test_a_release_has_time_from_the_earliest_ready_position_until_the_sensor_opens_at_the_latest(robot: Robot) -> None:
+    """As a whole turn has: at the same slow speed, and the same reserve; both are rounded up to 0.1 s."""
+    found, sensor = numbers(robot), robot.layout.sensor
+    assert sensor is not None
+    earliest, latest = sensor.ready_rad + sensor.scatter_rad, sensor.open_rad + sensor.scatter_rad
+    share = math.degrees(earliest + latest) / 360.0
+    assert share * (found["WIND_MAX_MS"] - 100.0) <= found["RELEASE_MAX_MS"] <= share * found["WIND_MAX_MS"] + 100.0
 
 
 def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:

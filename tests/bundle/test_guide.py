@@ -10,14 +10,14 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
-from jumpcad.bundle.arrival import grams_at
+from jumpcad.bundle.arrival import arrival_lines, grams_at
 from jumpcad.bundle.bom import BilledPlate, bill_of_materials
 from jumpcad.bundle.expected import expected
 from jumpcad.bundle.firmware import firmware_files, numbers
 from jumpcad.bundle.guide import with_bill, write_guide
 from jumpcad.bundle.ordering import order_lines, strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
-from jumpcad.bundle.springs import arms_off_deg, early_torque_share, torque_shares
+from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.bundle.stuck import stuck_items
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY
@@ -300,6 +300,18 @@ def test_wide_arms_load_the_motor_where_the_cam_is_steepest() -> None:
     most = min(1.1, math.floor(105.0 * spring.allowable_mpa / spring.stress_mpa) / 100.0)
     share = (theta + 4.0) / theta * most / (1.0 + 4.0 / wound)
     assert f"4° by up to {100.0 * (share - 1.0):.0f} % more than computed" in write_guide(robot)
+
+
+@pytest.mark.parametrize(("name", "preload_deg"), [("kenan-2.0", 0.0), ("best-bo", 0.0), ("kenan-2.0", 4.0)])
+def test_weak_and_narrow_springs_store_less(name: str, preload_deg: float) -> None:
+    """Ten degrees less of loading, at rest as well where there is as much, and nine tenths of the rate: ½·k·q²."""
+    shop = load_workshop()
+    preloaded = shop.spring.model_copy(update={"preload_deg": preload_deg})
+    robot = build(load_design(name), shop.model_copy(update={"spring": preloaded}))
+    wound = math.degrees(robot.layout.drive.spring.wound_rad)
+    share = 0.9 * (wound - 10.0) ** 2 / (wound**2 - preload_deg**2)
+    assert least_energy_share(robot) == pytest.approx(share)
+    assert f"narrowest arms stores {100.0 * (1.0 - share):.0f} % less energy" in " ".join(arrival_lines(robot))
 
 
 def test_preloaded_springs_that_are_too_wide_load_the_motor_less_than_slack_ones() -> None:
