@@ -1,12 +1,14 @@
 """Firmware, wiring and the manifest's `electronics` of a bundle, for both kits."""
 
+import itertools
+import math
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from support.built import built
+from support.built import built, placed
 
 from jumpcad.building import build
 from jumpcad.bundle.electronics import electronics_facts, jumps_per_charge
@@ -15,6 +17,7 @@ from jumpcad.bundle.firmware import numbers
 from jumpcad.bundle.lead_lines import leads_of
 from jumpcad.bundle.wiring import drawings_of, wires, wiring_lines, wiring_svg
 from jumpcad.design import load_design
+from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
@@ -134,6 +137,21 @@ def test_the_front_is_where_the_leads_drawing_points_to(robot: Robot) -> None:
         assert view[arrow] >= max(drawn) if arrow == "front →" else view[arrow] <= min(drawn)
 
 
+def test_from_above_leads_are_dashed_where_the_upper_tray_hides_them(robot: Robot) -> None:
+    """The tray's height is measured on its mesh; a lead from board to board is drawn through, the battery's is not."""
+    tray = placed(robot, "electronics_tray_upper").vertices[:, 2]
+    space, expected = "{http://www.w3.org/2000/svg}", []
+    for lead in leads_of(robot):
+        seen = lead.points_mm[:, 2] > tray.min()
+        pieces = [bool(a and b) for a, b in itertools.pairwise(seen)]
+        expected += [("", lead.parts) if shown else ("dashed", lead.parts) for shown, _ in itertools.groupby(pieces)]
+    (group,) = ET.fromstring(drawings_of(robot)["leads.svg"]).iter(f"{space}g")
+    lines = list(group.iter(f"{space}polyline"))
+    assert ["dashed" if line.get("stroke-dasharray") else "" for line in lines] == [dashes for dashes, _ in expected]
+    assert ("dashed", ("battery", "plug")) in expected
+    assert ("", ("controller", "driver")) in expected
+
+
 def test_a_quick_turn_on_a_full_battery_is_not_taken_for_a_broken_lead(robot: Robot) -> None:
     """No turn of the cam is quicker than that of the unloaded motor on a full battery, by Kirchhoff's law.
 
@@ -146,6 +164,15 @@ def test_a_quick_turn_on_a_full_battery_is_not_taken_for_a_broken_lead(robot: Ro
     rpm = motor.no_load_rpm * (found["PWM_CAP"] * full - lost) / (motor.voltage_v - rated)
     quickest_ms = 60_000.0 * robot.layout.drive.train.ratio / rpm
     assert 0.25 * quickest_ms < found["WIND_MIN_MS"] <= 0.5 * quickest_ms * 1.01
+
+
+def test_a_release_has_time_from_the_earliest_ready_position_until_the_sensor_opens_at_the_latest(robot: Robot) -> None:
+    """As a whole turn has: at the same slow speed, and the same reserve; both are rounded up to 0.1 s."""
+    found, sensor = numbers(robot), robot.layout.sensor
+    assert sensor is not None
+    earliest, latest = sensor.ready_rad + sensor.scatter_rad, sensor.open_rad + sensor.scatter_rad
+    share = math.degrees(earliest + latest) / 360.0
+    assert share * (found["WIND_MAX_MS"] - 100.0) <= found["RELEASE_MAX_MS"] <= share * found["WIND_MAX_MS"] + 100.0
 
 
 def test_parts_that_do_not_fit_together_are_not_written(tmp_path: Path) -> None:
@@ -175,6 +202,35 @@ def test_the_soldering_plan_joins_every_leg_to_its_pin(robot: Robot) -> None:
     to_wires = sum(word.startswith("wire to") for word in words)
     assert sum(at in pins for at in at_pins) == 2 * len(small) - to_wires
     assert to_wires == (2 if robot.workshop.bought.regulator else 0)
+
+
+def test_the_diodes_ring_is_on_its_body_at_the_cathode(robot: Robot) -> None:
+    """IEC 60747: the band marks the cathode, K; the letters stand at the two ends of the body."""
+    space = "{http://www.w3.org/2000/svg}"
+    root = ET.fromstring(drawings_of(robot)["soldering.svg"])
+    letters = {e.text: [float(e.get(key, "")) for key in ("x", "y")] for e in root.iter(f"{space}text")}
+    rings = [[float(e.get(key, "")) for key in ("x1", "y1", "y2")] for e in root.iter(f"{space}line")]
+    assert len(rings) == (1 if robot.workshop.bought.regulator else 0)
+    for x, top, bottom in rings:
+        bodies = [[float(e.get(key, "")) for key in ("x", "y", "width", "height")] for e in root.iter(f"{space}rect")
+                  if e.get("fill-opacity")]  # fmt: skip
+        (left, width) = next((a, w) for a, b, w, h in bodies if b < (top + bottom) / 2.0 < b + h)
+        assert left < x < left + width
+        assert abs(x - letters["K"][0]) < abs(x - letters["A"][0])
+
+
+def test_the_tie_over_the_balance_lead_has_walls_beside_its_slots(robot: Robot) -> None:
+    """Before the battery with its play of 0.5 mm and a stop of 1.2 mm, behind the tray's end: 1.6 mm to either side."""
+    things = {item.name: 1000.0 * item.mass.com_m[0] for item in robot.hardware}
+    if not robot.workshop.bought.regulator:
+        assert "tie_balance_lead" not in things
+        return
+    electronics = robot.layout.electronics
+    stop = things["battery"] + electronics.battery.length_mm / 2.0 + 0.5 + 1.2
+    end = robot.layout.tray_mm[0] + electronics.length_mm / 2.0
+    slot = TIE_SLOT_MM[1] / 2.0
+    assert things["tie_balance_lead"] - slot - stop >= 1.6 - 1e-6
+    assert end - things["tie_balance_lead"] - slot >= 1.6 - 1e-6
 
 
 def test_small_parts_lie_beside_the_controller_and_apart(robot: Robot) -> None:

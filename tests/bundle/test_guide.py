@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,12 +10,14 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
+from jumpcad.bundle.arrival import arrival_lines, grams_at
 from jumpcad.bundle.bom import BilledPlate, bill_of_materials
+from jumpcad.bundle.expected import expected
 from jumpcad.bundle.firmware import firmware_files, numbers
 from jumpcad.bundle.guide import with_bill, write_guide
-from jumpcad.bundle.ordering import strap_mm
+from jumpcad.bundle.ordering import order_lines, strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
-from jumpcad.bundle.springs import arms_off_deg, early_torque_share, torque_shares
+from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.bundle.stuck import stuck_items
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY
@@ -102,6 +105,62 @@ def test_guide_and_firmware_tell_how_springs_are_slackened_without_board_or_moto
         assert item in write_guide(robot)
         assert item in readme
     assert "from driver AOUT1" in stuck_items(robot)[1]  # not the mark at the motor: its wires may be exchanged
+
+
+def test_under_pwm_the_battery_gives_the_motors_current_for_a_share_of_the_time() -> None:
+    """A motor of 6 V on two cells, 6/8.4 of the time, and beside it the boards, always."""
+    shop = load_workshop()
+    kit = shop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s", "motors": ("n20-298",)}
+    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": shop.bought.model_copy(update=kit)}))
+    words, motor, train = expected(robot, []), robot.layout.drive.train.motor, robot.layout.drive.train
+    boards = 1000.0 * (0.024 * 5.0 / 0.9 + 7.4 * (0.0017 + 0.001)) / 7.4
+    assert motor.name == "n20-298"
+    assert float(words["boards_ma"]) == pytest.approx(boards, abs=0.51)
+    assert float(words["free_ma"]) == pytest.approx(1000.0 * 6.0 / 8.4 * motor.no_load_current_a + boards, abs=0.51)
+    assert float(words["peak_ma"]) == pytest.approx(1000.0 * 6.0 / 8.4 * train.peak_current_a + boards, abs=0.51)
+
+
+@pytest.mark.parametrize("angle_deg", [1.0, 10.0, 20.0])
+def test_the_scale_reads_the_upright_part_of_the_force_square_to_the_arm(angle_deg: float) -> None:
+    """The arm, a tangent of the coil's circle, has turned; the edge touches it at the lever's distance to the side.
+
+    The moment about the axis is that of the force at that point, taken as a cross product.
+    """
+    spring = built("best-bo").layout.drive.spring
+    radius, turned = spring.arms.mean_mm / 2.0, math.radians(angle_deg)
+    along = np.array([math.cos(turned), math.sin(turned)])
+    square = np.array([-math.sin(turned), math.cos(turned)])
+    start = -radius * square  # at first the coil's lowest point
+    touched = start + along * (spring.arms.lever_mm - start[0]) / along[0]
+    assert touched[0] == pytest.approx(spring.arms.lever_mm)
+    force_n = spring.rate_nmm_per_deg * angle_deg / (touched[0] * square[1] - touched[1] * square[0])
+    assert grams_at(spring, angle_deg) == pytest.approx(1000.0 * force_n * square[1] / 9.80665, rel=1e-3)
+
+
+def test_what_is_ordered_is_enough_for_all_pieces(robot: Robot) -> None:
+    """A strip gives its pieces one behind the other, with their longer sides along it."""
+    lines = [line for line in write_guide(robot).splitlines() if "mm of it, " in line]
+    assert len(lines) >= 2
+    for line in lines:
+        pieces = re.findall(r"(\d+) of ([\d.]+) x ([\d.]+) mm", line)
+        ordered = re.search(r"order (\d+) mm of it, ([\d.]+) mm wide", line)
+        assert ordered is not None
+        assert float(ordered[1]) >= sum(int(count) * max(float(a), float(b)) for count, a, b in pieces)
+        assert float(ordered[2]) >= max(min(float(a), float(b)) for _, a, b in pieces)
+
+
+@pytest.mark.parametrize(("length", "stock"), [("35.7", "0.33"), ("100.0", "0.5"), ("130.0", "1"), ("260.0", "2")])
+def test_a_rod_is_long_enough_for_all_its_pieces(length: str, stock: str) -> None:
+    """Four axles and pins of a robot, each with a cut of 2 mm; of the longest, two rods of 1 m would do too."""
+    robot = built("kenan-2.0")
+    hardware = tuple(
+        replace(item, article=re.sub(r"(rod .* x )[\d.]+( mm)", rf"\g<1>{length}\2", item.article))
+        for item in robot.hardware
+    )
+    (line,) = (line for line in order_lines(replace(robot, hardware=hardware)) if "cut from a rod" in line)
+    assert f"4 pieces of {length} mm" in line
+    assert f"cut from a rod of {stock} m" in line
+    assert 4.0 * (float(length) + 2.0) <= 1000.0 * float(stock)
 
 
 def test_the_strap_goes_once_around_battery_and_tray() -> None:
@@ -241,6 +300,18 @@ def test_wide_arms_load_the_motor_where_the_cam_is_steepest() -> None:
     most = min(1.1, math.floor(105.0 * spring.allowable_mpa / spring.stress_mpa) / 100.0)
     share = (theta + 4.0) / theta * most / (1.0 + 4.0 / wound)
     assert f"4° by up to {100.0 * (share - 1.0):.0f} % more than computed" in write_guide(robot)
+
+
+@pytest.mark.parametrize(("name", "preload_deg"), [("kenan-2.0", 0.0), ("best-bo", 0.0), ("kenan-2.0", 4.0)])
+def test_weak_and_narrow_springs_store_less(name: str, preload_deg: float) -> None:
+    """Ten degrees less of loading, at rest as well where there is as much, and nine tenths of the rate: ½·k·q²."""
+    shop = load_workshop()
+    preloaded = shop.spring.model_copy(update={"preload_deg": preload_deg})
+    robot = build(load_design(name), shop.model_copy(update={"spring": preloaded}))
+    wound = math.degrees(robot.layout.drive.spring.wound_rad)
+    share = 0.9 * (wound - 10.0) ** 2 / (wound**2 - preload_deg**2)
+    assert least_energy_share(robot) == pytest.approx(share)
+    assert f"narrowest arms stores {100.0 * (1.0 - share):.0f} % less energy" in " ".join(arrival_lines(robot))
 
 
 def test_preloaded_springs_that_are_too_wide_load_the_motor_less_than_slack_ones() -> None:

@@ -2,6 +2,7 @@
 
 import io
 import math
+import xml.etree.ElementTree as ET
 
 import ezdxf
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from support.built import built
 
 from jumpcad.bundle.spring_dxf import spring_dxfs
+from jumpcad.bundle.spring_sheet import spring_sheets
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -33,7 +35,24 @@ def test_arms_are_tangents_of_the_coil_at_the_ordered_angle(name: str) -> None:
         assert _between_deg(far, wound) == pytest.approx(math.degrees(spring.wound_rad), abs=1e-4)
         turns.append(np.sign(np.cross([*far, 0.0], [*wound, 0.0])[2]))
         assert any("N·mm/°" in one.dxf.text for one in space.query("TEXT"))
-    assert turns == [-turns[1], turns[1]]  # mirror images
+    assert list(drawings) == ["order/spring-right-hand.dxf", "order/spring-left-hand.dxf"]
+    # seen along its axis a right-hand coil goes away clockwise; loading winds it further, as DXF has y up
+    assert turns == [-1.0, 1.0]
+
+
+@pytest.mark.parametrize(("hand", "rises"), [("right", 1.0), ("left", -1.0)])
+def test_in_front_the_wire_of_a_right_hand_coil_rises_to_the_right(hand: str, rises: float) -> None:
+    """As the thread of a usual screw; SVG has y down. The side view's axis is upright at x = 200."""
+    (drawing,) = (text for path, text in spring_sheets(built("kenan-2.0")) if path == f"order/spring-{hand}-hand.svg")
+    lines = [
+        [float(line.get(key, "")) for key in ("x1", "y1", "x2", "y2")]
+        for line in ET.fromstring(drawing).iter("{http://www.w3.org/2000/svg}line")
+        if line.get("stroke") == "#4d535c" and float(line.get("x1", "")) > 150.0
+    ]
+    assert len(lines) > 3
+    for x0, y0, x1, y1 in lines:
+        assert (x0 + x1) / 2.0 == pytest.approx(200.0, abs=0.01)
+        assert np.sign((y0 - y1) * (x1 - x0)) == rises
 
 
 def _between_deg(one: np.ndarray, other: np.ndarray) -> float:

@@ -89,6 +89,18 @@ def test_priors_follow_what_was_measured(subject: Subject) -> None:
     assert much.floor.first == pytest.approx(0.6)
 
 
+def test_what_is_not_weighed_keeps_the_models_error(tmp_path: Path, subject: Subject) -> None:
+    """A fifth of the mass that is open, and 1 % of a scale: of all where nothing is weighed, else not of the leg."""
+    path = tmp_path / "mine.toml"
+    path.write_text(HEAD)
+    assert load_subject(path).mass.second == pytest.approx(math.hypot(0.2, 0.01))
+    path.write_text(HEAD + "[mass.parts_g]\nmain_leg = 20.0\n")
+    some = load_subject(path)
+    open_share = 1.0 - 0.020 / some.robot.mass_kg
+    assert 0.5 < open_share < 1.0
+    assert some.mass.second == pytest.approx(math.hypot(0.2 * open_share, 0.01))
+
+
 def test_weighed_parts_count_in_the_model(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(HEAD + "[mass.parts_g]\nmain_leg = 20.0\n")

@@ -13,13 +13,13 @@ from jumpcad.transforms import Array
 SPEED, ANGLE = 1.25, 48.0
 
 
-def flight(noise_m: float = 0.0) -> Array:
+def flight(noise_m: float = 0.0, seed: int = 1) -> Array:
     """Return points (24, 3) of a flight, seen at 120 frames a second."""
     t = np.arange(24) / 120.0 + 3.0
     fall = t - t[0]
     x = SPEED * math.cos(math.radians(ANGLE)) * fall
     z = SPEED * math.sin(math.radians(ANGLE)) * fall - 0.5 * 9.81 * fall**2
-    noise = noise_m * np.random.default_rng(1).standard_normal((2, 24))
+    noise = noise_m * np.random.default_rng(seed).standard_normal((2, 24))
     return np.column_stack([t, x + 0.4 + noise[0], z + 0.1 + noise[1]])
 
 
@@ -34,6 +34,16 @@ def test_the_standard_error_is_that_of_repeated_fits() -> None:
     t = np.arange(24) / 120.0
     expected = 0.002 / math.sqrt(float(np.sum((t - t.mean()) ** 2)))
     assert seen_takeoff(flight(0.002), "here").speed_error_m_s == pytest.approx(expected, rel=0.3)
+
+
+def test_the_angles_error_is_in_degrees() -> None:
+    """A velocity that is off by e square to it turns by e over the speed, as fits of 200 noisy flights do."""
+    seen = [seen_takeoff(flight(0.002, seed), "here") for seed in range(200)]
+    scatter = np.std([one.angle_deg for one in seen])
+    assert np.mean([one.angle_error_deg for one in seen]) == pytest.approx(scatter, rel=0.15)
+    assert np.mean([one.speed_error_m_s for one in seen]) == pytest.approx(
+        np.std([s.speed_m_s for s in seen]), rel=0.15
+    )
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,10 @@ import pytest
 from support.built import built
 
 from jumpcad.bundle.wiring import wires
+from jumpcad.checks import leads
 from jumpcad.checks.leads import lead_findings
+from jumpcad.layout.room import disc
+from jumpcad.parts.leads import way_in
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -14,6 +17,19 @@ def test_leads_keep_away_from_what_moves(name: str) -> None:
     (finding,) = lead_findings(built(name))
     assert finding.name == "wires_clear"
     assert finding.severity == "info", finding.message
+
+
+@pytest.mark.parametrize(("beside_mm", "severity"), [(-1.2, "error"), (0.0, "error"), (1.2, "error"), (3.0, "info")])
+def test_what_moves_across_a_lead_or_close_beside_it_is_found(
+    monkeypatch: pytest.MonkeyPatch, beside_mm: float, severity: str
+) -> None:
+    """A thin disc across the middle of the motor's leads outside the plate, to their left or right by up to 1.5 mm."""
+    robot = built("kenan-2.0")
+    start, end = way_in(robot.layout, "motor")[:2]
+    middle, y = (start + end)[[0, 2]] / 2.0, start[1] + beside_mm
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("fan", middle, 2.0, (y - 0.1, y + 0.1))])
+    (finding,) = lead_findings(robot)
+    assert finding.severity == severity
 
 
 def test_the_bill_has_the_wire_that_is_cut() -> None:

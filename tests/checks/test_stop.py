@@ -6,8 +6,10 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
+import numpy as np
 import pytest
-from support.built import built
+import trimesh
+from support.built import built, placed
 
 from jumpcad.building import build
 from jumpcad.checks import check, constraint_findings
@@ -51,6 +53,25 @@ def test_the_peak_is_that_of_a_pad_without_rebound(name: str) -> None:
     assert robot.stop is not None
     assert robot.stop.stiffness_nm_per_rad == pytest.approx(rate * (stop.radius_mm / 1000.0) ** 2)
     assert robot.joint("leg").upper_rad == pytest.approx(robot.stop.angle_rad + blow.give_rad)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_pad_lies_in_the_seat_of_the_printed_bar(name: str) -> None:
+    """Along the leg the bar reaches as far as its pad; the glue's gap is all that is between them, 0.6 mm deep."""
+    robot = built(name)
+    stop, bar = robot.layout.stop, placed(robot, "stop_bar")
+    (pad,) = (item for item in robot.hardware if item.name == "stop_pad")
+    corners = trimesh.bounds.corners(pad.shape.bounds_mm) @ pad.T_body_part[:3, :3].T + pad.T_body_part[:3, 3]
+    middle = (pad.shape.solid().to_mesh().vert_properties[:, :3] @ pad.T_body_part[:3, :3].T).mean(axis=0)
+    middle += pad.T_body_part[:3, 3]
+    along, behind = np.array([stop.along[0], 0.0, stop.along[1]]), np.array([stop.behind[0], 0.0, stop.behind[1]])
+    reach = bar.vertices @ along
+    assert (reach.min() + reach.max()) / 2.0 == pytest.approx(middle @ along, abs=0.05)
+    assert np.ptp(reach) == pytest.approx(8.0, abs=0.05)
+    assert np.ptp(corners @ [0.0, 1.0, 0.0]) == pytest.approx(robot.layout.sections.thickness_mm)
+    bottom = middle + (stop.pad.thickness_mm / 2.0 - 0.1) * behind
+    to_bar, _, _ = trimesh.proximity.closest_point(bar, [bottom])
+    assert (to_bar[0] - bottom) @ behind == pytest.approx(0.1, abs=0.05)
 
 
 def test_ears_are_bent_like_a_cantilever() -> None:

@@ -10,7 +10,7 @@ from support.built import built
 from jumpcad import build, load_design, load_workshop
 from jumpcad.drive.corner import roll_over
 from jumpcad.drive.release import Release
-from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
+from jumpcad.drive.rolling import ReleaseParts, Rolled, _Release, roll
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop
@@ -68,6 +68,22 @@ def test_what_bent_the_lever_drives_the_cam() -> None:
     gained = 0.5 * parts.cam_kg_m2 * speed**2
     assert gained == pytest.approx(bent_j, rel=0.03)
     assert rolled.kept_j == pytest.approx(rolled.held_j, rel=1e-3)
+
+
+def test_a_leg_that_falls_back_onto_the_corner_gains_what_the_springs_lose() -> None:
+    """Without a dog the roller bounces on the corner: between two touches springs' and kinetic energy are one sum."""
+    robot = built("best-ga")
+    parts = robot.release.parts[0]
+    corner = roll_over(robot.layout.drive.cam.geometry)
+    falling = _Release(corner, parts)
+    at = len(corner.wind_rad) - 1
+    inertia, here = float(falling.leg_inertia[at]), float(corner.wind_rad[at])
+    falling.wind, falling.rate, falling.touches = here + 0.02, -0.5, False
+    before = parts.spring.stored_j(-falling.wind) + 0.5 * inertia * falling.rate**2
+    falling._fall_to(at)
+    assert falling.wind == here
+    assert falling.rate < -0.5
+    assert parts.spring.stored_j(-here) + 0.5 * inertia * falling.rate**2 == pytest.approx(before)
 
 
 def test_a_stiffer_lever_kicks_less() -> None:

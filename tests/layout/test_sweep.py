@@ -1,5 +1,7 @@
 """What the links sweep, against the law of cosines and shapely's distances."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -80,6 +82,15 @@ def test_the_gap_is_added_all_around_and_intervals_are_kept() -> None:
     assert bare["main leg"].y_mm == bare["front link"].y_mm == (-half, half)
     assert bare["lever"].y_mm == (-6.0, 10.0)
     assert bare["foot"].y_mm == EVERYWHERE
+
+
+def test_upright_legs_are_nearest_where_the_foot_holds_them() -> None:
+    """Parallel legs of 6 mm that stand upright, with eyes of 7 mm radius at both ends: a foot less two eyes."""
+    robot = built("kenan-2.0")
+    design = robot.design.model_copy(update={"rest_angle_deg": 90.0, "compression_ratio": 0.02})
+    sizes = {"leg_root_mm": 6.0, "leg_tip_mm": 6.0, "front_mm": 6.0, "eye_radius_mm": 7.0}
+    apart = legs_apart_mm(Linkage(design), replace(robot.layout.sections, **sizes))
+    assert apart == pytest.approx(design.l4_mm - 14.0, abs=0.02)
 
 
 @pytest.mark.parametrize("name", [*NAMES, "kenan-1.0", "best-ga"])

@@ -1,11 +1,13 @@
 """Other springs and other lengths of the same robot."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import FOOT
+from jumpcad.mechanism.model import FOOT, RollerOff
 from jumpcad.mechanism.variants import with_lengths, with_spring_factor
 
 
@@ -13,6 +15,25 @@ def test_energy_goes_with_the_factor() -> None:
     robot = capsule_robot(load_design("kenan-2.0"))
     assert with_spring_factor(robot, 1.0) is robot
     assert with_spring_factor(robot, 0.8).spring.energy_j == pytest.approx(0.8 * robot.spring.energy_j)
+
+
+def test_the_leg_leaves_the_cam_with_the_same_share_of_another_energy() -> None:
+    """½·I·ω² over the springs' energy: four times as stiff, twice as fast."""
+    robot = replace(capsule_robot(load_design("kenan-2.0")), roller_off=RollerOff(-0.5, 3.0, 0.98))
+    stiff = with_spring_factor(robot, 4.0)
+    assert (stiff.roller_off.leg_rad_s, stiff.roller_off.leg_rad) == pytest.approx((6.0, -0.5))
+    shares = [one.roller_off.leg_rad_s**2 / one.spring.energy_j for one in (robot, stiff)]
+    assert shares[0] == pytest.approx(shares[1])
+
+
+def test_the_leg_leaves_the_cam_as_far_from_its_loaded_pose_with_other_angles() -> None:
+    design = load_design("kenan-2.0")
+    other = design.model_copy(update={"compression_ratio": design.compression_ratio + 0.01})
+    robot = capsule_robot(design)
+    robot = replace(robot, roller_off=RollerOff(0.03 - robot.spring.wind_rad, 3.0, 0.98))
+    changed = with_lengths(robot, other)
+    assert changed.spring.wind_rad > robot.spring.wind_rad
+    assert changed.roller_off.leg_rad + changed.spring.wind_rad == pytest.approx(0.03)
 
 
 def test_lengths_are_those_of_a_robot_made_with_them() -> None:

@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
-from support.built import built, cut, hole_centres, inscribed_diameter, placed
+from support.built import built, cut, hole_centres, inscribed_diameter, placed, region
 from support.fits import LOOSE, N20_SHAFT, RUNNING, SLIDING, TOLERANCE_MM, measured
 
 from jumpcad.building import build
@@ -28,6 +29,23 @@ def engraved_mm2(name: str, label: str) -> dict[str, float]:
         return {part.name: part.drawing.shape.regions_at(height)[0].area() for part in plates}
 
     return {part: area - areas(named)[part] for part, area in areas(plain).items()}
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_no_tab_of_a_tray_stands_in_the_opening_for_usb(name: str) -> None:
+    """What of the printed trays is in the right plate's thickness lies beside the opening; three tabs hold there."""
+    robot = built(name)
+    fittings, (low, high) = robot.layout.fittings, robot.layout.lateral.right_plate
+    assert fittings.usb_mm is not None
+    tabs = 0
+    for tray in ("electronics_tray_lower", "electronics_tray_upper"):
+        segments = cut(placed(robot, tray), (low + high) / 2.0)
+        for piece in shapely.get_parts(region(segments)):
+            opening = shapely.box(*(fittings.usb_mm - np.array(fittings.usb_size_mm) / 2.0),
+                                  *(fittings.usb_mm + np.array(fittings.usb_size_mm) / 2.0))  # fmt: skip
+            assert piece.distance(opening) > 0.5
+            tabs += 1
+    assert tabs == 3
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])

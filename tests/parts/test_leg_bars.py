@@ -9,8 +9,11 @@ import pytest
 from jumpcad import build, load_design, load_workshop
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check, constraint_findings
+from jumpcad.checks.leg_bar import leg_bar_findings
+from jumpcad.checks.load_case import LoadCase
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
+from jumpcad.parts.links import leg_bar_place
 from jumpcad.robot import Robot
 from jumpcad.strength.leg_bar import Socket, bar_bending_mpa, bar_shear_mpa, bent_energy_nmm, buckling_n
 from jumpcad.workshop import Workshop
@@ -77,6 +80,20 @@ def test_the_mass_of_a_bar_is_its_section_times_its_length() -> None:
     length = np.ptp(bar.shape.bounds_mm[:, 0])
     assert bar.mass_kg == pytest.approx(14.1e-6 * length, rel=0.01)
     assert f"cut {length:.1f} mm" in bar.article
+
+
+def test_the_socket_is_bent_by_what_is_left_of_the_torque_at_its_floor() -> None:
+    """A cantilever from the hub with a force at the ankle; M·c/I of a rectangle less the hole, 3.2 x 6.2 mm."""
+    found = robot("carbon-strip-3x6")
+    case, design, sections = LoadCase(found), found.design, found.layout.sections
+    place = leg_bar_place(found.layout, case.holes)
+    assert place is not None
+    torque = 1000.0 * design.peak_spring_torque_nm * (1.0 - place.floor_mm / design.l2_mm)
+    slope = (sections.leg_tip_mm - sections.leg_root_mm) / design.l2_mm
+    height = sections.leg_root_mm + slope * place.mouth_mm
+    second = (sections.thickness_mm * height**3 - 3.2 * 6.2**3) / 12.0
+    (socket,) = (finding for finding in leg_bar_findings(case) if finding.name == "leg_socket_strength")
+    assert socket.value == pytest.approx(torque * height / 2.0 / second, rel=1e-6)
 
 
 def test_a_bar_that_is_too_weak_is_found() -> None:

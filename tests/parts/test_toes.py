@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.built import LONG_TOES, built, part, placed
 
+from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.toes import lying_hole, toes
 
 
@@ -31,6 +32,23 @@ def test_a_lying_hole_holds_its_shaft_under_a_roof_of_45_degrees(diameter: float
     assert np.ptp(flat[:, 0]) == pytest.approx(0.264 * diameter, rel=0.01)
     assert above[:, 1].max() == pytest.approx(1.15 * radius)
     np.testing.assert_allclose(np.abs(above[:, 0]) + above[:, 1], math.sqrt(2.0) * radius, atol=0.02 * radius)
+
+
+def test_pads_lie_under_the_toes_tips_and_not_beyond() -> None:
+    """From 8 mm behind a tip's middle to 1.5 mm before it; behind the round tips only corners stand out a little."""
+    robot = built("best-bo")
+    foot = placed(robot, "foot")
+    pads = [item for item in robot.hardware if item.name in ("toe_left_pad", "toe_right_pad")]
+    tips = {contact.name: 1000.0 * contact.centre_m for contact in robot.bodies[FOOT].contacts}
+    assert len(pads) == 2
+    for pad in pads:
+        points = pad.shape.solid().to_mesh().vert_properties[:, :3] @ pad.T_body_part[:3, :3].T + pad.T_body_part[:3, 3]
+        tip = tips["left_toe" if pad.name == "toe_left_pad" else "right_toe"]
+        assert points[:, 0].min() > foot.bounds[0, 0] - 0.5
+        assert np.abs(points[:, 1]).max() < foot.bounds[1, 1] + 0.5
+        away = np.hypot(*(points - tip)[:, :2].T)
+        assert away.min() < 3.0
+        assert away.max() == pytest.approx(math.hypot(8.0, 2.5), abs=0.05)  # a tip of 5 mm
 
 
 def test_toes_are_apart_only_where_the_bed_asks_for_it() -> None:

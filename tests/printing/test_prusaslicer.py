@@ -59,6 +59,14 @@ def test_settings_are_the_workshops_in_prusaslicers_words():
         assert settings[extra] == "0"
 
 
+def test_the_bed_is_a_rectangle_of_the_printers_sides():
+    """Four corners in turn, in PrusaSlicer's order; beds are not all square."""
+    printer = WORKSHOP.printer.model_copy(update={"bed_mm": (250.0, 210.0, 200.0)})
+    settings = slicer_settings(printer, WORKSHOP.process, MATERIAL)
+    assert settings["bed_shape"] == "0x0,250x0,250x210,0x210"
+    assert settings["max_print_height"] == "200"
+
+
 def test_grams_and_time_are_those_of_the_gcode(stand_in, tmp_path):
     stand_in(writing(GCODE))
     found = sliced(tmp_path)

@@ -156,3 +156,26 @@ def test_warping_is_undone():
 def test_a_jump_backwards_counts_as_none_once_something_jumps_forwards():
     assert forwards(np.array([2.0, -3.0, 0.5])).tolist() == [2.0, 0.0, 0.5]
     assert forwards(np.array([-2.0, -3.0])).tolist() == [-2.0, -3.0]  # as for energies, of which less is better
+
+
+class Plane:
+    """A margin that is known as a plane with the same doubt everywhere."""
+
+    slope_of = np.array([2.0, -1.0])
+
+    def predict(self, points):
+        return 0.3 + points @ self.slope_of, np.full(len(points), 0.2)
+
+    def slope(self, points):
+        return np.tile(self.slope_of, (len(points), 1))
+
+
+def test_a_neighbour_is_as_probably_feasible_as_by_drawing_neighbours():
+    """Normal neighbours of two designs, and a normal doubt of the margin at each, drawn independently."""
+    generator, plane, scatter = np.random.default_rng(0), Plane(), np.array([0.1, 0.15])
+    points = np.array([[0.0, 0.0], [0.1, 0.4]])
+    found = np.exp(SearchPosterior(None, {"one": plane}).log_feasible(points, np.tile(scatter, (2, 1))))
+    for point, chance in zip(points, found, strict=True):
+        margins = plane.predict(point + scatter * generator.standard_normal((400_000, 2)))[0]
+        drawn = margins + 0.2 * generator.standard_normal(400_000) > 0.0
+        assert chance == pytest.approx(drawn.mean(), abs=0.004)

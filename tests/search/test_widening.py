@@ -43,6 +43,17 @@ def test_the_worth_of_a_bound_is_the_difference_of_the_hill(evaluator):
     assert next(p.upper for p in one.space.free if p.name == "rest_angle_deg") == 55.0
 
 
+@pytest.mark.parametrize(("share", "active"), [(0.9995, True), (0.998, False)])
+@pytest.mark.parametrize(("name", "at"), [("carrying_link_mm", 0), ("c_coef", 1)])
+def test_a_bound_is_active_within_a_thousandth_of_its_range(evaluator, name, at, share, active):
+    """Of 100 mm as of 0.4: nearer to the bound than a thousandth of the range, whatever its unit."""
+    space = Space.parse(fix=[one for one in FIXED if not one.startswith(name)])
+    one = evaluator(space=space)
+    unit = [share if parameter.name == name else 0.5 for parameter in space.free]
+    one.evaluate([space.to_design(unit)], "bo", 0)
+    assert [moved.name for moved in widen(one, 0)] == ([name] if active else [])
+
+
 def test_a_bound_of_what_a_design_can_be_does_not_move(evaluator):
     space = Space.parse(fix=FIXED[:-1], bound=["rest_angle_deg=70:90"])
     one = evaluator(space=space)

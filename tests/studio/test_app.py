@@ -43,6 +43,17 @@ def test_it_shows_every_part_and_says_what_evaluate_says(studio: Studio) -> None
     assert f"{told:.1f} mm" in studio.figures.content
 
 
+def test_differences_are_those_from_the_robot_before() -> None:
+    """Mass of the new one less that of the old one, with its sign."""
+    design, shop = load_design("kenan-2.0"), load_workshop()
+    old, new = (printed_answer(design.model_copy(update={"carrying_link_mm": mm}), shop) for mm in (100.0, 110.0))
+    (mass, _), (before, _) = new.figures()["mass"], old.figures()["mass"]
+    assert mass > before + 0.5
+    assert f"| mass | {mass:.1f} g (+{mass - before:.1f}) |" in new.to_markdown(old)
+    assert f"| mass | {before:.1f} g (-{mass - before:.1f}) |" in old.to_markdown(new)
+    assert f"| mass | {mass:.1f} g |" in new.to_markdown()
+
+
 def test_only_what_changes_is_sent_again(studio: Studio) -> None:
     robot = studio.answer(studio.design).robot
     assert robot is not None

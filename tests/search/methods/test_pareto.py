@@ -6,7 +6,7 @@ from support.hills import SMALL, Hill
 
 from jumpcad.search.fronts import hypervolume
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.pareto import energy_caps_j, run_nsga2, run_pareto
+from jumpcad.search.methods.pareto import ParetoFitness, energy_caps_j, run_nsga2, run_pareto
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -43,6 +43,19 @@ def test_nsga2_finds_most_of_it(evaluator):
     run_nsga2(one, Task(300, 0))
     assert len(one.trials) == 300
     assert dominated_share(one) > 0.95
+
+
+def test_of_two_that_score_alike_the_one_with_less_energy_is_as_good_or_better():
+    """PyGAD maximises both objectives."""
+    designs = [SMALL.to_design(point) for point in ([0.5, 0.5, 0.2], [0.5, 0.5, 0.8])]
+    frugal, strong = sorted(designs, key=lambda design: design.stiffness_nmm_per_deg)
+    found = [
+        ParetoFitness.objectives(None, Trial("nsga2", 0, 0, design, Evaluation("jump"), 3.0, "m", 0.0))
+        for design in (frugal, strong)
+    ]
+    assert frugal.spring_energy_j < strong.spring_energy_j
+    assert found[0][0] == found[1][0] == 3.0
+    assert found[0][1] > found[1][1]
 
 
 def test_a_front_resumes(evaluator, tmp_path):
