@@ -1,11 +1,14 @@
 """Checked limits as data: one list of findings serves the command line, the search and the report."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
 Severity = Literal["info", "warning", "error"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
+SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), "J": ("mJ", 1000.0)}
+"""The unit that people read instead of another one, and the factor."""
 
 
 @dataclass(frozen=True)

@@ -138,6 +138,8 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_collection_finish() -> None:
     """Leave the tests and all that they have imported out of garbage collection: else 0.1 s to 0.3 s each time."""
+    import hypothesis  # noqa: F401  # it warns of random generators whose owners it does not see
+
     gc.freeze()
 
 

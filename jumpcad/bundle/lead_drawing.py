@@ -66,9 +66,14 @@ def leads_svg(robot: Robot) -> str:
 
 
 def _plate(robot: Robot, leads: list[Lead], side: str, left: float, width: float) -> tuple[list[str], float]:
-    """Return the view of a plate from outside, and its lower edge: leads inside are dashed."""
+    """Return the view of a plate from outside, and its lower edge: leads inside are dashed.
+
+    A bundle of some of a robot's parts may lack the plate: nothing is drawn then.
+    """
     layout, sign = robot.layout, -1.0 if side == "left" else 1.0
-    part = next(part for part in robot.parts if part.name == f"body_plate_{side}")
+    part = next((part for part in robot.parts if part.name == f"body_plate_{side}"), None)
+    if part is None:
+        return [], 0.0
     y = layout.lateral.left_plate if side == "left" else layout.lateral.right_plate
     region = sheet(part, y[1] - y[0])[0].simplify(FINE_MM)
     low_x, low_z, high_x, high_z = region.bounds()

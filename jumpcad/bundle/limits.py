@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
 from jumpcad.exporters.xml import allowed
-from jumpcad.findings import Finding
+from jumpcad.findings import SHOWN_AS, Finding
 
 SHOWN = 3
 """How many limits are named at the top of the page."""
@@ -21,10 +21,29 @@ def limits(findings: Sequence[Finding]) -> Iterator[str]:
     """Yield the section of limits: violated ones, those with a use from the highest on, then the others."""
     violated = sum(finding.severity != "info" for finding in findings)
     yield "<h2>Limits</h2>"
-    yield f"<p>{violated} of {len(findings)} are violated. A bar shows how much of a limit is used. "
+    yield (
+        f"<p>{violated} of {len(findings)} are violated. A bar shows how much of a limit is used; "
+        "the mark is the limit. "
+    )
     yield "<code>jumpcad check</code> also looks at printability, and at interference over the whole motion.</p>"
+    near = [finding for finding in ordered(findings) if _near(finding)]
+    far = [finding for finding in ordered(findings) if not _near(finding)]
+    yield from _table(near)
+    if far:
+        yield f"<details><summary>{len(far)} more hold: less than half used, or a condition that is met</summary>"
+        yield from _table(far)
+        yield "</details>"
+
+
+def _near(finding: Finding) -> bool:
+    """Tell whether a limit is shown without asking: violated, used by half or more, or just reached."""
+    used = _used(finding) == "at the limit" if finding.use is None else finding.use >= 0.5
+    return finding.severity != "info" or used
+
+
+def _table(findings: Iterable[Finding]) -> Iterator[str]:
     yield '<table class="limits"><tr><th>limit</th><th>use</th><th>found</th></tr>'
-    for finding in ordered(findings):
+    for finding in findings:
         yield f'<tr class="{finding.severity}"><td>{escape(finding.name)}</td><td>{_bar(finding)}</td>'
         yield f"<td>{escape(allowed(_words(finding)))}</td></tr>"
     yield "</table>"
@@ -59,7 +78,8 @@ def _used(finding: Finding) -> str:
             return "at the limit"
         if finding.margin == 0.0 and not finding.unit:
             return "holds" if finding.severity == "info" else "does not hold"
-        return f"margin {finding.margin:.3g} {finding.unit}".strip()
+        unit, factor = SHOWN_AS.get(finding.unit, (finding.unit, 1.0))
+        return f"margin {factor * finding.margin:.3g} {unit}".strip()
     return "at the limit" if abs(finding.use - 1.0) < AT_LIMIT else f"{100.0 * finding.use:.0f} % used"
 
 

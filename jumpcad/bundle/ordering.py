@@ -35,7 +35,8 @@ THREAD_MM = 6.0
 OTHER = (
     "solder, heat-shrink tube 4 mm, 0.1 m, for joints of more than two wires, silicone or lithium grease, alcohol, "
     "adhesive tape, a strip more of foam tape, some more cable ties "
-    "2.5 mm wide; two screws M2 x 6 and two nuts M2 if the switch's ears have no thread"
+    "2.5 mm wide; two screws M2 x 6 and two nuts M2 if the switch's ears have no thread; one more socket like the "
+    "robot's, for a battery beside the robot: keep its leads insulated until they are needed"
 )
 
 
@@ -78,7 +79,8 @@ def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
     yield from ("", "## Tools", "")
     yield f"- {', '.join(names)}"
     yield (
-        f"- drill or reamer {robot.layout.axle_mm + REAMED_MM:g} mm, tap M3, vice with flat jaws, small flat "
+        f"- drill or reamer {robot.layout.axle_mm + REAMED_MM:g} mm, drill 2.8 mm for a switch's screws with nuts, tap "
+        "M3, vice with flat jaws, small flat "
         "screwdriver, side cutters"
     )
     chosen = chosen_parts(robot.workshop)
@@ -108,20 +110,24 @@ def tool_lines(robot: Robot, steps: list[Step]) -> Iterator[str]:
         "of wood that supports the motor while the pinion is pressed on; super glue"
     )
     yield (
-        "- cut-off disc, file, fine emery cloth, fine saw, knife, tweezers, cord, thin wooden stick, glasses that "
+        "- cut-off disc, file, fine emery cloth, fine saw, knife, tweezers, 1 m of cord, thin wooden stick, glasses "
+        "that "
         "close at the sides"
     )
 
 
 def print_lines(robot: Robot) -> Iterator[str]:
     """Yield the guide's section on print settings: one row a plate."""
-    process, workshop = robot.workshop.process, robot.workshop
+    process, workshop, bed = robot.workshop.process, robot.workshop, robot.workshop.printer.bed_mm
     yield from ("", "## Print settings", "")
     yield (
         f"For every plate: nozzle {workshop.printer.nozzle_mm:g} mm, layers {process.layer_height_mm:g} mm (first "
         f"{process.first_layer_mm:g} mm), lines {process.line_width_mm:g} mm wide, {process.perimeters} perimeters, "
         f"{process.top_layers} top and {process.bottom_layers} bottom layers, {100.0 * process.infill:.0f} % infill "
-        f"({process.infill_pattern}), no supports, no brim. Parts lie as they are to be printed: do not turn them. "
+        f"({process.infill_pattern}), no supports, no brim. Parts lie as they are to be printed: do not tilt them. "
+        f"Plates are laid out for a bed of {bed[0]:g} x {bed[1]:g} mm; on another one let the slicer arrange the "
+        "parts, "
+        "turned about the vertical only. "
         "Mass and strength are computed for these settings."
     )
     yield from ("", "| file | material | parts |", "|---|---|---|")
@@ -131,9 +137,12 @@ def print_lines(robot: Robot) -> Iterator[str]:
         yield f"| print/{plate.name}.3mf | {plate.material} | {named} |"
     yield from (
         "",
-        "Where jumpcad is installed, print its fit coupon first (`jumpcad coupon -o coupon`): it shows which diameters "
+        "Where jumpcad, the program that wrote this bundle, is installed, print its fit coupon first (`jumpcad coupon "
+        "-o coupon`): it shows which diameters "
         "and clearances your printer makes. It is tested with the rods, bearings, motor and screws of this order "
         "(coupon.md has the list): order, print the coupon, test it when they are there, and then print the robot. "
+        "Without it the fits are tried by hand (When things "
+        "arrive). "
         "Put the seam of the "
         "cam where its drop is, not on the lift. Break the first layer's edge in bores.",
     )

@@ -152,7 +152,7 @@ def _downloads(files: Iterable[str]) -> Iterator[str]:
     yield "<h2>Files</h2>"
     yield "<p>Links work where this page lies in its folder.</p>"
     for folder, paths in folders.items():
-        yield f"<details><summary>{escape(allowed(folder or 'here'))} ({len(paths)})</summary>"
+        yield f"<details><summary>{escape(allowed(folder or 'this folder'))} ({len(paths)})</summary>"
         yield f"<p>{', '.join(_link(path) for path in paths)}</p></details>"
 
 
@@ -189,17 +189,20 @@ def _figures(robot: Robot) -> Iterator[Sequence[str]]:
 
 def _parts(robot: Robot) -> Iterator[str]:
     bill = bill_of_materials(robot)
-    head = ("quantity", "g each", "€")
-    for title, kind, first in (("Printed parts", "printed", "part"), ("Bought parts", "bought", "article")):
+    for title, kind, columns in (
+        ("Printed parts", "printed", ("part", "material", "quantity", "g each", "€")),
+        ("Bought parts", "bought", ("article", "quantity", "g each", "€")),
+    ):
         yield f"<h2>{title}</h2>"
-        rows = (_line(item) for item in bill.items if item.kind == kind)
-        yield from _table((first, "material", *head), rows)
+        head = columns if bill.cost_eur is not None else columns[:-1]
+        yield from _table(head, ([_cell(item, column) for column in head] for item in bill.items if item.kind == kind))
     cost = "" if bill.cost_eur is None else f", {euros(bill.cost_eur)} € together"
     yield f"<p>In all {1000.0 * bill.mass_kg:.1f} g; {bill.known}{cost}.</p>"
 
 
-def _line(item: BillLine) -> Sequence[str]:
-    return item.name, item.material, str(item.quantity), f"{1000.0 * item.mass_kg:.2f}", euros(item.total_eur)
+def _cell(item: BillLine, column: str) -> str:
+    cells = {"quantity": str(item.quantity), "g each": f"{1000.0 * item.mass_kg:.2f}", "€": euros(item.total_eur)}
+    return cells.get(column, item.material if column == "material" else item.name)
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:

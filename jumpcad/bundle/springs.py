@@ -148,6 +148,9 @@ def _made_lines(robot: Robot, spring: TorsionSpring) -> Iterator[str]:
         f"- two straight arms, tangents of the coil, {spring.arm_length_mm:.1f} mm from the coil to their ends, "
         f"{math.degrees(spring.free_arm_angle_rad):.0f}° +{wider:.0f}° / -{narrower:.0f}° apart when relaxed (180° is "
         "opposite directions, as after whole turns); loading lowers the angle",
+        f"- for {robot.workshop.safety.jumps:g} loadings, each closing; stress-relieved, oiled, not plated (a plating "
+        "can "
+        "make hard wire brittle)",
     )
 
 

@@ -12,14 +12,16 @@ SIMILAR_SWITCH, SIMILAR_A = "SS-12F15 G5", 0.5
 material state them (several projects, the same figures); holes and height behind the ears: BOM.md of
 github.com/morria/pocket-cat, which scaled the distance of the holes off the maker's drawing."""
 SIMILAR_FITS = (
-    "19.8 x 5.6 mm, 5.0 mm high behind its ears, slider 3 x 3 x 5 mm that goes 3 mm. The holes of its ears, 2.2 mm "
+    "19.8 x 5.6 mm (0.2 mm longer than drawn, which the room around it bears), 5.0 mm high behind its ears, slider 3 x "
+    "3 x 5 mm that goes 3 mm. The holes of its ears, 2.2 mm "
     "without thread, are 14.4 mm apart as scaled off a drawing: the screws, each with a nut, then pass with no play "
     "left; where they do not, open the plate's holes to 2.8 mm with a drill. Not tried; no price with a date is known"
 )
 NO_SWITCH = (
     ". Found none: leave the switch and "
     "its two screws out, and solder the wires of switch 2 to those of switch 1. The battery's plug is then the "
-    "switch: solder the robot's half to leads of 50 mm that come out between the plates, with a loop of cord tied "
+    "switch: solder the robot's half to leads of 50 mm that come out between the plates, with a loop of 60 mm of cord "
+    "tied "
     "behind the battery's half to pull it by. Where this guide says switch on, plug it in; where it says switch off, "
     "pull it out; currents are read with the multimeter in place of its red wire"
 )

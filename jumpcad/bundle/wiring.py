@@ -17,6 +17,10 @@ ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
            ("controller", "sensor", "upper resistor", "lower resistor", "pull-up resistor"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
+SOLDERED = (
+    "The drawing shows what is connected, not where bodies lie: those are bent around the board to its end without USB "
+    "socket, between controller and driver, as the picture of the upper tray shows."
+)
 BY_METER = (
     "- sensor, by multimeter: COM and NC have contact only while the plunger is free, COM and NO only while it is",
     "  pressed. Switch: 1 and 2 are the two terminals that have contact in one position only",
@@ -58,7 +62,7 @@ def wiring_lines(robot: Robot) -> Iterator[str]:
         yield f"| {number} | {start} | {end} | {colour} | {cut} | {way} |"
     yield from ("", "![leads](leads.svg)", "", *WAYS)
     if soldering_svg(robot):
-        yield from ("", "![soldering](soldering.svg)")
+        yield from ("", "![soldering](soldering.svg)", "", SOLDERED)
     yield from ("", *_notes(chosen, wiring), "")
     yield (
         f"One jump takes {train.electrical_j:.2f} J from the battery: {train.motor_j:.2f} J the motor, "

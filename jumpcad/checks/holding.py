@@ -23,7 +23,7 @@ def holding_findings(robot: Robot) -> Iterator[Finding]:
     what, allowed = held[worst][0], held[worst][1] / robot.workshop.safety.strength_factor
     yield at_most(
         "electronics_hold", loads[worst], allowed, "N",
-        f"at a landing of {acceleration:.0f} m/s2 the {worst} pulls with {loads[worst]:.1f} N on its {what}, which "
+        f"at a landing of {acceleration:.0f} m/s² the {worst} pulls with {loads[worst]:.1f} N on its {what}, which "
         f"holds {allowed:.1f} N",
         "raise safety.landing_stop_mm (a softer floor), or choose a lighter bought.battery",
     )  # fmt: skip

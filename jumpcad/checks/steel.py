@@ -94,11 +94,12 @@ def _fatigue(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of fatigue after a number of jumps: warnings, since nothing breaks at the first jump."""
     safety, spring = case.workshop.safety, case.layout.drive.spring
     lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
+    rounded = f"{lasts:.2g}"
     allowed = spring_share(safety.jumps) * spring.tensile_mpa
     yield at_most(
         "spring_fatigue", spring.stress_mpa, allowed, "MPa",
         f"the springs' wire: {spring.stress_mpa:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps; its life is "
-        f"{'infinite' if math.isinf(lasts) else f'about {lasts:.0f} jumps'}",
+        f"{'infinite' if math.isinf(lasts) else f'about {float(rounded):.0f} jumps'}",
         "lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip
     name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / case.bars[item[0]].yield_mpa)

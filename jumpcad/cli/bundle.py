@@ -243,6 +243,7 @@ def _print_facts(facts: dict[str, Any]) -> None:
     print(f"printed robot  {_jump_in_words(jump)}")
     print(f"study's masses {_jump_in_words(facts['capsule_jump'])}")
     print(f"written        {len(facts['files']) + 1} files in {escaped(facts['folder'])}")
+    print("next           open its report.html: the jump in 3-D; assembly.html: how to print, order and assemble it")
 
 
 def _jump_in_words(jump: dict[str, Any]) -> str:

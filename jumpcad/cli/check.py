@@ -1,6 +1,5 @@
 """`jumpcad check`: limits of printing, strength, drive and clearance; violated ones first, then tight ones."""
 
-import math
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -16,8 +15,6 @@ STYLES = {"error": "bold red", "warning": "yellow", "info": "green"}
 WORDS = {"error": "error", "warning": "warning", "info": "holds"}
 TIGHT = 0.8
 """Use of a limit from which it is shown also without --all."""
-SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), "J": ("mJ", 1000.0)}
-"""The unit that is printed for another one, and the factor."""
 COUNTED = "", "faults", "mm³"
 """Units of counts and of quantities that must be 0: a margin of 0 is not tight."""
 SMALL = 0.005
@@ -75,6 +72,8 @@ def is_tight(finding: "Finding") -> bool:
 
 def margin_in_words(finding: "Finding") -> str:
     """Return a margin in its printed unit; below `SMALL` it is "at the limit" or "just beyond"."""
+    from jumpcad.findings import SHOWN_AS
+
     unit, factor = SHOWN_AS.get(finding.unit, (finding.unit, 1.0))
     margin = factor * finding.margin
     if unit in COUNTED and margin == 0.0:

@@ -136,11 +136,11 @@ def require_plots(folder: Path | None, force: bool) -> None:
     JumpcadError
         If it is no folder, or has a file of a picture's name that jumpcad did not write (unless `force`).
     """
+    if folder is None:
+        return  # without matplotlib, which takes 0.4 s to load
     from jumpcad.files.outputs import require_free
     from jumpcad.search.figures import PICTURES
 
-    if folder is None:
-        return
     if os.path.lexists(folder) and not os.path.isdir(folder):
         raise JumpcadError(f"{folder}: is there already and is no folder; choose another name")
     for name in PICTURES:

@@ -1,5 +1,7 @@
 """`jumpcad studio`: sliders and the robot in a browser."""
 
+import contextlib
+import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -45,10 +47,15 @@ def studio(
     name = Path(design).name.removesuffix(".toml").removesuffix(".db")
     chosen = workshop or DEFAULT
     workshops = [chosen, *(other for other in template_names("workshops") if other != chosen)]
-    server = viser.ViserServer(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
-    Studio(opened, name, workshops, server, Path.cwd()).start()
+    with contextlib.redirect_stdout(io.StringIO()):  # its banner has the address too
+        server = viser.ViserServer(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
+    shown = Studio(opened, name, workshops, server, Path.cwd())
+    shown.start()
     print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio)")
-    server.sleep_forever()
+    try:
+        server.sleep_forever()
+    finally:
+        shown.end()
 
 
 def _best(file: Path) -> "Design":

@@ -142,7 +142,8 @@ def _gear_findings(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimit
         findings += [
             at_most(
                 f"gear_strength_{number}", stress, limits.stress_mpa, "MPa",
-                f"bending of teeth, pair {number}: {stress:.1f} of {limits.stress_mpa:g} MPa (Lewis, load at one tip)",
+                f"bending of teeth, pair {number}: {stress:.1f} of {limits.stress_mpa:.1f} MPa "
+                "(Lewis, load at one tip)",
                 "wider gears, or a larger module",
             ),
             limit(

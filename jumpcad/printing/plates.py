@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import rectpack
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     import trimesh
 
 STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend on rounding
+EDGE_MM = 5.0
+"""Left free along the bed's edges where that takes no further plate; judgement: a skirt, clips, an uneven rim."""
 
 
 class Printable(Protocol):
@@ -66,7 +68,8 @@ class PrintPlate:
 def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[PrintPlate]:
     """Pack parts on plates, sorted by material; as many plates as it takes.
 
-    Parts are turned by 90° as needed; one that is too long for that lies at another angle.
+    Parts are turned by 90° as needed; one that is too long for that lies at another angle. What a plate has lies in the
+    middle of the bed.
 
     Parameters
     ----------
@@ -91,27 +94,22 @@ def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: floa
 def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: float) -> list[PrintPlate]:
     """Return the plates of one material."""
     angles = {part.name: _angle_deg(part, bed_mm) for part in parts}
-    packer = rectpack.newPacker(
-        bin_algo=rectpack.PackingBin.BFF,
-        pack_algo=rectpack.MaxRectsBssf,
-        sort_algo=rectpack.SORT_LSIDE,
-        rotation=True,
-    )
-    packer.add_bin(*(math.floor((side + spacing_mm) * STEPS_PER_MM) for side in bed_mm[:2]), count=len(parts))
     sizes = []
-    for number, part in enumerate(parts):
+    for part in parts:
         low, high = _bounds(part, angles[part.name])
-        size = tuple(math.ceil((side + spacing_mm) * STEPS_PER_MM - 1e-6) for side in (high - low)[:2])
-        sizes.append(size)
-        packer.add_rect(*size, rid=number)
-    packer.pack()
+        sizes.append(tuple(math.ceil((side + spacing_mm) * STEPS_PER_MM - 1e-6) for side in (high - low)[:2]))
+    packer, inside = (_packer(sizes, bed_mm, spacing_mm, edge_mm) for edge_mm in (0.0, EDGE_MM))
+    if len(inside.rect_list()) == len(parts) and len(inside) == len(packer):
+        packer = inside
+    beside = {number: _beside(bin_, bed_mm, spacing_mm) for number, bin_ in enumerate(packer)}
     plates: dict[int, list[tuple[int, Placed]]] = {}
     for plate, x, y, width, height, number in packer.rect_list():
         turned = (width, height) != sizes[number]
         angle = angles[parts[number].name] + (90.0 if turned else 0.0)
         low, _ = _bounds(parts[number], angle)
         pose = _turn(angle)
-        pose[:3, 3] = x / STEPS_PER_MM - low[0], y / STEPS_PER_MM - low[1], -low[2]
+        corner = np.array([x, y]) / STEPS_PER_MM + beside[plate]
+        pose[:3, 3] = *(corner - low[:2]), -low[2]
         plates.setdefault(plate, []).append((number, Placed(parts[number], pose)))
     return [
         PrintPlate(
@@ -119,6 +117,29 @@ def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: flo
         )
         for number, plate in enumerate(sorted(plates), start=1)
     ]
+
+
+def _packer(sizes: Sequence[tuple[int, ...]], bed_mm: Sequence[float], spacing_mm: float, edge_mm: float) -> Any:
+    """Return the rectangles packed on beds without an edge; those that do not fit are left out."""
+    packer = rectpack.newPacker(
+        bin_algo=rectpack.PackingBin.BFF,
+        pack_algo=rectpack.MaxRectsBssf,
+        sort_algo=rectpack.SORT_LSIDE,
+        rotation=True,
+    )
+    sides = (math.floor((side - 2.0 * edge_mm + spacing_mm) * STEPS_PER_MM) for side in bed_mm[:2])
+    packer.add_bin(*sides, count=len(sizes))
+    for number, size in enumerate(sizes):
+        packer.add_rect(*size, rid=number)
+    packer.pack()
+    return packer
+
+
+def _beside(plate: Iterable[Any], bed_mm: Sequence[float], spacing_mm: float) -> Array:
+    """Return how much of the bed (2,) is left on either side of what a plate has, in whole steps."""
+    used = np.max([(rect.x + rect.width, rect.y + rect.height) for rect in plate], axis=0) / STEPS_PER_MM - spacing_mm
+    left: Array = np.floor((np.asarray(bed_mm[:2]) - used) / 2.0 * STEPS_PER_MM) / STEPS_PER_MM
+    return left
 
 
 def _angle_deg(part: Printable, bed_mm: Sequence[float]) -> float:

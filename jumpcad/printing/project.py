@@ -30,6 +30,8 @@ def project_settings(printer: Printer, process: Process, material: Material, fil
 def settings_in_words(printer: Printer, process: Process) -> list[str]:
     """Return the settings that every part is printed with, one a line."""
     solid = process.infill >= 1.0
+    area_mm2 = process.solid_below_area_mm2
+    small = f"areas below {area_mm2:g} mm² filled solid" if area_mm2 else "small areas filled like the others (0 mm²)"
     infill = "none but solid layers" if process.infill == 0.0 else f"{100.0 * process.infill:g} %"
     return [
         f"printer: {printer.name}, nozzle {printer.nozzle_mm:g} mm",
@@ -38,8 +40,7 @@ def settings_in_words(printer: Printer, process: Process) -> list[str]:
         f"perimeters (walls): {process.perimeters}",
         f"solid layers: {process.top_layers} at the top, {process.bottom_layers} at the bottom",
         f"infill: {infill}, {'rectilinear' if solid else process.infill_pattern}",
-        f"areas below {process.solid_below_area_mm2:g} mm² filled solid; "
-        "no extra solid shell (ensure vertical shell thickness off)",
+        f"{small}; no extra solid shell (ensure vertical shell thickness off)",
         "no support, no brim, no elephant foot compensation: first layers are chamfered",
     ]
 

@@ -8,7 +8,7 @@ from jumpcad.bundle.limits import ordered
 from jumpcad.bundle.motion import motion
 from jumpcad.checks import quick_findings
 from jumpcad.design import Design
-from jumpcad.errors import CannotBuildError
+from jumpcad.errors import JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
@@ -79,9 +79,9 @@ def printed_answer(design: Design, workshop: Workshop, name: str = "robot") -> P
     """Return the printed robot and its jump, by the planar engine."""
     try:
         robot = build(design, workshop, name)
-    except CannotBuildError as error:
+        return Printed(design, robot, simulate(robot, engine="planar"))
+    except JumpcadError as error:
         return Printed(design, reason=str(error))
-    return Printed(design, robot, simulate(robot, engine="planar"))
 
 
 def simulated_motion(robot: Robot, engine: str) -> dict[str, object]:

@@ -56,6 +56,7 @@ class Studio:
         self.kept: Printed | None = None
         self._newest = threading.Condition()
         self._wanted: Design | None = design
+        self._ended = False
         self._playing = threading.Event()
         self.workshop: Workshop = load_workshop(workshops[0])
         self.stage.look_at(design)
@@ -63,7 +64,18 @@ class Studio:
 
     def start(self) -> None:
         """Build the first robot, and one after every change of a slider, in a thread."""
-        threading.Thread(target=self._work, daemon=True).start()
+        self._thread = threading.Thread(target=self._work, daemon=True)
+        self._thread.start()
+
+    def end(self) -> None:
+        """End the threads and forget the robots: solids that live longer than their library are complained of."""
+        with self._newest:
+            self._ended = True
+            self._newest.notify()
+        self._playing.clear()
+        self._thread.join()
+        self.shown = self.kept = None
+        self.stage.meshes.clear()
 
     @property
     def design(self) -> Design:
@@ -102,11 +114,13 @@ class Studio:
             self._newest.notify()
 
     def _work(self) -> None:
-        """Build printed robots, one at a time, until the program ends."""
+        """Build printed robots, one at a time, until the studio ends."""
         while True:
             with self._newest:
-                while self._wanted is None:
+                while self._wanted is None and not self._ended:
                     self._newest.wait()
+                if self._ended or self._wanted is None:
+                    return
                 design, self._wanted = self._wanted, None
             self.answer(design)
 

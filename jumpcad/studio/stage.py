@@ -62,7 +62,7 @@ class Stage:
         x, y, z, qx, qy, qz, qw = (float(value) for value in seven)
         if frame not in self.frames:
             self.frames[frame] = self.server.scene.add_frame(frame, show_axes=False)
-        self.frames[frame].position, self.frames[frame].wxyz = (x, y, z), (qw, qx, qy, qz)
+        _put_at(self.frames[frame], (x, y, z), (qw, qx, qy, qz))
 
     def _put(
         self, tree: str, things: tuple[Visual, ...], opacity: float | None, wrong: frozenset[str] = frozenset()
@@ -81,9 +81,7 @@ class Stage:
             turn, place = (w, x, y, z), tuple(one.T_body_mesh[:3, 3].tolist())
             key = (_shape(one), colour)
             if name in self.meshes and self.meshes[name][0] == key:
-                handle = self.meshes[name][1]
-                if tuple(handle.position) != place or tuple(handle.wxyz) != turn:
-                    handle.position, handle.wxyz = place, turn
+                _put_at(self.meshes[name][1], place, turn)
                 continue
             vertices_mm, triangles = seen(one)
             self.meshes[name] = key, self.server.scene.add_mesh_simple(
@@ -92,6 +90,14 @@ class Stage:
             )  # fmt: skip
             sent += 1
         return sent
+
+
+def _put_at(handle: Any, place: tuple[float, ...], turn: tuple[float, ...]) -> None:
+    """Put a node at a position (m) and quaternion (w, x, y, z); each that changes is a message to every page."""
+    if tuple(handle.position) != place:
+        handle.position = place
+    if tuple(handle.wxyz) != turn:
+        handle.wxyz = turn
 
 
 def _shape(one: Visual) -> object:

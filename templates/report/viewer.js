@@ -9,6 +9,9 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 
+// Share of the rise by which the camera goes up with the robot: the ground stays in view, and the jump is seen.
+const RISING = 0.85;
+
 const page = (id) => document.getElementById(id);
 const text = (id) => page(id).textContent.trim();
 
@@ -119,10 +122,19 @@ class Viewer {
   home() {
     const [x, z] = this.data.com_m[0];
     const far = 2.1 * this.data.size_m;
-    this.followed = x;
+    this.followed = [x, z];
     this.controls.target.set(x, 0, 0.8 * z);
     this.camera.position.set(x + 0.75 * far, -far, z + 0.5 * far);
     this.controls.update();
+  }
+
+  // Move the camera with the robot.
+  follow(x, z) {
+    for (const point of [this.controls.target, this.camera.position]) {
+      point.x += x - this.followed[0];
+      point.z += z - this.followed[1];
+    }
+    this.followed = [x, z];
   }
 
   // Pose everything as at a moment of the shown time (s).
@@ -143,11 +155,9 @@ class Viewer {
     this.turning.forEach(([pivot, per_cam], index) => {
       pivot.rotation.y = per_cam * (this.data.turning[index].node === "cam" ? cam : gear);
     });
-    const x = mix(com_m[low][0], com_m[low + 1][0]);
-    this.ball.position.set(x, 0, mix(com_m[low][1], com_m[low + 1][1]));
-    this.controls.target.x += x - this.followed;
-    this.camera.position.x += x - this.followed;
-    this.followed = x;
+    const [x, z] = [0, 1].map((axis) => mix(com_m[low][axis], com_m[low + 1][axis]));
+    this.ball.position.set(x, 0, z);
+    this.follow(x, com_m[0][1] + RISING * Math.max(z - com_m[0][1], 0));
     page("scrub").value = this.at;
     const now = phase[share < 1 ? low : low + 1];
     const slow = this.data.phases[now];

@@ -1,5 +1,6 @@
 """report.html in Debian's Chromium without a screen: it shows, plays and answers, and asks the network for nothing."""
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -73,6 +74,22 @@ def test_play_scrub_apart_and_assembly_change_what_is_seen(driver: Any, page: Pa
     before = float(box.get_attribute("data-shown"))
     driver.find_element("id", "play").click()
     wait(driver, lambda _: float(box.get_attribute("data-shown")) > before)
+
+
+def test_the_camera_follows_a_jump_of_half_a_metre(driver: Any, page: Path, tmp_path: Path) -> None:
+    """The same motion, lifted: the robot's orange links are in view there too."""
+    head, start, rest = page.read_text(encoding="utf-8").partition('<script type="application/json" id="viewer-data">')
+    text, end, tail = rest.partition("</script>")
+    data = json.loads(text)
+    last = len(data["show_s"]) - 1
+    for poses in (*data["frames"].values(), data["com_m"]):
+        poses[last][2 if len(poses[last]) > 2 else 1] += 0.5
+    lifted = tmp_path / "lifted.html"
+    lifted.write_text(head + start + json.dumps(data) + end + tail, encoding="utf-8")
+    box = opened(driver, lifted)
+    put(driver, "scrub", data["show_s"][last])
+    red, _, blue = np.moveaxis(seen(box, tmp_path / "shot.png"), -1, 0)
+    assert np.count_nonzero(red - blue > 100) > 1000
 
 
 def test_a_click_on_a_part_tells_what_it_is(driver: Any, page: Path) -> None:

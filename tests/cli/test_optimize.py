@@ -46,7 +46,7 @@ def test_what_optimize_finds_jumps_like_that(folder):
 
 
 def test_pareto_reports_its_front(folder):
-    found = data("optimize", "pareto", *QUICK, "--evaluations", 24, "--study", "p.db", "--plots", "pics")
+    found = data("optimize", "pareto", *QUICK, "--evaluations", 16, "--study", "p.db", "--plots", "pics")
     energies = [trial["metrics"]["spring_energy_j"] for trial in found["front"]]
     ranges = [trial["metrics"]["ballistic_range_m"] for trial in found["front"]]
     assert energies == sorted(energies)

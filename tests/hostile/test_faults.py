@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hostile.conftest import Originals
 from support.sandbox import Sandbox
 
+from hostile.conftest import Originals
 from jumpcad import checks
 
 SEARCH = ("optimize", "nsga2", "--model", "capsule", "--evaluations", "4", "--workers", "0", "--study")
@@ -278,7 +278,8 @@ def test_a_worker_that_starts_is_not_interrupted(sandbox: Sandbox) -> None:
     )
     package = Path(__file__).parents[2]
     done = sandbox.process(
-        *LONGER, "--workers", "2", "--json", exits=(0, 1), writes=["s.toml"], leaves=["s.db", "s.db-wal", "s.db-shm"],
+        *LONGER, "--evaluations", "24", "--workers", "2", "--json",
+        exits=(0, 1), writes=["s.toml"], leaves=["s.db", "s.db-wal", "s.db-shm"],
         environment={"PYTHONPATH": f"{sandbox.work / 'trap'}:{package}"},
     )  # fmt: skip
     assert "Traceback" not in done.err

@@ -5,9 +5,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hostile.conftest import ENGINES, Originals
 from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value, without
 from support.sandbox import ANY, Sandbox
+
+from hostile.conftest import ENGINES, Originals
 
 UNREAD = ("release", "rest_rad")
 """What a simulation works out itself."""

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hostile.conftest import Originals
 from support.mutations import DOCUMENTS, JSON_VALUES, Spoil, accidents, places, with_value
 from support.sandbox import ANY, Sandbox
+
+from hostile.conftest import Originals
 
 COMMANDS = ("verify", "simulate", "slice", "build")
 

@@ -4,8 +4,9 @@ import shutil
 
 import loky
 import pytest
-from hostile.conftest import Originals
 from support.sandbox import Sandbox
+
+from hostile.conftest import Originals
 
 SEARCH = ("optimize", "nsga2", "--model", "capsule", "--workers", "0", "--study", "s.db", "--settings", "screening")
 EXPLORE = ("explore", "--model", "capsule", "--workers", "0", "--settings", "screening")

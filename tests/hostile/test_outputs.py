@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from hostile.conftest import Originals
 from support.sandbox import ANY, Sandbox
+
+from hostile.conftest import Originals
 
 BUILD = ("build", "kenan-2.0", "--no-pictures", "-o")
 OTHER = ("build", "best-bo", "--no-pictures", "-o")

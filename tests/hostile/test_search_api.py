@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from hostile.test_api import ODD
 from support.sandbox import LONGEST, Sandbox
 
 import jumpcad
+from hostile.test_api import ODD
 from jumpcad import search
 from jumpcad.search import plots
 

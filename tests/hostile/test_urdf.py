@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from xml.etree import ElementTree
 
 import pytest
-from hostile.conftest import ENGINES, Originals
 from support.mutations import DOCUMENTS, NESTED, NO_NUMBERS, NUMBERS, Spoil, accidents
 from support.sandbox import ANY, Sandbox
+
+from hostile.conftest import ENGINES, Originals
 
 ATTRIBUTES = {
     "mass": (".//mass", "value", "{}"),

@@ -25,11 +25,11 @@ from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.workshop import load_workshop
 
-LARGE_CAM = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 28.683, 36.353])
-"""A robot with no room above it: its cam reaches up to 87 mm."""
+LARGE_CAM = Design.from_vector([99.797, 1.028, 0.8, 0.924, 0.823, 70.182, 27.5, 36.353])
+"""A robot with no room above it: its cam has a radius of 45 mm."""
 NARROW = Design.from_vector([196.404194, 0.958431, 0.696797, 0.679536, 0.783564, 66.619678, 27.823059, 26.157418])
 """A robot whose spring pin has a place of a few degrees, between main leg and cam gear."""
-TIGHT = Design.from_vector([100.0, 1.0040919, 0.5, 1.1190977, 0.8, 70.0, 30.0, 18.2459887])
+TIGHT = Design.from_vector([100.0, 1.004409, 0.546395, 1.17039, 0.8, 70.0, 28.779358, 15.343032])
 """A robot with hardly any room for its rest stop."""
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", LONG_TOES]
 

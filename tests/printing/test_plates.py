@@ -6,6 +6,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 import trimesh
+from support.built import built
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.printing.plates import packed
@@ -79,3 +80,22 @@ def test_the_order_of_parts_does_not_matter():
         return [(p.name, i.part.name, i.T_bed_part.tolist()) for p in packed(parts, BED, 5.0) for i in p.items]
 
     assert poses(PARTS) == poses(PARTS[::-1])
+
+
+@pytest.mark.parametrize(("side", "left"), [(100.0, 10.0), (109.0, 5.5), (118.0, 1.0), (120.0, 0.0)])
+def test_a_plate_lies_in_the_middle_of_the_bed(side, left):
+    (plate,) = packed([box("slab", (side, 60.0, 5.0))], (120.0, 100.0, 50.0), 5.0)
+    low, high = corners(plate.items[0])
+    assert (low[0], 120.0 - high[0]) == pytest.approx((left, left), abs=0.02)
+    assert (low[1], 100.0 - high[1]) == pytest.approx((20.0, 20.0), abs=0.02)
+
+
+def test_the_beds_edge_stays_free_where_that_takes_no_further_plate():
+    """Kenan 2.0 on a bed of 250 x 210 mm: two plates with 5 mm around, where a tight packing touches two edges."""
+    robot = built("kenan-2.0")
+    plates = packed(robot.parts, (250.0, 210.0, 220.0), robot.workshop.process.part_spacing_mm)
+    assert len(plates) == 2
+    for plate in plates:
+        lows, highs = zip(*map(corners, plate.items), strict=True)
+        assert np.min(lows, axis=0)[:2].min() >= 5.0
+        assert (np.array([250.0, 210.0]) - np.max(highs, axis=0)[:2]).min() >= 5.0

@@ -120,3 +120,11 @@ def test_the_answer_at_once_is_the_capsule_robots() -> None:
 def test_the_workshop_can_be_changed(studio: Studio) -> None:
     studio._change_workshop("fine")
     assert studio.workshop == load_workshop("fine")
+
+
+def test_it_ends_with_its_thread_and_keeps_no_robot(studio: Studio) -> None:
+    studio.start()
+    studio.end()
+    assert not studio._thread.is_alive()
+    assert studio.shown is None
+    assert not studio.stage.meshes

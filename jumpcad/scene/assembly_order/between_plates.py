@@ -37,6 +37,11 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
                   "screws, never under one; a strip of adhesive tape every 20 mm "
                   "holds them."),
         ),
+        checks=(
+            Words("A thin wooden stick from above, between the plates, reaches the board's button, beside the switch's "
+                  "leads; slanting from the left where the switch is above it. Later it is beside loaded springs: "
+                  "try it now.", needs="switch"),
+        ),
     ),
     Plan(
         "legs", "Axles, springs and legs", ROBOT,
@@ -64,8 +69,9 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
             Words("The axles are screws that come from the left at the end. Until then stand rods of their diameter, "
                   "{axle_length} mm long, in the bores.", needs=".*_axle_nut"),
             Words("Leg axle: the bushing of {bushing_right} mm; over it the LEFT-HAND spring; the leg with the roller "
-                  "up; the RIGHT-HAND spring; the bushing of {bushing_left} mm. If a bushing has a thicker "
-                  "end, that is at the leg. Seen on the standing robot, the outer arm of either "
+                  "up; the RIGHT-HAND spring; the bushing of {bushing_left} mm. Lengths that differ by 0.3 mm or "
+                  "less may be exchanged. If a bushing has a thicker end, that is at the leg. Seen on the standing "
+                  "robot, the outer arm of either "
                   "spring lies below the springs' pin, and the inner arms beside the leg, above the hole for its pin. "
                   "Left-hand: held upright, the wire in front rises to the left."),
             Words("Front axle: tube, front link, tube ({front_tubes}). Cam axle: its tube ({cam_tube} mm)."),
@@ -92,7 +98,9 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
             Move("idler"),
         ),
         (
-            Words("Push the stop's tab into the right plate behind the leg, its pad towards the leg."),
+            Words("Push the stop's tab into the right plate behind the leg, its pad towards the leg. Its tabs lie at "
+                  "the bar's edge that is nearer to the leg's axle, and the pad then lies in line with the leg; turned "
+                  "end for end the bar goes in too, and the pad misses the leg."),
             Words("Grease the jaws, the roller's path and the teeth thinly (silicone or lithium grease). On the cam "
                   "axle go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
             Words("The gear's face with the pockets goes towards the cam, the face with the sensor's ring groove to "
@@ -110,8 +118,8 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
         (Move("", brings=LEFT, trial=True),),
         (
             Words("The pinion is still off. Put the left plate on for a trial, without screws: hold it level and "
-                  "guide the axles into their bores with tweezers: first the leg's, then the cam's, the front one, the "
-                  "springs' pin last; then the trays' and the stop's tabs. Do "
+                  "guide the leg's axle and the tabs of trays and stop into their holes first, with tweezers, about a "
+                  "millimetre further down the cam's axle, the front one and the springs' pin into theirs. Do "
                   "not press: where it does not go down, something is beside its bore."),
             Words("Hold the plates together with thumb and finger, the robot upright and its leg hanging, and "
                   "turn the cam gear by hand one full turn, "

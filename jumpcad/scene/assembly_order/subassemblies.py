@@ -176,10 +176,17 @@ SUBASSEMBLIES: tuple[Plan, ...] = (
                   needs="sensor"),
             Words("Put the sensor into the plate's opening from outside, its plunger through to the "
                   "inside, push the mount along the leads over it, and turn the two screws into the plastic: "
-                  "{torque_m2} N·m. Tie the leads at the hole so that its terminals bear no pull, and hold "
-                  "them flat on the plate with a strip of adhesive tape every 20 mm, 5 mm or "
-                  "more below the standoff's hole: straight from the mount to the wire hole they could come under the "
-                  "screw's head in step {step_close}.", needs="sensor"),
+                  "{torque_m2} N·m. Either way round: its plunger is drawn in the middle of its length; where yours "
+                  "is not, as it stands nearer to the middle of the opening.",
+                  needs="sensor"),
+            Words("Then push the sensor from the inside, beside its plunger, home against the mount's floor: the "
+                  "opening holds it sideways only. Fix it there with a drop of super glue between its body and the "
+                  "opening's edge at either end, away from the plunger, and let that harden.", needs="sensor"),
+            Words("Tie the leads at the hole so that the sensor's terminals bear no pull, and hold them flat on the "
+                  "plate with a strip of adhesive tape every 20 mm, 5 mm or more below the standoff's hole: straight "
+                  "from the mount to the wire hole they could come under the screw's head in step {step_close}. Where "
+                  "they cross an opening, a strip of tape over the opening comes first, so that no loop reaches the "
+                  "gears; the round hole above the motor's shaft stays free.", needs="sensor"),
         ),
         checks=(Words("Pressed on the inside, the plunger clicks and comes out again. Multimeter between the "
                       "controller's ground and its pin of the sensor, battery unplugged: {free}; pressed, {pressed}. "
