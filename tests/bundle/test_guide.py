@@ -357,3 +357,42 @@ def test_springs_go_on_the_side_for_which_they_are_wound(name: str) -> None:
     assert "right hand" in article["spring_left"]
     words = next(line for line in write_guide(robot).splitlines() if "Leg axle: the bushing of" in line)
     assert [found[0] for found in re.finditer("(LEFT|RIGHT)-HAND", words)] == ["LEFT-HAND", "RIGHT-HAND"]
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_tools_go_through_what_they_are_for(name: str) -> None:
+    """A drill into the loaded coil, a rod through the hole for the pin, a plug through its window: each is thinner."""
+    robot = built(name)
+    guide = write_guide(robot)
+    shank = re.search(r"push in the shank of a drill, ([\d.]+) mm or a little less", guide)
+    rod = re.search(r"rod of at most ([\d.]+) mm, 60 mm or longer, for the springs' pin", guide)
+    plug = re.search(r"plug body at most ([\d.]+) x ([\d.]+) mm", guide)
+    assert shank is not None
+    assert rod is not None
+    assert plug is not None
+    spring, window = robot.layout.drive.spring, robot.layout.fittings.usb_size_mm
+    wound = spring.turns + math.degrees(spring.wound_rad) / 360.0
+    loaded = spring.arms.mean_mm * spring.turns / wound - spring.wire_mm
+    assert loaded - 1.0 < float(shank[1]) < loaded
+    assert robot.layout.pin_hole.diameter_mm - 1.1 < float(rod[1]) < robot.layout.pin_hole.diameter_mm
+    assert all(side - 1.0 < float(body) < side for side, body in zip(window, plug.groups(), strict=True))
+
+
+def test_standoffs_are_cut_from_longer_ones(robot: Robot) -> None:
+    found = re.search(r"standoffs M3.*?: 2 of (\d+) mm, cut to ([\d.]+) mm", write_guide(robot))
+    assert found is not None
+    assert 0.0 <= float(found[1]) - float(found[2]) < 10.0
+
+
+def test_the_free_floor_is_twice_the_jump(robot: Robot) -> None:
+    """At least, and less than half a metre more."""
+    words = expected(robot, [])
+    for far, computed in (("far", "range"), ("high", "rise")):
+        room, least = float(words[far]), max(2.0 * float(words[computed]) / 1000.0, 1.0)
+        assert least - 0.01 <= room < least + 0.51
+
+
+def test_a_contact_that_opens_when_pressed_has_contact_while_it_is_free(robot: Robot) -> None:
+    words = expected(robot, [])
+    assert words["contact"] == "NC"
+    assert (words["free"], words["pressed"]) == ("contact", "no contact")
