@@ -2,14 +2,18 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from jumpcad.building.limits import drive_limits
-from jumpcad.building.settle import Settled, fall_s, settle
+from jumpcad.building.settle import Settled, _require_hub_room, fall_s, settle
 from jumpcad.design import load_design
+from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import synthesise
 from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.errors import CannotBuildError
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
 from jumpcad.strength.sizing import Growth, sections
 from jumpcad.workshop import Workshop, load_workshop
@@ -73,3 +77,21 @@ def test_a_plain_hub_is_as_thin_as_the_leg() -> None:
     settled = settle(load_design("kenan-2.0"), plain, Growth(thickness=1.1))
     assert settled.holes.bearing is None
     assert settled.sections.thickness_mm == pytest.approx(1.1 * 6.0)
+
+
+def test_the_hub_keeps_a_wall_and_a_gap_off_the_spacer_on_the_cams_axle() -> None:
+    """From axle to axle, less spacer, gap and the hub's wall around the bearing, on both sides of its middle."""
+    settled = settle(load_design("kenan-2.0"), load_workshop(), Growth())
+    wall = 2.0 * settled.holes.fits.wall_mm
+    free = 2.0 * (16.0 - SPACER_RADIUS_MM - GAP_MM - wall - settled.holes.fits.press_mm)
+    cam = SimpleNamespace(cam_axis_mm=np.array([0.0, 16.0]), lever_length_mm=100.0)
+    near = replace(settled, drive=SimpleNamespace(cam=cam))
+    assert settled.holes.bearing is not None
+    for outer, fits in ((free - 0.01, True), (free + 0.01, False)):
+        bearing = settled.holes.bearing.model_copy(update={"outer_mm": outer})
+        tried = replace(near, holes=replace(settled.holes, bearing=bearing))
+        if fits:
+            _require_hub_room(tried)
+        else:
+            with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit"):
+                _require_hub_room(tried)

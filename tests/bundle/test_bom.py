@@ -88,3 +88,13 @@ def test_a_manifest_keeps_the_whole_bill(robot: Robot) -> None:
     bill = bill_of_materials(robot)
     assert robot.workshop is not None
     assert bill_of_facts(json.loads(json.dumps(mass_facts(bill))), robot.workshop) == bill
+
+
+def test_filament_is_paid_by_the_mass_of_all_pieces() -> None:
+    """Two pieces of 10 g at 20 EUR/kg are 0.20 EUR each."""
+    shop = load_workshop()
+    material = shop.material_name("links")
+    priced = shop.materials[material].model_copy(update={"price_eur_per_kg": 20.0})
+    facts = {"kind": "printed", "name": "toe", "quantity": 2, "material": material, "mass_kg": 0.01, "source": "layers"}
+    bill = bill_of_facts([facts], shop.model_copy(update={"materials": {**shop.materials, material: priced}}))
+    assert (bill.items[0].price_eur, bill.cost_eur) == pytest.approx((0.2, 0.4))

@@ -137,6 +137,27 @@ def test_the_front_is_where_the_leads_drawing_points_to(robot: Robot) -> None:
         assert view[arrow] >= max(drawn) if arrow == "front →" else view[arrow] <= min(drawn)
 
 
+def test_from_above_the_left_plate_is_up_where_the_front_is_on_the_right(robot: Robot) -> None:
+    texts = ET.fromstring(drawings_of(robot)["leads.svg"]).iter("{http://www.w3.org/2000/svg}text")
+    height = {element.text: float(element.get("y", "")) for element in texts}
+    assert height["left plate"] < height["right plate"]
+    assert height["← to the sensor, outside"] < height["← to the motor, outside"]
+
+
+def test_a_turn_against_the_largest_torque_on_an_empty_battery_ends_in_time(robot: Robot) -> None:
+    """Current from the torque, speed from what it leaves of the voltage; half as long again before the motor is off."""
+    train, found = robot.layout.drive.train, numbers(robot)
+    motor, supply = train.motor, supply_of(chosen_parts(robot.workshop))
+    winding = motor.voltage_v / motor.stall_current_a
+    k = (motor.voltage_v - motor.no_load_current_a * winding) / (motor.no_load_rpm * math.pi / 30.0)
+    per_nm = (motor.stall_current_a - motor.no_load_current_a) / motor.stall_torque_nm
+    current = motor.no_load_current_a + per_nm * train.motor_torque_nm
+    empty = 6.6 if robot.workshop.bought.regulator else 3.3
+    speed = (found["PWM_CAP"] * empty - current * (winding + supply.ohm)) / k
+    seconds = 2.0 * math.pi * train.ratio / speed
+    assert 1.49 * seconds <= found["WIND_MAX_MS"] / 1000.0 <= 1.52 * seconds + 0.1
+
+
 def test_from_above_leads_are_dashed_where_the_upper_tray_hides_them(robot: Robot) -> None:
     """The tray's height is measured on its mesh; a lead from board to board is drawn through, the battery's is not."""
     tray = placed(robot, "electronics_tray_upper").vertices[:, 2]

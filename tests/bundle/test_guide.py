@@ -20,6 +20,7 @@ from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.bundle.stuck import stuck_items
 from jumpcad.design import load_design
+from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -328,3 +329,70 @@ def test_preloaded_springs_that_are_too_wide_load_the_motor_less_than_slack_ones
     by_hand = (loaded + wider) / loaded * most / (1.0 + wider / wound)
     assert wider >= 4.0
     assert early_torque_share(robot) == pytest.approx(by_hand, rel=1e-6)
+
+
+def test_times_of_charging_and_of_boards_left_on_follow_from_the_capacity() -> None:
+    """300 mAh at the charger's current, and half as long again; 24 mA and 1.7 mA of the boards from 3.7 V."""
+    robot = built("kenan-2.0")
+    guide, board = write_guide(robot), chosen_parts(robot.workshop).controller
+    full = re.search(r"An empty one is full after about ([\d.]+) h", guide)
+    empty = re.search(r"boards left on empty a full one in (\d+) h", guide)
+    assert full is not None
+    assert empty is not None
+    assert float(full[1]) == pytest.approx(1.5 * 300.0 / board.charge_ma, abs=0.051)
+    assert float(empty[1]) == pytest.approx(300.0 / (24.0 + 1.7), abs=0.51)
+
+
+def test_the_slider_of_the_switch_stands_out_of_the_plate() -> None:
+    """A plate of 2.4 mm, and 1.5 mm for a fingertip."""
+    assert "it must stand out of the ears by 3.9 mm or more" in write_guide(built("kenan-2.0"))
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_springs_go_on_the_side_for_which_they_are_wound(name: str) -> None:
+    """The right plate lies below: what goes on first is the robot's right spring, which is left-hand wound."""
+    robot = built(name)
+    article = {item.name: item.article for item in robot.hardware}
+    assert "left hand" in article["spring_right"]
+    assert "right hand" in article["spring_left"]
+    words = next(line for line in write_guide(robot).splitlines() if "Leg axle: the bushing of" in line)
+    assert [found[0] for found in re.finditer("(LEFT|RIGHT)-HAND", words)] == ["LEFT-HAND", "RIGHT-HAND"]
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_tools_go_through_what_they_are_for(name: str) -> None:
+    """A drill into the loaded coil, a rod through the hole for the pin, a plug through its window: each is thinner."""
+    robot = built(name)
+    guide = write_guide(robot)
+    shank = re.search(r"push in the shank of a drill, ([\d.]+) mm or a little less", guide)
+    rod = re.search(r"rod of at most ([\d.]+) mm, 60 mm or longer, for the springs' pin", guide)
+    plug = re.search(r"plug body at most ([\d.]+) x ([\d.]+) mm", guide)
+    assert shank is not None
+    assert rod is not None
+    assert plug is not None
+    spring, window = robot.layout.drive.spring, robot.layout.fittings.usb_size_mm
+    wound = spring.turns + math.degrees(spring.wound_rad) / 360.0
+    loaded = spring.arms.mean_mm * spring.turns / wound - spring.wire_mm
+    assert loaded - 1.0 < float(shank[1]) < loaded
+    assert robot.layout.pin_hole.diameter_mm - 1.1 < float(rod[1]) < robot.layout.pin_hole.diameter_mm
+    assert all(side - 1.0 < float(body) < side for side, body in zip(window, plug.groups(), strict=True))
+
+
+def test_standoffs_are_cut_from_longer_ones(robot: Robot) -> None:
+    found = re.search(r"standoffs M3.*?: 2 of (\d+) mm, cut to ([\d.]+) mm", write_guide(robot))
+    assert found is not None
+    assert 0.0 <= float(found[1]) - float(found[2]) < 10.0
+
+
+def test_the_free_floor_is_twice_the_jump(robot: Robot) -> None:
+    """At least, and less than half a metre more."""
+    words = expected(robot, [])
+    for far, computed in (("far", "range"), ("high", "rise")):
+        room, least = float(words[far]), max(2.0 * float(words[computed]) / 1000.0, 1.0)
+        assert least - 0.01 <= room < least + 0.51
+
+
+def test_a_contact_that_opens_when_pressed_has_contact_while_it_is_free(robot: Robot) -> None:
+    words = expected(robot, [])
+    assert words["contact"] == "NC"
+    assert (words["free"], words["pressed"]) == ("contact", "no contact")

@@ -1,5 +1,7 @@
 """The way out of loaded springs: an iron reaches the shaft's end, a stick the gear, no cutter the teeth in mesh."""
 
+import re
+
 import numpy as np
 import pytest
 import trimesh
@@ -101,3 +103,10 @@ def test_no_cutter_reaches_the_teeth_in_mesh(robot: Robot) -> None:
             near = [m for m in others if (m.bounds[0] < jaws.bounds[1]).all() and (jaws.bounds[0] < m.bounds[1]).all()]
             cut = (trimesh.boolean.intersection([mesh, jaws], engine="manifold") for mesh in near)
             assert any(not both.is_empty and both.volume > 0.3 for both in cut), np.degrees([aside, tilt])
+
+
+def test_the_cord_holds_what_both_springs_pull_at_the_legs_end(robot: Robot) -> None:
+    found = re.search(r"pull there with up to (\d+) N", " ".join(stuck_items(robot)))
+    assert found is not None
+    both_nmm = 2.0 * robot.layout.drive.spring.rate_nmm_per_deg * np.degrees(robot.layout.drive.spring.wound_rad)
+    assert float(found[1]) == pytest.approx(both_nmm / robot.design.l2_mm, abs=0.51)

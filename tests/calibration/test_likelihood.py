@@ -1,11 +1,12 @@
 """Scatter of measurements: what more jumps reduce, and what they do not."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from jumpcad.calibration.likelihood import Datum, Predicted
+from jumpcad.calibration.likelihood import Datum, Predicted, predict
 from jumpcad.calibration.surface import JumpAt
 
 ONE = np.ones(1)
@@ -29,3 +30,17 @@ def test_the_mean_of_nine_jumps_has_a_third_of_the_deviation(what: str, of: str)
 def test_a_height_is_read_to_15_mm() -> None:
     assert deviation("height", "rise", 1, 0.0, 0.0) == pytest.approx(0.015)
     assert deviation("height", "rise", 1, 0.08, 0.03) == pytest.approx(math.hypot(0.015, 0.016, 0.006))
+
+
+def test_a_better_drive_takes_less_from_the_battery() -> None:
+    """Of 2 J by the model: a fifth more efficient, and springs that are a tenth stiffer."""
+    surface = SimpleNamespace(at=lambda *_: None)
+    measured = SimpleNamespace(release="dog")
+    subject = SimpleNamespace(
+        name="a", pair="a", measured=measured, surface=surface, electrical_j=2.0, beyond_m=(0.0, 0.0), standing_m=0.1
+    )
+    values = {
+        "rate:a": 1.1 * ONE, "mass:a": ONE, "floor:a": ONE, "pin_friction": ONE, "spring_efficiency": ONE,
+        "drive_efficiency": 1.2 * ONE,
+    }  # fmt: skip
+    assert predict(subject, values).battery_j == pytest.approx([2.0 * 1.1 / 1.2])  # type: ignore[arg-type]

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
+from jumpcad.cli.uncertain import uncertain_lines
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Settings, simulate
@@ -117,3 +118,13 @@ def test_the_other_engine_steps_in_with_one_line(command: Run, monkeypatch: pyte
     assert code == 0
     assert json.loads(out)["engine"] == "mujoco"
     assert err == "jumpcad: pybullet is not installed; simulated with mujoco\n"
+
+
+def test_quantiles_are_printed_in_millimetres():
+    both = {"ballistic_range_m": 0.5, "com_rise_m": 0.25}
+    found = {
+        "calibrated": False, "jumps": 8, "jumps_share": 1.0, "first_order": {"mass": both},
+        "quantiles": {"ballistic_range_m": [0.2, 0.3, 0.4], "com_rise_m": [0.05, 0.06, 0.07]},
+    }  # fmt: skip
+    lines = uncertain_lines(found)
+    assert [line.split()[-2:] for line in lines[1:3]] == [["200…300…400", "mm"], ["50…60…70", "mm"]]

@@ -6,6 +6,7 @@ import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from support.commands import Run
@@ -13,6 +14,7 @@ from support.slicers import OBEDIENT, pretend_slicer, three_parts
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle, verify
+from jumpcad.cli.slicing import _print_sliced
 from jumpcad.printing.prusaslicer import slicer_program
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
@@ -265,3 +267,14 @@ def test_masses_replace_nothing(run: Run, bundle: Path, file: str, complaint: st
     assert (code, out) == (2, "")
     assert complaint in err
     assert Path("mine.toml").read_text() == "years of weighing"
+
+
+def test_a_part_that_is_heavier_than_the_model_by_a_twentieth_is_printed_so(capsys):
+    part = SimpleNamespace(
+        name="foot", quantity=1, material="PETG", grams=10.5, modelled_grams=10.0, difference=0.05, time_s=60.0
+    )
+    plate = SimpleNamespace(name="plate-1-PETG", material="PETG", grams=10.5, time_s=60.0)
+    _print_sliced(SimpleNamespace(parts=(part,), plates=(plate,), version="2.5.0", ignored={}))
+    row = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("foot"))
+    assert "10.50" in row
+    assert "+5.0 %" in row

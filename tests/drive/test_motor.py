@@ -9,6 +9,7 @@ from support.limits import default_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.motor import allowed_nm, free_speed_rad_s, least_ratio, winding
+from jumpcad.electronics.supply import Supply
 
 MOTOR = load_catalogue().motors["n20-298"]
 LIMITS = default_limits().train
@@ -48,3 +49,12 @@ def test_the_least_ratio_is_that_of_torque_or_of_speed() -> None:
     torque = strong.peak_torque_nm / losses / allowed_nm(MOTOR, LIMITS)
     assert least_ratio(strong, MOTOR, LIMITS, 2) == pytest.approx(torque)
     assert least_ratio(weak, MOTOR, LIMITS, 1) == free_speed_rad_s(MOTOR) / LIMITS.cam_speed_max_rad_s
+
+
+def test_the_cam_is_no_quicker_than_allowed_on_a_full_battery() -> None:
+    """With weak springs the speed decides: that of the unloaded motor at the largest voltage."""
+    supply = Supply(3.3, 3.7, 4.2, 0.5, 0.1, 1.0)
+    limits = replace(LIMITS, supply=supply)
+    full = supply.driven(MOTOR, 4.2, limits.blocked_nm).no_load_rpm * math.pi / 30.0
+    assert full > supply.driven(MOTOR, 3.3, limits.blocked_nm).no_load_rpm * math.pi / 30.0
+    assert full / least_ratio(law(1e-6), MOTOR, limits, 1) == pytest.approx(limits.cam_speed_max_rad_s)

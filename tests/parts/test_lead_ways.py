@@ -11,7 +11,7 @@ from jumpcad.building import build
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
-from jumpcad.parts.lead_ways import battery_way, lead_way, plate_of, way_words
+from jumpcad.parts.lead_ways import battery_way, gap_mm, lead_way, plate_of, way_words
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import contained
 from jumpcad.workshop import load_workshop
@@ -89,6 +89,15 @@ def test_between_two_boards_leads_cross_where_no_board_lies(robot: Robot) -> Non
     for role in robot.layout.electronics.boards:
         seat = seats[role]
         assert abs(crossing[0] - robot.layout.tray_mm[0] - seat.x_mm) > seat.size_mm[0] / 2.0
+
+
+def test_of_two_gaps_a_lead_takes_the_one_nearer_to_where_it_starts() -> None:
+    """Three boards from the back: controller, driver, regulator."""
+    layout = _strong().layout
+    seats = layout.electronics.seats(layout.lateral.inside)
+    middles = [layout.tray_mm[0] + seats[role].x_mm for role in ("controller", "driver", "regulator")]
+    back, front = gap_mm(layout, middles[0], middles[2]), gap_mm(layout, middles[2], middles[0])
+    assert middles[0] < back < middles[1] < front < middles[2]
 
 
 def test_words_say_plate_hole_and_side(robot: Robot) -> None:

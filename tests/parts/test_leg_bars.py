@@ -130,3 +130,8 @@ def test_formulas_are_those_of_the_handbooks() -> None:
     x = np.linspace(-15.0, 15.0, 3001)
     pressed = 3.0 * socket.pressure_mpa(600.0, 0.0) * x / 15.0  # a force a length that changes evenly
     assert np.trapezoid(pressed * x, x) == pytest.approx(600.0, rel=1e-3)
+    loose = Socket(strip, 30.0, 6.0, 9.0, 0.1)
+    # what presses on the bar's 3 mm is held by what is left of 6 mm beside it and a gap of 0.1 mm to either side
+    assert loose.wall_mpa(600.0, 12.0) * (6.0 - 3.2) == pytest.approx(loose.pressure_mpa(600.0, 12.0) * 3.0)
+    # glue around 18 mm of section, 30 mm long
+    assert socket.bond_mpa(5400.0, 0.0) == pytest.approx(5400.0 / (2.0 * (3.0 + 6.0) * 30.0))

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold, Mesh64
-from support.built import LONG_TOES, built
+from support.built import LONG_TOES, body_in_plane, built
 
+from jumpcad.building import build
 from jumpcad.building.assembly import assembled
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
+from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
@@ -156,3 +158,20 @@ def test_springs_are_seen_as_wire_within_the_room_that_is_kept_for_them(assemble
         assert ((straight >= room[0]) & (straight <= room[1])).all()
         # an octagon has 0.90 of its circle's area
         assert coil.look.volume == pytest.approx(0.9 * 1e6 * coil.mass_kg / 7.85, rel=0.02)
+
+
+@pytest.mark.parametrize("preload_deg", [0.0, 5.0])
+def test_coil_and_leg_arm_are_one_wire_at_rest(preload_deg: float) -> None:
+    """The coil ends where the leg's arm leaves it, in place and direction, with springs that are loaded at rest too."""
+    shop = load_workshop()
+    spring = shop.spring.model_copy(update={"preload_deg": preload_deg})
+    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"spring": spring}))
+    T_body_leg = body_in_plane(robot, MAIN_LEG, 0.0)
+    things = {item.name: item for item in robot.hardware}
+    for side in ("left", "right"):
+        coil, arm = things[f"spring_{side}"].wire.points_mm, things[f"spring_{side}_leg_arm"].wire.points_mm
+        ends = [T_body_leg @ [x, z, 1.0] for x, _, z in arm[-2:]]
+        assert coil[-1][[0, 2]] == pytest.approx(ends[0][:2], abs=1e-3)
+        along, chord = ends[1][:2] - ends[0][:2], (coil[-1] - coil[-2])[[0, 2]]
+        cosine = along @ chord / np.linalg.norm(along) / np.linalg.norm(chord)
+        assert cosine > math.cos(math.radians(9.0))  # a chord of 15° is turned by half of that

@@ -64,3 +64,12 @@ def test_the_same_score_for_more_energy_is_not_on_the_front(trials):
     assert energy_j(cheap.design) < energy_j(dear.design)
     same = [replace(trial, score=0.5) for trial in (dear, cheap)]
     assert front(same) == [same[1]]
+
+
+def test_of_two_designs_with_equal_energy_only_the_better_one_is_on_the_front(trials):
+    """Toes hold no energy: two lengths of theirs, the worse design first."""
+    first = trials[0]
+    longer = first.design.model_copy(update={"e_coef": first.design.e_coef + 0.01})
+    worse, better = replace(first, score=1.0), replace(first, design=longer, score=2.0)
+    assert energy_j(worse.design) == energy_j(better.design)
+    assert front([worse, better]) == front([better, worse]) == [better]

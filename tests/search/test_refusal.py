@@ -3,6 +3,7 @@
 import pickle
 
 import pytest
+from support.built import built
 from support.robots import FOLDED
 
 from jumpcad.design import SEARCH_BOUNDS, Design
@@ -10,7 +11,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.refusal import refusal_findings
+from jumpcad.search.refusal import refusal_findings, room_findings
 from jumpcad.simulation import Settings, simulate
 
 
@@ -27,6 +28,13 @@ def test_the_margin_is_the_message_s_millimetres_and_changes_its_sign_where_a_ro
         margins.append(min(rooms.values()))
     assert margins[0] > 0.0 > margins[-1]
     assert margins[1:] == sorted(margins[1:], reverse=True)  # before that, the stop's room is as large as is looked
+
+
+def test_a_reserve_is_taken_from_the_room_between_the_legs():
+    layout = built("kenan-2.0").layout
+    rooms = [{one.name: one.margin for one in room_findings(layout, reserve)} for reserve in (0.0, 1.5)]
+    assert rooms[0]["legs_apart"] - rooms[1]["legs_apart"] == pytest.approx(1.5)
+    assert rooms[0]["stop_room"] == rooms[1]["stop_room"]  # has its reserve already
 
 
 def test_a_refusal_without_a_number_has_no_finding():

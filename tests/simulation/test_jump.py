@@ -8,7 +8,7 @@ import pytest
 
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.jump import Jump, Trajectory
+from jumpcad.simulation.jump import EnergyBudget, Jump, Trajectory
 
 
 @pytest.fixture(scope="module")
@@ -40,3 +40,13 @@ def test_rows_of_a_trajectory_are_its_moments() -> None:
     assert [second[f"foot_q{axis}"] for axis in "xyzw"] == [112.0, 113.0, 114.0, 115.0]
     assert [first[f"body_{axis}_m"] for axis in "xyz"] == [0.0, 1.0, 2.0]
     assert len(first) == 1 + 2 * 7 + 3
+
+
+def test_the_account_has_every_entry_of_the_budget_once() -> None:
+    """Powers of two: each sum tells what is in it."""
+    account = EnergyBudget(1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0).account_j
+    assert account == {
+        "useful": 1.0 + 2.0 + 8.0, "internal": 4.0, "springs": 16.0, "release": 32.0, "pins": 64.0, "slip": 128.0,
+        "contact": 256.0,
+    }  # fmt: skip
+    assert sum(account.values()) == 511.0

@@ -7,6 +7,7 @@ import pytest
 from support.fits import LOADS
 
 from jumpcad.design import load_design
+from jumpcad.dimensions import STOP_SEAT_MM
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.sizing import leg_flex_share, sections
 from jumpcad.strength.stress import Beam
@@ -59,3 +60,25 @@ def test_hollow_links_are_higher_than_solid_ones() -> None:
     by_hand = math.sqrt(6.0 * 1.15 * LOADS * 1000.0 * design.peak_spring_torque_nm / (8.0 * 15.0))
     assert sections(Linkage(design), solid).lever_root_mm == pytest.approx(math.ceil(147.0 * by_hand) / 100.0)
     assert sections(Linkage(design), workshop).lever_root_mm > 1.05 * by_hand
+
+
+def test_eyes_keep_two_walls_around_their_axle() -> None:
+    """An axle of 3 mm, 0.3 mm of play on the radius, two walls of 1.2 mm: 4.2 mm from the middle."""
+    sizes = sections(Linkage(load_design("kenan-2.0")), load_workshop())
+    assert sizes.eye_radius_mm == pytest.approx(1.5 + 0.3 + 2.0 * 1.2)
+
+
+def test_the_stops_bar_is_a_beam_on_the_plates_under_the_pads_force() -> None:
+    """Of solid PETG, 45 MPa, 8 mm along the leg: F/4·(L - w/2) = b·h²·S/6, twice the force, below a seat of 0.6 mm.
+
+    The pad's force is 0.82 of that of a lossless spring which takes 12 % of the springs' energy.
+    """
+    shop = load_workshop()
+    solid = shop.model_copy(update={"process": shop.process.model_copy(update={"infill": 1.0})})
+    design = load_design("best-bo")
+    sizes = sections(Linkage(design), solid)
+    width = sizes.thickness_mm
+    rate = solid.stop_pad.rate_n_per_mm(width, 8.0)
+    force = 2.0 * 0.82 * math.sqrt(2.0 * 0.12 * 1000.0 * design.spring_energy_j * rate)
+    moment = force / 4.0 * (39.0 - width / 2.0)
+    assert sizes.stop_mm == pytest.approx(STOP_SEAT_MM + math.sqrt(6.0 * moment / (8.0 * 45.0)), abs=0.03)
