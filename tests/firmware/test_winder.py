@@ -224,6 +224,20 @@ def test_the_landing_that_shakes_the_switch_starts_nothing() -> None:
     assert world.winder.state == WINDER.WINDING
 
 
+def test_a_stop_after_a_jump_is_followed_by_the_next_command_at_once() -> None:
+    """Commands are ignored after a landing alone, which has not shaken this robot."""
+    world = wound()
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    world.wait(1.6)
+    world.step(wind=True)
+    world.wait(0.2)
+    world.step(stop=True)
+    assert world.winder.state == WINDER.IDLE
+    world.step(wind=True)
+    assert world.winder.state == WINDER.WINDING
+
+
 def test_it_refuses_to_wind_on_a_low_battery() -> None:
     world = World()
     world.battery_v = 3.49

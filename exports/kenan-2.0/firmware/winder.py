@@ -41,6 +41,7 @@ class Winder:
         self._since_ms = 0
         self._low_since_ms = None
         self._freed_ms = None
+        self._landed_ms = 0
         self._released = False  # the springs are slack: the last that turned the cam was a release that was seen
         self._begun = False  # winding was begun and no release was seen since: the springs may be partly loaded
 
@@ -73,7 +74,7 @@ class Winder:
                 self._freed_ms = None
                 return self._enter(RELEASING, now_ms, "releasing")
             return 0.0
-        if wind and now_ms >= self._quiet_until_ms():
+        if wind and now_ms >= self._landed_ms:
             return self._begin(now_ms, settled, battery_v)
         return 0.0
 
@@ -111,16 +112,13 @@ class Winder:
         if self._freed_ms is not None and now_ms - self._freed_ms >= numbers.AFTER_RELEASE_MS:
             self.jumps += 1
             self._released, self._begun = True, False
+            self._landed_ms = now_ms + numbers.LANDING_MS  # before that the landing may close switch and button
             return self._enter(IDLE, now_ms, "jump %d" % self.jumps)
         if elapsed > numbers.RELEASE_MAX_MS:
             return self._enter(
                 FAULT, now_ms, "no release seen in time: blocked, or a lead of the sensor broken; motor off"
             )
         return self._power(elapsed)
-
-    def _quiet_until_ms(self):
-        """Return the time before which switch and commands are ignored: the landing may close them."""
-        return self._since_ms + self.numbers.LANDING_MS if self.jumps else self._since_ms
 
     def _power(self, elapsed):
         """Return the share of PWM some time after the start (ms): a ramp, since a sudden start lowers the voltage."""
