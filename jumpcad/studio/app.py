@@ -10,23 +10,17 @@ from jumpcad.bundle.export import export
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import require_free, sealed, write_atomically
-from jumpcad.findings import errors
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.simulation.engines import default_engine
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer, simulated_motion
 from jumpcad.studio.stage import Stage
+from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import Workshop, load_workshop
 
 FRAME_S = 1.0 / 30.0
 """Time between two frames of the playback."""
 WIDER = 0.5
 """How far sliders extend beyond the bounds of the search, over the bounds' distance."""
-RED_PARTS = {
-    "leg_strength": "main_leg", "lever_strength": "main_leg", "leg_flex": "main_leg", "stop_leg": "main_leg",
-    "toe_strength": "foot", "rail_strength": "foot", "stop_strength": "stop_bar", "cam_dog_strength": "cam",
-    "front_strength": "front_link",
-}  # fmt: skip
-"""Part that is shown in red while a limit is violated, by the limit's name."""
 
 
 class Studio:
@@ -130,9 +124,8 @@ class Studio:
         self.quick.content = capsule_answer(design)
         self.figures.content = found.to_markdown(self.kept)
         if found.robot is not None:
-            wrong = frozenset(RED_PARTS[one.name] for one in errors(found.findings) if one.name in RED_PARTS)
             with self.server.atomic():
-                self.stage.show(found.robot, wrong)
+                self.stage.show(found.robot, wrong_parts(found.findings))
         self.shown = found
         return found
 

@@ -1,11 +1,15 @@
-"""The committed bundle is what the program makes today. `jumpcad build kenan-2.0 -o exports/kenan-2.0` refreshes it."""
+"""The committed bundle and report are what the program makes today.
+
+`jumpcad build kenan-2.0 -o exports/kenan-2.0` and `jumpcad report best-printable -o
+examples/best-printable-report.html` refresh them.
+"""
 
 from pathlib import Path
 
 from support.places import ROOT
 
 from jumpcad.building import build
-from jumpcad.bundle.export import export
+from jumpcad.bundle.export import export, report_page
 from jumpcad.design import load_design
 
 COMMITTED = ROOT / "exports" / "kenan-2.0"
@@ -20,3 +24,8 @@ def test_the_committed_bundle_is_made_again_byte_for_byte(tmp_path: Path) -> Non
     committed, made = contents(COMMITTED), contents(again.folder)
     assert sorted(committed) == sorted(made)
     assert [name for name in committed if committed[name] != made[name]] == []
+
+
+def test_the_committed_report_is_made_again() -> None:
+    made = report_page(build(load_design("best-printable"), name="best-printable"))
+    assert made == (ROOT / "examples" / "best-printable-report.html").read_text(encoding="utf-8")

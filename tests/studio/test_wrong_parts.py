@@ -1,0 +1,39 @@
+"""The parts that are red are those that a violated limit is about."""
+
+from support.built import built
+
+from jumpcad.checks import check
+from jumpcad.findings import bare
+from jumpcad.scene.visuals import visuals
+from jumpcad.studio.wrong_parts import LIMITS_OF, wrong_parts
+
+ELSEWHERE = {
+    "foot_clearance", "leg_bar_strength", "leg_socket_strength", "leg_bar_bond", "leg_bar_flex", "front_bar_buckling",
+    "toe_bar_strength", "toe_joint_strength", "spring_rate",
+}  # fmt: skip
+"""Limits that best-bo has only with other legs, toes, springs."""
+
+
+def test_every_part_and_limit_exists() -> None:
+    robot = built("best-bo")
+    parts = {one.mesh_name for one in visuals(robot)}
+    limits = {one.name for one in check(robot)}
+    assert {part for parts in LIMITS_OF for part in parts} <= parts
+    named = [limit for limits in LIMITS_OF.values() for limit in limits]
+    assert len(named) == len(set(named))
+    assert set(named) - ELSEWHERE <= limits
+
+
+def test_strengths_of_a_robot_have_a_part() -> None:
+    named = {limit for limits in LIMITS_OF.values() for limit in limits}
+    strengths = {one.name for one in check(built("best-bo")) if one.unit == "MPa"}
+    assert strengths <= named
+
+
+def test_errors_alone_are_red() -> None:
+    weak = [
+        Finding("leg_axle_strength", "error", -1.0, "MPa", "", ""),
+        Finding("plate_seat", "info", 1.0, "MPa", "", ""),
+    ]
+    assert wrong_parts(weak) == {"leg_axle"}
+    assert wrong_parts([]) == set()
