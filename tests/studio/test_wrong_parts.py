@@ -31,9 +31,6 @@ def test_strengths_of_a_robot_have_a_part() -> None:
 
 
 def test_errors_alone_are_red() -> None:
-    weak = [
-        Finding("leg_axle_strength", "error", -1.0, "MPa", "", ""),
-        Finding("plate_seat", "info", 1.0, "MPa", "", ""),
-    ]
-    assert wrong_parts(weak) == {"leg_axle"}
+    weak, strong = bare("leg_axle_strength", "error", -1.0, "MPa"), bare("plate_seat", "info", 1.0, "MPa")
+    assert wrong_parts([weak, strong]) == {"leg_axle"}
     assert wrong_parts([]) == set()
