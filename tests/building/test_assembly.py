@@ -61,6 +61,7 @@ def test_bodies_are_the_sum_of_their_meshes(name: str, body: str) -> None:
     found = robot.bodies[body]
     assert found.mass_kg == pytest.approx(total, rel=1e-9)
     np.testing.assert_allclose(found.com_m, centre, atol=1e-6)
+    # Meshes leave out what is below 0.05 mm: kenan-2.0's main leg alone has its centre 0.9 µm off, on an arm of 30 mm.
     np.testing.assert_allclose(found.inertia_kg_m2, inertia, atol=4e-5 * np.abs(inertia).max())
 
 

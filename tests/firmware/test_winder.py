@@ -99,6 +99,14 @@ def wound(**options: float) -> World:
     return world
 
 
+def jumped() -> World:
+    """Return a robot that has just jumped."""
+    world = wound()
+    world.step(jump=True)
+    world.until(WINDER.IDLE)
+    return world
+
+
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize(("speed", "jitter", "bounce"), [(180.0, 0, 0), (120.0, 8, 5), (280.0, 3, 4)])
 def test_it_winds_to_the_sensor_waits_releases_and_stops(speed: float, jitter: int, bounce: int, seed: int) -> None:
@@ -177,9 +185,7 @@ def test_a_lead_that_breaks_while_winding_stops_the_motor_before_the_drop(at_deg
 
 
 def test_what_a_broken_lead_left_half_wound_is_released_in_short_turns() -> None:
-    world = wound()
-    world.step(jump=True)
-    world.until(WINDER.IDLE)
+    world = jumped()
     world.wait(2.0)
     world.breaks_at_deg = TURN + 100.0
     world.step(wind=True)
@@ -211,9 +217,7 @@ def test_a_dead_sensor_never_lets_the_motor_run_on(pressed: bool) -> None:
 
 
 def test_the_landing_that_shakes_the_switch_starts_nothing() -> None:
-    world = wound()
-    world.step(jump=True)
-    world.until(WINDER.IDLE)
+    world = jumped()
     world.shaken_until_ms = world.now_ms + 1400.0
     while world.now_ms < world.shaken_until_ms:
         world.step(wind=True, jump=True)  # a button that the landing presses
@@ -226,9 +230,7 @@ def test_the_landing_that_shakes_the_switch_starts_nothing() -> None:
 
 def test_a_stop_after_a_jump_is_followed_by_the_next_command_at_once() -> None:
     """Commands are ignored after a landing alone, which has not shaken this robot."""
-    world = wound()
-    world.step(jump=True)
-    world.until(WINDER.IDLE)
+    world = jumped()
     world.wait(1.6)
     world.step(wind=True)
     world.wait(0.2)
@@ -332,9 +334,7 @@ def test_stop_switches_the_motor_off_at_once_and_winding_goes_on_later() -> None
 
 def test_what_was_stopped_after_a_jump_is_wound_on_without_a_fault() -> None:
     """The rest of a turn takes less than the least time for a whole one, which counts right after a release alone."""
-    world = wound()
-    world.step(jump=True)
-    world.until(WINDER.IDLE)
+    world = jumped()
     world.wait(2.0)
     world.step(wind=True)
     while world.cam_deg < 1.75 * TURN:
