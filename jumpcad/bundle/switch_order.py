@@ -26,7 +26,13 @@ NO_SWITCH = (
     "pull it out; currents are read with the multimeter in place of its red wire"
 )
 """For one cell; judgement."""
-NEEDS_SWITCH = ". The kit of two cells is not built without one: its plug would spark and leave no quick way to stop"
+NEEDS_SWITCH = (
+    ". The kit of two cells is not built without a switch: its plug would spark and leave no quick way to stop. Found "
+    "none that fits the plate: any small one of that current and voltage, soldered to the same leads, its terminals "
+    "under heat-shrink tube, held on the front standoff by two cable ties, clear of leg and gears; its two screws are "
+    "left out"
+)
+"""For more cells; judgement."""
 SLIDER_MM = 1.5
 """Of a switch's slider outside the plate, for a fingertip; judgement."""
 
