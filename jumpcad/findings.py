@@ -10,6 +10,23 @@ SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), "J": ("mJ", 1000.0)}
 """The unit that people read instead of another one, and the factor."""
 
+RESERVE = "r = (1 + safety.spring_rate_scatter)·(1 + safety.stress_reserve)"
+PRINTED = f"s = safety.strength_factor·r, {RESERVE}"
+STEEL = f"s = safety.steel_factor·r, {RESERVE}"
+"""The reserve on loads and the safety factors of printed parts and of steel, for formulas."""
+
+
+@dataclass(frozen=True)
+class Basis:
+    """How a limit is computed: its formula in plain text, with names and units, and where formula and limit are from.
+
+    The source is a handbook, a standard, a data sheet, a measurement, or "judgement". Every module that makes findings
+    has them in a table `BASIS` by the findings' names; `*` stands for the end of names that share a formula.
+    """
+
+    formula: str
+    source: str
+
 
 @dataclass(frozen=True)
 class Finding:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
-from jumpcad.findings import Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.layout.stop import EAR_MM, GIVE_ROOM_RAD
 from jumpcad.robot import Robot
 from jumpcad.strength.stop import BLOW_FACTOR
@@ -20,6 +20,35 @@ from jumpcad.strength.stress import Beam
 PAD_STRAIN = 0.5
 """Largest deflection of a pad over its thickness; judgement: rubber bumpers are compressed to half."""
 SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
+
+BLOW = "F = 0.82·ω·√(k·I)/r the pad's peak force, ω and I the leg's rate and inertia at the stop, k and r the pad's"
+TWICE = "0.82 and twice the peak: judgement of the bench review; impact: jumpcad/mechanism/flight.py"
+BASIS = {
+    "stop_strength": Basis(
+        "M·h/(2·I) ≤ strength_in_plane_mpa (MPa); M = 2·F·(l - w/2)/4 of a beam between the plates, w the leg's "
+        f"thickness; {BLOW} stiffness and radius",
+        f"beams: Roark, ch. 8; {TWICE}",
+    ),
+    "stop_plates": Basis(
+        "max(6·F·r/(t·w²), 6·F·x·d_o/(t·(d_o³ - d³))) ≤ strength_in_plane_mpa of the body (MPa); t plate, w = "
+        f"{EAR_MM:g} mm its ear, x from the pad to the end of the hole d nearest to the hub, d_o with its edges; "
+        f"{BLOW} stiffness and radius",
+        f"cantilever: Roark, ch. 8; {TWICE}",
+    ),
+    "stop_leg": Basis(
+        f"M·h/(2·I) ≤ strength_in_plane_mpa (MPa); M = 2·F·r·(1 - r/l2), the leg's inertia at the ankle; "
+        f"{BLOW} stiffness and radius",
+        f"beams: Roark, ch. 8; {TWICE}",
+    ),
+    "stop_pad": Basis(
+        "ω·r·√(I/k) ≤ 0.5·thickness (mm), ω and I the leg's rate and inertia at the stop, k the pad's stiffness at r",
+        "energy of a spring; stiffness: Gent, Engineering with Rubber; limit: judgement",
+    ),
+    "stop_clearance": Basis(
+        "ω·√(I/k) ≤ 3° + clearance/lever (°), ω and I the leg's rate and inertia at the stop, k the pad's stiffness",
+        "energy of a spring; limit: judgement",
+    ),
+}
 
 
 def stop_findings(robot: Robot) -> Iterator[Finding]:
