@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jumpcad.checks.interference import INTENDED, Component, shared_volume_mm3
-from jumpcad.findings import Finding
+from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
@@ -32,6 +32,17 @@ BEYOND_MM = 5.0
 """Distance from all present parts at which paths begin."""
 SAMPLES_MM = 0.5
 """Distance of sampled positions."""
+SHARED = f"volume shared with what is there/length ≤ {TOLERANCE_MM2:g} mm²"
+BASIS = {
+    "assembly_paths": Basis(
+        f"{SHARED}, of every part on its straight path; length: the shorter of path and obstacle along it",
+        "swept solids; tolerance: facets of circles",
+    ),
+    "tool_access": Basis(
+        f"{SHARED}, of the room of every fastener's tool; length: the shorter of tool and obstacle along it",
+        "solids; tools: jumpcad/scene/assembly_order; tolerance: facets of circles",
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -75,7 +86,10 @@ def assembly_findings(robot: Robot) -> list[Finding]:
 def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]:
     for one in blocked:
         what = "path" if name == "assembly_paths" else "tool"
-        message = f"{one.by} blocks the {what} of {one.name} in step {one.step.title}"
+        message = (
+            f"{one.by} blocks the {what} of {one.name} in step {one.step.title}: it covers {one.share_mm2:.2f} mm²; "
+            f"{TOLERANCE_MM2:g} mm² are allowed"
+        )
         remedy = "raise carrying_link_mm or d_coef (a longer body), or choose another bought.retention"
         yield Finding(name, "error", -one.share_mm2, "mm²", message, remedy, value=one.share_mm2, limit=0.0)
     if not blocked:

@@ -3,13 +3,34 @@
 import math
 from collections.abc import Iterator
 
-from jumpcad.findings import Finding, at_least, at_most
+from jumpcad.findings import Basis, Finding, at_least, at_most
 from jumpcad.layout.sensor import SensorPlace, middle_mm
 from jumpcad.robot import Robot
 
 RUN_ON_S = 0.06
 """How long the motor runs on after the sensor has opened (`bundle.firmware`)."""
 SCATTER = "seats.sensor_axial_mm (a better fit on the cam's axle)"
+TRAVEL = "travel of the plunger: data sheet, templates/hardware/electronics.toml; scatter: judgement"
+BASIS = {
+    "sensor_press": Basis(
+        "operating position - its tolerance - land - seats.sensor_axial_mm ≥ 0 (mm), all from the switch's base", TRAVEL
+    ),
+    "sensor_overtravel": Basis(
+        "operating position - land + seats.sensor_axial_mm ≤ operating position - end of travel (mm)", TRAVEL
+    ),
+    "sensor_free": Basis("land + groove - seats.sensor_axial_mm - free position ≥ 0 (mm)", TRAVEL),
+    "sensor_ready": Basis(
+        "drawn angle - scatter - ω·seats.sensor_stop_s ≥ 0 (°); scatter = (seats.sensor_axial_mm + tolerance of the "
+        "operating position + seats.sensor_along_mm)/track's radius, ω unloaded cam with a full battery",
+        TRAVEL,
+    ),
+    "sensor_open": Basis(
+        f"min(drawn angle - scatter, 360° - lift - drawn angle - scatter - ω·{RUN_ON_S:g} s) ≥ 0 (°), scatter and ω as "
+        "in "
+        "`sensor_ready`",
+        f"{TRAVEL}; {RUN_ON_S:g} s: the firmware",
+    ),
+}
 
 
 def sensor_findings(robot: Robot) -> Iterator[Finding]:

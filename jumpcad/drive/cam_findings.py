@@ -175,6 +175,6 @@ def _found(name: str, room: float, limits: CamLimits) -> str:
         "cam_hub": f"gap between cam and hub {gap}",
         "cam_drop": "the roller's arc about the hub nowhere passes the corner" if room == NO_DROP_RAD else turn,
         "cam_next_lift": f"gap between the roller past rest and the next lift {gap}",
-        "cam_overshoot": f"lever and corner leave {degrees:.1f}°, of 0° at least, beyond {past:.1f}° of swing past rest",
+        "cam_overshoot": f"past a swing of {past:.1f}° lever and corner leave {degrees:.1f}°, of 0° at least",
         "cam_place": f"the cam's axis has room in {degrees:.0f}° of directions around the hub, of 0° at least",
     }[name]  # fmt: skip

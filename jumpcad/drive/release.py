@@ -24,9 +24,7 @@ slower the roller comes over the top, the less the leg swings up on its lever, a
 the speed it changes by 3 %."""
 SLOWEST_RAD_S = 0.05
 """A cam that turns more slowly, once in two minutes, is computed with this speed: the leg no longer swings."""
-MODEL = (
-    "equations of motion of cam, leg and lever: jumpcad/drive/rolling.py, checked by contact simulation (tests/clients)"
-)
+MODEL = "equations of motion: jumpcad/drive/rolling.py, checked by a contact simulation (tests/clients)"
 BASIS = {
     "release_energy": Basis(
         "(springs' energy + I·ω²/2 when the roller has left the cam)/energy stored before ≥ release.energy_ratio_min "

@@ -11,7 +11,7 @@ from jumpcad.catalogue import Motor
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_choice import by_cost
 from jumpcad.drive.gear_pair import GearPair
-from jumpcad.drive.motor import allowed_nm, free_speed_rad_s, winding
+from jumpcad.drive.motor import EMPTY_SHARE, allowed_nm, free_speed_rad_s, winding
 from jumpcad.drive.train_limits import TrainLimits
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import PRINTED, SHOWN_AS, Basis, Finding, at_most, limit
@@ -20,15 +20,16 @@ CONTACT_RATIO_MIN = 1.1
 """Least pairs of teeth in contact on average; judgement: handbooks advise 1.2 for gears that run long and fast."""
 BASIS = {
     "motor_torque": Basis(
-        "E/(310° - 30°/2)/(i·η) ≤ min(f·safety.motor_stall_share·T_stall, f·safety.motor_torque_max_nm, 0.6·T_empty) "
-        "(N·m); E springs' energy over lift and ramp, i ratio, η = 0.85·safety.gear_efficiency^pairs, T_stall at rated "
-        "voltage, T_empty with an empty battery, f = (1 - safety.motor_torque_reserve)/(1 + spring_rate_scatter)",
-        "constant power of the lift; T_stall: makers' data sheets, templates/hardware/motors.toml; 0.85 and 0.6: "
-        "judgement",
+        "E/(lift - ramp/2)/(i·η) ≤ min(f·safety.motor_stall_share·T_stall, f·safety.motor_torque_max_nm, "
+        f"{EMPTY_SHARE:g}·T_empty) (N·m); E springs' energy, lift and ramp cam angles of 310° and 30° in rad, i "
+        f"ratio, η = {TrainLimits.cam_efficiency:g}·safety.gear_efficiency^pairs, T_stall at rated voltage, T_empty "
+        "with an empty battery, f = (1 - safety.motor_torque_reserve)/(1 + spring_rate_scatter)",
+        "constant torque over the lift; T_stall: makers' data sheets, templates/hardware/motors.toml; "
+        f"{TrainLimits.cam_efficiency:g} and {EMPTY_SHARE:g}: judgement",
     ),
     "cam_speed": Basis(
-        "ω/i ≤ min(4.6 rad/s, (window - play - 3°)/0.05 s) (rad/s, shown in °/s); ω unloaded with a full battery, i "
-        "ratio, window as of `release_window`",
+        f"ω/i ≤ min({TrainLimits.cam_speed_max_rad_s:g} rad/s, (window - play - 3°)/0.05 s) (rad/s, shown in °/s); ω "
+        "unloaded with a full battery, i ratio, window as of `release_window`",
         "judgement: the next lift must not reach the roller while the leg swings back",
     ),
     "gear_strength_*": Basis(
