@@ -10,11 +10,6 @@ SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), "J": ("mJ", 1000.0)}
 """The unit that people read instead of another one, and the factor."""
 
-RESERVE = "r = (1 + safety.spring_rate_scatter)·(1 + safety.stress_reserve)"
-PRINTED = f"s = safety.strength_factor·r, {RESERVE}"
-STEEL = f"s = safety.steel_factor·r, {RESERVE}"
-"""The reserve on loads and the safety factors of printed parts and of steel, for formulas."""
-
 
 @dataclass(frozen=True)
 class Basis:

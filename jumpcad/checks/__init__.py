@@ -30,7 +30,16 @@ from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.robot import Robot
 
-__all__ = ["CHECKS", "Check", "basis_of", "check", "constraint_findings", "quick_findings"]
+__all__ = ["CHECKS", "SYMBOLS", "Check", "basis_of", "check", "constraint_findings", "quick_findings"]
+
+SYMBOLS = (
+    "M bending moment, F force, T torque, σ and τ bending and shear stress; b, h, t width, height and thickness, A "
+    "area, I second moment of a section, E modulus; U springs' energy, K stiffness of both springs, δ and p angles by "
+    "which they are loaded from rest and at rest; l1 to l5 links, body to toes; r = (1 + "
+    "safety.spring_rate_scatter)·(1 + safety.stress_reserve), s = safety.strength_factor·r of what is printed, "
+    "safety.steel_factor·r of steel; others as the formula says"
+)
+"""What letters mean in the formulas of `basis`."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from jumpcad.robot import Robot
 BASIS = {
     "electronics_hold": Basis(
         "2·m·a ≤ seats.strap_n/safety.strength_factor (N), tie_n for boards; a = landing force/robot's mass, landing "
-        "force = m·g + E/safety.landing_stop_mm",
+        "force = m·g + U/safety.landing_stop_mm",
         "sudden load on an elastic support: twice (Shigley, ch. 4); strap and tie: judgement, makers' usual ratings",
     )
 }

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from jumpcad.dimensions import GAP_MM, GRAVITY_M_S2
-from jumpcad.findings import PRINTED, Finding, at_most
+from jumpcad.findings import Finding, at_most
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
@@ -19,12 +19,10 @@ from jumpcad.strength.stress import Shell, pin_stress_mpa
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
 
-IN_PLANE = f"strength_in_plane_mpa/s (MPa), {PRINTED}"
-INTERLAYER = f"strength_interlayer_mpa/s (MPa), {PRINTED}"
+IN_PLANE = "strength_in_plane_mpa/s (MPa)"
+INTERLAYER = "strength_interlayer_mpa/s (MPa)"
 """What stresses of printed parts are compared with."""
-LANDING = (
-    "F = m·g + E/safety.landing_stop_mm of a fall from the height to which the springs' energy E could lift the robot"
-)
+LANDING = "F = m·g + U/safety.landing_stop_mm, a fall from the height to which U could lift the robot"
 ONE_TOE = "F landing force/(1 + (x/k_y)² + (y/k_x)²) on one tip at x, y, with the body's radii of gyration k"
 """Loads, for formulas."""
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import ROLLER_WASHER_MM
-from jumpcad.findings import RESERVE, STEEL, Basis, Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.strength.axles import clipped_pins
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
 from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
@@ -17,11 +17,11 @@ ROLLER_SCREW_CORE_MM = 2.39
 """M3, ISO 724."""
 ROLLER_SCREW_YIELD_MPA = 640.0
 """Property class 8.8, ISO 898-1."""
-BENDING = f"32·M·d/(π·(d⁴ - b⁴)) ≤ yield stress/s (MPa), d diameter, b bore, {STEEL}"
+BENDING = "32·M·d/(π·(d⁴ - b⁴)) ≤ yield stress/s (MPa), d diameter, b bore"
 ROUND = (
     "bending of a round bar: Shigley 3-10; yield stress: templates/hardware/axles.toml, at most safety.steel_yield_mpa"
 )
-FRICTION = "friction of the feet·(m·g + E/safety.landing_stop_mm)"
+FRICTION = "friction of the feet·(m·g + U/safety.landing_stop_mm)"
 BASIS = {
     "leg_axle_strength": Basis(
         f"{BENDING}; M of a simple beam between the plates: the leg pushes on its middle with the forces of arms and "
@@ -44,17 +44,16 @@ BASIS = {
         ROUND,
     ),
     "roller_screw_strength": Basis(
-        "32·M/(π·d³) ≤ 640 MPa/s, d = 2.39 mm, M = N·x, N the cam's largest force, x from lever to roller's middle, "
-        f"{STEEL}",
+        "32·M/(π·d³) ≤ 640 MPa/s, d = 2.39 mm, M = N·x, N the cam's largest force, x from lever to roller's middle",
         "Shigley 3-10; core of M3: ISO 724; property class 8.8: ISO 898-1",
     ),
     "axle_retention": Basis(
         f"{FRICTION} ≤ holding force/s (N): π·d·floor·strength_in_plane_mpa/√3 of a blind bore's floor in the body, "
-        f"with safety.strength_factor for steel_factor; load of a clip; 5.03 mm²·1080 MPa of a screw; {STEEL}",
+        f"with safety.strength_factor for steel_factor; load of a clip; 5.03 mm²·1080 MPa of a screw",
         "distortion energy; clips: DIN 6799; screws: ISO 898-1; all friction on one axle: judgement",
     ),
     "pin_retention": Basis(
-        f"{FRICTION} ≤ load of its split pin or clip/s (N), {STEEL}",
+        f"{FRICTION} ≤ load of its split pin or clip/s (N)",
         "templates/hardware/axles.toml (ISO 1234, DIN 6799); all friction on one pin: judgement",
     ),
     "spring_fatigue": Basis(
@@ -64,12 +63,12 @@ BASIS = {
     ),
     "axle_fatigue": Basis(
         "stress ≤ min(2/(1/S + 1/R_m), 0.78·R_m)/r (MPa), R_m = yield/0.78; S on a straight line in logarithms from "
-        f"0.77·R_m at 10³ jumps to min(R_m/2, 700)·4.51·R_m^-0.265 at 10⁶, for safety.jumps; {RESERVE}",
+        "0.77·R_m at 10³ jumps to min(R_m/2, 700)·min(1, 4.51·R_m^-0.265) at 10⁶, for safety.jumps",
         "Shigley 6-7 to 6-9, 6-12 (Goodman) and figure 6-18",
     ),
     "hub_bearing_load": Basis(
         "|F_arms/2 + F_cam·(1/2 + x/y)| ≤ C0/(safety.bearing_factor·r) (N); x from the leg's middle to the roller's, y "
-        f"between the bearings' middles, C0 static load rating, {RESERVE}",
+        "between the bearings' middles, C0 static load rating",
         "statics of two supports; C0: makers' catalogues; factor: SKF, Rolling bearings",
     ),
 }

@@ -21,31 +21,33 @@ PAD_STRAIN = 0.5
 """Largest deflection of a pad over its thickness; judgement: rubber bumpers are compressed to half."""
 SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
 
-BLOW = "F = 0.82·ω·√(k·I)/r the pad's peak force, ω and I the leg's rate and inertia at the stop, k and r the pad's"
+BLOW = "F = 0.82·ω·√(k·I) the pad's peak force, ω and I rate and inertia of the leg at the stop, k the pad's stiffness"
 TWICE = "0.82 and twice the peak: judgement of the bench review; impact: jumpcad/mechanism/flight.py"
 BASIS = {
     "stop_strength": Basis(
         "M·h/(2·I) ≤ strength_in_plane_mpa (MPa); M = 2·F·(l - w/2)/4 of a beam between the plates, w the leg's "
-        f"thickness; {BLOW} stiffness and radius",
+        f"thickness; {BLOW}",
         f"beams: Roark, ch. 8; {TWICE}",
     ),
     "stop_plates": Basis(
-        "max(6·F·r/(t·w²), 6·F·x·d_o/(t·(d_o³ - d³))) ≤ strength_in_plane_mpa of the body (MPa); t plate, w = "
-        f"{EAR_MM:g} mm its ear, x from the pad to the end of the hole d nearest to the hub, d_o with its edges; "
-        f"{BLOW} stiffness and radius",
+        f"max(6·F·x/(t·w²), 6·F·y·a/(t·(a³ - d³))) ≤ the body's strength_in_plane_mpa (MPa); t plate, w = {EAR_MM:g} "
+        "mm its ear, x from the pad to the hub, y from the pad to the end of the hole d nearest to the hub, a hole "
+        f"and edges; {BLOW}",
         f"cantilever: Roark, ch. 8; {TWICE}",
     ),
     "stop_leg": Basis(
-        f"M·h/(2·I) ≤ strength_in_plane_mpa (MPa); M = 2·F·r·(1 - r/l2), the leg's inertia at the ankle; "
-        f"{BLOW} stiffness and radius",
+        "M·h/(2·I) ≤ strength_in_plane_mpa (MPa); M = 2·F·x·(1 - x/l2), x from the pad to the hub, the leg's inertia "
+        f"at the ankle; {BLOW}",
         f"beams: Roark, ch. 8; {TWICE}",
     ),
     "stop_pad": Basis(
-        "ω·r·√(I/k) ≤ 0.5·thickness (mm), ω and I the leg's rate and inertia at the stop, k the pad's stiffness at r",
-        "energy of a spring; stiffness: Gent, Engineering with Rubber; limit: judgement",
+        f"ω·√(I/k) ≤ {PAD_STRAIN:g}·thickness (mm), ω and I rate and inertia of the leg at the stop, k the pad's "
+        "stiffness",
+        "energy of a spring; k: Gent, Engineering with Rubber; limit: judgement",
     ),
     "stop_clearance": Basis(
-        "ω·√(I/k) ≤ 3° + clearance/lever (°), ω and I the leg's rate and inertia at the stop, k the pad's stiffness",
+        f"ω·√(I/k)/x ≤ {math.degrees(GIVE_ROOM_RAD):g}° + clearance/lever (°), x from the pad to the hub; ω, I and k "
+        "as in `stop_pad`",
         "energy of a spring; limit: judgement",
     ),
 }

@@ -16,7 +16,7 @@ from jumpcad.checks import foot, leg_bar, steel
 from jumpcad.checks.load_case import IN_PLANE, INTERLAYER, LANDING, LoadCase, stress_finding
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.drive.dog import JAWS
-from jumpcad.findings import PRINTED, Basis, Finding, at_most, limit
+from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import dog_inside_mm, leg_flex_share
 from jumpcad.strength.stress import (
@@ -50,7 +50,7 @@ BASIS = {
         "Shigley 3-10",
     ),
     "leg_flex": Basis(
-        "∫M²/(2·E·I)dx over the leg / springs' energy ≤ safety.leg_flex_share (%); M falls evenly from the springs' "
+        "∫M²/(2·E·I)dx over the leg/U ≤ safety.leg_flex_share (%); M falls evenly from the springs' "
         "torque K·(δ + p) at the hub to 0 at the ankle, E modulus of the links' material",
         "strain energy in bending (Shigley, ch. 4); limit: judgement",
     ),
@@ -58,7 +58,7 @@ BASIS = {
         f"F/A ≤ {IN_PLANE}; F largest force along the front link in the push-off", f"Shigley 3-10; {PUSH_OFF}"
     ),
     "front_link_buckling": Basis(
-        f"F ≤ π²·E·I/(l3²·s) (N), {PRINTED}; {LANDING}",
+        f"F ≤ π²·E·I/(l3²·s) (N); {LANDING}",
         "Euler, a hinge at either end (Shigley 4-12); stopping distance: judgement",
     ),
     "eye_strength": Basis(
@@ -75,12 +75,12 @@ BASIS = {
     **foot.BASIS,
     **steel.BASIS,
     "plate_seat": Basis(
-        f"F/(2·d·t) ≤ {IN_PLANE} of the body; F springs loaded, of the leg's axle, the cam's axle or the springs' pin, "
+        f"F/(2·d·t) ≤ the body's {IN_PLANE}; F springs loaded, of the leg's axle, the cam's axle or the springs' pin, "
         "d axle, t depth of its seat in one plate",
         "bearing pressure (Shigley 8-12)",
     ),
     "cam_dog_strength": Basis(
-        f"max(√(σ² + 3·τ²) of a jaw, √3·16·T·D/(π·(D⁴ - d⁴)) of its boss) ≤ {INTERLAYER} of the gears; T larger of "
+        f"max(√(σ² + 3·τ²) of a jaw, √3·16·T·D/(π·(D⁴ - d⁴)) of its boss) ≤ the gears' {INTERLAYER}; T larger of "
         "the cam's torque and the blow at the end of the dog's play; σ = 3·F·L/(b·h²), τ = 1.5·F/(b·h), F = "
         "T/(2·mean radius)",
         "bending, transverse shear, torsion: Shigley 3-10 to 3-12; blow: jumpcad/drive/blows.py",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits
-from jumpcad.findings import RESERVE, SHOWN_AS, Basis, Finding, limit
+from jumpcad.findings import SHOWN_AS, Basis, Finding, limit
 from jumpcad.transforms import Array
 
 NO_DROP_RAD = -1.0
@@ -49,8 +49,8 @@ LIMITS = (
     Limit(
         "cam_undercut", "mm", 1.0, "a smaller bought.roller",
         Basis(
-            f"1/κ - r ≥ {_UNDERCUT} + safety.gap_reserve_mm; κ largest convex curvature of the pitch curve, r roller's "
-            "radius",
+            f"1/κ - radius of the roller ≥ {_UNDERCUT} + safety.gap_reserve_mm; κ largest convex curvature of the "
+            "pitch curve",
             f"a profile is the parallel curve of its pitch curve; {_PITCH}; {_UNDERCUT}: judgement, one printed line",
         ),
     ),
@@ -58,8 +58,7 @@ LIMITS = (
         "cam_contact", "MPa", 10.0, "lower stiffness_nmm_per_deg or compression_ratio, or a wider cam",
         Basis(
             f"largest √(N·E/((1 - ν²)·π·b·ρ)) ≤ {_PRESSURE}/√r (MPa); N = K·(θ + p)/(L·cos α) force on the roller, b "
-            f"its width, 1/ρ sum of both curvatures, E modulus of the gears' material, ν = {CamLimits.poisson:g}; "
-            f"{RESERVE}",
+            f"its width, 1/ρ sum of both curvatures, E modulus of the gears' material, ν = {CamLimits.poisson:g}",
             "Hertz's line contact with a stiff roller; shakedown: Johnson, Contact Mechanics, 9.2, with the yield of "
             "PETG (judgement)",
         ),
@@ -67,8 +66,7 @@ LIMITS = (
     Limit(
         "cam_roller_load", "N", 10.0, "lower stiffness_nmm_per_deg or compression_ratio, or a larger bought.roller",
         Basis(
-            "largest K·(θ + p)/(L·cos α) ≤ C0/r (N); torque of the springs over lever L, C0 static load rating, "
-            f"{RESERVE}",
+            "largest K·(θ + p)/(L·cos α) ≤ C0/r (N); torque of the springs over lever L, C0 static load rating",
             "statics; C0: makers' catalogues, templates/hardware/bearings.toml",
         ),
     ),

@@ -14,7 +14,7 @@ from jumpcad.drive.corner import clear_window_rad, roll_over
 from jumpcad.drive.dog import PLAY_MORE_RAD
 from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
 from jumpcad.drive.synthesis import Drive
-from jumpcad.findings import PRINTED, Basis, Finding, at_least, at_most
+from jumpcad.findings import Basis, Finding, at_least, at_most
 from jumpcad.mechanism.model import RollerOff, Spring
 from jumpcad.mechanism.reflected import ReflectedMass
 
@@ -33,7 +33,7 @@ BASIS = {
     ),
     "release_kick": Basis(
         "(1 + safety.kick_reserve)·T ≤ min(safety.motor_torque_max_nm, torque at which a pinion's teeth reach "
-        f"strength_in_plane_mpa/s) (mN·m), {PRINTED}; T largest torque at the gear motor after the cam reaches the "
+        "strength_in_plane_mpa/s) (mN·m); T largest torque at the gear motor after the cam reaches the "
         "end of the dog's play, same cases as `release_energy`",
         f"impacts with rebound: jumpcad/drive/blows.py; {MODEL}; teeth: Lewis",
     ),

@@ -14,14 +14,14 @@ from jumpcad.drive.gear_pair import GearPair
 from jumpcad.drive.motor import EMPTY_SHARE, allowed_nm, free_speed_rad_s, winding
 from jumpcad.drive.train_limits import TrainLimits
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import PRINTED, SHOWN_AS, Basis, Finding, at_most, limit
+from jumpcad.findings import SHOWN_AS, Basis, Finding, at_most, limit
 
 CONTACT_RATIO_MIN = 1.1
 """Least pairs of teeth in contact on average; judgement: handbooks advise 1.2 for gears that run long and fast."""
 BASIS = {
     "motor_torque": Basis(
-        "E/(lift - ramp/2)/(i·η) ≤ min(f·safety.motor_stall_share·T_stall, f·safety.motor_torque_max_nm, "
-        f"{EMPTY_SHARE:g}·T_empty) (N·m); E springs' energy, lift and ramp cam angles of 310° and 30° in rad, i "
+        "U/(lift - ramp/2)/(i·η) ≤ min(f·safety.motor_stall_share·T_stall, f·safety.motor_torque_max_nm, "
+        f"{EMPTY_SHARE:g}·T_empty) (N·m); U springs' energy, lift and ramp cam angles of 310° and 30° in rad, i "
         f"ratio, η = {TrainLimits.cam_efficiency:g}·safety.gear_efficiency^pairs, T_stall at rated voltage, T_empty "
         "with an empty battery, f = (1 - safety.motor_torque_reserve)/(1 + spring_rate_scatter)",
         "constant torque over the lift; T_stall: makers' data sheets, templates/hardware/motors.toml; "
@@ -33,7 +33,7 @@ BASIS = {
         "judgement: the next lift must not reach the roller while the leg swings back",
     ),
     "gear_strength_*": Basis(
-        f"F/(b·m·Y) ≤ strength_in_plane_mpa/s of the gears (MPa), {PRINTED}; F = T/r of the pinion with all load at "
+        "F/(b·m·Y) ≤ the gears' strength_in_plane_mpa/s (MPa); F = T/pitch radius of the pinion with all load at "
         "the tip of one tooth, b width, m module, Y form factor of the tooth as the rack cuts it",
         "Lewis (Shigley 14-1)",
     ),

@@ -37,7 +37,7 @@ BASIS = {
         "statics: the weight acts within the support",
     ),
     "too_weak": Basis(
-        f"E ≥ {TAKEOFF_ENERGY_FACTOR:g}·m·g·h (J, shown in mJ); E = K·((δ + p)² - p²)/2 springs' energy, h rise of the "
+        f"U ≥ {TAKEOFF_ENERGY_FACTOR:g}·m·g·h (J, shown in mJ); U = K·((δ + p)² - p²)/2 springs' energy, h rise of the "
         "centre of mass from loaded springs to rest",
         f"energy; {TAKEOFF_ENERGY_FACTOR:g}: measurement, simulated jumps of 399 designs",
     ),
