@@ -32,6 +32,7 @@ BEYOND_MM = 5.0
 """Distance from all present parts at which paths begin."""
 SAMPLES_MM = 0.5
 """Distance of sampled positions."""
+FREE = f"at most {TOLERANCE_MM2:g} mm² are covered"
 SHARED = f"volume shared with what is there/length ≤ {TOLERANCE_MM2:g} mm²"
 BASIS = {
     "assembly_paths": Basis(
@@ -78,8 +79,8 @@ def assembly_findings(robot: Robot) -> list[Finding]:
     blocked_paths = [blocked for *_, blocked in moves if blocked]
     blocked_tools = [blocked for *_, blocked in fasteners if blocked]
     return [
-        *_findings("assembly_paths", blocked_paths, f"all {len(moves)} moves of the assembly have a free path"),
-        *_findings("tool_access", blocked_tools, f"the tool reaches all {len(fasteners)} fasteners"),
+        *_findings("assembly_paths", blocked_paths, f"all {len(moves)} moves of the assembly have a free path: {FREE}"),
+        *_findings("tool_access", blocked_tools, f"the tool reaches all {len(fasteners)} fasteners: {FREE}"),
     ]
 
 

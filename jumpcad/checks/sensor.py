@@ -49,7 +49,7 @@ def _plunger(sensor: SensorPlace) -> Iterator[Finding]:
     yield at_least(
         "sensor_press", press, 0.0, "mm",
         f"at ready the land presses the sensor at least {press:.2f} mm beyond where it operates "
-        f"({sensor.press_mm:.2f} +- {axial + travel.operating_tolerance_mm:.2f} mm)",
+        f"({sensor.press_mm:.2f} +- {axial + travel.operating_tolerance_mm:.2f} mm), of 0 mm at least",
         f"lower {SCATTER}, or choose a bought.sensor with more overtravel",
     )  # fmt: skip
     deepest = travel.operating_mm - land + axial
@@ -62,7 +62,7 @@ def _plunger(sensor: SensorPlace) -> Iterator[Finding]:
     free = land + sensor.depth_mm - axial - travel.free_mm
     yield at_least(
         "sensor_free", free, 0.0, "mm",
-        f"the groove leaves the sensor's plunger {free:.2f} mm free for the rest of the turn",
+        f"the groove leaves the sensor's plunger {free:.2f} mm free for the rest of the turn, of 0 mm at least",
         f"lower {SCATTER}, or choose a bought.sensor with less travel",
     )  # fmt: skip
 
@@ -74,7 +74,7 @@ def _angles(robot: Robot, sensor: SensorPlace) -> Iterator[Finding]:
     yield at_least(
         "sensor_ready", left, 0.0, "°",
         f"the sensor closes {drawn:.1f} +- {scatter:.1f}° of the cam before the drop; the motor stops in {stop:.1f}°, "
-        f"at least {left:.1f}° before it",
+        f"{left:.1f}° before it, of 0° at least",
         "raise seats.sensor_reserve_deg",
     )  # fmt: skip
     speed = robot.layout.drive.train.cam_speed_rad_s
@@ -84,6 +84,6 @@ def _angles(robot: Robot, sensor: SensorPlace) -> Iterator[Finding]:
     yield at_least(
         "sensor_open", margin, 0.0, "°",
         f"the sensor opens {opens:.1f} +- {scatter:.1f}° after the drop begins; the motor stands {last:.1f}° after it"
-        f" at the latest, before the next lift at {end:.1f}°",
+        f" at the latest, before the next lift at {end:.1f}°, which leaves {margin:.1f}°, of 0° at least",
         f"raise seats.sensor_reserve_deg, or lower {SCATTER}",
     )  # fmt: skip

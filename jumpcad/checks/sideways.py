@@ -62,7 +62,7 @@ def sideways_findings(robot: Robot) -> list[Finding]:
         at_least(
             "sideways_tipping", worst.margin_deg, reserve, "°",
             f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
-            f"takes {worst.play_deg:.1f}°; {reserve:g}° must be left",
+            f"takes {worst.play_deg:.1f}°; {worst.margin_deg:.1f}° are left, of {reserve:g}° at least",
             f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm",
         )
     ]  # fmt: skip

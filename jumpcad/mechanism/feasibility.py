@@ -84,7 +84,8 @@ def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -
     stability = min(x - back, front - x)
     tips = at_least(
         "tips", stability, 0.0, "mm",
-        f"centre of mass with loaded springs is {x:.1f} mm from the ankle; the foot spans {back:.1f} to {front:.1f} mm",
+        f"centre of mass with loaded springs is {x:.1f} mm from the ankle; the foot spans {back:.1f} to {front:.1f}: "
+        f"{stability:.1f} mm are left, of 0 mm at least",
         "lengthen the toes (e_coef) or turn them back (smaller ground_link_angle_deg), or lower compression_ratio",
     )  # fmt: skip
     work = mechanism.mass_kg * gravity_m_s2 * float(com[1, 1] - com[0, 1]) / 1000.0
