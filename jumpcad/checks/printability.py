@@ -34,7 +34,7 @@ SMALLEST_PIECE_MM2 = 0.05
 TOUCH_MM = 0.05
 ROUND_OFF_MM = 0.02
 """By how much polygons can reduce a width."""
-PRACTICE = "practice of desktop printing; the fit coupon measures yours"
+PRACTICE = "practice of desktop printing: templates/workshops/default.toml"
 BASIS = {
     "bed_fit": Basis(
         "min(bed - part's size) over x, y, z ≥ 0 (mm), along its sides or turned about z",
@@ -44,16 +44,18 @@ BASIS = {
         "width from which opening a section removes more than corners ≥ fits.wall_min_mm (mm), layers taller than it",
         PRACTICE,
     ),
-    "holes": Basis("width at which a hole closes ≥ smaller of fits.hole_min_mm and fits.m2_tap_mm (mm)", PRACTICE),
+    "holes": Basis(
+        "width at which a hole closes ≥ smaller of fits.hole_min_mm and fits.m2_tap_mm (mm)", f"{PRACTICE}; ISO 2306"
+    ),
     "pins": Basis(
-        "width at which the outline of a column vanishes ≥ fits.pin_min_mm (mm), columns taller than it and shorter "
-        "than three times it",
+        "width at which the outline of a column vanishes ≥ fits.pin_min_mm (mm), columns taller than it whose longest "
+        "side is less than three times it",
         PRACTICE,
     ),
     "overhangs": Basis(
         "reach over air of what is held on one side ≤ 2·process.line_width_mm (mm), undersides flatter than "
         "fits.overhang_deg",
-        PRACTICE,
+        f"{PRACTICE}; two printed lines: judgement",
     ),
     "bridges": Basis("width over air of what is held on more sides ≤ fits.bridge_mm (mm)", PRACTICE),
     "solid": Basis(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.findings import Basis, Finding, at_most
-from jumpcad.strength.axles import clipped_pins
+from jumpcad.strength.axles import SCREW_AREA_MM2, SCREW_YIELD_MPA, clipped_pins
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
 from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
 from jumpcad.strength.stress import pin_stress_mpa
@@ -44,12 +44,13 @@ BASIS = {
         ROUND,
     ),
     "roller_screw_strength": Basis(
-        "32·M/(π·d³) ≤ 640 MPa/s, d = 2.39 mm, M = N·x, N the cam's largest force, x from lever to roller's middle",
+        f"32·M/(π·d³) ≤ {ROLLER_SCREW_YIELD_MPA:g} MPa/s, d = {ROLLER_SCREW_CORE_MM:g} mm, M = N·x, N the cam's "
+        "largest force, x from lever to roller's middle",
         "Shigley 3-10; core of M3: ISO 724; property class 8.8: ISO 898-1",
     ),
     "axle_retention": Basis(
         f"{FRICTION} ≤ holding force/s (N): π·d·floor·strength_in_plane_mpa/√3 of a blind bore's floor in the body, "
-        f"with safety.strength_factor for steel_factor; load of a clip; 5.03 mm²·1080 MPa of a screw",
+        f"s of what is printed; load of a clip; {SCREW_AREA_MM2:g} mm²·{SCREW_YIELD_MPA:g} MPa of a screw",
         "distortion energy; clips: DIN 6799; screws: ISO 898-1; all friction on one axle: judgement",
     ),
     "pin_retention": Basis(

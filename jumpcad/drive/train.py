@@ -23,8 +23,8 @@ BASIS = {
         "U/(lift - ramp/2)/(i·η) ≤ min(f·safety.motor_stall_share·T_stall, f·safety.motor_torque_max_nm, "
         f"{EMPTY_SHARE:g}·T_empty) (N·m); U springs' energy, lift and ramp cam angles of 310° and 30° in rad, i "
         f"ratio, η = {TrainLimits.cam_efficiency:g}·safety.gear_efficiency^pairs, T_stall at rated voltage, T_empty "
-        "with an empty battery, f = (1 - safety.motor_torque_reserve)/(1 + spring_rate_scatter)",
-        "constant torque over the lift; T_stall: makers' data sheets, templates/hardware/motors.toml; "
+        "with an empty battery, f = (1 - safety.motor_torque_reserve)/(1 + safety.spring_rate_scatter)",
+        "constant torque over the lift; T_stall and its share: makers' data sheets, templates/hardware/motors.toml; "
         f"{TrainLimits.cam_efficiency:g} and {EMPTY_SHARE:g}: judgement",
     ),
     "cam_speed": Basis(

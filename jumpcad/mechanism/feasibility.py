@@ -84,8 +84,8 @@ def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -
     stability = min(x - back, front - x)
     tips = at_least(
         "tips", stability, 0.0, "mm",
-        f"centre of mass with loaded springs is {x:.1f} mm from the ankle; the foot spans {back:.1f} to {front:.1f}: "
-        f"{stability:.1f} mm are left, of 0 mm at least",
+        f"centre of mass with loaded springs is {x:.1f} mm from the ankle; the foot spans {back:.1f} to {front:.1f} "
+        f"mm: {stability:.1f} mm are left, of 0 mm at least",
         "lengthen the toes (e_coef) or turn them back (smaller ground_link_angle_deg), or lower compression_ratio",
     )  # fmt: skip
     work = mechanism.mass_kg * gravity_m_s2 * float(com[1, 1] - com[0, 1]) / 1000.0
@@ -132,14 +132,15 @@ def _winding_finding(design: Design) -> Finding:
     return Finding(
         "winding", "error", to_flat, "°",
         f"the springs cannot be loaded: the body tilts by {math.degrees(design.beta_rad):.1f}° at rest, which leaves "
-        f"{to_flat:.1f}° of rest_angle_deg = {design.rest_angle_deg:g} to a flat leg",
+        f"{to_flat:.1f}° of rest_angle_deg = {design.rest_angle_deg:g} to a flat leg; more than 0° are needed",
         "bring c_coef nearer to 1, or raise d_coef", to_flat, 0.0,
     )  # fmt: skip
 
 
 def _loop_finding(margin_mm: float, why: str) -> Finding:
-    found = f"closes with {margin_mm:.2f} mm margin" if margin_mm > 0 else f"is {-margin_mm:.2f} mm short of closing"
+    closes = f"closes with {margin_mm:.2f} mm margin, of 0 mm at least"
+    found = closes if margin_mm > 0 else f"is {-margin_mm:.2f} mm short of closing"
     return Finding(
-        "loop", "info" if margin_mm > 0 else "error", margin_mm, "mm", f"the loop {found}, of 0 mm at least: {why}",
+        "loop", "info" if margin_mm > 0 else "error", margin_mm, "mm", f"the loop {found}: {why}",
         "lower compression_ratio, or bring c_coef nearer to 1", margin_mm, 0.0,
     )  # fmt: skip
