@@ -104,9 +104,10 @@ class Player:
             with self.stage.lock:
                 if run != self._run or self._motion is None:
                     return
+                shown_s = min(shown_s, self._motion.end_s)
                 self.time.value = round(shown_s, 2)
                 self.show(shown_s)
-                if shown_s >= self._motion.end_s:
+                if shown_s == self._motion.end_s:
                     self.pause()
             time.sleep(FRAME_S)
             now = time.monotonic()

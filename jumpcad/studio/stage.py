@@ -23,6 +23,8 @@ SEEN_THROUGH = 0.3
 """Opacity of the other parts, so that a violated part inside is seen; judgement."""
 SIDE, MIDDLE = np.array((1.1, -1.9, 1.0)), np.array((0.45, 0.0, 0.35))
 """First position of the camera, and the point at which it looks, over the robot's size: the jump is in view too."""
+HIGH_SIDE, LOW_MIDDLE = np.array((1.5, -3.0, 0.6)), np.array((0.5, 0.0, -0.5))
+"""The same on a page higher than wide, whose lower half the panel covers."""
 GHOST_COLOUR, GHOST_OPACITY = (0.5, 0.55, 0.6), 0.25
 PATH_COLOUR, PATH_MM = (0.82, 0.29, 0.36), 1.0
 
@@ -53,6 +55,12 @@ class Stage:
         size_m = design.carrying_link_mm * (1.0 + design.e_coef) / 1000.0
         camera = self.server.initial_camera
         camera.position, camera.look_at = tuple(size_m * SIDE), tuple(size_m * MIDDLE)
+
+        def seen_on_a_phone(client: Any) -> None:
+            if client.camera.aspect < 1.0:
+                client.camera.position, client.camera.look_at = tuple(size_m * HIGH_SIDE), tuple(size_m * LOW_MIDDLE)
+
+        self.server.on_client_connect(seen_on_a_phone)
 
     def show(self, robot: Robot, wrong: frozenset[str] = frozenset()) -> int:
         """Show a robot at rest, the parts named in `wrong` in red; return how many meshes were sent."""
