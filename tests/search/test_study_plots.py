@@ -9,7 +9,6 @@ from jumpcad.search.figures import PICTURES
 from jumpcad.search.space import Space
 from jumpcad.search.study_plots import plot_study
 
-
 pytestmark = pytest.mark.usefixtures("quick_proposals")
 
 

@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.study import run_study
