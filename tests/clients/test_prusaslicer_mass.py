@@ -1,7 +1,7 @@
 """The printed-mass model against what PrusaSlicer extrudes: grams, and inertia integrated from its G-code.
 
-A part takes PrusaSlicer 0.2 to 3.5 s of CPU time, so those of a robot are sliced at the workshop's infill alone, and one
-shape of each kind with hardly any infill and with nothing else.
+A part takes PrusaSlicer 0.2 to 3.5 s of CPU time, so those of a robot are sliced at the workshop's infill alone, and
+one shape of each kind with hardly any infill and with nothing else.
 """
 
 import math

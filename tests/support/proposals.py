@@ -1,4 +1,4 @@
-"""Proposals of the Bayesian search with a fifth of the work: for tests of what becomes of them, not of how good they are.
+"""Proposals of the Bayesian search with a fifth of the work, for tests of what becomes of them.
 
 `search/test_acquisition.py`, `test_surrogate.py`, `methods/test_bayesian.py` and `test_pareto.py` have the whole work.
 """
