@@ -51,7 +51,7 @@ def model():
     return Quick("printed", plain.workshop, plain.settings, "pybullet", screened=True)
 
 
-def search(model, path, evaluations=140, workers=0):
+def search(model, path, evaluations=115, workers=0):
     request = Request(SPACE, model, "body_lengths", "ga", evaluations, screen=True)
     with StudyStore.write(path, request.identity([])) as store, local_pool(workers) as pool:
         evaluator = Evaluator(SPACE, request.aim, model, store, pool)
@@ -106,7 +106,7 @@ def test_nothing_is_left_out_before_enough_is_known_and_no_guess_is_a_score(tria
 
 def test_a_killed_search_and_two_workers_give_the_same_rows(model, trials, tmp_path):
     path = tmp_path / "again.db"
-    search(model, path, evaluations=97)
+    search(model, path, evaluations=84)
     again = search(model, path, workers=2)
     assert [replace(one, duration_s=0.0) for one in again] == [replace(one, duration_s=0.0) for one in trials]
 
