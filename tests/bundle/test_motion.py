@@ -111,3 +111,15 @@ def test_without_a_jump_the_motion_ends_with_loaded_springs() -> None:
     found = motion(built("kenan-2.0"), None, None)
     assert set(found["phase"]) == {"winding"}
     assert list(found["phases"]) == ["winding"]
+
+
+def test_what_a_click_on_a_part_shows_weighs_as_much_as_the_robot() -> None:
+    robot = built("kenan-2.0")
+    data = viewer_data(robot, simulate(robot, engine="planar"))
+    grams = sum(one["mass_g"] for one in data["parts"].values())
+    assert grams == pytest.approx(1000.0 * robot.mass_kg, abs=0.05)
+    assert data["parts"]["foot"]["file"] == "stl/foot.stl"
+    assert data["parts"]["foot"]["label"] == "foot"
+    assert data["parts"]["leg_axle"]["file"] == ""
+    named = [name for step in data["steps"] for name in step["parts"]]
+    assert sorted(named) == sorted(data["parts"])

@@ -9,7 +9,7 @@ from support.built import built
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_steps import REST, assembly_steps, travel
+from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
 
 
@@ -59,3 +59,14 @@ def test_parts_move_to_their_places_from_where_the_step_says(robot: Robot) -> No
                 elif placed.move.along == "from the leg":
                     seen.add("stop")
     assert seen == {"screw", "stop"} | ({"toe"} if robot.layout.toes_apart else set())
+
+
+def test_what_comes_from_a_side_moves_away_from_it() -> None:
+    """x forwards, y to the left, z up."""
+    towards = {"left": (1, 1.0), "right": (1, -1.0), "above": (2, 1.0), "below": (2, -1.0)}
+    towards |= {"the front": (0, 1.0), "behind": (0, -1.0)}
+    assert len(SIDES) == 6
+    for words, (axis, sign) in towards.items():
+        side = next(way for name, way in SIDES.items() if name in (f"from {words}", f"from the {words}"))
+        assert side[axis] == -sign
+        assert np.abs(side).sum() == 1.0
