@@ -28,10 +28,10 @@ class Axes:
     across: Scale
     up: Scale
     width: float = 640.0
-    height: float = 400.0
+    height: float = 410.0
     left: float = 70.0
     right: float = 14.0
-    top: float = 34.0
+    top: float = 44.0
     foot: float = 62.0
     names: tuple[str, ...] = ()
     """What stands at the ticks 0, 1, … of `across` instead of numbers."""
@@ -74,7 +74,7 @@ class Axes:
             lines.append(f'<text x="{self.left - 7:g}" y="{self.y(value) + 5:.1f}" text-anchor="end">{value:g}</text>')
         middle = (self.left + right) / 2.0
         lines.append(f'<text x="{middle:g}" y="{self.height - 10:g}" text-anchor="middle">{written(across)}</text>')
-        lines.append(f'<text x="4" y="20">{written(up)}</text>')
+        lines.append(f'<text x="4" y="22">{written(up)}</text>')
         return lines
 
     def _name(self, value: float) -> str:

@@ -23,7 +23,7 @@ def shown_designs(shown: Sequence[Trial], objective: Objective) -> Iterator[str]
         first, others = _lines(trial)
         yield from _rows(first)
         if others:
-            yield f"<details><summary>{len(others)} more figures</summary>"
+            yield f"<details><summary>more figures ({len(others)})</summary>"
             yield from _rows(others)
             yield "</details>"
         yield "</section>"

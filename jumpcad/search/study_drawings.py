@@ -115,7 +115,7 @@ def _slice(
         return parameter.number(trial.variant.value(parameter.name)), trial.score or 0.0
 
     across = scale([parameter.lower, parameter.upper], ticks=3, whole=bool(parameter.names))
-    axes = Axes(across, up, 300.0, 220.0, left=58.0, foot=34.0, top=32.0, names=parameter.names)
+    axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, names=parameter.names)
     unit = unit_of(parameter.name)
     yield f'<figure><svg class="drawn" viewBox="0 0 {axes.width:g} {axes.height:g}" role="img" '
     yield f'aria-label="score over {written(parameter.name)}">'

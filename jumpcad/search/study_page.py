@@ -233,14 +233,12 @@ def _value(value: Value) -> str:
 
 
 def _pictures(store: StudyStore) -> Iterator[str]:
-    for name, draw in study_figures(store).items():
+    for name, draw in study_figures(store, columns=1).items():
         if name not in PICTURES:
             continue
-        figure = draw()
-        data = base64.b64encode(svg_text(figure).encode()).decode()
-        kind = "narrow" if figure.get_figwidth() < 5.0 else "full"
+        data = base64.b64encode(svg_text(draw()).encode()).decode()
         yield f"<h2>{PICTURES[name]}</h2>"
-        yield f'<figure class="picture"><img class="{kind}" alt="{name}" src="data:image/svg+xml;base64,{data}" />'
+        yield f'<figure class="picture"><img alt="{name}" src="data:image/svg+xml;base64,{data}" />'
         yield f"<figcaption>{ACQUISITION}</figcaption></figure>"
 
 
