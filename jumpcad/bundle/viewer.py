@@ -2,11 +2,12 @@
 
 import base64
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
+from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.motion import motion
 from jumpcad.bundle.renders import exploded
 from jumpcad.exporters.xml import allowed
@@ -65,18 +66,18 @@ def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
     apart = [after[:3, 3] - before[:3, 3] for before, after in zip(poses, exploded(things, poses), strict=True)]
     return motion(robot, jump.trajectory, jump.takeoff_time_s) | {
         "size_m": round(float(extent_m(robot).max()), MICRONS),
-        "turning": _turning(robot),
+        "turning": turning_parts(robot),
         "explode_m": {
             thing.name: round(float(offset[1]), MICRONS) for thing, offset in zip(things, apart, strict=True)
         },
         "steps": [
             {"title": step.title, "parts": [shape.name for shape in step.added]} for step in assembly_steps(robot)
         ],
-        "parts": {thing.name: _part(thing) for thing in things},
+        "parts": parts_facts(robot),
     }
 
 
-def _turning(robot: Robot) -> list[dict[str, Any]]:
+def turning_parts(robot: Robot) -> list[dict[str, Any]]:
     """Return the turning parts: node, axis (x, z) in the body's frame (m), turns per turn of the cam."""
     layout = robot.layout
     stages = layout.drive.train.stages
@@ -93,14 +94,25 @@ def _turning(robot: Robot) -> list[dict[str, Any]]:
     ]
 
 
-def _part(thing: Visual) -> dict[str, Any]:
-    """Return the data that a click on a part shows."""
+def parts_facts(robot: Robot) -> dict[str, dict[str, Any]]:
+    """Return what a click on a part shows: label, material or article, file, and mass (g), by the name in the picture.
+
+    What is bought in one piece and seen as several, such as a spring and its second arm, has the mass of the whole in
+    the bill of materials: a scale shows that.
+    """
+    seen_apart = {thing.article for thing in robot.hardware if thing.units == 0}
+    whole_kg = {line.name: line.mass_kg for line in bill_of_materials(robot).items if line.name in seen_apart}
+    return {thing.name: _facts(thing, whole_kg) for thing in visuals(robot)}
+
+
+def _facts(thing: Visual, whole_kg: Mapping[str, float]) -> dict[str, Any]:
     source = thing.source
     if isinstance(source, Part):
         words = {"label": source.name.replace("_", " "), "material": source.material, "file": f"stl/{source.name}.stl"}
     else:
         words = {"label": thing.name.replace("_", " "), "material": source.article, "file": ""}
-    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * source.mass.mass_kg, 3)}
+    mass_kg = whole_kg.get(words["material"], source.mass.mass_kg)
+    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * mass_kg, 3)}
 
 
 def _embedded(data: dict[str, Any]) -> str:

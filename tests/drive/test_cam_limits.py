@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from support.limits import default_limits
 
+from jumpcad.drive.cam_findings import LIMITS
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.cam_limits import LIMITS, ROWS, measure
+from jumpcad.drive.cam_limits import ROWS, measure
 from jumpcad.drive.cam_search import synthesise_cam
 
 CAM_LIMITS = default_limits().cam

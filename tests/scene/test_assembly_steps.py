@@ -3,11 +3,13 @@
 from collections import Counter
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.built import built
 
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_steps import REST, assembly_steps
+from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
 
 
@@ -29,3 +31,42 @@ def test_what_no_step_knows_is_not_forgotten(small_robot: Robot) -> None:
     last = assembly_steps(replace(small_robot, hardware=(*small_robot.hardware, strange)))[-1]
     assert last.title == REST
     assert "antenna" in {thing.name for thing in last.added}
+
+
+def test_parts_move_to_their_places_from_where_the_step_says(robot: Robot) -> None:
+    """Screws go in with their tips ahead: from the wider end of their mesh to the other. Toes come towards the foot."""
+    poses, seen = body_poses(robot, 0.0), set()
+    for step in assembly_steps(robot):
+        for placed in step.placed:
+            for thing in placed.things:
+                pose = poses[thing.body]
+                way = travel(robot, thing, placed.move, pose)
+                assert np.linalg.norm(way) == pytest.approx(1.0)
+                points = thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T @ pose[:3, :3].T
+                along = points @ way
+                if placed.move.along == "head last" and "screw" in thing.name:
+                    ends = [
+                        points[np.abs(along - end) < 1e-4 * max(1.0, np.ptp(along))]
+                        for end in (along.min(), along.max())
+                    ]
+                    behind, ahead = (np.ptp(end - np.outer(end @ way, way), axis=0).max() for end in ends)
+                    assert behind > ahead, thing.name
+                    seen.add("screw")
+                elif placed.move.along == "from outside":
+                    middle = (thing.T_body_mesh[:3, :3] @ thing.mesh.centroid + thing.T_body_mesh[:3, 3])[1]
+                    assert (pose[:3, :3].T @ way)[1] * middle < 0.0, thing.name
+                    seen.add("toe")
+                elif placed.move.along == "from the leg":
+                    seen.add("stop")
+    assert seen == {"screw", "stop"} | ({"toe"} if robot.layout.toes_apart else set())
+
+
+def test_what_comes_from_a_side_moves_away_from_it() -> None:
+    """x forwards, y to the left, z up."""
+    towards = {"left": (1, 1.0), "right": (1, -1.0), "above": (2, 1.0), "below": (2, -1.0)}
+    towards |= {"the front": (0, 1.0), "behind": (0, -1.0)}
+    assert len(SIDES) == 6
+    for words, (axis, sign) in towards.items():
+        side = next(way for name, way in SIDES.items() if name in (f"from {words}", f"from the {words}"))
+        assert side[axis] == -sign
+        assert np.abs(side).sum() == 1.0

@@ -1,6 +1,5 @@
 """The studio without a browser: a real viser server, its sliders, what it shows and says."""
 
-import socket
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,18 +17,11 @@ from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
 
 
 @pytest.fixture
-def studio(tmp_path: Path, free_port: int) -> Iterator[Studio]:
-    server = viser.ViserServer(host="127.0.0.1", port=free_port, verbose=False)
+def studio(tmp_path: Path) -> Iterator[Studio]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
     made = Studio(load_design("kenan-2.0"), "kenan-2.0", ["default", "fine"], server, tmp_path)
     yield made
     server.stop()
-
-
-@pytest.fixture
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def test_it_shows_every_part_and_says_what_evaluate_says(studio: Studio) -> None:
@@ -118,7 +110,8 @@ def test_the_answer_at_once_is_the_capsule_robots() -> None:
 
 
 def test_the_workshop_can_be_changed(studio: Studio) -> None:
-    studio._change_workshop("fine")
+    studio.choice.value = "fine"
+    studio._change_workshop()
     assert studio.workshop == load_workshop("fine")
 
 
