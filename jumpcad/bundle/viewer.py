@@ -23,6 +23,8 @@ from jumpcad.transforms import chained
 
 MICRONS = 6
 """Decimals of lengths in m."""
+GRAM_DIGITS = 2
+"""Decimals of masses in g, those that are shown: rounded twice, 1.335 would become 1.33."""
 CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <p><button type="button" id="play">Play</button>
 <label>motion <input type="range" id="scrub" min="0" max="1" step="0.001" value="0" /></label>
@@ -100,7 +102,7 @@ def _facts(thing: Visual, whole_kg: Mapping[str, float]) -> dict[str, Any]:
     else:
         words = {"label": thing.name.replace("_", " "), "material": source.article, "file": ""}
     mass_kg = whole_kg.get(words["material"], source.mass.mass_kg)
-    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * mass_kg, 3)}
+    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * mass_kg, GRAM_DIGITS)}
 
 
 def _embedded(data: dict[str, Any]) -> str:
