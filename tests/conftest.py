@@ -43,8 +43,8 @@ def shapes() -> Iterator[None]:
         def get(asked: Any) -> Any:
             shape = shape_of(asked)
             if shape not in known and len(known) == KEPT:
-                del known[next(iter(known))]  # the oldest
-            made = known.setdefault(shape, {})
+                del known[next(iter(known))]  # of which no test has asked for longest
+            made = known[shape] = known.pop(shape, {})
             if name not in made:
                 made[name] = make(asked)
             return made[name]
