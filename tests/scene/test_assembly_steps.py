@@ -70,3 +70,21 @@ def test_what_comes_from_a_side_moves_away_from_it() -> None:
         side = next(way for name, way in SIDES.items() if name in (f"from {words}", f"from the {words}"))
         assert side[axis] == -sign
         assert np.abs(side).sum() == 1.0
+
+
+def test_a_nut_comes_from_the_other_side_than_its_screw(robot: Robot) -> None:
+    """It moves towards the head of the screw on which it goes; its spanner comes the same way."""
+    poses = body_poses(robot, 0.0)
+    things = {thing.name: thing for step in assembly_steps(robot) for thing in step.added}
+
+    def y(name: str) -> float:
+        thing = things[name]
+        return float((thing.T_body_mesh[:3, :3] @ thing.mesh.centroid / 1000.0 + thing.T_body_mesh[:3, 3])[1])
+
+    moves = [placed for step in assembly_steps(robot) for placed in step.placed if placed.move.parts == "roller_nut"]
+    assert moves
+    for placed in moves:
+        (nut,) = placed.things
+        way = travel(robot, nut, placed.move, poses[nut.body])
+        assert way[1] * (y("roller_screw") - y("roller_nut")) > 0.0
+        assert np.allclose(SIDES[placed.move.reach], way)
