@@ -147,6 +147,8 @@ REASONS = {
     "overhangs": "an overhang is too long to print without support",
     "bridges": "a bridge is too long to print without support",
     "solid": "a part is not one closed solid",
+    "engraving": "the plates cannot show the whole name",
+    "body_contact": "in the push-off the body touches the ground, which the planar engine does not compute",
     "interference": "two parts overlap somewhere in the motion",
     "assembly_paths": "a part has no free path to its place",
     "tool_access": "a fastener cannot be reached by its tool",
