@@ -115,7 +115,8 @@ def _slice(
         return parameter.number(trial.variant.value(parameter.name)), trial.score or 0.0
 
     across = scale([parameter.lower, parameter.upper], ticks=3, whole=bool(parameter.names))
-    axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, names=parameter.names)
+    first = 1.0 if parameter.names else 0.0
+    axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, first=first)
     unit = unit_of(parameter.name)
     yield f'<figure><svg class="drawn" viewBox="0 0 {axes.width:g} {axes.height:g}" role="img" '
     yield f'aria-label="score over {written(parameter.name)}">'
@@ -126,7 +127,7 @@ def _slice(
     for number, trial in enumerate(shown, start=1):
         x, y = at(trial)
         yield f'<circle class="of" data-of="{number}" cx="{axes.x(x):.1f}" cy="{axes.y(y):.1f}" r="7" />'
-    meaning = meaning_of(parameter.name)
+    meaning = meaning_of(parameter.name) or ", ".join(f"{n} is {name}" for n, name in enumerate(parameter.names, 1))
     said = f"{f' ({written(unit)})' if unit else ''}{f': {written(meaning)}' if meaning else ''}"
     best_at = _best(parameter, at(best)[0])
     yield f"</svg><figcaption><b>{broken(parameter.name)}</b>{said}. Best: {best_at}.</figcaption></figure>"
