@@ -27,6 +27,8 @@ KEYS = (
     "Arrow keys turn the robot, with Shift they move it; + and − zoom, 0 shows it as at first; space plays and "
     "pauses, comma and full stop go back and forth in the motion."
 )
+GRAM_DIGITS = 2
+"""Decimals of masses in g, those that are shown: rounded twice, 1.335 would become 1.33."""
 CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <p><button type="button" id="play">Play</button>
 <label>motion <input type="range" id="scrub" min="0" max="1" step="0.02" value="0" /></label>
@@ -112,7 +114,7 @@ def _facts(thing: Visual, whole_kg: Mapping[str, float]) -> dict[str, Any]:
     else:
         words = {"label": thing.name.replace("_", " "), "material": source.article, "file": ""}
     mass_kg = whole_kg.get(words["material"], source.mass.mass_kg)
-    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * mass_kg, 3)}
+    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * mass_kg, GRAM_DIGITS)}
 
 
 def _embedded(data: dict[str, Any]) -> str:

@@ -74,7 +74,7 @@ def _angles(robot: Robot, sensor: SensorPlace) -> Iterator[Finding]:
     yield at_least(
         "sensor_ready", left, 0.0, "°",
         f"the sensor closes {drawn:.1f} +- {scatter:.1f}° of the cam before the drop; the motor stops in {stop:.1f}°, "
-        f"{left:.1f}° before it, of 0° at least",
+        f"which leaves {left:.1f}°, of 0° at least",
         "raise seats.sensor_reserve_deg",
     )  # fmt: skip
     speed = robot.layout.drive.train.cam_speed_rad_s

@@ -155,6 +155,7 @@ def _short(name: str, room: float) -> str:
 
 def _found(name: str, room: float, limits: CamLimits) -> str:
     """Return what was found and what is allowed or needed, in words, from a margin."""
+    room = round(room, 6) + 0.0  # the search ends on its limits, within about 1e-9: no "-0.0"
     degrees, steepest, past = (math.degrees(angle) for angle in (room, limits.pressure_angle_rad, limits.overshoot_rad))
     gap = f"{limits.clearance_mm + room:.2f} mm, of {limits.clearance_mm:g} mm at least"
     core, undercut, pressure, load = (

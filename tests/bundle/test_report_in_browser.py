@@ -1,7 +1,7 @@
 """report.html in Debian's Chromium without a screen: it shows, plays and answers, and asks the network for nothing."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +10,6 @@ import pytest
 from PIL import Image
 from support.browsers import PHONE, browser, needs_browser, require_quiet, wait, webdriver
 
-from jumpcad.building import build
-from jumpcad.bundle.export import export
-from jumpcad.design import load_design
 from jumpcad.notebook import ShownPage
 
 pytestmark = needs_browser
@@ -42,9 +39,8 @@ def seen(box: Any, path: Path) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("report") / "robot"
-    return export(build(load_design("kenan-2.0"), name="kenan-2.0"), folder).folder / "report.html"
+def page(bundle_of: Callable[..., Path]) -> Path:
+    return bundle_of("kenan-2.0", pictures=True) / "report.html"
 
 
 @pytest.fixture(scope="module")

@@ -1,5 +1,6 @@
 """The order of assembly: every thing on the robot is put on once."""
 
+import re
 from collections import Counter
 from dataclasses import replace
 
@@ -70,3 +71,40 @@ def test_what_comes_from_a_side_moves_away_from_it() -> None:
         side = next(way for name, way in SIDES.items() if name in (f"from {words}", f"from the {words}"))
         assert side[axis] == -sign
         assert np.abs(side).sum() == 1.0
+
+
+def test_a_nut_comes_from_the_other_side_than_its_screw(robot: Robot) -> None:
+    """It moves towards the head of the screw on which it goes; its spanner comes the same way."""
+    poses = body_poses(robot, 0.0)
+    things = {thing.name: thing for step in assembly_steps(robot) for thing in step.added}
+
+    def y(name: str) -> float:
+        thing = things[name]
+        return float((thing.T_body_mesh[:3, :3] @ thing.mesh.centroid / 1000.0 + thing.T_body_mesh[:3, 3])[1])
+
+    moves = [placed for step in assembly_steps(robot) for placed in step.placed if placed.move.parts == "roller_nut"]
+    assert moves
+    for placed in moves:
+        (nut,) = placed.things
+        way = travel(robot, nut, placed.move, poses[nut.body])
+        assert way[1] * (y("roller_screw") - y("roller_nut")) > 0.0
+        assert np.allclose(SIDES[placed.move.reach], way)
+
+
+def test_fasteners_have_their_heads_where_they_come_from_and_bearings_their_own_side(robot: Robot) -> None:
+    """Of a screw or pin that comes from the left the wider end is on the left; y is to the left."""
+    seen = set()
+    for placed in (placed for step in assembly_steps(robot) for placed in step.placed):
+        for thing in placed.things:
+            side = {"from the left": 1.0, "from the right": -1.0}.get(placed.move.along)
+            if side is None or placed.move.brings:
+                continue
+            points = thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T + 1000.0 * thing.T_body_mesh[:3, 3]
+            ends = [points[np.abs(points[:, 1] - y) < 1e-3] for y in (points[:, 1].min(), points[:, 1].max())]
+            low, high = (np.ptp(end, axis=0).max() for end in ends)
+            if re.search("screw|_pin$", thing.name) and abs(high - low) > 0.01:
+                assert (high - low) * side > 0.0, thing.name
+                seen.add(thing.name)
+            if thing.name.startswith("hub_bearing"):
+                assert points[:, 1].mean() * side > 0.0, thing.name
+    assert {"roller_screw", "cap_screw_1", "standoff_1_screw_left", "standoff_1_screw_right", "ankle_pin"} <= seen

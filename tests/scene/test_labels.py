@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from PIL import Image, ImageDraw
 
-from jumpcad.scene.labels import EDGE_PX, ROW_PX, _rows, _spread, _turn, _width
+from jumpcad.scene.labels import EDGE_PX, FINE, HEAD_PX, ROW_PX, _arrow, _rows, _spread, _turn, _width
 
 
 @pytest.mark.parametrize("wanted", [[], [5.0], [50.0, 51.0, 52.0, 53.0], [380.0, 390.0, 399.0], [10.0, 200.0, 398.0]])
@@ -38,3 +39,17 @@ def test_a_contours_sense_is_that_of_its_area() -> None:
     square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
     assert _turn(square) == 8.0
     assert _turn(square[::-1]) == -8.0
+
+
+def test_an_arrow_ends_at_its_point_whatever_its_length() -> None:
+    """Its head is as long as the others' and 0.45 of that wide to either side."""
+    for start, end in (((10.0, 10.0), (30.0, 10.0)), ((10.0, 10.0), (10.0, 90.0)), ((60.0, 70.0), (20.0, 40.0))):
+        image = Image.new("RGB", (400, 400), (255, 255, 255))
+        _arrow(ImageDraw.Draw(image), np.array(start), np.array(end))
+        y, x = np.nonzero(np.asarray(image).min(axis=2) < 250)
+        drawn = np.column_stack([x, y]) / FINE
+        along = np.subtract(end, start) / np.hypot(*np.subtract(end, start))
+        shares = (drawn - start) @ along
+        assert (shares.min(), shares.max()) == pytest.approx((0.0, np.hypot(*np.subtract(end, start))), abs=1.5)
+        beside = np.abs((drawn - start) @ np.array([-along[1], along[0]]))
+        assert beside.max() == pytest.approx(0.45 * HEAD_PX, abs=1.0)
