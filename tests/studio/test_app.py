@@ -17,6 +17,7 @@ viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Points, Studio  # noqa: E402
 from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
+from jumpcad.studio.app import BY_NUMBER  # noqa: E402
 
 
 @pytest.fixture
@@ -125,6 +126,10 @@ def test_a_point_of_a_study_brings_its_design_and_workshop(study: Path, tmp_path
     shown._run_action(lambda: shown.open(4))
     assert (shown.design, shown.workshop) == (points.trial(4).design, load_workshop())
     assert "trial 4 of 4" in shown.point.content
+    assert shown.best.value == "best 3: 1 body lengths (trial 4)"
+    shown.open(2)
+    assert shown.best.value == BY_NUMBER
+    shown.open(4)
     shown.sliders["e_coef"].value = 1.1
     shown._reset()
     assert shown.design == points.trial(4).design
