@@ -91,6 +91,7 @@ def test_a_motion_moves_nodes_and_sends_no_mesh(studio: Studio) -> None:
     assert turned.as_rotvec() == pytest.approx([0.0, moment.turned_rad["cam"], 0.0], abs=1e-6)
     axis = np.array([robot.layout.cam_axis_mm[0], 0.0, robot.layout.cam_axis_mm[1]]) / 1000.0
     assert turned.apply(rest[:3, 3] - axis) + axis == pytest.approx(handle.position, abs=1e-6)
+    studio.player.time.value = 1.5
     studio.answer(studio.design)
     assert handle.position == pytest.approx(rest[:3, 3], abs=1e-9)
     assert studio.player.time.value == 0.0
