@@ -43,8 +43,8 @@ def shapes() -> Iterator[None]:
         def get(asked: Any) -> Any:
             shape = shape_of(asked)
             if shape not in known and len(known) == KEPT:
-                del known[next(iter(known))]  # the oldest
-            made = known.setdefault(shape, {})
+                del known[next(iter(known))]  # of which no test has asked for longest
+            made = known[shape] = known.pop(shape, {})
             if name not in made:
                 made[name] = make(asked)
             return made[name]
@@ -104,22 +104,24 @@ def small_robot() -> Robot:
 
 
 @pytest.fixture(scope="session")
-def bundle_of(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Callable[[str], Path]:
-    """Return a function that gives a template's bundle without pictures, made once for all workers; not to be changed.
+def bundle_of(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Callable[..., Path]:
+    """Return a function that gives a template's bundle, made once for all workers; not to be changed.
 
-    A worker that makes one while another does uses that of the first to finish.
+    It has no pictures unless they are asked for. A worker that makes one while another does uses that of the first to
+    finish.
     """
     own = tmp_path_factory.mktemp("bundles")
     shared = (own if worker_id == "master" else own.parent.parent) / "of-templates"
     shared.mkdir(exist_ok=True)
 
     @cache
-    def made(name: str) -> Path:
-        if not (shared / name).exists():
-            export(built(name), own / name, pictures=False)
+    def made(name: str, pictures: bool = False) -> Path:
+        folder = f"{name} with pictures" if pictures else name
+        if not (shared / folder).exists():
+            export(built(name), own / folder, pictures=pictures)
             with suppress(OSError):
-                (own / name).rename(shared / name)
-        return shared / name
+                (own / folder).rename(shared / folder)
+        return shared / folder
 
     return made
 

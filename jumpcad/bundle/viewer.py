@@ -23,24 +23,36 @@ from jumpcad.transforms import chained
 
 MICRONS = 6
 """Decimals of lengths in m."""
+KEYS = (
+    "Arrow keys turn the robot, with Shift they move it; + and − zoom, 0 shows it as at first; space plays and "
+    "pauses, comma and full stop go back and forth in the motion."
+)
 GRAM_DIGITS = 2
 """Decimals of masses in g, those that are shown: rounded twice, 1.335 would become 1.33."""
 CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <p><button type="button" id="play">Play</button>
-<label>motion <input type="range" id="scrub" min="0" max="1" step="0.001" value="0" /></label>
+<label>motion <input type="range" id="scrub" min="0" max="1" step="0.02" value="0" /></label>
 <output id="moment"></output></p>
 <p><label>apart <input type="range" id="explode" min="0" max="1" step="0.01" value="0" /></label>
 <label>assembly <input type="range" id="step" min="1" max="1" step="1" value="1" /></label>
 <output id="step-title"></output>
 <button type="button" id="home">View</button></p>
-<p id="part">Click on a part for its mass, material and file.</p>
+<p id="shown"><span>show</span>
+<label><input type="checkbox" id="show-plates" checked="checked" /> body plates</label>
+<label><input type="checkbox" id="show-printed" checked="checked" /> other printed parts</label>
+<label><input type="checkbox" id="show-bought" checked="checked" /> bought parts</label>
+<label><input type="checkbox" id="show-path" checked="checked" /> path of the centre of mass</label></p>
+<p><label>part <select id="choose"><option value="">none</option></select></label>
+<output id="part" aria-live="polite"></output></p>
 </div>"""
 
 
 def viewer(robot: Robot, jump: Jump, glb: bytes) -> Iterator[str]:
     """Yield the viewer's elements: a box, controls, and scripts with data, GLB file and program."""
-    yield '<div id="viewer" aria-label="the robot in 3-D" role="img"></div>'
+    yield f'<div id="viewer" data-keys="{KEYS}"></div>'
     yield '<p id="viewer-message">The robot is shown here in 3-D where the browser runs scripts and WebGL.</p>'
+    hint = f"Drag to turn, scroll or pinch to zoom. <span>{KEYS}</span>"
+    yield f'<p id="viewer-keys" hidden="hidden"><small>{hint}</small></p>'
     yield CONTROLS
     yield f'<script type="application/json" id="viewer-data">{_embedded(viewer_data(robot, jump))}</script>'
     yield f'<script type="text/plain" id="viewer-glb">{base64.b64encode(glb).decode()}</script>'
