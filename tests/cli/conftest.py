@@ -29,10 +29,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
 
 @pytest.fixture(scope="session", autouse=True)
 def contents() -> Iterator[None]:
-    """Let the files of a bundle without pictures, and a report's pictures, be made once.
-
-    These tests show what commands do with them.
-    """
+    """Let the files of a bundle without pictures be made once: these tests show what commands do with them."""
     make = export.contents
     known = once({}, make, robot_key)
 
@@ -41,7 +38,6 @@ def contents() -> Iterator[None]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(export, "contents", contents)
-        patch.setattr(export, "renders", once({}, export.renders, robot_key))
         yield
 
 
