@@ -7,14 +7,8 @@ from typing import Any
 from reference_page import page, table
 
 from jumpcad.files import find_template
+from jumpcad.search.study_words import KEY_UNITS
 from jumpcad.workshop import OWN_PARTS, Workshop, load_workshop
-
-UNITS = {
-    "nmm_per_deg": "N·mm/°", "nm_per_rad": "N·m/rad", "n_per_mm": "N/mm", "kg_m2": "kg·m²", "g_cm3": "g/cm³",
-    "eur_per_kg": "EUR/kg", "area_mm2": "mm²", "mm": "mm", "deg": "°", "mpa": "MPa", "nm": "N·m", "n": "N", "g": "g",
-    "c": "°C", "v": "V", "a": "A", "ma": "mA", "mah": "mAh", "ohm": "Ω", "rpm": "1/min", "uf": "µF", "eur": "EUR",
-}  # fmt: skip
-"""Units by the end of a key, the longest ends first."""
 
 
 def workshop_keys() -> str:
@@ -76,7 +70,7 @@ def _description(kind: dict[str, Any]) -> str:
 
 
 def _unit(key: str) -> str:
-    return next((unit for end, unit in UNITS.items() if key.endswith(f"_{end}")), "")
+    return next((unit for end, unit in KEY_UNITS.items() if key.endswith(f"_{end}")), "")
 
 
 def _allowed(entry: dict[str, Any]) -> str:

@@ -12,6 +12,18 @@ SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), 
 
 
 @dataclass(frozen=True)
+class Basis:
+    """How a limit is computed: its formula in plain text, with names and units, and where formula and limit are from.
+
+    The source is a handbook, a standard, a data sheet, a measurement, or "judgement". Every module that makes findings
+    has them in a table `BASIS` by the findings' names; `*` stands for the end of names that share a formula.
+    """
+
+    formula: str
+    source: str
+
+
+@dataclass(frozen=True)
 class Finding:
     """One checked limit.
 

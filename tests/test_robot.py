@@ -1,5 +1,7 @@
 """A printed robot is a mechanism whose bodies are made of its parts."""
 
+import re
+
 import pytest
 from support.built import LONG_TOES, built, geared
 
@@ -7,7 +9,7 @@ import jumpcad
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.robot import Robot
+from jumpcad.robot import Robot, require_name
 
 ROBOTS = {"kenan-2.0": lambda: built("kenan-2.0"), LONG_TOES: lambda: built(LONG_TOES), "two pairs of gears": geared}
 
@@ -39,3 +41,9 @@ def test_what_cannot_name_files_is_refused_at_once_in_one_line(name: str, monkey
     with pytest.raises(JumpcadError, match="is used in file names") as caught:
         jumpcad.build(jumpcad.load_design("kenan-2.0"), name=name)
     assert str(caught.value).isprintable()
+
+
+@pytest.mark.parametrize(("name", "letter"), [("a/b", "U+002F"), ("ab\nc", "U+000A"), ("frog?", "U+003F")])
+def test_the_letter_that_cannot_be_in_a_name_is_named(name: str, letter: str) -> None:
+    with pytest.raises(JumpcadError, match=re.escape(f", not {letter}")):
+        require_name(name)

@@ -3,17 +3,15 @@
 import contextlib
 import io
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from jumpcad.cli.subjects import WorkshopOption, bundle_of, design_file
 from jumpcad.errors import JumpcadError
 
-if TYPE_CHECKING:
-    from jumpcad.design import Design
-
 PORT = 8080
+STUDY = ".db"
 
 
 def register(app: typer.Typer) -> None:
@@ -23,12 +21,15 @@ def register(app: typer.Typer) -> None:
 
 def studio(
     design: Annotated[
-        str, typer.Argument(help="A template, a design file, a bundle, or a study (its best).", metavar="DESIGN|F.db")
+        str, typer.Argument(help="A template, a design file, a bundle, or a study.", metavar="DESIGN|F.db")
     ] = "kenan-2.0",
     workshop: WorkshopOption = None,
+    trial: Annotated[
+        int | None, typer.Option(help="Trial of the study, numbered from 1.", show_default="the best", metavar="N")
+    ] = None,
     port: Annotated[int, typer.Option(help="Port of the page, on this computer alone.", min=1, max=65535)] = PORT,
 ) -> None:
-    """Change the eight numbers in a browser and see the robot that they give (extra `studio`)."""
+    """Change the eight numbers in a browser and see the robot that they give, wind and jump (extra `studio`)."""
     from jumpcad.design import load_design
     from jumpcad.files.templates import template_names
     from jumpcad.workshop import DEFAULT
@@ -37,34 +38,31 @@ def studio(
         import viser
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
-    from jumpcad.studio import Studio
+    from jumpcad.studio import Points, Studio
+    from jumpcad.studio.app import STUDYS
 
-    if design.endswith(".db"):
-        opened = _best(Path(design))
+    others = template_names("workshops")
+    if design.endswith(STUDY) and not Path(design).is_dir():
+        points = Points(Path(design))
+        number = points.best if trial is None else trial
+        opened, first = points.trial(number).design, workshop or STUDYS
+        if trial is not None and workshop is None:
+            points.require_built(number)
+        others = [STUDYS, *others]
     else:
+        if trial is not None:
+            raise JumpcadError(f"--trial {trial}: {design} is no study (F.db)")
         bundle_of(design, workshop)
-        opened = load_design(design_file(design))
-    name = Path(design).name.removesuffix(".toml").removesuffix(".db")
-    chosen = workshop or DEFAULT
-    workshops = [chosen, *(other for other in template_names("workshops") if other != chosen)]
+        points, number = None, 1
+        opened, first = load_design(design_file(design)), workshop or DEFAULT
+    name = Path(design).name.removesuffix(".toml").removesuffix(STUDY)
+    workshops = [first, *(other for other in others if other != first)]
     with contextlib.redirect_stdout(io.StringIO()):  # its banner has the address too
         server = viser.ViserServer(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
-    shown = Studio(opened, name, workshops, server, Path.cwd())
+    shown = Studio(opened, name, workshops, server, Path.cwd(), points, number)
     shown.start()
-    print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio)")
+    print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio; the browser needs WebGL)")
     try:
         server.sleep_forever()
     finally:
         shown.end()
-
-
-def _best(file: Path) -> "Design":
-    """Return the best design of a study; raise `JumpcadError` if none can be built."""
-    from jumpcad.search.store import StudyStore
-    from jumpcad.search.trial import feasible_trials, searched
-
-    with StudyStore.read(file) as store:
-        top = feasible_trials(searched(store.trials()))
-    if not top:
-        raise JumpcadError(f"{file}: no design of this study can be built")
-    return top[0].design

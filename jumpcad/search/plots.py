@@ -178,13 +178,18 @@ def feasibility(found: FeasibilityMap, centre: Design | None = None) -> Figure:
 
 
 @typed
-def acquisition(space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective) -> Figure:
-    """Draw surrogate and expected improvement over the one or two free parameters of a Bayesian search."""
+def acquisition(
+    space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, columns: int = 2
+) -> Figure:
+    """Draw surrogate and expected improvement over the one or two free parameters of a Bayesian search.
+
+    Of two parameters, they stand beside each other, or with one column below.
+    """
     best = max((trial.score for trial in trials if trial.score is not None), default=0.0)
     return (
         _one_parameter(space, trials, posterior, objective, best)
         if space.dimension == 1
-        else _two(space, trials, posterior, objective, best)
+        else _two(space, trials, posterior, objective, best, columns)
     )
 
 
@@ -212,9 +217,9 @@ def _one_parameter(
 
 
 def _two(
-    space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, best: float
+    space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, best: float, columns: int
 ) -> Figure:
-    figure, (left, right) = panels(2, 4.6, 3.8)
+    figure, (left, right) = panels(2, 4.6, 3.8, columns)
     unit = np.linspace(0.0, 1.0, 61)
     points = np.stack(np.meshgrid(unit, unit), axis=-1).reshape(-1, 2)
     first, second = space.free

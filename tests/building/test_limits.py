@@ -1,14 +1,16 @@
 """Every figure of a workshop reaches its own limit of the drive."""
 
+import math
 from dataclasses import fields, replace
 from typing import Any
 
 import pytest
 from support.limits import default_limits
 
-from jumpcad.building.limits import drive_limits
+from jumpcad.building.limits import drive_limits, release_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
+from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive import DriveLimits
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
@@ -74,3 +76,23 @@ def test_a_thick_lever_or_dog_pushes_the_cam_away() -> None:
     corner = (20.0 - SECTIONS.dog_mm) / 2.0
     assert thick.cam.core_radius_mm == pytest.approx(usual.cam.core_radius_mm + corner)
     assert thick.train.cam_gear_root_min_mm == pytest.approx(usual.train.cam_gear_root_min_mm + corner)
+
+
+def test_the_release_is_computed_with_the_workshops_figures_in_si_units() -> None:
+    """Backlash in degrees and stiffness in N/mm are given; printed teeth bear what gears do."""
+    shop = changed("release", backlash_deg=(3.0, 6.0), contact_n_per_mm=700.0)
+    found = release_limits(shop)
+    assert found.backlash_rad == pytest.approx((math.pi / 60.0, math.pi / 30.0))
+    assert found.contact_n_per_m == pytest.approx(7e5)
+    assert found.teeth_mpa == pytest.approx(limits(shop).train.stress_mpa)
+    assert found.motor_nm == shop.safety.motor_torque_max_nm
+
+
+def test_an_axle_of_3_mm_leaves_room_for_its_spacer_and_its_lever() -> None:
+    """Cam's axis to lever: an eye of 4.5 mm, a spacer and the clear gap; spring's pin: its corner beside the hub."""
+    found = default_limits()
+    assert found.cam.gap_min_mm == pytest.approx(4.5 + SPACER_RADIUS_MM + CLEAR_MM)
+    thick = limits(changed("bought", axle_mm=4.0))
+    usual = limits(load_workshop())
+    assert thick.spring.mandrel_min_mm == pytest.approx(usual.spring.mandrel_min_mm + 1.0)
+    assert thick.train.pinion_root_min_mm == pytest.approx(usual.train.pinion_root_min_mm + 0.5)

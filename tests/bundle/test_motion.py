@@ -1,11 +1,15 @@
 """The motion in the viewer: the cam winds, runs ahead of its gear by the dog's play at most, and never back."""
 
+import re
+
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from support.built import built, geared
 
 from jumpcad.bundle.motion import motion
 from jumpcad.bundle.viewer import viewer_data
+from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.simulation import Settings, simulate
 
 
@@ -37,3 +41,85 @@ def test_teeth_in_mesh_run_past_each_other_without_slip(stages: int) -> None:
         assert quick * pair.pinion.teeth == pytest.approx(-slow * pair.wheel.teeth, rel=1e-4)
     assert turns["motor_shaft"] == turns["motor_pinion"]
     assert turns["cam"] == turns["cam_gear"] == 1.0
+
+
+@pytest.fixture(scope="module")
+def shown() -> dict[str, np.ndarray]:
+    robot = built("kenan-2.0")
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True), "planar")
+    found = motion(robot, jump.trajectory, jump.takeoff_time_s)
+    found["words"] = found.pop("phases")
+    return {name: column if isinstance(column, dict) else np.array(column) for name, column in found.items()}
+
+
+def leg_deg(shown: dict[str, np.ndarray]) -> np.ndarray:
+    """The leg's angle against the body, from their turns in the world; quaternions are about y alone."""
+    body, leg = (np.array(shown["frames"][name])[:, 3:] for name in (BODY, MAIN_LEG))
+    assert np.abs(body[:, [0, 2]]).max() < 1e-6
+    return np.degrees(2.0 * (np.arctan2(leg[:, 1], leg[:, 3]) - np.arctan2(body[:, 1], body[:, 3])))
+
+
+def test_the_leg_is_loaded_by_winding_and_let_go_in_the_drop(shown: dict[str, np.ndarray]) -> None:
+    """From rest to the design's compression, and from there to where the roller comes off the cam."""
+    robot, phase, leg = built("kenan-2.0"), shown["phase"], leg_deg(shown)
+    assert list(dict.fromkeys(phase)) == ["winding", "drop", "push-off", "flight"]
+    winding, drop, push = (leg[phase == name] - leg[0] for name in ("winding", "drop", "push-off"))
+    loaded_deg = np.degrees(robot.design.compression_rad)
+    sense = np.sign(winding[-1])
+    assert sense * winding[-1] == pytest.approx(loaded_deg, abs=0.01)
+    assert (np.diff(sense * winding) >= -1e-3).all()
+    assert sense * drop[0] == pytest.approx(loaded_deg, abs=0.01)
+    assert (np.diff(sense * drop) <= 1e-3).all()
+    assert sense * drop[-1] == pytest.approx(-np.degrees(robot.roller_off.leg_rad), abs=0.01)
+    assert push[0] == pytest.approx(drop[-1], abs=1.5)
+    assert (np.diff(shown["cam_rad"][phase == "drop"]) > 0.0).all()
+    assert shown["cam_rad"][phase == "drop"][-1] == pytest.approx(robot.layout.drive.cam.geometry.free_rad, abs=1e-4)
+
+
+def test_times_are_real_and_each_phase_is_shown_at_one_scale(shown: dict[str, np.ndarray]) -> None:
+    robot, phase, real, seen = built("kenan-2.0"), shown["phase"], shown["time_s"], shown["show_s"]
+    assert (np.diff(seen) >= 0.0).all()
+    assert seen[0] == 0.0
+    turn_s = robot.layout.drive.cam.law.lift_rad / robot.layout.drive.train.cam_speed_rad_s
+    assert real[phase == "winding"][-1] == pytest.approx(turn_s, abs=1e-4)
+    turned = robot.release.roll_over_rad / robot.layout.drive.train.cam_speed_rad_s
+    assert real[phase == "drop"][-1] == pytest.approx(turned, abs=1e-4)
+    for name in ("winding", "drop", "push-off", "flight"):
+        at = phase == name
+        scale = np.ptp(seen[at]) / np.ptp(real[at])
+        assert seen[at] - seen[at][0] == pytest.approx(scale * (real[at] - real[at][0]), abs=2e-3 * scale)
+        number, way = re.findall(r"([\d.]+) times (\w+)", shown["words"][name])[0]
+        assert way == ("slower" if scale > 1.0 else "faster")
+        assert float(number) == pytest.approx(max(scale, 1.0 / scale), rel=0.01, abs=0.06)
+    assert real[phase == "flight"][0] > real[phase == "push-off"][-1] - 1e-9
+
+
+def test_the_centre_of_mass_is_that_of_the_bodies_and_falls_freely(shown: dict[str, np.ndarray]) -> None:
+    robot, at = built("kenan-2.0"), shown["phase"] == "flight"
+    places = {name: np.array(rows) for name, rows in shown["frames"].items()}
+    assert all((rows[:, 6] >= 0.0).all() for rows in places.values())
+    centre = sum(
+        body.mass_kg * (Rotation.from_quat(places[name][:, 3:]).apply(body.com_m) + places[name][:, :3])
+        for name, body in robot.bodies.items()
+    )
+    assert shown["com_m"] == pytest.approx(centre[:, [0, 2]] / robot.mass_kg, abs=2e-5)
+    fall = np.polyfit(shown["time_s"][at], shown["com_m"][at, 1], 2)
+    assert fall[0] == pytest.approx(-9.81 / 2.0, rel=0.01)
+
+
+def test_without_a_jump_the_motion_ends_with_loaded_springs() -> None:
+    found = motion(built("kenan-2.0"), None, None)
+    assert set(found["phase"]) == {"winding"}
+    assert list(found["phases"]) == ["winding"]
+
+
+def test_what_a_click_on_a_part_shows_weighs_as_much_as_the_robot() -> None:
+    robot = built("kenan-2.0")
+    data = viewer_data(robot, simulate(robot, engine="planar"))
+    grams = sum(one["mass_g"] for one in data["parts"].values())
+    assert grams == pytest.approx(1000.0 * robot.mass_kg, abs=0.05)
+    assert data["parts"]["foot"]["file"] == "stl/foot.stl"
+    assert data["parts"]["foot"]["label"] == "foot"
+    assert data["parts"]["leg_axle"]["file"] == ""
+    named = [name for step in data["steps"] for name in step["parts"]]
+    assert sorted(named) == sorted(data["parts"])

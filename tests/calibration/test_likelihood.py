@@ -1,12 +1,24 @@
 """Scatter of measurements: what more jumps reduce, and what they do not."""
 
 import math
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy import stats
 
-from jumpcad.calibration.likelihood import Datum, Predicted, predict
+from jumpcad.calibration.likelihood import (
+    ANGLE_DEG,
+    BODY_ANGLE_DEG,
+    STUDENT_T_DEGREES,
+    Datum,
+    Predicted,
+    _log_density,
+    data_of,
+    predict,
+)
+from jumpcad.calibration.measurements import Jumps
 from jumpcad.calibration.surface import JumpAt
 
 ONE = np.ones(1)
@@ -44,3 +56,50 @@ def test_a_better_drive_takes_less_from_the_battery() -> None:
         "drive_efficiency": 1.2 * ONE,
     }  # fmt: skip
     assert predict(subject, values).battery_j == pytest.approx([2.0 * 1.1 / 1.2])  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("what", "known"),
+    [
+        ("distance", lambda off, scale: stats.t(STUDENT_T_DEGREES, scale=scale).logpdf(off)),
+        ("speed", lambda off, scale: stats.norm(scale=scale).logpdf(off) + 0.5 * math.log(2.0 * math.pi)),
+        ("battery", lambda off, scale: stats.norm(scale=scale).logpdf(off) + 0.5 * math.log(2.0 * math.pi)),
+    ],
+)
+def test_densities_are_those_of_the_logarithms_distributions(what: str, known: Callable[[float, float], float]) -> None:
+    """Of a measured 0.25 for a computed 0.2 with a deviation of 0.03: ln 1.25 in units of 0.15."""
+    datum = Datum("robot", what, what, 0.25, 1, 0.0, 0.0)
+    found = _log_density(datum, 0.2 * ONE, 0.03 * ONE)
+    assert found == pytest.approx([known(math.log(1.25), 0.15)])
+    assert _log_density(datum, -ONE, ONE).tolist() == [-math.inf]
+
+
+def test_heights_and_angles_have_a_normal_density() -> None:
+    datum = Datum("robot", "angle", "body", 50.0, 1, 0.0, 2.0, relative=False)
+    found = _log_density(datum, 47.0 * ONE, 2.0 * ONE)
+    assert found == pytest.approx([stats.norm(47.0, 2.0).logpdf(50.0) + 0.5 * math.log(2.0 * math.pi)])
+
+
+def test_a_series_is_one_datum_and_a_video_two() -> None:
+    """The geometric mean of 160 and 250 mm is 200 mm; a mean of nine jumps counts as nine; angles have errors in °."""
+    jumps = (
+        Jumps(distance_mm=(160.0, 250.0), distance_of="first-touchdown", battery_j=(1.0, 2.0)),
+        Jumps(height_mm=(50.0,), height_of="rise", jumps=9),
+    )
+    measured = SimpleNamespace(jumps=jumps, videos=(SimpleNamespace(point="body"), SimpleNamespace(point="centre")))
+    seen = SimpleNamespace(speed_m_s=1.5, speed_error_m_s=0.15, angle_deg=50.0, angle_error_deg=3.0)
+    subject = SimpleNamespace(name="a", measured=measured, seen=(seen, seen))
+    distance, battery, height, *videos = data_of(subject)  # type: ignore[arg-type]
+    assert (distance.what, distance.of, distance.count) == ("distance", "first-touchdown", 2)
+    assert distance.value == pytest.approx(0.2)
+    assert (battery.value, battery.count) == (pytest.approx(1.5), 1)
+    assert (height.what, height.value, height.count) == ("height", pytest.approx(0.05), 9)
+    assert [one.what for one in videos] == ["speed", "angle"] * 2
+    assert [one.count for one in videos] == [1] * 4
+    assert [one.relative for one in videos] == [True, False] * 2
+    body, centre = videos[0], videos[2]
+    assert centre.error == pytest.approx(math.hypot(0.1, distance.error))
+    assert body.error > centre.error
+    assert videos[1].error == pytest.approx(math.hypot(BODY_ANGLE_DEG, 3.0))
+    assert videos[3].error == pytest.approx(math.hypot(ANGLE_DEG, 3.0))
+    assert videos[0].scatter == pytest.approx(distance.scatter / 2.0)

@@ -112,3 +112,16 @@ def test_the_roller_counts_with_its_radius(strongest: Robot) -> None:
         tip = np.linalg.inv(foot) @ lever @ np.array([150.0, 0.0, 0.0, 1.0])
         lowest = min(lowest, float(tip[2]))
     assert finding.margin + 0.6 == pytest.approx(lowest - roller_mm / 2.0 + 1000.0 * strongest.foot_depth_m, abs=1e-6)
+
+
+def test_the_trays_count_with_their_ends(strongest: Robot) -> None:
+    """The lower tray 100 mm further down: the lower of its two ends in the pose where it is lowest."""
+    layout = strongest.layout
+    tray = layout.tray_mm + np.array([0.0, -100.0])
+    (finding,) = ground_findings(replace(strongest, layout=replace(layout, tray_mm=tray)))
+    assert "the body" in finding.message
+    pose = strongest.linkage.pose(np.linspace(-strongest.design.compression_rad, 0.0, 91))
+    up = np.stack([np.sin(pose.foot_rad), np.cos(pose.foot_rad)], axis=-1)
+    half = layout.electronics.length_mm / 2.0
+    ends = [((tray + np.array([x, 0.0]) - pose.ankle_mm) * up).sum(axis=1).min() for x in (-half, half)]
+    assert finding.margin + 0.6 == pytest.approx(min(ends) + 1000.0 * strongest.foot_depth_m, abs=0.02)

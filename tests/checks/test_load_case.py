@@ -1,9 +1,14 @@
 """What strength checks share: the leg's axle as a simple beam."""
 
+import math
+
 import numpy as np
 import pytest
+from support.built import built
 
-from jumpcad.checks.load_case import leg_axle_moment_nmm
+from jumpcad.checks.load_case import LoadCase, leg_axle_moment_nmm
+from jumpcad.dimensions import GAP_MM
+from jumpcad.mechanism.linkage import toe_tip_mm
 
 
 def test_leg_axle_is_a_simple_beam() -> None:
@@ -15,3 +20,63 @@ def test_leg_axle_is_a_simple_beam() -> None:
     # both arms push the coil the same way: the leg's half goes straight back into the axle, 8 mm beside it
     sideways = leg_axle_moment_nmm((up, none), none, 40.0, 8.0)
     assert sideways == pytest.approx(25.0 * 8.0)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_arms_forces_turn_leg_and_plates_with_the_springs_torque(name: str) -> None:
+    """A pin is pushed away from the hub, square to its arm; winding is counter-clockwise seen from the right.
+
+    So the leg is pushed back clockwise, and the plates the other way with the same torque.
+    """
+    robot = built(name)
+    spring, case = robot.layout.drive.spring, LoadCase(robot)
+    (on_leg, on_pin), _ = case.wound_forces_n
+    loaded = spring.leg_pin_rad + robot.design.compression_rad
+    for force, angle, sense in ((on_leg, loaded, -1.0), (on_pin, spring.plate_pin_rad, 1.0)):
+        x, z = spring.pin_radius_mm * math.cos(angle), spring.pin_radius_mm * math.sin(angle)
+        assert x * force[1] - z * force[0] == pytest.approx(sense * 1000.0 * robot.spring.peak_torque_nm)
+        assert (x * force[0] + z * force[1]) / math.hypot(*force) > spring.arms.mean_mm / 2.0
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_axles_and_pins_are_beams_between_what_holds_them(name: str) -> None:
+    """Places from the meshes, forces from the springs' torque: M of beams by hand, stress 32·M/(pi·d³)."""
+    robot = built(name)
+    case, spring, sections = LoadCase(robot), robot.layout.drive.spring, robot.layout.sections
+
+    plates = [robot.layout.lateral.left_plate, robot.layout.lateral.right_plate]
+    left, right = (sum(plate) / 2.0 for plate in plates)  # the plates without what stands on them
+    span, arm_n = left - right, spring.torque_nmm / spring.arms.lever_mm
+    roller = next(item for item in robot.hardware if item.name == "roller")
+    cam = float(roller.look.copy().apply_transform(roller.T_body_part).bounds[:, 1].mean())
+    coil = robot.layout.lateral.spring_left
+    thickness = sections.thickness_mm
+    by_hand = {
+        "cam_axle": robot.layout.drive.cam.peak_contact_n * (cam - right) * (left - cam) / span,
+        "spring_pin": arm_n * (left - (left + right) / 2.0 - coil[1]),
+        "leg_pin": arm_n * (GAP_MM + spring.wire_mm / 2.0 + thickness / 4.0),
+        "foot_pin": max(case.ankle_n, case.front_n, case.landing_n) / 2.0
+        * (robot.layout.lateral.lug_left[0] + sections.lug_thickness_mm / 2.0 - thickness / 4.0),
+    }  # fmt: skip
+    for pin, moment in by_hand.items():
+        diameter = case.bars[pin].diameter_mm
+        least = 32.0 * moment / (math.pi * diameter**3)
+        assert case.steel_stresses_mpa[pin] >= 0.97 * least, pin
+        if robot.layout.retention != "nuts":
+            assert case.steel_stresses_mpa[pin] == pytest.approx(least, rel=0.05), pin
+
+
+def test_a_landing_is_stopped_over_the_workshops_distance() -> None:
+    """Springs' energy becomes height; m·g·h over the stop, and the weight. A toe's blow turns the body: it is less."""
+    robot = built("kenan-2.0")
+    case = LoadCase(robot)
+    weight = robot.mass_kg * 9.80665
+    joules = robot.spring.energy_j
+    stop_m = robot.workshop.safety.landing_stop_mm / 1000.0
+    assert case.landing_n == pytest.approx(joules / stop_m + weight, rel=2e-3)
+    body = robot.bodies["body"]
+    k_x, k_y = (1000.0 * math.sqrt(body.inertia_kg_m2[i, i] / body.mass_kg) for i in (0, 1))
+    x, y = toe_tip_mm(robot.design)
+    share = 1.0 / (1.0 + (x / k_y) ** 2 + (y / k_x) ** 2)
+    assert case.toe_blow_n == pytest.approx(share * case.landing_n)
+    assert case.axial_n == pytest.approx(robot.workshop.ground.foot_friction * case.landing_n)

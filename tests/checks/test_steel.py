@@ -4,10 +4,13 @@ import math
 import re
 
 import pytest
+from support.built import built
 from support.fits import LOADS
 from support.strengths import changed, margins
 
 from jumpcad.building import build
+from jumpcad.checks import steel
+from jumpcad.checks.load_case import LoadCase
 from jumpcad.checks.strength import strength_findings
 from jumpcad.robot import Robot
 
@@ -88,3 +91,20 @@ def test_a_stock_springs_axle_is_not_helped_by_the_designs_stiffness(kenan: Robo
     rate = float(found.remedy.partition("bought.spring of ")[2].partition(" ")[0])
     assert rate < 26.4
     assert found.value * rate / 26.36 <= 1.02 * found.limit
+
+
+def test_a_pin_that_is_too_weak_is_answered_with_what_is_strong_enough() -> None:
+    """Twice the stress: twice the yield stress, a solid rod that has it, or a diameter larger by the root of three."""
+    robot = built("kenan-2.0")
+    case = LoadCase(robot)
+    bar = case.bars["leg_axle"]
+    words = steel._stronger(case, "leg_axle", 2.0 * 300.0, 300.0)
+    assert f"{2.0 * bar.yield_mpa:.0f} MPa yield stress" in words
+    assert f"bought.axle_mm of {math.ceil(10.0 * bar.diameter_mm * 2.0 ** (1.0 / 3.0)) / 10.0:.1f}" in words
+    assert "shorter by 50 %" in words
+    just = steel._stronger(case, "leg_axle", 1.1 * 300.0, 300.0)
+    for rod in robot.workshop.catalogue.rods.values():
+        strong = rod.yield_mpa >= 1.1 * bar.yield_mpa and not rod.bore_share
+        assert (f"{rod.name}" in just.split(")")[0]) == strong
+    assert steel._stronger(case, "leg_axle", 200.0, 300.0).startswith("a stronger bought.axle")
+    assert "no stronger pins" in steel._stronger(case, "foot_pin", 600.0, 300.0)

@@ -70,6 +70,21 @@ def test_what_bent_the_lever_drives_the_cam() -> None:
     assert rolled.kept_j == pytest.approx(rolled.held_j, rel=1e-3)
 
 
+def test_preloaded_springs_keep_their_energy_too() -> None:
+    """Without friction, and with a cam too slow to matter, leg and cam have together what the springs lose."""
+    robot = built("best-ga")
+    preloaded = replace(robot.release.parts[1].spring, preload_rad=0.2)
+    rolled, parts = released(
+        robot, friction_mm=0.0, cam_rad_s=0.1, roller_kg_m2=0.0, contact_nm_per_rad=1e9, rebound=1.0, spring=preloaded
+    )
+    wound = robot.spring.wind_rad
+    torque = preloaded.torque_nm(-wound) + float(parts.leg.at(np.array(wound))[2])
+    share = parts.cam_kg_m2 * parts.gear_kg_m2 / (parts.cam_kg_m2 + parts.gear_kg_m2)
+    speed = 0.1 + rolled.blow_nm / math.sqrt(parts.train_nm_per_rad * share)
+    assert 0.5 * parts.cam_kg_m2 * speed**2 == pytest.approx(0.5 * torque**2 / parts.lever_nm_per_rad, rel=0.03)
+    assert rolled.kept_j == pytest.approx(rolled.held_j, rel=1e-3)
+
+
 def test_a_leg_that_falls_back_onto_the_corner_gains_what_the_springs_lose() -> None:
     """Without a dog the roller bounces on the corner: between two touches springs' and kinetic energy are one sum."""
     robot = built("best-ga")

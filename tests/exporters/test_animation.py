@@ -89,3 +89,13 @@ def test_without_its_motion_the_robot_stands_at_rest(glb: bytes) -> None:
 def test_a_robot_that_does_not_jump_has_no_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("jumpcad.bundle.jump_motion.ENGINE", "no engine")
     assert jump_motion(built("kenan-2.0")) is None
+
+
+def test_times_state_their_least_and_largest(glb: bytes) -> None:
+    """As glTF 2.0 asks for the input of samplers (3.11)."""
+    for name in ("jump", "jump, a tenth of the speed"):
+        film = Film(glb, name)
+        stated = film.file.accessors[film.animation.samplers[0].input]
+        assert stated.min == pytest.approx([film.time_s.min()])
+        assert stated.max == pytest.approx([film.time_s.max()])
+        assert film.time_s.min() < film.time_s.max()

@@ -1,11 +1,18 @@
 """Joints that mimic the leg's in ROS: the line through their angles, against numpy's polynomial fit."""
 
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
+from support.built import built
 
 from jumpcad.design import load_design
-from jumpcad.exporters.ros2 import mimicked
+from jumpcad.exporters.collision import capsules
+from jumpcad.exporters.ros2 import mimicked, model_name, ros2_files
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.settings import Settings, coefficients
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga"])
@@ -19,3 +26,81 @@ def test_dependent_joints_follow_the_leg_by_the_line_of_least_squares(name: str)
         mimic = mimicked(robot)[joint]
         assert (mimic.slope, mimic.offset_rad) == pytest.approx((slope, offset), abs=0.005)
         assert np.abs(mimic.slope * leg + mimic.offset_rad - angle).max() == pytest.approx(mimic.error_rad, abs=1e-4)
+
+
+@pytest.fixture(scope="module")
+def package() -> dict[str, ET.Element]:
+    """The files of XML of the ROS package, by name."""
+    files = ros2_files(built("kenan-2.0"))
+    return {Path(path).name: ET.fromstring(text) for path, text in files if path.endswith((".xacro", ".sdf"))}
+
+
+def test_arguments_have_their_defaults(package: dict[str, ET.Element]) -> None:
+    """Joints mimic, the mock of ros2_control, no file of controllers."""
+    top = next(root for name, root in package.items() if name.endswith(".urdf.xacro"))
+    given = {one.get("name"): one.get("default") for one in top if one.tag.endswith("arg")}
+    assert given == {"mimic": "true", "gazebo": "false", "controllers": ""}
+    included = [one.get("filename") for one in top if one.tag.endswith("include")]
+    assert included == ["links.xacro", "ros2_control.xacro", "gazebo.xacro"]
+    plugins = {one.tag.split("}")[1]: one.find("plugin").text for one in package["ros2_control.xacro"].iter()
+               if one.get("value") == "$(arg gazebo)"}  # fmt: skip
+    assert plugins == {"if": "gz_ros2_control/GazeboSimSystem", "unless": "mock_components/GenericSystem"}
+
+
+def test_the_leg_alone_is_driven(package: dict[str, ET.Element]) -> None:
+    joints = package["ros2_control.xacro"].findall("ros2_control/joint")
+    driven = {one.get("name"): [command.get("name") for command in one.findall("command_interface")] for one in joints}
+    assert driven == {"leg": ["effort"], "front": [], "ankle": []}
+    for one in joints:
+        assert [state.get("name") for state in one.findall("state_interface")] == ["position", "velocity"]
+
+
+def test_collision_cylinders_lie_where_the_capsules_of_the_bodies_do(package: dict[str, ET.Element]) -> None:
+    """The axis, z turned by roll, pitch and yaw (fixed axes), and the middle between the ends."""
+    robot, found = built("kenan-2.0"), 0
+    for link in package["links.xacro"].findall("link"):
+        if link.get("name") not in robot.bodies:
+            continue  # the fixed base
+        for number, capsule in enumerate(capsules(robot, link.get("name")), start=1):
+            (shape,) = (one for one in link.findall("collision") if one.get("name") == f"{link.get('name')}_{number}")
+            origin, cylinder = shape.find("origin"), shape.find("geometry/cylinder")
+            middle = np.array(origin.get("xyz").split(), dtype=float)
+            turn = Rotation.from_euler("xyz", [float(angle) for angle in origin.get("rpy").split()])
+            half = float(cylinder.get("length")) / 2.0 * turn.apply([0.0, 0.0, 1.0])
+            np.testing.assert_allclose(middle + half, capsule.end_m, atol=2e-6)
+            np.testing.assert_allclose(middle - half, capsule.start_m, atol=2e-6)
+            assert float(cylinder.get("radius")) == pytest.approx(capsule.radius_m)
+            found += 1
+    assert found >= 4
+
+
+def test_gazebo_has_the_springs_and_the_floor(package: dict[str, ET.Element]) -> None:
+    robot = built("kenan-2.0")
+    (spring,) = (one for one in package["gazebo.xacro"] if one.get("reference") == "leg")
+    stiffness = float(spring.find("springStiffness").text)
+    assert stiffness == pytest.approx(robot.spring.stiffness_nm_per_rad)
+    assert float(spring.find("springReference").text) == pytest.approx(robot.spring.preload_rad)
+    floor = coefficients(robot, Settings())
+    for body in robot.bodies.values():
+        (one,) = (one for one in package["gazebo.xacro"] if one.get("reference") == body.name)
+        assert float(one.find("mu1").text) == float(one.find("mu2").text) == pytest.approx(floor.contact(body.surface))
+
+
+def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.Element]) -> None:
+    robot = built("kenan-2.0")
+    for joint in package["links.xacro"].findall("joint"):
+        mimics = list(joint.iter("mimic"))
+        line = mimicked(robot).get(joint.get("name"))
+        assert len(mimics) == (line is not None)
+        if line is not None:
+            assert mimics[0].get("joint") == "leg"
+            assert float(mimics[0].get("multiplier")) == pytest.approx(line.slope, abs=1e-6)
+            assert float(mimics[0].get("offset")) == pytest.approx(line.offset_rad, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "model"), [("Kenan-2.0", "kenan_2_0"), ("2nd", "robot_2nd"), ("--", "robot"), ("a__b", "a_b")]
+)
+def test_names_are_those_that_ros_allows(name: str, model: str) -> None:
+    """REP 144: lower case, digits, single underscores, a letter first."""
+    assert model_name(name) == model

@@ -12,6 +12,7 @@ from support.elsewhere import environment
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import (
+    require_apart,
     require_free,
     require_target,
     same_file,
@@ -158,3 +159,21 @@ def test_a_sealed_png_is_a_png_and_is_replaced_until_somebody_edits_it(tmp_path:
         path.write_bytes(mine)
         with pytest.raises(JumpcadError, match="exists already"):
             require_free(path)
+
+
+def test_outputs_are_apart_from_each_other_and_from_what_is_read(tmp_path: Path) -> None:
+    """A path with a suffix is a file unless it is a folder: nothing can lie below it."""
+    read, folder = tmp_path / "a.toml", tmp_path / "b.d"
+    read.write_text("")
+    folder.mkdir()
+    require_apart({"-o": tmp_path / "x.toml", "--plots": tmp_path / "plots", "--none": None}, {"design": str(read)})
+    require_apart({"-o": folder, "--plots": folder / "plots"}, {})
+    for outputs in (
+        {"-o": tmp_path / "x.toml", "--plots": tmp_path / "x.toml"},
+        {"-o": tmp_path / "x.toml", "--plots": tmp_path / "x.toml" / "plots"},
+        {"--plots": tmp_path / "x.toml" / "plots", "-o": tmp_path / "x.toml"},
+        {"-o": read},
+        {"-o": read / "plots"},
+    ):
+        with pytest.raises(JumpcadError, match="choose another name"):
+            require_apart(outputs, {"design": str(read)})

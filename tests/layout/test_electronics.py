@@ -94,3 +94,12 @@ def test_what_lies_on_a_tray_has_its_own_place_between_the_plates() -> None:
     assert all(tray.buffer(-0.8).covers(slot) for slot in slots)
     for one, other in itertools.combinations([*upper, *slots], 2):
         assert one.intersection(other).area < 1e-6
+
+
+def test_the_obstacle_of_trays_and_boards_is_an_upright_box_around_all() -> None:
+    tray = np.array([30.0, 5.0])
+    found = electronics_obstacle(CARRIED, tray, INSIDE)
+    low, high = found.points_mm.min(axis=0) - found.radius_mm, found.points_mm.max(axis=0) + found.radius_mm
+    np.testing.assert_allclose(low, [30.0 - CARRIED.length_mm / 2.0, 5.0], atol=1e-6)
+    np.testing.assert_allclose(high, [30.0 + CARRIED.length_mm / 2.0, 5.0 + CARRIED.height_mm], atol=1e-6)
+    assert found.y_mm == INSIDE

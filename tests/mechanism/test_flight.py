@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.built import built
 
+from jumpcad.mechanism import flight
 from jumpcad.mechanism.flight import leg_blow
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.settings import load_settings
@@ -63,3 +64,32 @@ def test_inertia_in_flight_is_what_is_left_without_momenta(name: str) -> None:
     solved = np.linalg.lstsq(np.array(rows), np.array(right), rcond=None)
     blow = leg_blow(robot.bodies, robot.linkage, robot.spring, stop)
     assert blow.inertia_kg_m2 == pytest.approx(float(solved[1][0]), rel=2e-3)
+
+
+class Rocking:
+    """A foot that the leg's torque lifts off at the nose and, later, presses down again: constant inertias."""
+
+    leg = np.array([0.0, 1.0])
+    inertia = np.array([[2.0, 0.6], [0.6, 1.0]])
+
+    def __init__(self) -> None:
+        self.seen: list[tuple[float, ...]] = []
+
+    def equations(self, state: flight._State) -> flight._Equations:
+        self.seen.append(state[:4])
+        foot_nm = -0.5 if state.leg_rad < 0.02 else 4.0
+        (leg, mixed), (_, foot) = self.inertia
+        return flight._Equations(leg, mixed, foot, 1.0, foot_nm, 0.0, 0.0, 1.0)
+
+
+def test_a_foot_that_comes_down_flat_keeps_the_momentum_of_the_leg() -> None:
+    """The ground's blow has no moment about the leg's joint: 2·w + 0.6·v before is 2·w after, and the foot stands."""
+    chain, robot = Rocking(), built("kenan-2.0")
+    contacts = tuple(one for body in robot.bodies.values() for one in body.contacts)
+    flight._push_off(chain, contacts)  # type: ignore[arg-type]
+    seen = np.array(chain.seen)
+    landed = next(i for i in range(1, len(seen)) if seen[i - 1, 1] != 0.0 and seen[i, 1] == 0.0)
+    before, after = seen[landed - 1], seen[landed]
+    assert before[3] != 0.0
+    assert after[3] == 0.0
+    assert 2.0 * after[2] == pytest.approx(2.0 * before[2] + 0.6 * before[3], rel=1e-9)

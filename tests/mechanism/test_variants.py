@@ -8,7 +8,7 @@ import pytest
 from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import FOOT, RollerOff
-from jumpcad.mechanism.variants import with_lengths, with_spring_factor
+from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
 
 
 def test_energy_goes_with_the_factor() -> None:
@@ -51,3 +51,11 @@ def test_lengths_are_those_of_a_robot_made_with_them() -> None:
             assert np.allclose(one.centre_m, other.centre_m, atol=1e-15)
     assert moved.bodies[FOOT].mass_kg == capsule_robot(design).bodies[FOOT].mass_kg
     assert moved.linkage.l1 == made.linkage.l1
+
+
+def test_links_are_longer_by_their_errors_and_nothing_else_changes() -> None:
+    design = load_design("kenan-2.0")
+    changed = with_length_errors(design, np.array([0.2, -0.1, 0.15, 0.05]))
+    found = [changed.l2_mm, changed.l3_mm, changed.l4_mm, changed.l5_mm]
+    assert found == pytest.approx([design.l2_mm + 0.2, design.l3_mm - 0.1, design.l4_mm + 0.15, design.l5_mm + 0.05])
+    assert changed.to_vector()[4:] == pytest.approx(design.to_vector()[4:])

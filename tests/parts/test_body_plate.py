@@ -165,3 +165,17 @@ def test_the_gap_under_the_cap_can_be_closed_without_breaking_it() -> None:
         strain = thick * MOTOR_CLAMP_MM / 2.0 / (arm * half + arm**2 / 3.0)
         across = socket_half_mm(motor)[0] * 2.0
         assert strain * across / (across - motor.boss_mm) < 0.011
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_strut_between_the_axles_has_3_mm_beside_their_bores(side: str) -> None:
+    """A plate's material reaches from axle to axle with a wall of 3 mm on either side, where nothing is cut out."""
+    robot = built("kenan-2.0")
+    plate = robot.layout.lateral.left_plate if side == "left" else robot.layout.lateral.right_plate
+    area = region(cut(placed(robot, f"body_plate_{side}"), sum(plate) / 2.0)).buffer(1e-3)
+    filled = shapely.union_all([shapely.Polygon(one.exterior) for one in getattr(area, "geoms", [area])])
+    strut = shapely.LineString([robot.layout.hub_mm, robot.layout.front_mm]).buffer(robot.layout.axle_mm / 2.0 + 2.95)
+    pockets = [shapely.Polygon(ring) for one in getattr(area, "geoms", [area]) for ring in one.interiors]
+    large = shapely.union_all([one for one in pockets if one.area > 60.0 and not one.contains(strut.centroid)])
+    assert filled.buffer(0.05).contains(shapely.LineString([robot.layout.hub_mm, robot.layout.front_mm]))
+    assert strut.intersection(large).area < 0.05

@@ -1,6 +1,7 @@
 """Legs with a bought bar between printed ends: measured on meshes, and against handbook formulas."""
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.catalogue import load_catalogue
-from jumpcad.checks import check, constraint_findings
+from jumpcad.checks import check, constraint_findings, leg_bar
 from jumpcad.checks.leg_bar import leg_bar_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -135,3 +136,16 @@ def test_formulas_are_those_of_the_handbooks() -> None:
     assert loose.wall_mpa(600.0, 12.0) * (6.0 - 3.2) == pytest.approx(loose.pressure_mpa(600.0, 12.0) * 3.0)
     # glue around 18 mm of section, 30 mm long
     assert socket.bond_mpa(5400.0, 0.0) == pytest.approx(5400.0 / (2.0 * (3.0 + 6.0) * 30.0))
+
+
+def test_a_soft_bar_takes_the_energy_beyond_its_sockets_middle() -> None:
+    """The moment falls evenly to the ankle: T²·l/(6·E·I) of a whole bar, and the cube of what is beyond the middle."""
+    found = robot("carbon-strip-3x6")
+    case, length = LoadCase(found), found.design.l2_mm
+    place = leg_bar_place(found.layout, case.holes)
+    assert place is not None
+    soft = replace(place, bar=place.bar.model_copy(update={"modulus_mpa": 1e-3}))
+    beyond = 1.0 - (place.floor_mm + place.mouth_mm) / 2.0 / length
+    second = place.bar.width_mm * place.bar.height_mm**3 / 12.0
+    whole = case.torque_nmm**2 * length / (6.0 * 1e-3 * second)
+    assert leg_bar._bent_nmm(case, soft) == pytest.approx(whole * beyond**3, rel=0.04)  # in steps

@@ -175,3 +175,13 @@ def test_coil_and_leg_arm_are_one_wire_at_rest(preload_deg: float) -> None:
         along, chord = ends[1][:2] - ends[0][:2], (coil[-1] - coil[-2])[[0, 2]]
         cosine = along @ chord / np.linalg.norm(along) / np.linalg.norm(chord)
         assert cosine > math.cos(math.radians(9.0))  # a chord of 15° is turned by half of that
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_what_has_its_place_is_not_weighed_among_the_wires_too(name: str) -> None:
+    robot = built(name)
+    names = [item.name for item in robot.hardware]
+    placed = robot.layout.fittings.switch_mm is not None
+    assert names.count("switch") == placed
+    assert names.count("wiring_switch") == (not placed)
+    assert names.count("wiring_sensor") == (robot.layout.sensor is None)

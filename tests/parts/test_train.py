@@ -16,8 +16,9 @@ from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import MAIN_LEG
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing
-from jumpcad.parts.train import gears
+from jumpcad.parts.train import gears, ribbed_d_bore
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -287,3 +288,23 @@ def test_the_sensors_land_is_one_piece_with_a_gear_whose_web_has_holes() -> None
     solid = gear.shape.solid()
     assert solid.genus() > 3  # bore, pockets, and holes in the web
     assert len(solid.decompose()) == 1
+
+
+def test_a_motors_shaft_is_held_by_five_ribs() -> None:
+    """A bore of 3 mm with a press fit around it: two ribs on the flat, symmetric, and one each way on the round side.
+
+    Every rib leaves the shaft's own section narrower by its overlap; nothing else of the bore touches the shaft.
+    """
+    holes = HoleSizes.of(load_workshop(), None)
+    fits = load_workshop().fits
+    bore = shapely.union_all([shapely.Polygon(one) for one in ribbed_d_bore(3.0, 2.5, holes).to_polygons()])
+    shaft = shapely.Point(0.0, 0.0).buffer(1.5, 128).intersection(shapely.box(-2.0, -2.0, 1.0, 2.0))
+    ribs = [one for one in shaft.difference(bore).geoms if one.area > 1e-4]
+    assert len(ribs) == 5
+    middles = sorted((round(one.centroid.x, 1), round(one.centroid.y, 2)) for one in ribs)
+    flat = [at for at in middles if at[0] > 0.7]
+    assert [y for _, y in flat] == pytest.approx([-0.75, 0.75], abs=0.02)
+    others = [at for at in middles if at not in flat]
+    for x, y in ((-1.5, 0.0), (0.0, 1.5), (0.0, -1.5)):
+        assert min(math.dist((x, y), at) for at in others) < fits.rib_mm
+    assert bore.difference(shaft.buffer(fits.press_mm + 1e-3)).area < 1e-3

@@ -48,3 +48,11 @@ def test_lines_turn_like_thin_rods():
     assert found.inertia_kg_m2[0, 0] == pytest.approx(2.0 * rod * 0.005**2)
     assert found.inertia_kg_m2[1, 1] == pytest.approx(2.0 * rod * 0.020**2 / 12.0)
     assert found.inertia_kg_m2[2, 2] == pytest.approx(2.0 * rod * (0.020**2 / 12.0 + 0.005**2))
+
+
+def test_three_lines_of_different_heights_have_their_plastic_half_a_line_lower():
+    """0.3, 0.2 and 0.1 mm high, all 10 mm long at 0.5 mm, with 1, 2 and 3 mm of filament."""
+    text = "M83\nG1 X0 Y0 Z.5\n;HEIGHT:0.3\nG1 X10 E1\n;HEIGHT:0.2\nG1 X0 E2\n;HEIGHT:0.1\nG1 X10 E3\n"
+    found = mass_of(read_gcode(text + "; filament_diameter = 1.75\n").moments(), 1.0)
+    assert found.com_m[2] == pytest.approx((0.35 * 1.0 + 0.4 * 2.0 + 0.45 * 3.0) / 6.0 / 1000.0)
+    assert found.com_m[0] == pytest.approx(0.005)

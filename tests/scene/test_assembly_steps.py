@@ -1,13 +1,16 @@
 """The order of assembly: every thing on the robot is put on once."""
 
+import re
 from collections import Counter
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.built import built
 
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_steps import REST, assembly_steps
+from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
 
 
@@ -29,3 +32,79 @@ def test_what_no_step_knows_is_not_forgotten(small_robot: Robot) -> None:
     last = assembly_steps(replace(small_robot, hardware=(*small_robot.hardware, strange)))[-1]
     assert last.title == REST
     assert "antenna" in {thing.name for thing in last.added}
+
+
+def test_parts_move_to_their_places_from_where_the_step_says(robot: Robot) -> None:
+    """Screws go in with their tips ahead: from the wider end of their mesh to the other. Toes come towards the foot."""
+    poses, seen = body_poses(robot, 0.0), set()
+    for step in assembly_steps(robot):
+        for placed in step.placed:
+            for thing in placed.things:
+                pose = poses[thing.body]
+                way = travel(robot, thing, placed.move, pose)
+                assert np.linalg.norm(way) == pytest.approx(1.0)
+                points = thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T @ pose[:3, :3].T
+                along = points @ way
+                if placed.move.along == "head last" and "screw" in thing.name:
+                    ends = [
+                        points[np.abs(along - end) < 1e-4 * max(1.0, np.ptp(along))]
+                        for end in (along.min(), along.max())
+                    ]
+                    behind, ahead = (np.ptp(end - np.outer(end @ way, way), axis=0).max() for end in ends)
+                    assert behind > ahead, thing.name
+                    seen.add("screw")
+                elif placed.move.along == "from outside":
+                    middle = (thing.T_body_mesh[:3, :3] @ thing.mesh.centroid + thing.T_body_mesh[:3, 3])[1]
+                    assert (pose[:3, :3].T @ way)[1] * middle < 0.0, thing.name
+                    seen.add("toe")
+                elif placed.move.along == "from the leg":
+                    seen.add("stop")
+    assert seen == {"screw", "stop"} | ({"toe"} if robot.layout.toes_apart else set())
+
+
+def test_what_comes_from_a_side_moves_away_from_it() -> None:
+    """x forwards, y to the left, z up."""
+    towards = {"left": (1, 1.0), "right": (1, -1.0), "above": (2, 1.0), "below": (2, -1.0)}
+    towards |= {"the front": (0, 1.0), "behind": (0, -1.0)}
+    assert len(SIDES) == 6
+    for words, (axis, sign) in towards.items():
+        side = next(way for name, way in SIDES.items() if name in (f"from {words}", f"from the {words}"))
+        assert side[axis] == -sign
+        assert np.abs(side).sum() == 1.0
+
+
+def test_a_nut_comes_from_the_other_side_than_its_screw(robot: Robot) -> None:
+    """It moves towards the head of the screw on which it goes; its spanner comes the same way."""
+    poses = body_poses(robot, 0.0)
+    things = {thing.name: thing for step in assembly_steps(robot) for thing in step.added}
+
+    def y(name: str) -> float:
+        thing = things[name]
+        return float((thing.T_body_mesh[:3, :3] @ thing.mesh.centroid / 1000.0 + thing.T_body_mesh[:3, 3])[1])
+
+    moves = [placed for step in assembly_steps(robot) for placed in step.placed if placed.move.parts == "roller_nut"]
+    assert moves
+    for placed in moves:
+        (nut,) = placed.things
+        way = travel(robot, nut, placed.move, poses[nut.body])
+        assert way[1] * (y("roller_screw") - y("roller_nut")) > 0.0
+        assert np.allclose(SIDES[placed.move.reach], way)
+
+
+def test_fasteners_have_their_heads_where_they_come_from_and_bearings_their_own_side(robot: Robot) -> None:
+    """Of a screw or pin that comes from the left the wider end is on the left; y is to the left."""
+    seen = set()
+    for placed in (placed for step in assembly_steps(robot) for placed in step.placed):
+        for thing in placed.things:
+            side = {"from the left": 1.0, "from the right": -1.0}.get(placed.move.along)
+            if side is None or placed.move.brings:
+                continue
+            points = thing.mesh.vertices @ thing.T_body_mesh[:3, :3].T + 1000.0 * thing.T_body_mesh[:3, 3]
+            ends = [points[np.abs(points[:, 1] - y) < 1e-3] for y in (points[:, 1].min(), points[:, 1].max())]
+            low, high = (np.ptp(end, axis=0).max() for end in ends)
+            if re.search("screw|_pin$", thing.name) and abs(high - low) > 0.01:
+                assert (high - low) * side > 0.0, thing.name
+                seen.add(thing.name)
+            if thing.name.startswith("hub_bearing"):
+                assert points[:, 1].mean() * side > 0.0, thing.name
+    assert {"roller_screw", "cap_screw_1", "standoff_1_screw_left", "standoff_1_screw_right", "ankle_pin"} <= seen

@@ -2,7 +2,8 @@
 
 import pytest
 
-from jumpcad.search.parameter import SearchParameter, narrowed, physical_limits
+from jumpcad.errors import JumpcadError
+from jumpcad.search.parameter import SearchParameter, narrowed, physical_limits, read_change
 
 
 def test_physical_limits_are_those_of_a_design():
@@ -22,3 +23,17 @@ def test_a_narrowed_range_stays_within_what_a_design_can_be():
     near = narrowed(angle, 50.0, 10.0)
     assert (near.lower, near.upper) == pytest.approx((45.0, 55.0))
     assert narrowed(angle, 88.0, 10.0).upper == 90.0
+
+
+@pytest.mark.parametrize("text", ["l1_mm", "body_joint_mm=100", "body_joint_mm=90:100:110", "body.plate_mm=2"])
+def test_bounds_are_two_numbers(text: str) -> None:
+    with pytest.raises(JumpcadError, match="not of the form NAME=LO:HI"):
+        read_change("bound", text)
+
+
+def test_bounds_of_a_workshops_value_are_numbers_and_its_choices_are_left_to_the_workshop() -> None:
+    assert read_change("bound", " body.plate_mm = 1.2:2.4").values == (1.2, 2.4)
+    assert read_change("choose", "bought.battery=one, two").values == ("one", "two")
+    assert read_change("fix", "body_joint_mm=90").values == (90.0,)
+    with pytest.raises(JumpcadError, match="'thin' is not a number"):
+        read_change("bound", "body.plate_mm=thin:2.4")

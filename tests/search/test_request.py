@@ -1,5 +1,7 @@
 """What a study is asked for, and its stages."""
 
+from dataclasses import replace
+
 import pytest
 from support.hills import SMALL, Hill
 
@@ -20,3 +22,21 @@ def test_split_of_the_budget(method, evaluations, split):
     stages = plan_stages(Request(SMALL, Hill(), method=method, evaluations=evaluations))
     assert [stage.evaluations for stage in stages] == split
     assert evaluations - sum(split) == (0 if evaluations < 24 else min(evaluations // 4, 200))
+
+
+def test_only_what_was_asked_for_is_in_a_studys_identity():
+    plain = Request(SMALL, Hill(), method="ga", evaluations=40)
+    known = plain.identity([])
+    assert "widen" not in known
+    assert "screen" not in known
+    assert known["prior"] is None
+    wider = replace(plain, widen=True)
+    assert wider.identity([])["widen"] is True
+    names = {plain.default_name(), wider.default_name(), replace(plain, seed=plain.seed + 1).default_name()}
+    assert len(names) == 3
+    assert replace(plain, evaluations=50).default_name() == plain.default_name()
+    screened = object.__new__(Request)
+    for name, value in vars(plain).items():
+        object.__setattr__(screened, name, value)
+    object.__setattr__(screened, "screen", True)
+    assert screened.identity([])["screen"] is True

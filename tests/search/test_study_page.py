@@ -95,7 +95,7 @@ def test_says_what_was_asked_and_found(studies):
     found = tables(page)
     asked = {row[0]: row for row in found["parameter"]}
     assert asked["compression_ratio"][2] == "0.1 … 0.8"
-    assert asked["carrying_link_mm"][1:] == ["length of the main leg, l2", "fixed at 100", "100"]
+    assert asked["carrying_link_mm"][1:] == ["length of the main leg, l2", "fixed at 100 mm", "100 mm"]
     assert float(asked["compression_ratio"][3]) == pytest.approx(0.5, abs=0.05)  # the top of the bump
     cards = {text(card[0]): text(card[1]) for card in parsed(page).iter("div") if len(card) and card[0].tag == "dt"}
     assert (cards["method"], cards["robot"], cards["seed"]) == ("bo", "bump", "0")
@@ -104,8 +104,9 @@ def test_says_what_was_asked_and_found(studies):
         around = len(store.trials()) - len(searched)
     assert int(cards["designs of the search"]) == len(searched)
     assert int(cards["designs around the best"]) == around > 0
-    reasons = {row[0]: row[2] for row in found["reason"][1:]}
-    assert reasons == {"loop": str(sum(trial.design.compression_ratio > 0.7 for trial in searched))}
+    ((reason, meaning, _, count),) = found["reason"][1:]
+    assert (reason, count) == ("loop", str(sum(trial.design.compression_ratio > 0.7 for trial in searched)))
+    assert "do not reach each other" in meaning
     best = found["design"][1]
     assert float(best[1]) == pytest.approx(9.0, abs=0.05)
     assert "of" in best[4]  # rejected of its neighbours
@@ -125,7 +126,7 @@ def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(stu
         assert f"{trial.score:.4g}" == line[1]
         shown = {text(row[0]): text(row[1]) for row in section.iter("tr")}
         assert float(shown["compression_ratio"]) == pytest.approx(trial.design.compression_ratio, rel=1e-4)
-        assert float(shown["spring energy"].removesuffix(" mJ")) == pytest.approx(
+        assert float(shown["energy in the springs"].removesuffix(" mJ")) == pytest.approx(
             1000.0 * trial.design.spring_energy_j, rel=1e-3
         )
         assert [group.get("class") for group in section.iter("g")] == ["loaded", "rest"]
@@ -133,6 +134,44 @@ def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(stu
     across = [float(point.find("circle").get("cx")) for point in points]
     assert heights == sorted(heights, reverse=True)
     assert across == sorted(across)
+
+
+def drawn_in(page, heading):
+    """Return the paths of the picture below a heading by their kinds, and the words of its section."""
+    section = page.partition(f"<h2>{heading}</h2>")[2].partition("<h2>")[0]
+    pictures = "".join(re.findall(r'<svg class="drawn(?: lines)?" .*?</svg>', section, re.DOTALL))
+    return dict(re.findall(r'<path class="([\w ]+)" d="([^"]*)"', pictures)), re.sub(r"<[^>]*>", "", section)
+
+
+def test_pictures_have_every_design_once_and_their_words_are_true(studies):
+    page = known_page_of(studies / "bo.db")
+    with StudyStore.read(studies / "bo.db") as store:
+        scores = [trial.score for trial in store.trials() if trial.phase == "bo"]
+    jumped = [score for score in scores if score is not None]
+    paths, words = drawn_in(page, "History")
+    assert paths["dots phase0"].count("M") == len(jumped)
+    assert paths["rejected"].count("M") == len(scores) - len(jumped) > 0
+    assert f"The best is number {scores.index(max(jumped)) + 1} of {len(scores)}." in words
+    before = max(score for score in scores[: len(scores) - len(scores) // 5] if score is not None)
+    assert ("found nothing better" in words) == (before == max(jumped))
+    paths, words = drawn_in(page, "Slices")
+    assert sum(drawn.count("M") for kind, drawn in paths.items() if kind.startswith("dots age")) == len(jumped)
+    assert "rest_angle_deg (°): angle between body and legs at rest. Best: 50" in words  # the top of the bump
+    paths, words = drawn_in(page, "Parallel lines")
+    assert sum(drawn.count("M") for kind, drawn in paths.items() if kind.startswith("bundle")) == len(jumped)
+    assert "run together, within a tenth of the range, in compression_ratio, rest_angle_deg" in words
+
+
+def test_bounds_say_what_they_cost(tmp_path):
+    """The bump is highest at 0.5: a search up to 0.4 ends at its upper end, beyond which the score rises."""
+    studied(tmp_path / "s.db", Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"]), "bo", 40).close()
+    page = page_of(tmp_path / "s.db")
+    (table,) = [one for one in parsed(page).iter("table") if "score beyond it" in text(one)]
+    ((name, end, at, examined, cost),) = [[text(cell) for cell in row] for row in table.iter("tr")][1:]
+    assert (name, end, at) == ("compression_ratio", "upper", "0.4")
+    gain = 20.0 * (0.1**2 - (0.5 - float(examined)) ** 2)
+    assert float(cost.split()[0]) == pytest.approx(gain, abs=0.01)
+    assert "Here it rises beyond that of compression_ratio." in text(parsed(page).find("body"))
 
 
 def test_a_parameter_without_effect_matters_least(tmp_path):

@@ -4,8 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from support.flights import make_lopsided
 from support.machines import PAD_NM_PER_RAD, STOP_RAD, let_go, one_sided, rubbing, stopped
 
+from jumpcad.design import load_design
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
@@ -23,6 +26,12 @@ NO_LOSSES = Losses(0.0, 0.0, 0.0, 0.0, 0.0)
 FINE = Settings(dt_s=1 / 16000)
 PINS = ((BODY, MAIN_LEG), (BODY, FRONT_LINK), (MAIN_LEG, FOOT), (FRONT_LINK, FOOT))
 """The bodies of the pins leg, front, ankle and eye."""
+
+
+@pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
+def either(request: pytest.FixtureRequest) -> Robot:
+    """A robot whose bodies have no symmetry, with equal links and with others."""
+    return make_lopsided(capsule_robot(load_design(request.param)))
 
 
 def moving(model: Model, leg_rad: float, height_m: float = 0.5) -> Moment:
@@ -47,10 +56,10 @@ def turn_of(moment: Moment) -> complex:
 
 
 @pytest.mark.parametrize("leg_deg", [-40.0, -20.0, 0.0, 8.0])
-def test_the_loop_is_that_of_the_linkage(lopsided: Robot, leg_deg: float) -> None:
+def test_the_loop_is_that_of_the_linkage(either: Robot, leg_deg: float) -> None:
     """Joint rates by the velocity analysis of `Linkage`, places by its poses."""
-    leg_rad, linkage = math.radians(leg_deg), Linkage(lopsided.design)
-    links, pose = kernel.links_at(model_of(lopsided), leg_rad), linkage.pose(leg_rad)
+    leg_rad, linkage = math.radians(leg_deg), Linkage(either.design)
+    links, pose = kernel.links_at(model_of(either), leg_rad), linkage.pose(leg_rad)
     assert links.closed
     assert np.angle(links.pitch) == pytest.approx(pose.foot_rad[0], abs=1e-12)
     assert links.turn1[0] == pytest.approx(-linkage.jacobian(leg_rad)[0, 2], rel=1e-9)
@@ -61,8 +70,8 @@ def test_the_loop_is_that_of_the_linkage(lopsided: Robot, leg_deg: float) -> Non
     assert links.pin1[3] == pytest.approx(links.pin1[1] - links.pin1[0] - links.pin1[2])
 
 
-def test_derivatives_are_those_of_the_places(lopsided: Robot) -> None:
-    model, step = model_of(lopsided), 1e-5
+def test_derivatives_are_those_of_the_places(either: Robot) -> None:
+    model, step = model_of(either), 1e-5
     low, here, high = (kernel.links_at(model, -0.4 + shift) for shift in (-step, 0.0, step))
     for one, two in (("place", "place1"), ("place1", "place2"), ("turn1", "turn2")):
         slope = (np.array(getattr(high, one)) - np.array(getattr(low, one))) / (2 * step)
@@ -122,11 +131,11 @@ def pinned_bodies(robot: Robot, state: State, settings: Settings) -> tuple[Array
 
 
 @pytest.mark.parametrize("leg_rad", [-0.6, -0.2, 0.1])
-def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(lopsided: Robot, leg_rad: float) -> None:
+def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(either: Robot, leg_rad: float) -> None:
     settings = Settings(joint_damping_nms_per_rad=0.001)
-    moment = moving(model_of(lopsided), leg_rad)
-    accelerations, pin_n = pinned_bodies(lopsided, world_at(lopsided, moment).state(), settings)
-    model, turn, speed = model_of(lopsided, settings), turn_of(moment), moment.speed
+    moment = moving(model_of(either), leg_rad)
+    accelerations, pin_n = pinned_bodies(either, world_at(either, moment).state(), settings)
+    model, turn, speed = model_of(either, settings), turn_of(moment), moment.speed
     links = kernel.links_at(model, leg_rad)
     inertia = kernel.inertia_at(model, links, turn)
     change = kernel.response(inertia, *kernel.forces(model, links, inertia, turn, leg_rad, speed))
@@ -137,7 +146,7 @@ def test_accelerations_and_pin_forces_are_those_of_pinned_bodies(lopsided: Robot
     for pin in range(4):
         radii = [0.0] * 4
         radii[pin] = 0.0015
-        rubbed = planar_model(rubbing(lopsided, pin=0.2, pin_radius_m=tuple(radii)), settings, pin_forces=True)
+        rubbed = planar_model(rubbing(either, pin=0.2, pin_radius_m=tuple(radii)), settings, pin_forces=True)
         dt = 1e-4
         ground, gained = Ground(moment.ankle_m, turn, dt / 2), Motion(*(dt * part for part in change))
         torque = kernel.pin_torque(rubbed, links, ground, speed, gained, NO_CONTACT)

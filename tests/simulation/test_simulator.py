@@ -1,9 +1,12 @@
 """Feasibility and verdict of a simulated jump."""
 
+from dataclasses import replace
+
 import pytest
 
-from jumpcad.design import Design
+from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.model import RollerOff
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 
@@ -43,3 +46,18 @@ def test_heavier_gravity_makes_it_too_weak(kenan: Robot) -> None:
     """At 9.81 m/s² the springs hold 6.8 times the work of standing up."""
     assert simulate(kenan, Settings(gravity_m_s2=9.81 * 4)).verdict != "too_weak"
     assert simulate(kenan, Settings(gravity_m_s2=9.81 * 6)).verdict == "too_weak"
+
+
+def test_a_jumps_ratios_are_shares_of_the_springs_energy() -> None:
+    """Without a cam nothing is lost at release; with one, what the roller takes along is not in the leg."""
+    capsules = capsule_robot(load_design("kenan-2.0"))
+    jump = simulate(capsules, engine="planar")
+    assert jump.release_energy_ratio == pytest.approx(1.0, abs=1e-9)
+    assert jump.energy is not None
+    printed = replace(capsules, roller_off=RollerOff(-0.5 * capsules.spring.wind_rad, 3.0, 0.9))
+    lossy = simulate(printed, engine="planar")
+    assert lossy.energy is not None
+    left = 1.0 - lossy.energy.release_j / capsules.spring.energy_j
+    assert lossy.release_energy_ratio == pytest.approx(left)
+    assert 0.0 < left < 1.0
+    assert jump.fitness == pytest.approx(1000.0 * jump.ballistic_range_m / capsules.design.l_max_mm)

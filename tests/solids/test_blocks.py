@@ -83,3 +83,10 @@ def test_moments_are_those_of_the_sections():
     step = blocks.bounds_mm[1, 2] / 2000.0
     assert blocks.moments[0] == pytest.approx(step * areas.sum(), rel=1e-3)
     assert blocks.moments[3] == pytest.approx(step * (areas * z).sum(), rel=1e-3)
+
+
+def test_a_box_around_a_finger_is_that_of_its_solid():
+    finger = Finger(np.array([2.0, 1.0]), 6.0, 8.0, np.array([-20.0, 9.0]), 3.0, 2.5)
+    low, high = np.array(finger.solid().bounding_box()).reshape(2, 3)
+    np.testing.assert_allclose(finger.bounds_mm, [low, high], atol=1e-6)
+    assert finger.bounds_mm[1] == pytest.approx([5.0, 10.5, 8.0], abs=0.01)

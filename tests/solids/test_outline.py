@@ -98,3 +98,16 @@ def test_what_a_ring_contains_is_between_its_circles():
         np.testing.assert_array_equal(
             outline.contained(about, points)[clear], ((distance > 2.0) & (distance < 5.0))[clear]
         )
+
+
+@pytest.mark.parametrize("size", [(6.0, 6.0), (6.5, 10.0), (10.0, 6.5), (6.0, 10.0)])
+def test_rounded_corners_may_take_up_a_whole_side(size: tuple[float, float]) -> None:
+    """A rectangle loses (4 - pi) r² at its corners; with none of a side left it is a bar with round ends, or a disc."""
+    area = outline.rectangle(size, corner_radius_mm=3.0).area()
+    assert area == pytest.approx(size[0] * size[1] - (4.0 - math.pi) * 9.0, rel=2e-3)
+
+
+@pytest.mark.parametrize("size", [(5.9, 10.0), (10.0, 5.9)])
+def test_corners_that_do_not_fit_are_refused(size: tuple[float, float]) -> None:
+    with pytest.raises(JumpcadError, match="corners of 3 mm radius do not fit"):
+        outline.rectangle(size, corner_radius_mm=3.0)

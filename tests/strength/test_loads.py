@@ -109,3 +109,15 @@ def test_toes_and_rails_balance_about_the_ankle() -> None:
     design = Design(**{**load_design("kenan-2.0").model_dump(), "ground_link_angle_deg": 60.0})
     assert 2.0 * rail_moment_nmm(design, 10.0) == pytest.approx(10.0 * design.l5_mm * 0.5)
     assert toe_moment_nmm(design, 10.0) == pytest.approx(5.0 * design.l5_mm)
+
+
+def test_nothing_bears_after_the_robot_has_left_the_ground() -> None:
+    """A light robot on a strong design leaves early, and stays off: every force is then zero."""
+    forces = push_off(Linkage(load_design("best-bo")), MovingMass(0.02, np.array([4.0, 17.0]), 42.0), 5.2)
+    up = forces.ground_n[:, 1]
+    off = int(np.argmax(up <= 0.0))
+    assert 0 < off < len(up) - 1
+    for one in (forces.ground_n, forces.ankle_n, forces.leg_axial_n, forces.front_n, forces.toes_n, forces.residual_n):
+        assert (one[off:] == 0.0).all()
+        assert np.isfinite(one).all()
+    assert (np.abs(forces.front_n[:off]) > 0.0).any()

@@ -9,10 +9,12 @@ from jumpcad.strength.stress import (
     SOLID,
     Beam,
     Shell,
+    bar_shear_mpa,
     bored_stress_mpa,
     buckling_load_n,
     eye_stress_mpa,
     height_for_mm,
+    jaw_stress_mpa,
     pin_stress_mpa,
     tapered_energy_nmm,
     tapered_stress_mpa,
@@ -114,3 +116,18 @@ def test_buckling_load_is_the_lowest_eigenvalue_of_the_bent_column() -> None:
     matrix = (2.0 * np.eye(count - 1) - np.eye(count - 1, k=1) - np.eye(count - 1, k=-1)) / step**2
     load = 2000.0 * float(Beam(8.0, 6.0).second_moment_mm4) * float(np.linalg.eigvalsh(matrix)[0])
     assert buckling_load_n(Beam(8.0, 6.0), length, 2000.0) == pytest.approx(load, rel=1e-4)
+
+
+def test_jaws_are_short_cantilevers_of_their_share_of_the_torque() -> None:
+    """10 to 18 mm, jaws of half a radian, 6 mm long, 700 N·mm on two: 50 N each at 7 mm, on 4 x 3.5 mm of root.
+
+    6·50·3/(4·3.5²) = 18.37 MPa of bending, 1.5·50/(4·3.5) = 5.36 MPa of shear, joined by von Mises.
+    """
+    found = jaw_stress_mpa(700.0, 0.5, 2, 10.0, 18.0, 6.0)
+    assert found == pytest.approx(math.sqrt(18.367**2 + 3.0 * 5.357**2), rel=1e-3)
+
+
+def test_a_bar_in_torsion_by_the_handbook() -> None:
+    """Shigley 3-40: T/(b·c²)·(3 + 1.8·c/b), whichever side is the longer."""
+    assert bar_shear_mpa(100.0, 4.0, 8.0) == pytest.approx(100.0 / (8.0 * 16.0) * 3.9)
+    assert bar_shear_mpa(100.0, 8.0, 4.0) == pytest.approx(100.0 / (8.0 * 16.0) * 3.9)

@@ -59,3 +59,9 @@ def test_fits_that_no_printer_needs_are_refused(written):
 )
 def test_values_beyond_their_limits_are_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
+
+
+def test_a_link_is_as_far_off_as_the_play_of_both_its_ends():
+    """Sliding fits of 0.2 mm a diameter."""
+    assert load_workshop().fits.sliding_mm == 0.2
+    assert load_workshop().fits.link_tolerance_mm == pytest.approx(0.4)

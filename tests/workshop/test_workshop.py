@@ -63,3 +63,43 @@ def test_own_parts_are_checked_in_python_too() -> None:
     assert workshop.catalogue.motors["mine"].mass_g == 9.0
     with pytest.raises(JumpcadError, match=r"motors\.mine\.name = 'n20-298': a part has its table's name"):
         Workshop(**data | {"motors": {"mine": n20}})
+
+
+@pytest.mark.parametrize(
+    ("table", "values", "key"),
+    [
+        ("process", {"line_width_mm": 0.32, "first_layer_mm": 0.32}, "process.line_width_mm"),
+        ("process", {"line_width_mm": 0.32, "layer_height_mm": 0.32}, "process.line_width_mm"),
+        ("process", {"line_width_mm": 0.81, "first_layer_mm": 0.2}, "process.line_width_mm"),
+        ("process", {"line_width_mm": 0.31, "layer_height_mm": 0.1}, "process.line_width_mm"),
+        ("process", {"first_layer_mm": 0.33}, "process.first_layer_mm"),
+        ("process", {"layer_height_mm": 0.33}, "process.layer_height_mm"),
+        ("fits", {"wall_mm": 0.89, "wall_min_mm": 0.8}, "fits.wall_mm"),
+        ("fits", {"wall_mm": 1.2, "wall_min_mm": 1.3}, "fits.wall_min_mm"),
+        ("fits", {"wall_mm": 1.2, "first_layer_chamfer_mm": 0.6}, "fits.first_layer_chamfer_mm"),
+        ("fits", {"press_mm": 0.21, "sliding_mm": 0.2}, "fits.sliding_mm"),
+        ("release", {"rotor_kg_m2": (2e-9, 1e-9)}, "release.rotor_kg_m2"),
+        ("release", {"backlash_deg": (5.0, 3.0)}, "release.backlash_deg"),
+    ],
+)
+def test_values_that_do_not_go_together_are_refused(table: str, values: dict[str, object], key: str) -> None:
+    """A nozzle of 0.4 mm: lines of 0.8 to 2 times that, layers of at most 0.8 of it, walls of two lines of 0.45 mm."""
+    data = load_workshop().model_dump(exclude_none=True)
+    with pytest.raises((ValidationError, JumpcadError), match=key.split(".")[1]):
+        Workshop.model_validate(data | {table: data[table] | values})
+
+
+@pytest.mark.parametrize(
+    ("table", "values"),
+    [
+        ("process", {"line_width_mm": 0.33, "first_layer_mm": 0.32}),
+        ("process", {"line_width_mm": 0.8}),
+        ("fits", {"wall_mm": 1.2, "first_layer_chamfer_mm": 0.59}),
+        ("release", {"rotor_kg_m2": (1e-9, 1e-9)}),
+    ],
+)
+def test_values_at_the_limit_go_together(table: str, values: dict[str, object]) -> None:
+    data = load_workshop().model_dump(exclude_none=True)
+    if values.get("line_width_mm") == 0.8:
+        data["fits"] = data["fits"] | {"wall_mm": 1.6}
+    Workshop.model_validate(data | {table: data[table] | values})

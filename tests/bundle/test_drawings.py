@@ -1,0 +1,149 @@
+"""The drawings of a bundle as their reader sees them: all is on the page, words are apart, lines end at their parts."""
+
+import itertools
+import math
+import re
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from support.built import built, geared
+
+from jumpcad.bundle.spring_sheet import spring_sheets
+from jumpcad.bundle.wiring import drawings_of
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.nets import wiring_of
+from jumpcad.robot import Robot
+
+SPACE = "{http://www.w3.org/2000/svg}"
+ROBOTS = {"kenan-2.0": lambda: built("kenan-2.0"), "two pairs": geared}
+
+
+@pytest.fixture(scope="module", params=ROBOTS)
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return ROBOTS[request.param]()
+
+
+@pytest.fixture(scope="module")
+def drawings(robot: Robot) -> dict[str, ET.Element]:
+    drawn = drawings_of(robot) | dict(spring_sheets(robot))
+    return {name: ET.fromstring(text) for name, text in drawn.items() if text}
+
+
+def points_of(one: ET.Element) -> list[tuple[float, float]]:
+    """The places that an element names."""
+    get = {key: float(value) for key, value in one.attrib.items() if re.fullmatch(r"-?[\d.]+", value)}
+    if one.tag == f"{SPACE}polyline":
+        return [tuple(map(float, pair.split(","))) for pair in one.get("points").split()]  # type: ignore[misc]
+    if one.tag == f"{SPACE}line":
+        return [(get["x1"], get["y1"]), (get["x2"], get["y2"])]
+    if one.tag == f"{SPACE}rect":
+        x, y = get.get("x", 0.0), get.get("y", 0.0)
+        return [(x, y), (x + get["width"], y + get["height"])]
+    if one.tag == f"{SPACE}circle":
+        return [(get["cx"] - get["r"], get["cy"] - get["r"]), (get["cx"] + get["r"], get["cy"] + get["r"])]
+    return [(get["x"], get["y"])] if one.tag == f"{SPACE}text" else []
+
+
+def test_all_is_on_the_page(drawings: dict[str, ET.Element]) -> None:
+    assert {"wiring.svg", "leads.svg", "soldering.svg"} <= set(drawings)
+    for name, root in drawings.items():
+        _, _, width, height = map(float, root.get("viewBox").split())
+        clipped = {one for group in root.iter(f"{SPACE}g") for one in group.iter()}
+        places = np.array([place for one in root.iter() if one not in clipped for place in points_of(one)])
+        assert places.min() >= -0.5, name
+        assert (places <= [width + 0.5, height + 0.5]).all(), name
+        assert places[:, 1].max() > 0.8 * height, name  # and the page is no longer than needed
+
+
+def words(root: ET.Element) -> list[tuple[str, float, float, float, float]]:
+    """Every text with its box; letters are half as wide as high."""
+    found = []
+    usual = float(root.get("font-size") or 3.4)
+    for one in root.iter(f"{SPACE}text"):
+        size, text = float(one.get("font-size") or usual), one.text or ""
+        x, y, wide = float(one.get("x")), float(one.get("y")), 0.45 * size * len(text)
+        left = x - {"end": wide, "middle": wide / 2.0}.get(one.get("text-anchor") or "", 0.0)
+        found.append((text, left, y - 0.6 * size, left + wide, y))
+    return found
+
+
+def test_words_of_wiring_and_soldering_are_apart(drawings: dict[str, ET.Element]) -> None:
+    for name in ("wiring.svg", "soldering.svg"):
+        for (one, a, b, c, d), (other, e, f, g, h) in itertools.combinations(words(drawings[name]), 2):
+            overlap = min(c, g) - max(a, e) > 0.3 and min(d, h) - max(b, f) > 0.3
+            assert not overlap, (name, one, other)
+
+
+def test_terminals_are_in_the_boxes_of_their_parts_and_nets_end_at_them(
+    robot: Robot, drawings: dict[str, ET.Element]
+) -> None:
+    """A box a part, boxes apart; every terminal has its word inside its box, where a line begins at the right edge."""
+    root = drawings["wiring.svg"]
+    wiring = wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)
+    _, *boxes = (np.array(points_of(one)) for one in root.iter(f"{SPACE}rect"))
+    for one, other in itertools.combinations(boxes, 2):
+        assert ((one[0] >= other[1]) | (other[0] >= one[1])).any()
+    texts = [(one.text, float(one.get("x")), float(one.get("y"))) for one in root.iter(f"{SPACE}text")]
+    titles = [one.text for one in root.iter(f"{SPACE}text") if one.get("font-weight") == "bold"]
+    terminals = {terminal for net in wiring.nets for terminal in net.terminals}
+    assert len(boxes) == len(titles) == len({terminal.part for terminal in terminals})
+    lines = [points_of(one) for one in root.iter(f"{SPACE}polyline")]
+    starts = [line[0] for line in lines if len(line) == 3]
+    assert len(starts) == len(terminals)
+    for box in boxes:
+        inside = [text for text, x, y in texts if (box[0] <= [x, y]).all() and ([x, y] <= box[1]).all()]
+        own = [start for start in starts if start[0] == box[1][0] and box[0][1] < start[1] < box[1][1]]
+        title, *pins = inside
+        part = [terminal.part for terminal in terminals if title == title and title.startswith(terminal.part)]
+        assert len(pins) == len(own)
+        assert set(pins) <= {terminal.pin for terminal in terminals if terminal.part in part}
+        assert box[1][1] - max(y for _, y in own) < 6.0  # no empty rows
+
+
+def test_a_spring_is_drawn_three_times_as_large(robot: Robot, drawings: dict[str, ET.Element]) -> None:
+    """Circle of the mean diameter, wire as thick, two straight arms of their length; from the side a coil a turn."""
+    spring = robot.layout.drive.spring
+    for hand in spring.hands:
+        root = drawings[f"order/spring-{hand}-hand.svg"]
+        (coil,) = root.iter(f"{SPACE}circle")
+        assert 2.0 * float(coil.get("r")) == pytest.approx(3.0 * spring.arms.mean_mm, abs=0.02)
+        assert float(coil.get("stroke-width")) == pytest.approx(3.0 * spring.wire_mm, abs=0.01)
+        middle = np.array([float(coil.get("cx")), float(coil.get("cy"))])
+        wires = [one for one in root.iter(f"{SPACE}line") if float(one.get("stroke-width")) > 0.3]
+        ends = [np.array(points_of(one)) for one in wires]
+        arms = [line for line in ends if abs(np.hypot(*(line[0] - middle)) - float(coil.get("r"))) < 0.02]
+        assert len(arms) == 3  # with the loaded one
+        for line in arms:
+            assert np.hypot(*(line[1] - line[0])) == pytest.approx(3.0 * spring.arm_length_mm, abs=0.03)
+        coils = np.array([line for line in ends if not any(line is arm for arm in arms)])
+        assert len(coils) == math.ceil(spring.turns)
+        slope = (coils[:, 0, 1] - coils[:, 1, 1]) * np.sign(coils[:, 1, 0] - coils[:, 0, 0])
+        assert (slope > 0.0).all() if hand == "right" else (slope < 0.0).all()  # y points down
+        assert np.abs(slope) == pytest.approx(3.0 * spring.wire_mm, abs=0.02)
+        assert np.diff(coils[:, :, 1].mean(axis=1)) == pytest.approx(3.0 * spring.wire_mm, abs=0.02)
+        assert np.ptp(coils[0, :, 0]) == pytest.approx(3.0 * spring.outer_diameter_mm, abs=0.02)
+        assert coils[:, :, 1].mean() == pytest.approx(middle[1], abs=0.02)
+
+
+def test_a_spring_is_asked_for_with_its_figures(robot: Robot, drawings: dict[str, ET.Element]) -> None:
+    """Rate of the wire by EN 13906-3: E·d⁴/(64·D·n), N·mm/rad; loaded inside is wider than the mandrel."""
+    spring = robot.layout.drive.spring
+    for side, hand in zip(("left", "right"), spring.hands, strict=True):
+        said = [one.text or "" for one in drawings[f"order/spring-{hand}-hand.svg"].iter(f"{SPACE}text")]
+        rows = dict(itertools.pairwise(said))
+        assert f"on its {side} side" in rows["robot"]
+        assert rows["hand"] == f"{hand}-hand wound"
+        assert rows["rate"] == f"{spring.rate_nmm_per_deg:.2f} N·mm/° ±10 %"
+        rate = 206000.0 * spring.wire_mm**4 / (64.0 * spring.arms.mean_mm * (spring.turns + spring.arms.arm_turns))
+        assert float(rows["rate"].split()[0]) == pytest.approx(math.radians(rate), rel=0.02)
+        assert float(rows["inside diameter"].split()[0]) == pytest.approx(
+            spring.arms.mean_mm - spring.wire_mm, abs=0.01
+        )
+        torque, closed = re.findall(r"^(\d+) N·mm.*closed by ([\d.]+)°", rows["LOADED (requirement)"])[0]
+        assert float(torque) == pytest.approx(spring.rate_nmm_per_deg * float(closed), rel=0.01)
+        wound = spring.turns + float(closed) / 360.0
+        assert float(rows["body length, loaded"].split()[0]) == pytest.approx((wound + 1.0) * spring.wire_mm, abs=0.06)
+        inside = spring.arms.mean_mm * spring.turns / wound - spring.wire_mm
+        mandrel = float(rows["inside, loaded"].split()[-2])
+        assert inside - 0.5 < mandrel < inside

@@ -1,0 +1,144 @@
+"""What the guide says of motor, springs, sizes and jump, computed by hand from data sheets and the design."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+from support.built import built, geared, part
+
+from jumpcad.building import build
+from jumpcad.bundle import expected as module
+from jumpcad.bundle.expected import expected, filled
+from jumpcad.bundle.firmware import numbers
+from jumpcad.bundle.wiring import wires
+from jumpcad.design import load_design
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.errors import CannotBuildError
+from jumpcad.workshop import load_workshop
+
+
+def figure(words: dict[str, str], name: str) -> float:
+    return float(words[name])
+
+
+def test_the_motor_is_a_line_from_no_load_to_stall_in_series_with_battery_and_driver() -> None:
+    """Pololu 2371: 6 V, 73 rpm with 70 mA, 0.67 A stalled; one cell of 3.7 to 4.2 V has no need of PWM."""
+    robot = built("kenan-2.0")
+    words, train, chosen = expected(robot, []), robot.layout.drive.train, chosen_parts(robot.workshop)
+    series = chosen.battery.ohm + chosen.driver.resistance_ohm
+    winding = 6.0 / 0.67
+    rpm = 73.0 * (3.7 - 0.07 * (winding + series)) / (6.0 - 0.07 * winding)
+    assert figure(words, "free_rpm") == pytest.approx(rpm, abs=0.51)
+    (stage,) = train.stages
+    turn_s = 60.0 / rpm * stage.wheel.teeth / stage.pinion.teeth
+    assert figure(words, "dry_s") == pytest.approx(turn_s, abs=0.051)
+    boards_ma = 24.0 + 1.7  # of the controller and of the driver
+    assert figure(words, "boards_ma") == pytest.approx(boards_ma, abs=0.51)
+    assert figure(words, "free_ma") == pytest.approx(70.0 + boards_ma, abs=0.51)
+    assert figure(words, "peak_ma") == pytest.approx(1000.0 * train.peak_current_a + boards_ma, abs=0.51)
+    for name in ("boards", "free"):
+        assert figure(words, f"{name}_a") == pytest.approx(figure(words, f"{name}_ma") / 1000.0, abs=0.0056)
+    assert (words["battery_v"], words["nominal_v"]) == ("3.7 to 4.2", "3.7")
+    volt_amperes = 3.7 * figure(words, "wind_ma") / 1000.0
+    assert volt_amperes * train.winding_s == pytest.approx(train.electrical_j, rel=0.01)
+    assert figure(words, "wind_j") == pytest.approx(train.electrical_j, abs=0.0051)
+    assert figure(words, "wind_s") == pytest.approx(train.winding_s, abs=0.051)
+
+
+def test_times_and_limits_are_those_of_the_program() -> None:
+    robot = built("kenan-2.0")
+    words, values = expected(robot, []), numbers(robot)
+    for name, value, factor in (
+        ("wind_max", "WIND_MAX_MS", 1000.0), ("release_ms", "RELEASE_MAX_MS", 1.0), ("min_v", "BATTERY_MIN_V", 1.0),
+        ("after_ms", "AFTER_RELEASE_MS", 1.0), ("landing_s", "LANDING_MS", 1000.0),
+    ):  # fmt: skip
+        assert factor * figure(words, name) == values[value], name
+    assert figure(words, "ready_deg") == pytest.approx(values["READY_DEG"] or math.nan, abs=0.51)
+    assert words["divider_pin"] == "D1"
+    for volts, share in zip(words["divider_v"].split(" to "), words["divider_share"].split(" to "), strict=True):
+        assert float(volts) == pytest.approx(3.7 * float(share), abs=0.0071)
+
+
+def test_one_pair_of_gears_turns_the_cam_against_the_motor_and_two_with_it() -> None:
+    one, two = expected(built("kenan-2.0"), []), expected(geared(), [])
+    assert one["cam_turn"] == two["cam_turn"] == two["motor_turn"] == "counter-clockwise"
+    assert one["motor_turn"] == "clockwise"
+
+
+@pytest.mark.parametrize("preload_deg", [0.0, 4.0])
+def test_what_hands_feel_of_the_springs_follows_from_hookes_law(preload_deg: float) -> None:
+    """A spring of k N·mm/° pushes with k times its angle over the lever; both on the leg's pin at the hub."""
+    design, shop = load_design("kenan-2.0"), load_workshop()
+    preloaded = shop.spring.model_copy(update={"preload_deg": preload_deg})
+    robot = build(design, shop.model_copy(update={"spring": preloaded}))
+    words, spring = expected(robot, []), robot.layout.drive.spring
+    rate = design.stiffness_nmm_per_deg / 2.0
+    compression_deg = math.degrees(design.compression_rad)
+    wound_deg = compression_deg if not preload_deg else math.degrees(spring.wound_rad)
+    wider = math.floor(0.1 * wound_deg)
+    assert words["stroke"] == f"{compression_deg:.0f}"
+    assert words["lift"] == "310"
+    assert (words["slack"], words["wider"]) == (f"{10.0 - preload_deg:.0f}", f"{wider}")
+    assert figure(words, "preload") == preload_deg
+    assert figure(words, "preload_n") == pytest.approx(preload_deg * rate / spring.arms.lever_mm, abs=0.051)
+    assert figure(words, "arm_n") == pytest.approx((preload_deg + wider) * rate / spring.arms.lever_mm, abs=0.51)
+    assert figure(words, "foot_n") == pytest.approx(2.0 * rate * wound_deg / design.carrying_link_mm, abs=0.051)
+    joules = rate * math.radians(1.0) * (wound_deg**2 - preload_deg**2) / 1000.0
+    assert figure(words, "energy") == pytest.approx(joules, abs=0.0051)
+    assert figure(words, "push_ms") == pytest.approx(1000.0 * robot.release.push_off_s, abs=0.51)
+    assert figure(words, "pin_hole") == pytest.approx(robot.layout.pin_hole.diameter_mm, abs=0.051)
+    assert figure(words, "dog_play") == pytest.approx(math.degrees(robot.layout.drive.dog.play_rad), abs=0.51)
+
+
+def test_sizes_are_those_of_the_parts() -> None:
+    """A rod of 3 mm in a bore reamed 0.1 mm wider; a rod may be 0.3 mm short, and then has as much more play."""
+    robot = built("kenan-2.0")
+    words = expected(robot, [])
+    assert words["eye_drill"] == "3.1"
+    least, most = map(float, words["end_play"].split(" mm, or "))
+    assert most - least == pytest.approx(0.3)
+    assert figure(words, "motor_wire") == max(mm for *_, end, _, mm in wires(robot) if end.part == "motor")
+
+    def length(name: str) -> float:
+        return float(part(robot, name).mesh.extents[2])
+
+    right, left = length("front_spacer_right"), length("front_spacer_left")
+    assert words["front_tubes"] == f"{right:.1f} mm on the right, {left:.1f} mm on the left"
+    assert right != pytest.approx(left, abs=0.05)
+    for name, tube in (
+        ("bushing_left", "spring_bushing_left"), ("bushing_right", "spring_bushing_right"),
+        ("cam_tube", "cam_spacer_right"),
+    ):  # fmt: skip
+        assert figure(words, name) == pytest.approx(length(tube), abs=0.051)
+    wide, long = map(float, words["window"].split(" x "))
+    assert words["block"] == f"{wide + 12.0:g} x {long - 1.0:g}"
+    assert words["groove"] == f"{wide:g}"
+
+
+def test_the_free_floor_is_twice_the_jump_and_a_metre_at_least(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In steps of half a metre upwards; 3 m by 2 m where nothing is known of the jump."""
+    robot = built("kenan-2.0")
+
+    def words(**jump: object) -> list[str]:
+        monkeypatch.setattr(module, "simulate", lambda robot, engine: SimpleNamespace(**jump))
+        found = expected(robot, [])
+        return [found[name] for name in ("range", "rise", "far", "high")]
+
+    assert words(verdict="jump", ballistic_range_m=0.883, com_rise_m=0.634) == ["880", "630", "2", "1.5"]
+    assert words(verdict="jump", ballistic_range_m=0.31, com_rise_m=0.12) == ["310", "120", "1", "1"]
+    for verdict, reach, rise in (("no jump", 0.9, 0.6), ("jump", None, 0.6), ("jump", 0.9, None)):
+        found = words(verdict=verdict, ballistic_range_m=reach, com_rise_m=rise)
+        assert found == ["0", "0", "3", "2"]
+
+    def refused(robot: object, engine: str) -> None:
+        raise CannotBuildError("no engine")
+
+    monkeypatch.setattr(module, "simulate", refused)
+    found = expected(robot, [])
+    assert [found[name] for name in ("range", "rise", "far", "high")] == ["?", "?", "3", "2"]
+
+
+def test_names_in_braces_are_replaced_and_steps_are_counted_from_one() -> None:
+    steps = [SimpleNamespace(key="trays"), SimpleNamespace(key="motor")]
+    words = module._order(steps)  # type: ignore[arg-type]
+    assert filled("from step {step_trays} to {step_motor}", words) == "from step 1 to 2"

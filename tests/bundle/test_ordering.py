@@ -1,0 +1,151 @@
+"""What is ordered, which tools, settings and masses: figures of shops, data sheets and the workshop."""
+
+import re
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from support.built import built
+
+from jumpcad.bundle import ordering
+from jumpcad.bundle.bom import bill_of_materials
+from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_lines
+from jumpcad.bundle.wiring import wires
+from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.parts.part import Part
+from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
+
+
+@cache
+def order() -> str:
+    return "\n".join(order_lines(built("kenan-2.0")))
+
+
+def with_article(robot: Robot, pattern: str, replacement: str) -> Robot:
+    hardware = tuple(replace(item, article=re.sub(pattern, replacement, item.article)) for item in robot.hardware)
+    return replace(robot, hardware=hardware)
+
+
+@pytest.mark.parametrize(
+    ("length", "stock"),
+    [("20.0", "20"), ("20.1", "25"), ("32.9", "35"), ("45.5", "50"), ("60.0", "60"), ("71.2", "72")],
+)
+def test_a_standoff_is_cut_from_the_next_longer_one(length: str, stock: str) -> None:
+    """Shops have 20 to 50 mm in steps of 5 mm, and 60 mm; a longer one is made."""
+    robot = with_article(built("kenan-2.0"), r"(standoff \S+ x )[\d.]+( mm)", rf"\g<1>{length}\2")
+    (line,) = (line for line in order_lines(robot) if line.startswith("- standoffs"))
+    assert f": 2 of {stock} mm, cut to {length} mm, +0 / -0.1 mm" in line
+    assert "less than 6 mm of thread" in line
+
+
+def test_a_strip_is_as_long_as_its_pieces_with_a_cut_after_each() -> None:
+    """Toes' pads: 2 x (10.4 + 2) + 2 x (9.5 + 2) = 47.8 mm; the stop's: 8 + 2 = 10 mm."""
+    robot = built("kenan-2.0")
+    robot = with_article(robot, r"(polyurethane.*, cut )4\.0 x 10\.\d( mm)", r"\g<1>4.0 x 10.4\2")
+    lines = [line for line in order_lines(robot) if line.endswith(" mm wide or wider")]
+    assert any("1 of 6.0 x 8.0 mm; order 10 mm of it, 6.0 mm wide" in line for line in lines)
+    (toes,) = (line for line in lines if "SJ5616" in line)
+    assert "2 of 4.0 x 10.4 mm, 2 of 5.0 x 9.5 mm; order 50 mm of it, 5.0 mm wide" in toes
+
+
+def test_the_motor_is_compared_with_its_data_sheet() -> None:
+    """Pololu 2371 (MP 6V, 298:1): 73 rpm, 70 mA, 0.67 A stalled, 2.4 kg·cm."""
+    (line,) = (line for line in order().splitlines() if line.startswith("- gear motor"))
+    assert "298:1, 6 V, 73 rpm, 70 mA without load" in line
+    stalled = re.search(r"([\d.]+) N·m and 0.67 A stalled, shaft 3 mm with a flat, 9 mm long \(as its source", line)
+    assert stalled is not None
+    assert float(stalled[1]) == pytest.approx(2.4 * 0.0980665, abs=0.0006)
+
+
+@pytest.mark.parametrize(("confidence", "words"), [("derived", "(derived: "), ("memory", "(from memory: ")])
+def test_a_motor_known_less_surely_says_so(confidence: str, words: str) -> None:
+    robot = built("kenan-2.0")
+    layout, train = robot.layout, robot.layout.drive.train
+    motor = train.motor.model_copy(update={"confidence": confidence})
+    drive = replace(layout.drive, train=replace(train, motor=motor))
+    (line,) = (
+        line for line in order_lines(replace(robot, layout=replace(layout, drive=drive))) if "gear motor" in line
+    )
+    assert words in line
+
+
+def test_bearings_and_tape_have_their_data_sheets_sizes() -> None:
+    """ISO 15: 623 is 3 x 10 x 4 mm, MR63 3 x 6 x 2.5 mm; XIAO 21 x 17.8 mm."""
+    text = order()
+    assert "623, 3 x 10 x 4 mm; MR63, 3 x 6 x 2.5 mm" in text
+    assert "625" not in text  # not ordered
+    assert "21 x 17.8 mm (controller), 20.3 x 12.7 mm (driver)" in text
+    unknown = with_article(built("kenan-2.0"), "ball bearing", "bushing")
+    assert "metal shields" not in "\n".join(order_lines(unknown))
+
+
+def test_wire_is_ordered_by_colour() -> None:
+    robot = built("kenan-2.0")
+    named = dict(re.findall(r"(\w+) ([\d.]+) m(?:,|\b)", order().split("AWG 28, silicone: ")[1].split(", ends")[0]))
+    for colour, metres in named.items():
+        total = sum(mm for *_, one, mm in wires(robot) if one == colour)
+        assert 1000.0 * float(metres) == pytest.approx(total, abs=5.1)
+    assert sorted(named) == sorted({one for *_, one, mm in wires(robot) if mm})
+
+
+def test_a_charger_is_needed_for_two_cells_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = built("kenan-2.0")
+    one = "\n".join(tool_lines(robot, []))
+    assert "charger" not in one
+    assert "plug body at most 12.5 x 6.9 mm" in one  # a window of 13 x 7.4 mm
+    assert "reamer 3.1 mm" in one
+    kit = robot.workshop.catalogue.kits["strong-2s"].model_dump() | {"kit": "strong-2s"}
+    shop = robot.workshop.model_copy(update={"bought": robot.workshop.bought.model_copy(update=kit)})
+    fittings = replace(robot.layout.fittings, usb_mm=None)
+    two = "\n".join(tool_lines(replace(robot, workshop=shop, layout=replace(robot.layout, fittings=fittings)), []))
+    assert "LiPo charger with a balance lead" in two
+    assert "plug body" not in two
+    unplugged = chosen_parts(shop).battery.model_copy(update={"plug": ""})
+    monkeypatch.setattr(ordering, "chosen_parts", lambda shop: replace(chosen_parts(shop), battery=unplugged))
+    assert "with a balance lead\n" in "\n".join(tool_lines(replace(robot, workshop=shop), []))
+
+
+def test_what_is_printed_is_said_with_the_workshops_settings() -> None:
+    robot, shop = built("kenan-2.0"), load_workshop()
+    process = shop.process.model_copy(
+        update={
+            "layer_height_mm": 0.15, "first_layer_mm": 0.25, "line_width_mm": 0.47, "perimeters": 4,
+            "top_layers": 6, "bottom_layers": 5, "infill": 0.35,
+        }
+    )  # fmt: skip
+    printer = shop.printer.model_copy(update={"bed_mm": (222.0, 231.0, 200.0), "nozzle_mm": 0.5})
+    own = shop.model_copy(update={"process": process, "printer": printer})
+    text = "\n".join(print_lines(replace(robot, workshop=own)))
+    assert "nozzle 0.5 mm, layers 0.15 mm (first 0.25 mm), lines 0.47 mm wide, 4 perimeters, 6 top and 5 bottom" in text
+    assert "35 % infill" in text
+    assert "a bed of 222 x 231 mm" in text
+    rows = re.findall(r"\| print/(\S+)\.3mf \| (\S+) \| (.*) \|", text)
+    assert all(name.endswith(f"-{material}") for name, material, _ in rows)
+    listed = [word.split(" × ")[-1] for *_, parts in rows for word in parts.split(", ")]
+    assert sorted(listed) == sorted(part.name for part in robot.parts)
+
+
+def test_copies_of_a_part_are_counted_in_their_row() -> None:
+    robot = built("kenan-2.0")
+
+    def twice(one: Part) -> Part:
+        return replace(one, drawing=replace(one.drawing, placements=2 * one.drawing.placements))
+
+    parts = tuple(twice(one) if one.name == "cam" else one for one in robot.parts)
+    row = next(line for line in print_lines(replace(robot, parts=parts)) if "2 × " in line)
+    assert "2 × cam," in row
+    assert "1 × " not in row
+
+
+def test_the_table_to_weigh_into_has_the_grams_of_one_piece() -> None:
+    robot = built("kenan-2.0")
+    text = "\n".join(weigh_lines(robot))
+    grams = {name: float(mass) for name, mass in re.findall(r"^(\w+) = ([\d.]+)$", text, re.MULTILINE)}
+    assert sorted(grams) == sorted(part.name for part in robot.parts)
+    printed = sum(grams[part.name] * len(part.placements) for part in robot.parts)
+    bought = sum(1000.0 * item.total_kg for item in bill_of_materials(robot).items if item.name not in grams)
+    total = re.search(r"([\d.]+) g for the whole robot", text)
+    assert total is not None
+    assert float(total[1]) == pytest.approx(1000.0 * sum(body.mass_kg for body in robot.bodies.values()), abs=0.051)
+    assert printed + bought == pytest.approx(float(total[1]), abs=0.15)  # each rounded to 0.01 g

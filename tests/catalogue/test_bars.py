@@ -1,0 +1,57 @@
+"""Sections of strips and tubes by the tables of any handbook; holes in which they fit."""
+
+import itertools
+import math
+
+import pytest
+
+from jumpcad.catalogue import load_catalogue
+from jumpcad.catalogue.axles import Clip
+from jumpcad.catalogue.bars import LegBar
+
+BARS = load_catalogue().bars
+TUBE, STRIP = BARS["carbon-tube-6x4"], BARS["carbon-strip-3x6"]
+
+
+def test_a_strip_is_a_rectangle() -> None:
+    assert STRIP.area_mm2 == 18.0
+    assert STRIP.around_mm == 18.0
+    assert STRIP.second_moment_mm4 == pytest.approx(3.0 * 6.0**3 / 12.0)
+    assert STRIP.sideways_mm4 == pytest.approx(6.0 * 3.0**3 / 12.0)
+    assert STRIP.mass_g(1000.0) == pytest.approx(18.0 * STRIP.density_g_cm3)
+    assert STRIP.slabs_mm() == [(-1.5, 1.5, 6.0)]
+    assert STRIP.slabs_mm(0.1) == [(-1.6, 1.6, pytest.approx(6.2))]
+
+
+def test_a_tube_is_a_ring() -> None:
+    assert TUBE.area_mm2 == pytest.approx(math.pi / 4.0 * (36.0 - 16.0))
+    assert TUBE.around_mm == pytest.approx(6.0 * math.pi)
+    second = math.pi / 64.0 * (6.0**4 - 4.0**4)
+    assert (TUBE.second_moment_mm4, TUBE.sideways_mm4) == pytest.approx((second, second))
+
+
+def test_a_round_bar_fits_the_steps_of_its_hole() -> None:
+    """Every corner of a hole's steps is outside of the circle; the bar's own have the circle's area to 2 %."""
+    bar, wide = TUBE.slabs_mm(), TUBE.slabs_mm(0.1)
+    for slabs, radius in ((bar, 3.0), (wide, 3.1)):
+        assert (slabs[0][0], slabs[-1][1]) == pytest.approx((-radius, radius))
+        assert all(one[1] == other[0] for one, other in itertools.pairwise(slabs))
+    for low, high, height in wide:
+        assert min(math.hypot(y, height / 2.0) for y in (low, high)) >= 3.1 - 1e-5
+    area = sum((high - low) * height for low, high, height in bar)
+    assert area == pytest.approx(9.0 * math.pi, rel=0.02)
+
+
+def test_bars_and_clips_that_cannot_be_are_refused() -> None:
+    tube = TUBE.model_dump() | {"name": "x"}
+    for changed, key in (
+        ({"height_mm": 5.0}, "height_mm"), ({"bore_mm": 6.0}, "bore_mm"), ({"bore_mm": 5.9}, None),
+    ):  # fmt: skip
+        found = [where for where, *_ in LegBar(**tube | changed).contradictions()]
+        assert found == ([(key,)] if key else [])
+    flat = STRIP.model_dump() | {"name": "x", "bore_mm": 3.0}
+    assert [where for where, *_ in LegBar(**flat).contradictions()] == [("bore_mm",)]
+    clip = next(iter(load_catalogue().clips.values()))
+    assert not list(clip.contradictions())
+    for changed in ({"groove_mm": clip.shaft_mm}, {"outer_mm": clip.shaft_mm}):
+        assert list(Clip(**clip.model_dump() | {"name": "x"} | changed).contradictions())

@@ -1,0 +1,55 @@
+"""Pads on the meshes: between stop and leg, around the nose, and as large as is cut."""
+
+import re
+
+import numpy as np
+import pytest
+from support.built import built
+
+from jumpcad.robot import Robot
+
+
+def points(robot: Robot, name: str) -> np.ndarray:
+    item = next(one for one in robot.hardware if one.name == name)
+    return item.look.copy().apply_transform(item.T_body_part).vertices
+
+
+def cut_mm(robot: Robot, name: str) -> tuple[float, float]:
+    item = next(one for one in robot.hardware if one.name == name)
+    return tuple(map(float, re.findall(r"cut ([\d.]+) x ([\d.]+) mm", item.article)[0]))  # type: ignore[return-value]
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_stops_pad_lies_between_its_seat_and_the_leg_at_the_stop(name: str) -> None:
+    robot = built(name)
+    stop, width = robot.layout.stop, robot.layout.sections.thickness_mm
+    found = points(robot, "stop_pad")
+    behind = found[:, ::2] @ stop.behind
+    assert np.ptp(behind) == pytest.approx(stop.pad.thickness_mm, abs=1e-3)
+    assert behind.min() == pytest.approx(float(np.dot(stop.face_mm, stop.behind)), abs=1e-3)
+    along = (found[:, ::2] - stop.face_mm) @ np.array([-stop.behind[1], stop.behind[0]])
+    assert (along.min(), along.max()) == pytest.approx((-4.0, 4.0), abs=1e-3)  # of 8 mm of strip
+    assert (found[:, 1].min(), found[:, 1].max()) == pytest.approx((-width / 2.0, width / 2.0))
+    assert cut_mm(robot, "stop_pad") == pytest.approx((width, 8.0), abs=0.051)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_nose_pads_follow_the_round_nose_of_both_lugs(name: str) -> None:
+    """Between the sole and its thickness below, from 0.9 depths behind the eye to the round front, 0.7 depths up to
+    below it; as long as the strip that is cut."""
+    robot = built(name)
+    sections, foot_pad = robot.layout.sections, next(one for one in robot.hardware if one.name == "nose_pad_left")
+    depth, eye = sections.foot_depth_mm, robot.design.l4_mm
+    left, right = points(robot, "nose_pad_left"), points(robot, "nose_pad_right")
+    thick = -depth - left[:, 2].min()
+    assert 0.5 < thick < 3.0
+    assert left[:, 2].max() == pytest.approx(-0.7 * depth, abs=0.05)
+    assert left[:, 0].min() == pytest.approx(eye - 0.9 * depth, abs=0.05)
+    assert eye < left[:, 0].max() < eye + 2.0 * depth + thick
+    assert np.ptp(left[:, 1]) == pytest.approx(sections.lug_thickness_mm)
+    assert left[:, 1].min() > sections.thickness_mm / 2.0
+    assert sorted(right[:, 1]) == pytest.approx(sorted(-left[:, 1]))
+    lug, length = cut_mm(robot, "nose_pad_left")
+    assert lug == pytest.approx(sections.lug_thickness_mm, abs=0.051)
+    volume = foot_pad.look.volume
+    assert length == pytest.approx(volume / lug / thick, rel=0.02)

@@ -1,0 +1,80 @@
+"""Robots as they are made: lengths, springs and floors about a design, and which values are refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jumpcad.design import PARAMETERS, load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.search.tolerances import FLOOR, LENGTHS_ALONE, MADE, PARTS, SPRINGS, Making, require_made, tenth
+from jumpcad.search.variant import Variant
+
+DESIGN = load_design("kenan-2.0")
+PRINTED = Making(0.2, rate=0.05, mass=0.03, floor=0.15, printed=True)
+
+
+def test_links_vary_evenly_within_their_tolerance() -> None:
+    generator = np.random.default_rng(1)
+    made = LENGTHS_ALONE.neighbours(Variant.of(DESIGN), generator)
+    lengths = np.array([[one.design.l2_mm, one.design.l3_mm, one.design.l4_mm, one.design.l5_mm] for one in made])
+    off = lengths - [DESIGN.l2_mm, DESIGN.l3_mm, DESIGN.l4_mm, DESIGN.l5_mm]
+    assert np.abs(off).max() <= 0.2 + 1e-9
+    assert (np.abs(off).max(axis=0) > 0.15).all()
+    assert np.abs(off.mean(axis=0)).max() < 0.03
+    assert not any(one.workshop for one in made)
+
+
+def test_printed_robots_have_springs_a_mass_and_a_floor_that_scatter() -> None:
+    """Factor of the springs: rate over mass, deviations 5 % and 3 % together 5.8 %; the floor's logarithm 15 %."""
+    made = PRINTED.neighbours(Variant.of(DESIGN), np.random.default_rng(2))
+    assert all(one.design == DESIGN for one in made)
+    springs, floors = (np.array([one.workshop[key] for one in made], dtype=float) for key in (SPRINGS, FLOOR))
+    assert springs.std() == pytest.approx(math.hypot(0.05, 0.03), rel=0.15)
+    assert springs.mean() == pytest.approx(1.0, abs=0.01)
+    assert np.log(floors).std() == pytest.approx(0.15, rel=0.15)
+    assert np.log(floors).mean() == pytest.approx(0.0, abs=0.02)
+    exact = Making(0.2, rate=0.05, printed=True).neighbours(Variant.of(DESIGN), np.random.default_rng(2))
+    assert np.std([float(one.workshop[SPRINGS]) for one in exact]) == pytest.approx(0.05, rel=0.15)
+    assert {float(one.workshop[FLOOR]) for one in exact} == {1.0}
+    named = {key for one in made for key in one.workshop}
+    assert {SPRINGS, FLOOR} <= named <= {SPRINGS, FLOOR, *PARTS}
+
+
+def test_parameters_vary_by_one_per_cent() -> None:
+    varied = LENGTHS_ALONE.varied(Variant.of(DESIGN), np.random.default_rng(3))
+    shares = np.array([one.design.to_vector() for one in varied]) / DESIGN.to_vector() - 1.0
+    assert shares.shape[1] == len(PARAMETERS)
+    assert np.abs(shares).max() <= 0.01 + 1e-12
+    assert (np.abs(shares).max(axis=0) > 0.007).all()
+
+
+def test_tolerances_are_twice_the_deviations_in_words() -> None:
+    assert PRINTED.words == "lengths ±0.2 mm, springs ±10 %, mass ±6 %, friction ±30 %"
+    assert LENGTHS_ALONE.words == "lengths ±0.2 mm"
+
+
+@pytest.mark.parametrize(
+    "values",
+    [{SPRINGS: 1.0}, {FLOOR: 1.0}, {SPRINGS: 1.0, FLOOR: 0.0}, {SPRINGS: "x", FLOOR: 1.0}, {SPRINGS: 1e3, FLOOR: 1.0}],
+)
+def test_values_that_no_robot_has_are_refused(values: dict[str, float | str]) -> None:
+    with pytest.raises(JumpcadError):
+        require_made(values)
+
+
+def test_values_that_a_robot_may_have_are_taken() -> None:
+    require_made({})
+    require_made({SPRINGS: 0.95, FLOOR: 1.1})
+    for key, name in PARTS.items():
+        require_made({key: getattr(DESIGN, name)})
+        with pytest.raises(JumpcadError, match="must be a number of"):
+            require_made({key: 1e9})
+        with pytest.raises(JumpcadError, match="must be a number of"):
+            require_made({key: -1e9})
+    assert set(PARTS) < set(MADE)
+
+
+def test_nine_of_ten_reach_the_tenth_score() -> None:
+    assert tenth([float(score) for score in range(20)]) == 1.0
+    assert tenth([5.0, 3.0, 4.0]) == 3.0

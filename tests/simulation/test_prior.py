@@ -1,0 +1,54 @@
+"""Priors against scipy's distributions, and the stop's pad as a spring that does not pull."""
+
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy import stats
+from support.built import built
+
+from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
+from jumpcad.simulation.prior import Prior
+from jumpcad.simulation.stop_pad import StopPad
+
+SHARES = (0.1, 0.5, 0.9)
+
+
+@pytest.mark.parametrize(
+    ("prior", "known"),
+    [
+        (Prior("normal", 0.95, 0.05, "x"), stats.norm(0.95, 0.05)),
+        (Prior("lognormal", 0.25, 0.4, "x"), stats.lognorm(0.4, scale=0.25)),
+        (Prior("uniform", 2.0, 5.0, "x"), stats.uniform(2.0, 3.0)),
+        (Prior("half-normal", 0.0, 1.5, "x"), stats.halfnorm(scale=1.5)),
+    ],
+    ids=lambda one: getattr(one, "shape", ""),
+)
+def test_quantiles_are_those_of_the_distribution(prior: Prior, known: stats.rv_continuous) -> None:
+    assert prior.quantiles(SHARES) == pytest.approx(known.ppf(SHARES))
+
+
+def test_a_normal_is_cut_off_and_a_half_normal_stays_finite() -> None:
+    assert Prior("normal", 1.0, 1.0, "x", 0.3).at(np.array([-2.0, 0.0])).tolist() == [0.3, 1.0]
+    least, most = Prior("half-normal", 0.0, 1.0, "x").at(np.array([-40.0, 40.0]))
+    assert least == 0.0
+    assert 6.0 < most < 10.0
+
+
+def test_the_pad_pushes_back_elastically_and_stops_the_leg_at_most() -> None:
+    """k·(q - q0) of a slowly opening leg; within a step no more than I·w/dt and the springs' torque; never a pull."""
+    robot = built("kenan-2.0")
+    assert robot.stop is not None
+    step_s, at, rate = 1e-3, robot.stop.angle_rad, robot.stop.stiffness_nm_per_rad
+    pad, inertia = StopPad(robot, step_s), leg_inertia_kg_m2(robot, robot.stop.angle_rad)
+    assert pad.torque_nm(at - 1e-4, 50.0) == 0.0
+    assert pad.torque_nm(at + 1e-3, 50.0) == pytest.approx(rate * 1e-3)
+    deep = pad.torque_nm(at + 1.0, 0.01)
+    assert deep == pytest.approx(inertia * 0.01 / step_s + max(robot.spring.torque_nm(at + 1.0), 0.0))
+    assert deep < rate
+    assert pad.torque_nm(at + 1e-3, -50.0) == 0.0
+    free = SimpleNamespace(stop=None, spring=robot.spring)
+    assert StopPad(free, step_s).torque_nm(math.pi, 9.0) == 0.0  # type: ignore[arg-type]
+    assert replace(robot.stop, angle_rad=0.0).angle_rad == 0.0
