@@ -24,8 +24,6 @@ from jumpcad.search.study_page import write_study_page
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
 
-pytestmark = pytest.mark.usefixtures("quick_proposals")
-
 
 class Never(Bump):
     """No design jumps."""
@@ -61,7 +59,7 @@ def tables(page):
 
 
 @pytest.fixture(scope="module")
-def studies(tmp_path_factory, quick_proposals):
+def studies(tmp_path_factory):
     folder = tmp_path_factory.mktemp("studies")
     for method, evaluations in (("bo", 40), ("nsga2", 60), ("ga", 60)):
         studied(folder / f"{method}.db", SPACE, method, evaluations).close()
