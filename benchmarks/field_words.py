@@ -166,7 +166,6 @@ WORDS = {
     "evaluations": "designs evaluated",
     "searched": "of them, proposed by the search",
     "refused.*": "designs with this verdict",
-    "trial": "number of the trial in its study, from 1",
     "phase": "stage that proposed it",
     "trial": "number of the trial in the order of the study, for `jumpcad studio --trial`",
     "score": "value of the objective; null without one",
