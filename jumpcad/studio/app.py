@@ -15,15 +15,15 @@ from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
 from jumpcad.studio.inputs import when_changed
 from jumpcad.studio.playback import Playback, playback
 from jumpcad.studio.player import Player
-from jumpcad.studio.points import Points
+from jumpcad.studio.points import STUDYS, Points
 from jumpcad.studio.stage import Stage
 from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import Workshop, load_workshop
 
 WIDER = 0.5
 """How far sliders extend beyond the bounds of the search, over the bounds' distance."""
-STUDYS = "of the study"
-"""The workshop of a study's point, in the list of workshops."""
+BY_NUMBER = "by its number"
+"""What the list of points says of one that is not in it."""
 CLICK = "Click on a part for its mass, material and file."
 
 
@@ -112,15 +112,18 @@ class Studio:
 
     def _make_choice(self, points: Points) -> None:
         """Make a list of the best trials and the front, and a field for the number of any trial."""
-        gui, listed = self.server.gui, points.listed
+        gui, last = self.server.gui, len(points.trials)
         self.point = gui.add_markdown(points.to_text(self.number))
-        if listed:
-            first = next((text for text, number in listed.items() if number == self.number), next(iter(listed)))
-            best = gui.add_dropdown("point", tuple(listed), initial_value=first, hint="best designs, then the front")
-            when_changed(best, lambda: self._run_action(lambda: self.open(listed[best.value])))
-        last = len(points.trials)
+        texts = (BY_NUMBER, *points.listed)
+        hint = "the best designs, then the front"
+        self.best = gui.add_dropdown("point", texts, initial_value=points.listed_as(self.number, BY_NUMBER), hint=hint)
         self.trial = gui.add_number("trial", self.number, min=1, max=last, step=1, hint=f"any trial, 1 to {last}")
+        when_changed(self.best, lambda: self._run_action(self._open_listed))
         when_changed(self.trial, lambda: self._run_action(lambda: self.open(int(self.trial.value))))
+
+    def _open_listed(self) -> str:
+        assert self.points is not None
+        return self.open(self.points.listed.get(self.best.value, self.number))
 
     def open(self, number: int) -> str:
         """Open the point of a study with a number: its design and its workshop.
@@ -140,6 +143,8 @@ class Studio:
             raise
         self.first, self.choice.value, self.trial.value = trial.design, STUDYS, number
         self.point.content = self.points.to_text(number)
+        if self.points.listed.get(self.best.value) != number:
+            self.best.value = self.points.listed_as(number, BY_NUMBER)
         return self._reset()
 
     def _loaded(self, workshop: str) -> Workshop:

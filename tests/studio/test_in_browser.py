@@ -26,7 +26,8 @@ CHANGED = 2.0
 @pytest.fixture(scope="module")
 def studio(study: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    server.scene.configure_environment_map(None)  # light that takes software rendering 7 s
+    server.scene.configure_environment_map(None)  # with it, and with shadows, software rendering takes 20 s
+    server.scene.configure_default_lights(cast_shadow=False)
     points = Points(study)
     made = Studio(points.trial(3).design, "four", ["of the study"], server, tmp_path_factory.mktemp("saved"), points, 3)
     made.start()
@@ -74,7 +75,7 @@ def changed(driver: Any, before: np.ndarray) -> Callable[[Any], bool]:
 def test_the_time_slider_moves_the_robot(driver: Any, studio: Studio) -> None:
     wait(driver, lambda _: len(np.unique(seen(driver))) > 60)  # not blank
     rest = seen(driver)
-    type_into(driver, "motion, s", "5.5")
+    type_into(driver, "motion, s", "7.0")
     wait(driver, changed(driver, rest))
     wait(driver, lambda _: "flight, " in words(driver))
     flying = seen(driver)
