@@ -1,19 +1,20 @@
 """The page of all checks."""
 
-import re
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from fnmatch import fnmatchcase
 from itertools import chain
 from pathlib import Path
 
-from reference_page import EXAMPLE, page, table
+from reference_page import EXAMPLE, page
 
 import jumpcad
 from jumpcad import checks
 from jumpcad.files import template_names
-from jumpcad.findings import Finding
+from jumpcad.findings import SHOWN_AS, Basis, Finding
 from jumpcad.mechanism.model import Mechanism
+from jumpcad.simulation import planar
 from jumpcad.workshop import load_workshop
 
 VARIANTS = {
@@ -26,25 +27,24 @@ VARIANTS = {
 
 
 def check_glossary() -> str:
-    """Return the page of all checks: what each found in the example, what it compares, and what to change."""
+    """Return the page of all checks: formula and source, what each found in the example, and what to change."""
     robot = jumpcad.build(jumpcad.load_design(EXAMPLE))
     quick = [*_templates(), *_variants()]
     found: dict[str, list[Finding]] = {}
+    bases: dict[str, Mapping[str, Basis]] = {}
     for check in checks.CHECKS:
         subjects = [robot, *quick] if check.cheap else [robot]
         found.setdefault(check.find.__module__, []).extend(chain.from_iterable(map(check.find, subjects)))
-    met = {finding.name for finding in chain.from_iterable(found.values())}
-    listed = re.findall(r"\b[a-z]+(?:_[a-z]+)*(?=,|;|\.$)", (checks.__doc__ or "").split("by module:")[1])
-    missing = [f"`{name}`" for name in listed if name not in met]
+        bases[check.find.__module__] = check.basis
+    found[planar.__name__], bases[planar.__name__] = [*jumpcad.simulate(robot, engine="planar").findings], planar.BASIS
     words = (
-        f"Every limit that `jumpcad check` knows. The column “found” is what it says of `{EXAMPLE}` in the default "
-        "workshop, or of the first template or other workshop that has the limit: figures show what is compared. The "
-        "remedy is what it advises where the limit is violated, with figures of that robot. Formula and source are in "
-        "the module named, and in those that it imports."
+        "Every limit that `jumpcad check` knows, and those of a simulated jump. “Found” is what it says of "
+        f"`{EXAMPLE}` in the default workshop, or of the first template or other workshop that has the limit. The "
+        "remedy is what it advises where the limit is violated, with figures of that robot. `jumpcad check DESIGN "
+        "--explain NAME` shows the same for your robot."
     )
-    rest = f"Not met in any of these robots, since they are reported only where they fail: {', '.join(missing)}."
-    blocks = [_checks_of(module, findings) for module, findings in found.items()]
-    return page("Checks", words, *blocks, *([rest] if missing else []))
+    blocks = [_checks_of(module, bases[module], findings) for module, findings in found.items()]
+    return page("Checks", words, f"Symbols: {checks.SYMBOLS}.", *blocks)
 
 
 def _templates() -> Iterator[Mechanism]:
@@ -60,16 +60,32 @@ def _variants() -> Iterator[Mechanism]:
             yield jumpcad.build(jumpcad.load_design(name), load_workshop(path))
 
 
-def _first_of_each(findings: Iterable[Finding]) -> Iterator[Finding]:
-    seen = set()
-    for finding in findings:
-        if finding.name not in seen:
-            seen.add(finding.name)
-            yield finding
+def _checks_of(module: str, bases: Mapping[str, Basis], findings: list[Finding]) -> str:
+    """Return the section of a module; a finding belongs to the first name that it matches."""
+    blocks = [f"## `{module.replace('.', '/')}.py`", (sys.modules[module].__doc__ or "").strip()]
+    left = {one.name: one for one in reversed(findings)}
+    for name, basis in bases.items():
+        own = {met: left.pop(met) for met in dict.fromkeys(one.name for one in findings)
+               if met in left and fnmatchcase(met, name)}  # fmt: skip
+        blocks.append("\n".join(_lines(name, basis, own.values())))
+    return "\n\n".join(blocks)
 
 
-def _checks_of(module: str, findings: list[Finding]) -> str:
-    doc = (sys.modules[module].__doc__ or "").strip()
-    rows = [(f"`{one.name}`", one.unit, one.message, one.remedy) for one in _first_of_each(findings)]
-    heading = f"## `{module.replace('.', '/')}.py`"
-    return "\n\n".join([heading, doc, *([table(("check", "unit", "found", "remedy"), rows)] if rows else [])])
+def _lines(name: str, basis: Basis, findings: Iterable[Finding]) -> Iterator[str]:
+    yield f"### `{name}`\n"
+    yield f"- **Formula**: {basis.formula}"
+    yield f"- **Source**: {basis.source}"
+    shown = [*findings]
+    for one in shown:
+        which = "" if one.name == name else f"`{one.name}`, "
+        yield f"- **Found** ({which}{_unit(one)}): {one.message}"
+        yield f"- **Remedy**: {one.remedy}"
+    if not shown:
+        yield "- Not met in any of these robots."
+
+
+def _unit(finding: Finding) -> str:
+    """Return the unit of margin, value and limit, and that in which it is shown."""
+    if finding.unit not in SHOWN_AS:
+        return finding.unit or "no unit"
+    return f"{finding.unit}, shown in {SHOWN_AS[finding.unit][0]}"

@@ -1,7 +1,8 @@
-"""From a slider of the studio to new figures, to the printed robot's figures, and to its new meshes: CPU times.
+"""From a slider of the studio to new figures, to the printed robot's figures, and to its new meshes.
 
-Every slider of two templates takes one step up. Figures at once are those of the study's masses in the planar engine;
-then the printed robot is built and simulated; then the meshes that changed are made and sent to a viser server.
+CPU times (ms), and under `wall` what a clock on the wall says, more where other programs run. Every slider of
+two templates takes one step down. Figures at once are those of the study's masses in the planar engine; then the
+printed robot is built and simulated; then the meshes that changed are made and sent to a viser server.
 Run `python benchmarks/studio.py [--json] [--steps N]`; needs the extra `studio`, and `fast` for times worth having.
 """
 
@@ -10,7 +11,7 @@ import contextlib
 import importlib.util
 import json
 import sys
-from time import process_time
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
@@ -19,9 +20,11 @@ import viser
 from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.studio.answers import capsule_answer, printed_answer
 from jumpcad.studio.stage import Stage
+from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import load_workshop
 
 TEMPLATES = ("kenan-2.0", "best-printable")
+STAGES = ("figures", "printed", "meshes")
 STEP = 0.01
 """Share by which a slider moves."""
 
@@ -45,28 +48,41 @@ def measured(steps: int) -> dict[str, Any]:
             for step in range(1, steps + 1):
                 rows.append(_step(moved(design, parameter, step), stage, workshop))
     server.stop()
-    made = [row for row in rows if row["meshes"] is not None]
+    made = [row for row in rows if row["sent"] is not None]
     return {
         "compiled": importlib.util.find_spec("numba") is not None,
         "steps": len(rows),
         "refused": len(rows) - len(made),
-        **{key: _quantiles([row[key] for row in made]) for key in ("figures", "printed", "meshes", "sent")},
+        **{key: _quantiles([row["cpu"][key] for row in made]) for key in STAGES},
+        "sent": _quantiles([row["sent"] for row in made]),
+        "wall": {key: _quantiles([row["wall"][key] for row in made]) for key in STAGES},
     }
 
 
 def _step(design: Design, stage: Stage, workshop: Any) -> dict[str, Any]:
-    times = [process_time()]
+    """Return CPU and wall time (ms) from a slider to each stage, and how many meshes were sent; None if refused."""
+    times = [_clocks()]
     capsule_answer(design)
-    times.append(process_time())
+    times.append(_clocks())
     found = printed_answer(design, workshop)
     words = found.to_markdown()
-    times.append(process_time())
-    sent = stage.show(found.robot) if found.robot is not None else 0
-    times.append(process_time())
+    times.append(_clocks())
+    sent = None
+    if found.robot is not None:
+        with stage.server.atomic():
+            sent = stage.show(found.robot, wrong_parts(found.findings))
+        stage.server.flush()
+    times.append(_clocks())
     assert words
-    figures, printed, meshes = (1000.0 * (time - times[0]) for time in times[1:])
-    none = found.robot is None
-    return {"figures": figures, "printed": printed, "meshes": None if none else meshes, "sent": sent}
+    since = 1000.0 * (np.array(times[1:]) - times[0])
+    return {"sent": sent} | {
+        clock: dict(zip(STAGES, column, strict=True))
+        for clock, column in zip(("cpu", "wall"), since.T.tolist(), strict=True)
+    }
+
+
+def _clocks() -> tuple[float, float]:
+    return process_time(), perf_counter()
 
 
 def _quantiles(values: list[float]) -> dict[str, float]:
@@ -84,7 +100,8 @@ def main() -> None:
     if arguments.json:
         print(json.dumps(result, indent=2))
         return
-    for key, value in result.items():
+    walls = {f"wall {key}": value for key, value in result.pop("wall").items()}
+    for key, value in (result | walls).items():
         shown = ", ".join(f"{name} {one:.4g}" for name, one in value.items()) if isinstance(value, dict) else value
         print(f"{key}: {shown}")
 

@@ -38,6 +38,15 @@ class Design(Record):
     def __repr__(self) -> str:
         return f"<Design {', '.join(f'{name}={value:.5g}' for name, value in self.model_dump().items())}>"
 
+    def _repr_html_(self) -> str:
+        """Return the parameters with their units and meanings as a table, for a notebook."""
+        rows = "".join(
+            f"<tr><th>{name}</th><td>{f'{value:.5g} {unit_of(name)}'.strip()}</td>"
+            f"<td>{type(self).model_fields[name].description}</td></tr>"
+            for name, value in self.model_dump().items()
+        )
+        return f"<table><caption>design</caption>{rows}</table>"
+
     @classmethod
     def from_vector(cls, vector: Sequence[float]) -> Self:
         """Make a design from 8 floats in the order of `PARAMETERS`.
@@ -148,6 +157,15 @@ class Design(Record):
 
 
 PARAMETERS: tuple[str, ...] = tuple(Design.model_fields)
+
+
+UNITS = {"_nmm_per_deg": "N·mm/°", "_mm": "mm", "_deg": "°"}
+"""Units of parameters by the ends of their names; the others are ratios."""
+
+
+def unit_of(parameter: str) -> str:
+    """Return the unit of a parameter; a ratio has none."""
+    return next((unit for end, unit in UNITS.items() if parameter.endswith(end)), "")
 
 
 def limits_of(parameter: str) -> tuple[float, float]:

@@ -7,8 +7,25 @@ from typing import Any, Literal, get_args
 
 Severity = Literal["info", "warning", "error"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
-SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), "J": ("mJ", 1000.0)}
+SHOWN_AS = {
+    "rad": ("°", 180.0 / math.pi),
+    "rad/s": ("°/s", 180.0 / math.pi),
+    "J": ("mJ", 1000.0),
+    "N·m": ("mN·m", 1000.0),
+}
 """The unit that people read instead of another one, and the factor."""
+
+
+@dataclass(frozen=True)
+class Basis:
+    """How a limit is computed: its formula in plain text, with names and units, and where formula and limit are from.
+
+    The source is a handbook, a standard, a data sheet, a measurement, or "judgement". Every module that makes findings
+    has them in a table `BASIS` by the findings' names; `*` stands for the end of names that share a formula.
+    """
+
+    formula: str
+    source: str
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,11 @@ import support.threads  # noqa: F401  # before numpy
 from support.built import built
 from support.costs import Costs
 from support.kept import once as once_of
+from support.kept import robot_key
 from support.robots import make_small_robot
 
 from jumpcad import checks
+from jumpcad.bundle import export as bundle_export
 from jumpcad.bundle.export import export
 from jumpcad.checks import Check, printability
 from jumpcad.findings import Finding
@@ -36,15 +38,18 @@ sys.dont_write_bytecode = False
 
 @pytest.fixture(scope="session", autouse=True)
 def shapes() -> Iterator[None]:
-    """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before."""
+    """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before.
+
+    So are a report's hundred jumps and its pictures: of equal robots they are the same.
+    """
     known: dict[Shape, dict[str, Any]] = {}
 
     def once(name: str, make: Callable[[Any], Any], shape_of: Callable[[Any], Shape]) -> Callable[[Any], Any]:
         def get(asked: Any) -> Any:
             shape = shape_of(asked)
             if shape not in known and len(known) == KEPT:
-                del known[next(iter(known))]  # the oldest
-            made = known.setdefault(shape, {})
+                del known[next(iter(known))]  # of which no test has asked for longest
+            made = known[shape] = known.pop(shape, {})
             if name not in made:
                 made[name] = make(asked)
             return made[name]
@@ -65,6 +70,8 @@ def shapes() -> Iterator[None]:
         for module in (finish, printability):
             patch.setattr(module, "faults", faults)
         patch.setattr(printability, "_undersides", undersides)
+        for name in ("uncertainty_of", "renders"):
+            patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
         patch.setattr(Stack, "solid", once("solid", Stack.solid, lambda stack: stack))
         for name in ("mesh", "look"):
             patch.setattr(Drawing, name, kept(name))
@@ -104,22 +111,24 @@ def small_robot() -> Robot:
 
 
 @pytest.fixture(scope="session")
-def bundle_of(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Callable[[str], Path]:
-    """Return a function that gives a template's bundle without pictures, made once for all workers; not to be changed.
+def bundle_of(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Callable[..., Path]:
+    """Return a function that gives a template's bundle, made once for all workers; not to be changed.
 
-    A worker that makes one while another does uses that of the first to finish.
+    It has no pictures unless they are asked for. A worker that makes one while another does uses that of the first to
+    finish.
     """
     own = tmp_path_factory.mktemp("bundles")
     shared = (own if worker_id == "master" else own.parent.parent) / "of-templates"
     shared.mkdir(exist_ok=True)
 
     @cache
-    def made(name: str) -> Path:
-        if not (shared / name).exists():
-            export(built(name), own / name, pictures=False)
+    def made(name: str, pictures: bool = False) -> Path:
+        folder = f"{name} with pictures" if pictures else name
+        if not (shared / folder).exists():
+            export(built(name), own / folder, pictures=pictures)
             with suppress(OSError):
-                (own / name).rename(shared / name)
-        return shared / name
+                (own / folder).rename(shared / folder)
+        return shared / folder
 
     return made
 

@@ -58,7 +58,7 @@ def workshops(tmp_path_factory: pytest.TempPathFactory) -> list[Workshop]:
 
 
 @pytest.mark.filterwarnings("error")  # a value that is not finite shows first as a warning of numpy
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_any_design_has_an_answer(workshops: list[Workshop], seed: int) -> None:
     generator, answers = np.random.default_rng(seed), []
     for number in range(140):

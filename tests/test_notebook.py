@@ -66,6 +66,20 @@ def test_reprs_say_the_figures_that_matter(result):
     assert f"{1000 * result.robot.mass_kg:.1f} g" in repr(result.robot)
 
 
+def test_reprs_name_the_robot(result):
+    assert repr(replace(result.robot, name="mine")).startswith("<Robot 'mine': ")
+    assert repr(result.robot).startswith("<Robot without a name: ")
+
+
+def test_a_design_is_a_table_with_units():
+    shown = table(DESIGN._repr_html_())
+    assert list(shown) == list(jumpcad.design.PARAMETERS)
+    assert shown["carrying_link_mm"] == "123.46 mm"
+    assert shown["stiffness_nmm_per_deg"] == "12.345 N·mm/°"
+    assert shown["rest_angle_deg"] == "61.235 °"
+    assert shown["c_coef"] == "1.0123"
+
+
 def test_a_robot_has_picture_and_figures(result):
     html = result.robot._repr_html_()
     (data,) = re.findall(r'src="data:image/png;base64,([\w+/=]+)"', html)

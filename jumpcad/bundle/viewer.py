@@ -2,11 +2,12 @@
 
 import base64
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
+from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.motion import motion
 from jumpcad.bundle.renders import exploded
 from jumpcad.exporters.xml import allowed
@@ -22,22 +23,36 @@ from jumpcad.transforms import chained
 
 MICRONS = 6
 """Decimals of lengths in m."""
+KEYS = (
+    "Arrow keys turn the robot, with Shift they move it; + and − zoom, 0 shows it as at first; space plays and "
+    "pauses, comma and full stop go back and forth in the motion."
+)
+GRAM_DIGITS = 2
+"""Decimals of masses in g, those that are shown: rounded twice, 1.335 would become 1.33."""
 CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <p><button type="button" id="play">Play</button>
-<label>motion <input type="range" id="scrub" min="0" max="1" step="0.001" value="0" /></label>
+<label>motion <input type="range" id="scrub" min="0" max="1" step="0.02" value="0" /></label>
 <output id="moment"></output></p>
 <p><label>apart <input type="range" id="explode" min="0" max="1" step="0.01" value="0" /></label>
 <label>assembly <input type="range" id="step" min="1" max="1" step="1" value="1" /></label>
 <output id="step-title"></output>
 <button type="button" id="home">View</button></p>
-<p id="part">Click on a part for its mass, material and file.</p>
+<p id="shown"><span>show</span>
+<label><input type="checkbox" id="show-plates" checked="checked" /> body plates</label>
+<label><input type="checkbox" id="show-printed" checked="checked" /> other printed parts</label>
+<label><input type="checkbox" id="show-bought" checked="checked" /> bought parts</label>
+<label><input type="checkbox" id="show-path" checked="checked" /> path of the centre of mass</label></p>
+<p><label>part <select id="choose"><option value="">none</option></select></label>
+<output id="part" aria-live="polite"></output></p>
 </div>"""
 
 
 def viewer(robot: Robot, jump: Jump, glb: bytes) -> Iterator[str]:
     """Yield the viewer's elements: a box, controls, and scripts with data, GLB file and program."""
-    yield '<div id="viewer" aria-label="the robot in 3-D" role="img"></div>'
+    yield f'<div id="viewer" data-keys="{KEYS}"></div>'
     yield '<p id="viewer-message">The robot is shown here in 3-D where the browser runs scripts and WebGL.</p>'
+    hint = f"Drag to turn, scroll or pinch to zoom. <span>{KEYS}</span>"
+    yield f'<p id="viewer-keys" hidden="hidden"><small>{hint}</small></p>'
     yield CONTROLS
     yield f'<script type="application/json" id="viewer-data">{_embedded(viewer_data(robot, jump))}</script>'
     yield f'<script type="text/plain" id="viewer-glb">{base64.b64encode(glb).decode()}</script>'
@@ -53,18 +68,18 @@ def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
     apart = [after[:3, 3] - before[:3, 3] for before, after in zip(poses, exploded(things, poses), strict=True)]
     return motion(robot, jump.trajectory, jump.takeoff_time_s) | {
         "size_m": round(float(extent_m(robot).max()), MICRONS),
-        "turning": _turning(robot),
+        "turning": turning_parts(robot),
         "explode_m": {
             thing.name: round(float(offset[1]), MICRONS) for thing, offset in zip(things, apart, strict=True)
         },
         "steps": [
             {"title": step.title, "parts": [shape.name for shape in step.added]} for step in assembly_steps(robot)
         ],
-        "parts": {thing.name: _part(thing) for thing in things},
+        "parts": parts_facts(robot),
     }
 
 
-def _turning(robot: Robot) -> list[dict[str, Any]]:
+def turning_parts(robot: Robot) -> list[dict[str, Any]]:
     """Return the turning parts: node, axis (x, z) in the body's frame (m), turns per turn of the cam."""
     layout = robot.layout
     stages = layout.drive.train.stages
@@ -81,14 +96,25 @@ def _turning(robot: Robot) -> list[dict[str, Any]]:
     ]
 
 
-def _part(thing: Visual) -> dict[str, Any]:
-    """Return the data that a click on a part shows."""
+def parts_facts(robot: Robot) -> dict[str, dict[str, Any]]:
+    """Return what a click on a part shows: label, material or article, file, and mass (g), by the name in the picture.
+
+    What is bought in one piece and seen as several, such as a spring and its second arm, has the mass of the whole in
+    the bill of materials: a scale shows that.
+    """
+    seen_apart = {thing.article for thing in robot.hardware if thing.units == 0}
+    whole_kg = {line.name: line.mass_kg for line in bill_of_materials(robot).items if line.name in seen_apart}
+    return {thing.name: _facts(thing, whole_kg) for thing in visuals(robot)}
+
+
+def _facts(thing: Visual, whole_kg: Mapping[str, float]) -> dict[str, Any]:
     source = thing.source
     if isinstance(source, Part):
         words = {"label": source.name.replace("_", " "), "material": source.material, "file": f"stl/{source.name}.stl"}
     else:
         words = {"label": thing.name.replace("_", " "), "material": source.article, "file": ""}
-    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * source.mass.mass_kg, 3)}
+    mass_kg = whole_kg.get(words["material"], source.mass.mass_kg)
+    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * mass_kg, GRAM_DIGITS)}
 
 
 def _embedded(data: dict[str, Any]) -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jumpcad.checks.interference import INTENDED, Component, shared_volume_mm3
-from jumpcad.findings import Finding
+from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
@@ -32,6 +32,18 @@ BEYOND_MM = 5.0
 """Distance from all present parts at which paths begin."""
 SAMPLES_MM = 0.5
 """Distance of sampled positions."""
+FREE = f"at most {TOLERANCE_MM2:g} mm² are covered"
+SHARED = f"volume shared with what is there/length ≤ {TOLERANCE_MM2:g} mm²"
+BASIS = {
+    "assembly_paths": Basis(
+        f"{SHARED}, of every part on its straight path; length: the shorter of path and obstacle along it",
+        "swept solids; tolerance: facets of circles",
+    ),
+    "tool_access": Basis(
+        f"{SHARED}, of the room of every fastener's tool; length: the shorter of tool and obstacle along it",
+        "solids; tools: jumpcad/scene/assembly_order; tolerance: facets of circles",
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -67,15 +79,18 @@ def assembly_findings(robot: Robot) -> list[Finding]:
     blocked_paths = [blocked for *_, blocked in moves if blocked]
     blocked_tools = [blocked for *_, blocked in fasteners if blocked]
     return [
-        *_findings("assembly_paths", blocked_paths, f"all {len(moves)} moves of the assembly have a free path"),
-        *_findings("tool_access", blocked_tools, f"the tool reaches all {len(fasteners)} fasteners"),
+        *_findings("assembly_paths", blocked_paths, f"all {len(moves)} moves of the assembly have a free path: {FREE}"),
+        *_findings("tool_access", blocked_tools, f"the tool reaches all {len(fasteners)} fasteners: {FREE}"),
     ]
 
 
 def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]:
     for one in blocked:
         what = "path" if name == "assembly_paths" else "tool"
-        message = f"{one.by} blocks the {what} of {one.name} in step {one.step.title}"
+        message = (
+            f"{one.by} blocks the {what} of {one.name} in step {one.step.title}: it covers {one.share_mm2:.2f} mm²; "
+            f"{TOLERANCE_MM2:g} mm² are allowed"
+        )
         remedy = "raise carrying_link_mm or d_coef (a longer body), or choose another bought.retention"
         yield Finding(name, "error", -one.share_mm2, "mm²", message, remedy, value=one.share_mm2, limit=0.0)
     if not blocked:

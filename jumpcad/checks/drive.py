@@ -2,10 +2,12 @@
 
 from dataclasses import replace
 
+from jumpcad.drive import cam_findings, release, spring, stock_spring, train
 from jumpcad.findings import Finding
 from jumpcad.robot import Robot
 
 ROUND_OFF = 1e-6
+BASIS = spring.BASIS | cam_findings.BASIS | train.BASIS | release.BASIS | stock_spring.BASIS
 
 
 def drive_findings(robot: Robot) -> list[Finding]:

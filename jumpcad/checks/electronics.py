@@ -2,14 +2,41 @@
 
 from collections.abc import Iterator
 
+from jumpcad.checks import wiring
 from jumpcad.electronics.chain import Link, chain
 from jumpcad.electronics.chosen import Chosen, chosen_parts
-from jumpcad.electronics.nets import wiring_findings, wiring_of
+from jumpcad.electronics.nets import wiring_of
 from jumpcad.electronics.supply import Supply, supply_of
-from jumpcad.findings import Finding, at_most, limit
+from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.robot import Robot
 
 ROUND_OFF_V = 1e-9
+SHEETS = "ratings: makers' data sheets, templates/hardware/electronics.toml"
+STALL = "I = D·U_full/(R_motor + R_battery + R_driver) of the blocked motor, D largest share of PWM"
+BASIS = {
+    "supply_voltage_motor": Basis(
+        "D·U_empty ≥ U_min and D·U_full ≤ U_max (V); battery without load, D largest share of PWM, U_min and U_max of "
+        "the "
+        "motor",
+        "makers' data sheets: templates/hardware/motors.toml",
+    ),
+    "supply_voltage_*": Basis(
+        "U_empty - I·R_battery ≥ U_min and U_full ≤ U_max (V), I motor's largest current while it winds; behind a "
+        "regulator U_out - the diode's drop, for both",
+        SHEETS,
+    ),
+    "motor_current_*": Basis(f"I ≤ rated current (A); {STALL}", f"brushed motor: linear, Ohm; {SHEETS}"),
+    "gearbox_torque": Basis(
+        "(I - I_0)/(I_stall - I_0)·T_stall ≤ safety.motor_torque_max_nm (N·m), I_0 unloaded, I_stall and T_stall at "
+        f"rated voltage; {STALL}, at which the torque is just allowed, else 1",
+        "brushed motor: linear; limit: N20 makers, 2 kgf·cm",
+    ),
+    "charging_current": Basis(
+        "charging current of the controller ≤ charge_ma of the battery, or 1 C (mA)",
+        f"{SHEETS}; 1 C: makers of small cells",
+    ),
+    **wiring.BASIS,
+}
 
 
 def electronics_findings(robot: Robot) -> Iterator[Finding]:
@@ -21,7 +48,7 @@ def electronics_findings(robot: Robot) -> Iterator[Finding]:
     yield from _currents(robot, chosen, supply)
     yield _gearbox(robot, supply)
     yield from _charging(chosen)
-    yield from wiring_findings(chosen, wiring_of(chosen, robot.workshop.bought.pins))
+    yield from wiring.wiring_findings(chosen, wiring_of(chosen, robot.workshop.bought.pins))
 
 
 def links(robot: Robot) -> list[Link]:

@@ -1,8 +1,10 @@
 """The robot's name on its plates: can all of its letters be engraved?"""
 
-from jumpcad.findings import Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.robot import Robot
 from jumpcad.solids.text import engravable
+
+BASIS = {"engraving": Basis("letters of the name that the font lacks = 0", "character map of the font")}
 
 
 def engraving_findings(robot: Robot) -> list[Finding]:
@@ -13,7 +15,8 @@ def engraving_findings(robot: Robot) -> list[Finding]:
     return [
         at_most(
             "engraving", len(lacking), 0, "letters",
-            f"the engraving's font has no {lacking!r}: left out on the plates of {robot.name!r}",
+            f"the engraving's font lacks {len(lacking)} of the letters, {lacking!r}: left out on the plates of "
+            f"{robot.name!r}",
             "use Latin, Greek or Cyrillic letters if the plates must show the whole name", "warning",
         )
     ]  # fmt: skip

@@ -5,7 +5,7 @@ from manifold3d import Manifold
 
 from jumpcad.checks.interference import Component, Moment, components, pose_of
 from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, STOP_PAD_MM
-from jumpcad.findings import Finding, at_least, limit
+from jumpcad.findings import Basis, Finding, at_least, limit
 from jumpcad.layout.stop import TAB_MM
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot import Robot
@@ -16,6 +16,17 @@ GROUND_GAP_MM = FOOT_GAP_MM = 0.5
 POSITIONS = 9
 SEARCH_MM = 3.0
 """Larger gaps are not measured."""
+BASIS = {
+    "ground_clearance": Basis(
+        f"least height above the ground of body, roller and legs' ends, from loaded to rest ≥ {GROUND_GAP_MM:g} mm + "
+        "safety.gap_reserve_mm (mm), the foot flat",
+        f"geometry; {GROUND_GAP_MM:g} mm: judgement, play of the joints and flexing of legs and foot",
+    ),
+    "foot_clearance": Basis(
+        f"least distance of the foot from what the body carries, springs loaded ≥ {FOOT_GAP_MM:g} mm",
+        f"solids, exact; {FOOT_GAP_MM:g} mm: judgement, as for the ground",
+    ),
+}
 
 
 def ground_findings(robot: Robot) -> list[Finding]:

@@ -3,8 +3,16 @@
 from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase
-from jumpcad.findings import Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.robot import Robot
+
+BASIS = {
+    "electronics_hold": Basis(
+        "2·m·a ≤ seats.strap_n/safety.strength_factor (N), tie_n for boards; a = landing force/robot's mass, landing "
+        "force = m·g + U/safety.landing_stop_mm",
+        "sudden load on an elastic support: twice (Shigley, ch. 4); strap and tie: judgement, makers' usual ratings",
+    )
+}
 
 
 def holding_findings(robot: Robot) -> Iterator[Finding]:

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from manifold3d import Manifold
 
-from jumpcad.findings import Finding
+from jumpcad.findings import Basis, Finding
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
@@ -43,6 +43,12 @@ INTENDED = (
     ("stop_pad", "main_leg", "the pad is compressed"),
 )
 """Pairs of name prefixes that may share volume, and why."""
+BASIS = {
+    "interference": Basis(
+        f"volume that two pieces share in any position ≤ {TOLERANCE_MM3:g} mm³",
+        "solids, exact; tolerance: facets of circles",
+    )
+}
 
 
 @dataclass(frozen=True)
@@ -144,7 +150,8 @@ def interference_findings(robot: Robot) -> list[Finding]:
     """Return a finding per pair of pieces that collide, or one that says that none do."""
     found = [
         Finding(
-            "interference", "error", -volume, "mm³", f"{a} and {b} share {volume:.2f} mm³, {label}",
+            "interference", "error", -volume, "mm³",
+            f"{a} and {b} share {volume:.2f} mm³ of {TOLERANCE_MM3:g} mm³, {label}",
             "raise carrying_link_mm or d_coef, or lower compression_ratio", value=volume, limit=0.0,
         )
         for a, b, label, volume in overlaps(robot)
@@ -156,7 +163,7 @@ def interference_findings(robot: Robot) -> list[Finding]:
             "info",
             TOLERANCE_MM3,
             "mm³",
-            f"no two pieces overlap in {positions}",
+            f"no two pieces share more than {TOLERANCE_MM3:g} mm³ in {positions}",
             "nothing to do",
             limit=TOLERANCE_MM3,
         )

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.findings import Finding, at_least
+from jumpcad.findings import Basis, Finding, at_least
 from jumpcad.layout.layout import moving_obstacles
 from jumpcad.layout.room import bar, clearance
 from jumpcad.parts.leads import way_in
@@ -15,6 +15,14 @@ NEEDED_MM = 1.5
 """From a lead's middle to what moves; judgement: a lead of 1.2 mm and a millimetre of air."""
 APART_MM, AROUND_MM = 1.0, 1.5
 """Between the points that are measured, and how far around a lead across the robot things count."""
+FAR_MM = 100.0
+"""Larger distances are not told apart."""
+BASIS = {
+    "wires_clear": Basis(
+        f"least distance of a lead's middle from what moves, along its way ≥ {NEEDED_MM:g} mm",
+        "geometry; judgement: a lead of 1.2 mm and a millimetre of air",
+    )
+}
 
 
 def lead_findings(robot: Robot) -> Iterator[Finding]:
@@ -35,8 +43,10 @@ def lead_findings(robot: Robot) -> Iterator[Finding]:
             gaps[role] = min(gaps.get(role, np.inf), float(clearance(moving, points, (0.0, 0.0), 0.0, y).min()))
     if gaps:
         role = min(gaps, key=lambda name: gaps[name])
+        gap = min(gaps[role], FAR_MM)
+        far = "at least " if gap == FAR_MM else ""
         yield at_least(
-            "wires_clear", min(gaps[role], 100.0), NEEDED_MM, "mm",
-            f"the {role}'s leads pass {min(gaps[role], 100.0):.1f} mm from what moves; {NEEDED_MM:g} mm are needed",
+            "wires_clear", gap, NEEDED_MM, "mm",
+            f"the {role}'s leads pass {far}{gap:.1f} mm from what moves; {NEEDED_MM:g} mm are needed",
             "raise d_coef or carrying_link_mm (a longer body)",
         )  # fmt: skip

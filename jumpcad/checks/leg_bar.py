@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.checks.load_case import LoadCase, stress_finding
-from jumpcad.findings import Finding, at_most, limit
+from jumpcad.checks.load_case import IN_PLANE, LANDING, ONE_TOE, LoadCase, stress_finding
+from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.layout.leg_bars import BarPlace
 from jumpcad.parts.links import front_bar_place, leg_bar_place
 from jumpcad.strength.leg_bar import (
@@ -23,6 +23,37 @@ from jumpcad.strength.leg_bar import (
 )
 
 OTHER = 'a stronger bought.leg, or bought.leg = ""'
+BED = "a rigid bar on an elastic bed: judgement, jumpcad/strength/leg_bar.py"
+GOODWINDS = "strengths of the bar: Goodwinds, technical material specifications"
+BASIS = {
+    "leg_bar_strength": Basis(
+        f"max(σ, τ·R/R_shear) ≤ R/s (MPa), R the bar's bending strength; σ = M·h/(2·I) + F/A at the "
+        "socket's mouth, or M_s·sin(rest_angle_deg)·b/(2·I_s) sideways; τ = c·(T/l2 + 1.5·M/a)/A + that of the "
+        "torsion M_s·cos(rest_angle_deg), c = 2 for a tube, 1.5 for a strip; M = T·(1 - x/l2) of the springs' torque "
+        f"T, a the socket's length, M_s = F·toe_half_width_mm, {ONE_TOE}",
+        f"Shigley 3-10 to 3-12; {BED}; {GOODWINDS}",
+    ),
+    "leg_socket_strength": Basis(
+        f"max(P/b, P/(t - b - gaps), M_f·h/(2·I) of the hollow section at its floor) ≤ {IN_PLANE}; P = 6·M/a² + "
+        "T/(l2·a) per length of the socket, M at its mouth, M_f at its floor, a its length, b the bar's and t the "
+        "leg's thickness",
+        BED,
+    ),
+    "leg_bar_bond": Basis(
+        "√((F/A)² + (M/(A·h/2))²) ≤ the glue's strength/s (MPa); A = circumference·length, F along the "
+        "bar in the push-off or at landing, M twist by a landing on one toe, h the bar's smaller side",
+        "shear of a lap joint; the glue's strength: judgement",
+    ),
+    "leg_bar_flex": Basis(
+        "∫M²/(2·E·I)dx over the leg/U ≤ safety.leg_flex_share (%); E·I printed up to the socket's "
+        "middle, the bar's from there on; M falls evenly from the springs' torque at the hub to 0 at the ankle",
+        f"strain energy in bending (Shigley, ch. 4); limit: judgement; {GOODWINDS}",
+    ),
+    "front_bar_buckling": Basis(
+        f"F ≤ π²·E·I/(l3²·s) (N), I about the weaker axis; {LANDING}",
+        f"Euler, a hinge at either end (Shigley 4-12); {GOODWINDS}",
+    ),
+}
 
 
 def leg_bar_findings(case: LoadCase) -> Iterator[Finding]:

@@ -19,6 +19,13 @@ from jumpcad.strength.stress import Shell, pin_stress_mpa
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
 
+IN_PLANE = "strength_in_plane_mpa/s (MPa)"
+INTERLAYER = "strength_interlayer_mpa/s (MPa)"
+"""What stresses of printed parts are compared with."""
+LANDING = "F = m·g + U/safety.landing_stop_mm, a fall from the height to which U could lift the robot"
+ONE_TOE = "F landing force/(1 + (x/k_y)² + (y/k_x)²) on one tip at x, y, with the body's radii of gyration k"
+"""Loads, for formulas."""
+
 
 @dataclass(frozen=True)
 class LoadCase:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from manifold3d import CrossSection, JoinType
 
-from jumpcad.findings import Finding, at_least, at_most, limit
+from jumpcad.findings import Basis, Finding, at_least, at_most, limit
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import faults
@@ -34,6 +34,35 @@ SMALLEST_PIECE_MM2 = 0.05
 TOUCH_MM = 0.05
 ROUND_OFF_MM = 0.02
 """By how much polygons can reduce a width."""
+PRACTICE = "practice of desktop printing: templates/workshops/default.toml"
+BASIS = {
+    "bed_fit": Basis(
+        "min(bed - part's size) over x, y, z ≥ 0 (mm), along its sides or turned about z",
+        "geometry; printer's data sheet",
+    ),
+    "walls": Basis(
+        "width from which opening a section removes more than corners ≥ fits.wall_min_mm (mm), layers taller than it",
+        PRACTICE,
+    ),
+    "holes": Basis(
+        "width at which a hole closes ≥ smaller of fits.hole_min_mm and fits.m2_tap_mm (mm)", f"{PRACTICE}; ISO 2306"
+    ),
+    "pins": Basis(
+        "width at which the outline of a column vanishes ≥ fits.pin_min_mm (mm), columns taller than it whose longest "
+        "side is less than three times it",
+        PRACTICE,
+    ),
+    "overhangs": Basis(
+        "reach over air of what is held on one side ≤ 2·process.line_width_mm (mm), undersides flatter than "
+        "fits.overhang_deg",
+        f"{PRACTICE}; two printed lines: judgement",
+    ),
+    "bridges": Basis("width over air of what is held on more sides ≤ fits.bridge_mm (mm)", PRACTICE),
+    "solid": Basis(
+        "faults of the re-read STL file = 0: open edges, inside out, volume, pieces",
+        "definition of a printable solid; trimesh",
+    ),
+}
 
 Fails = Callable[[Region, float], bool]
 """Tells whether something in a region is narrower than a width (mm)."""

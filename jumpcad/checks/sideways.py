@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jumpcad.findings import Finding, at_least
+from jumpcad.findings import Basis, Finding, at_least
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.feasibility import centre_of_mass_on_foot_mm
 from jumpcad.mechanism.linkage import toe_tip_mm
@@ -24,6 +24,14 @@ WIDER_MM = 1.0
 """Added to the half width that the remedy names; judgement: wider bars are heavier."""
 LANDING_PLAYS = 2.0
 """Factor on the play at landing: the body lands tilted to one end of it and swings to the other."""
+BASIS = {
+    "sideways_tipping": Basis(
+        "atan(w/h) - n·play ≥ safety.roll_reserve_deg (°), least of rest, springs loaded (n = 1) and landing (n = "
+        "2); w from the centre of mass to the line from toe's tip to nose, h its height, play = least of leg's and "
+        "front link's Σ(bore - pin)/length of the eye",
+        "statics; reserve and twice the play at landing: judgement",
+    )
+}
 
 
 @dataclass(frozen=True)
@@ -54,7 +62,7 @@ def sideways_findings(robot: Robot) -> list[Finding]:
         at_least(
             "sideways_tipping", worst.margin_deg, reserve, "°",
             f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
-            f"takes {worst.play_deg:.1f}°; {reserve:g}° must be left",
+            f"takes {worst.play_deg:.1f}°; {worst.margin_deg:.1f}° are left, of {reserve:g}° at least",
             f"{wider}, or a larger e_coef or ground_link_angle_deg (wider toes), or a lower fits.eye_mm",
         )
     ]  # fmt: skip

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import ROLLER_WASHER_MM
-from jumpcad.findings import Finding, at_most
-from jumpcad.strength.axles import clipped_pins
+from jumpcad.findings import Basis, Finding, at_most
+from jumpcad.strength.axles import SCREW_AREA_MM2, SCREW_YIELD_MPA, clipped_pins
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
 from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
 from jumpcad.strength.stress import pin_stress_mpa
@@ -17,6 +17,62 @@ ROLLER_SCREW_CORE_MM = 2.39
 """M3, ISO 724."""
 ROLLER_SCREW_YIELD_MPA = 640.0
 """Property class 8.8, ISO 898-1."""
+BENDING = "32·M·d/(π·(d⁴ - b⁴)) ≤ yield stress/s (MPa), d diameter, b bore"
+ROUND = (
+    "bending of a round bar: Shigley 3-10; yield stress: templates/hardware/axles.toml, at most safety.steel_yield_mpa"
+)
+FRICTION = "friction of the feet·(m·g + U/safety.landing_stop_mm)"
+BASIS = {
+    "leg_axle_strength": Basis(
+        f"{BENDING}; M of a simple beam between the plates: the leg pushes on its middle with the forces of arms and "
+        "cam, each coil beside it pushes back with half of its arms' forces",
+        ROUND,
+    ),
+    "cam_axle_strength": Basis(
+        f"{BENDING}; M = N·a·(l - a)/l, N the cam's largest force at a from one plate, l between the plates' middles",
+        ROUND,
+    ),
+    "spring_pin_strength": Basis(
+        f"{BENDING}; M = F·x, F of one arm, x from the spring's end to the plate's middle", ROUND
+    ),
+    "leg_pin_strength": Basis(
+        f"{BENDING}; M = F·(gap + half the wire + a quarter of the leg's thickness), F of one arm", ROUND
+    ),
+    "foot_pin_strength": Basis(
+        f"{BENDING}; M = F/2·x, F largest of ankle and front link in the push-off and the landing force, x from the "
+        "lug's middle to a quarter of the leg's thickness within it",
+        ROUND,
+    ),
+    "roller_screw_strength": Basis(
+        f"32·M/(π·d³) ≤ {ROLLER_SCREW_YIELD_MPA:g} MPa/s, d = {ROLLER_SCREW_CORE_MM:g} mm, M = N·x, N the cam's "
+        "largest force, x from lever to roller's middle",
+        "Shigley 3-10; core of M3: ISO 724; property class 8.8: ISO 898-1",
+    ),
+    "axle_retention": Basis(
+        f"{FRICTION} ≤ holding force/s (N): π·d·floor·strength_in_plane_mpa/√3 of a blind bore's floor in the body, "
+        f"s of what is printed; load of a clip; {SCREW_AREA_MM2:g} mm²·{SCREW_YIELD_MPA:g} MPa of a screw",
+        "distortion energy; clips: DIN 6799; screws: ISO 898-1; all friction on one axle: judgement",
+    ),
+    "pin_retention": Basis(
+        f"{FRICTION} ≤ load of its split pin or clip/s (N)",
+        "templates/hardware/axles.toml (ISO 1234, DIN 6799); all friction on one pin: judgement",
+    ),
+    "spring_fatigue": Basis(
+        "inner fibre's stress ≤ c·R_m (MPa); c on straight lines in logarithms from 0.78 at 10³ jumps to 0.53 at 10⁵ "
+        "and 0.50 at 10⁶, for safety.jumps",
+        "Shigley 10-12 and table 10-10; R_m: EN 10270-1 SM",
+    ),
+    "axle_fatigue": Basis(
+        "stress ≤ min(2/(1/S + 1/R_m), 0.78·R_m)/r (MPa), R_m = yield/0.78; S on a straight line in logarithms from "
+        "0.77·R_m at 10³ jumps to min(R_m/2, 700)·min(1, 4.51·R_m^-0.265) at 10⁶, for safety.jumps",
+        "Shigley 6-7 to 6-9, 6-12 (Goodman) and figure 6-18",
+    ),
+    "hub_bearing_load": Basis(
+        "|F_arms/2 + F_cam·(1/2 + x/y)| ≤ C0/(safety.bearing_factor·r) (N); x from the leg's middle to the roller's, y "
+        "between the bearings' middles, C0 static load rating",
+        "statics of two supports; C0: makers' catalogues; factor: SKF, Rolling bearings",
+    ),
+}
 
 
 def steel_findings(case: LoadCase) -> Iterator[Finding]:

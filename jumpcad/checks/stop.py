@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
-from jumpcad.findings import Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.layout.stop import EAR_MM, GIVE_ROOM_RAD
 from jumpcad.robot import Robot
 from jumpcad.strength.stop import BLOW_FACTOR
@@ -20,6 +20,37 @@ from jumpcad.strength.stress import Beam
 PAD_STRAIN = 0.5
 """Largest deflection of a pad over its thickness; judgement: rubber bumpers are compressed to half."""
 SOFTER = "choose another body.stop_pad, or lower stiffness_nmm_per_deg or compression_ratio"
+
+BLOW = "F = 0.82·ω·√(k·I) the pad's peak force, ω and I rate and inertia of the leg at the stop, k the pad's stiffness"
+TWICE = "0.82 and twice the peak: judgement of the bench review; impact: jumpcad/mechanism/flight.py"
+BASIS = {
+    "stop_strength": Basis(
+        "M·h/(2·I) ≤ strength_in_plane_mpa (MPa); M = 2·F·(l - w/2)/4 of a beam between the plates, w the leg's "
+        f"thickness; {BLOW}",
+        f"beams: Roark, ch. 8; {TWICE}",
+    ),
+    "stop_plates": Basis(
+        f"max(6·F·x/(t·w²), 6·F·y·a/(t·(a³ - d³))) ≤ the body's strength_in_plane_mpa (MPa); t plate, w = {EAR_MM:g} "
+        "mm its ear, x from the pad to the hub, y from the pad to the end of the hole d nearest to the hub, a hole "
+        f"and edges; {BLOW}",
+        f"cantilever: Roark, ch. 8; {TWICE}",
+    ),
+    "stop_leg": Basis(
+        "M·h/(2·I) ≤ strength_in_plane_mpa (MPa); M = 2·F·x·(1 - x/l2), x from the pad to the hub, the leg's inertia "
+        f"at the ankle; {BLOW}",
+        f"beams: Roark, ch. 8; {TWICE}",
+    ),
+    "stop_pad": Basis(
+        f"ω·√(I/k) ≤ {PAD_STRAIN:g}·thickness (mm), ω and I rate and inertia of the leg at the stop, k the pad's "
+        "stiffness",
+        "energy of a spring; k: Gent, Engineering with Rubber; limit: judgement",
+    ),
+    "stop_clearance": Basis(
+        f"ω·√(I/k)/x ≤ {math.degrees(GIVE_ROOM_RAD):g}° + clearance/lever (°), x from the pad to the hub; ω, I and k "
+        "as in `stop_pad`",
+        "energy of a spring; limit: judgement",
+    ),
+}
 
 
 def stop_findings(robot: Robot) -> Iterator[Finding]:

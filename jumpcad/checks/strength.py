@@ -12,21 +12,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.checks.leg_bar import leg_bar_findings
-from jumpcad.checks.load_case import LoadCase, stress_finding
-from jumpcad.checks.steel import steel_findings
-from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, TOE_TIP_WIDTH_MM
+from jumpcad.checks import foot, leg_bar, steel
+from jumpcad.checks.load_case import IN_PLANE, INTERLAYER, LANDING, LoadCase, stress_finding
+from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.drive.dog import JAWS
-from jumpcad.findings import Finding, at_most, limit
-from jumpcad.parts.toes import SCREWS_MM, joint_height_mm
+from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.robot import Robot
-from jumpcad.strength.loads import rail_moment_nmm, toe_moment_nmm
 from jumpcad.strength.sizing import dog_inside_mm, leg_flex_share
 from jumpcad.strength.stress import (
     STATIONS,
     VON_MISES,
     Beam,
-    bar_shear_mpa,
     bored_stress_mpa,
     buckling_load_n,
     eye_stress_mpa,
@@ -35,7 +31,61 @@ from jumpcad.strength.stress import (
     tube_shear_mpa,
 )
 
-WEAKER = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the links"
+WEAKER = foot.WEAKER
+PUSH_OFF = "loads: inverse dynamics of the push-off (Norton, Design of Machinery, ch. 11)"
+BASIS = {
+    "leg_strength": Basis(
+        f"largest M·h/(2·I) + F/A along the leg ≤ {IN_PLANE}; M falls evenly from the springs' torque K·(δ + p) at "
+        "the hub to 0 at the ankle, F largest force along the leg in the push-off; I and A less what the infill lacks",
+        f"Shigley 3-10; {PUSH_OFF}",
+    ),
+    "hub_strength": Basis(
+        f"6·M·H/(b·(H³ - d³)) ≤ {IN_PLANE}; M springs' torque K·(δ + p), b leg's thickness, H larger of hub and leg's "
+        "root, d the hub's bore",
+        "section with a hole: Roark, table A.1",
+    ),
+    "lever_strength": Basis(
+        f"largest M·h/(2·I) + F/A along the lever ≤ {IN_PLANE}; M falls evenly from the springs' torque K·(δ + p) at "
+        "the hub to 0 at the roller, F = N·sin α with the cam's largest force N and pressure angle α",
+        "Shigley 3-10",
+    ),
+    "leg_flex": Basis(
+        "∫M²/(2·E·I)dx over the leg/U ≤ safety.leg_flex_share (%); M falls evenly from the springs' "
+        "torque K·(δ + p) at the hub to 0 at the ankle, E modulus of the links' material",
+        "strain energy in bending (Shigley, ch. 4); limit: judgement",
+    ),
+    "front_link_strength": Basis(
+        f"F/A ≤ {IN_PLANE}; F largest force along the front link in the push-off", f"Shigley 3-10; {PUSH_OFF}"
+    ),
+    "front_link_buckling": Basis(
+        f"F ≤ π²·E·I/(l3²·s) (N); {LANDING}",
+        "Euler, a hinge at either end (Shigley 4-12); stopping distance: judgement",
+    ),
+    "eye_strength": Basis(
+        f"max(F/(d·t), √3·F/((D - d)·t)) ≤ {IN_PLANE}; F largest of ankle and front link in the push-off and the "
+        "landing force, t thickness, D outside, d bore",
+        f"joints loaded in shear: Shigley 8-12; distortion energy; {PUSH_OFF}",
+    ),
+    "foot_lug_strength": Basis(
+        f"max(F/(d·t), √3·F/((D - d)·t)) ≤ {INTERLAYER}; F half of the larger force of ankle and front link in the "
+        "push-off, t a lug's thickness, D twice the foot's depth, d bore",
+        f"joints loaded in shear: Shigley 8-12; distortion energy; {PUSH_OFF}",
+    ),
+    **leg_bar.BASIS,
+    **foot.BASIS,
+    **steel.BASIS,
+    "plate_seat": Basis(
+        f"F/(2·d·t) ≤ the body's {IN_PLANE}; F springs loaded, of the leg's axle, the cam's axle or the springs' pin, "
+        "d axle, t depth of its seat in one plate",
+        "bearing pressure (Shigley 8-12)",
+    ),
+    "cam_dog_strength": Basis(
+        f"max(√(σ² + 3·τ²) of a jaw, √3·16·T·D/(π·(D⁴ - d⁴)) of its boss) ≤ the gears' {INTERLAYER}; T larger of "
+        "the cam's torque and the blow at the end of the dog's play; σ = 3·F·L/(b·h²), τ = 1.5·F/(b·h), F = "
+        "T/(2·mean radius)",
+        "bending, transverse shear, torsion: Shigley 3-10 to 3-12; blow: jumpcad/drive/blows.py",
+    ),
+}
 
 
 def strength_findings(robot: Robot) -> list[Finding]:
@@ -43,12 +93,11 @@ def strength_findings(robot: Robot) -> list[Finding]:
     case = LoadCase(robot)
     return [
         *_leg(case),
-        *leg_bar_findings(case),
+        *leg_bar.leg_bar_findings(case),
         *_front_link(case),
         *_eyes(case),
-        *_foot(case),
-        *_sideways(case),
-        *steel_findings(case),
+        *foot.foot_findings(case),
+        *steel.steel_findings(case),
         *_seats(case),
     ]
 
@@ -119,70 +168,6 @@ def _eyes(case: LoadCase) -> Iterator[Finding]:
     interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.printed_factor
     yield stress_finding(
         "foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER, "lug"
-    )
-
-
-def _foot(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of toes and rails."""
-    design, sections = case.robot.design, case.layout.sections
-    toes = float(case.forces.toes_n.max())
-    toe, rail = sections.toe(case.shell), sections.rail(case.shell)
-    stress = tapered_stress_mpa(toe, toe_moment_nmm(design, toes))
-    remedy = f"shorten the toes (e_coef), or {WEAKER}"
-    yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, remedy, "toe")
-    stress = tapered_stress_mpa(rail, rail_moment_nmm(design, toes))
-    yield stress_finding(
-        "rail_strength", "the foot's rails in bending at release", stress, case.allowable_mpa, remedy, "rail"
-    )
-    blow = case.toe_blow_n
-    stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
-    yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, remedy, "toe")
-    if bar := case.layout.toe_bar_mm:
-        stress = _toe_bar_mpa(case, blow * bar)
-        yield stress_finding(
-            "toe_bar_strength", "the bar across a toe's tip", stress, case.allowable_mpa,
-            "lower body.toe_half_width_mm", "toe",
-        )  # fmt: skip
-    if case.layout.toes_apart:
-        stress = _toe_joint_mpa(case, max(0.5 * toes, blow))
-        yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, remedy, "toe")
-
-
-def _toe_bar_mpa(case: LoadCase, moment_nmm: float) -> float:
-    """Return the stress of the bar across a toe's tip, bent by a landing on its end, which twists the toe as well."""
-    width, height = TOE_TIP_WIDTH_MM, case.layout.sections.toe_tip_height_mm
-    bending = float(Beam(width, height, case.shell, upright=True).stress_mpa(moment_nmm))
-    return max(bending, VON_MISES * float(bar_shear_mpa(moment_nmm, width, height)))
-
-
-def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
-    """Return the stress beside the screws that hold a separate toe, with a force on its tip.
-
-    The outer screw carries the most: the force's moment about the inner one over their distance.
-    """
-    inner, outer = SCREWS_MM
-    force = tip_n * (case.layout.design.l5_mm - inner) / (outer - inner)
-    holes = case.holes
-    height, width = joint_height_mm(case.layout, holes), case.layout.sections.toe_width_mm
-    bores = (holes.fits.m3_tap_mm, holes.m3_clearance_mm)
-    return max(eye_stress_mpa(force, width, height, bore) for bore in bores)
-
-
-def _sideways(case: LoadCase) -> Iterator[Finding]:
-    """Yield the finding of the main leg bent and twisted out of its plane by one toe's tip that lands first.
-
-    The impact's moment about the robot's long axis goes through the leg alone, the front link neglected: its part
-    across the leg bends the leg sideways, its part along the leg twists it.
-    """
-    sections, angle = case.layout.sections, math.radians(case.robot.design.rest_angle_deg)
-    moment = case.toe_blow_n * case.layout.toe_half_width_mm
-    heights = np.linspace(sections.leg_root_mm, sections.leg_tip_mm, STATIONS)
-    bending = Beam(heights, sections.thickness_mm, case.shell, upright=True).stress_mpa(moment * math.sin(angle))
-    shear = VON_MISES * bar_shear_mpa(moment * math.cos(angle), heights, sections.thickness_mm)
-    stress = float(np.max(np.hypot(bending, shear)))
-    remedy = f"shorten the toes (e_coef), lower ground_link_angle_deg, or {WEAKER}"
-    yield stress_finding(
-        "leg_sideways", "main leg bent sideways by one toe's tip", stress, case.allowable_mpa, remedy, "thickness"
     )
 
 

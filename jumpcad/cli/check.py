@@ -1,5 +1,6 @@
 """`jumpcad check`: limits of printing, strength, drive and clearance; violated ones first, then tight ones."""
 
+from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -8,6 +9,7 @@ from jumpcad.cli.output import JsonFlag, console, print_json
 from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completion, note_template
 
 if TYPE_CHECKING:
+    from jumpcad.errors import JumpcadError
     from jumpcad.findings import Finding
 
 SEVERITIES = ("error", "warning", "info")
@@ -37,6 +39,9 @@ def check(
     printer: PrinterOption = None,
     material: MaterialOption = None,
     every: Annotated[bool, typer.Option("--all", help="Show every limit, also those with a large margin.")] = False,
+    explain: Annotated[
+        str, typer.Option("--explain", help="Show one limit alone, with formula and source.", metavar="NAME")
+    ] = "",
     as_json: JsonFlag = False,
 ) -> None:
     """Check the robot of a design: printing, strength, drive, clearances.
@@ -46,17 +51,24 @@ def check(
     The exit code is 1 if a limit of severity "error" is violated.
     """
     from jumpcad.building import build
+    from jumpcad.checks import basis_of
     from jumpcad.checks import check as check_robot
     from jumpcad.design import load_design
     from jumpcad.findings import errors
     from jumpcad.workshop import DEFAULT, load_workshop
 
     note_template(design)
+    if explain and basis_of(explain) is None:
+        raise _unknown(explain)
     robot = build(load_design(design), load_workshop(workshop or DEFAULT, printer, material))
     findings = sorted(check_robot(robot), key=_order)
+    if explain:
+        findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]
     if as_json:
         data = [finding.to_dict() | {"use": finding.use} for finding in findings]
         print_json({"design": design, "workshop": workshop or DEFAULT, "findings": data})
+    elif explain:
+        _print_explained(explain, findings)
     else:
         _print_table(findings, every)
     if errors(findings):
@@ -87,6 +99,40 @@ def _order(finding: "Finding") -> tuple[int, float]:
     """Return the key by which findings are sorted: severity, then use, largest first."""
     use = finding.use
     return SEVERITIES.index(finding.severity), -(float(is_tight(finding)) if use is None else use)
+
+
+def _unknown(name: str) -> "JumpcadError":
+    from jumpcad.checks import CHECKS
+    from jumpcad.errors import JumpcadError
+    from jumpcad.files import did_you_mean
+
+    known = [name for one in CHECKS for name in one.basis]
+    return JumpcadError(f"no check makes a finding {name!r}{did_you_mean(name, known)}: jumpcad check --all lists them")
+
+
+def _print_explained(name: str, findings: "list[Finding]") -> None:
+    """Print formula and source of a limit, and what was found in this robot."""
+    from rich.table import Table
+
+    from jumpcad.checks import SYMBOLS, basis_of
+
+    basis = basis_of(name)
+    assert basis is not None
+    table = Table(box=None, pad_edge=False, show_header=False)
+    table.add_column(no_wrap=True)
+    table.add_column()
+    table.add_row("formula", basis.formula)
+    table.add_row("symbols", SYMBOLS)
+    table.add_row("source", basis.source)
+    for finding in findings:
+        use = "" if finding.use is None else f"{100.0 * finding.use:.0f} % used, "
+        state = f"{WORDS[finding.severity]}, {use}{margin_in_words(finding)}".removesuffix(", ")
+        table.add_row(finding.name, f"{state}: {finding.message}")
+        table.add_row("remedy", finding.remedy)
+    screen = console()
+    screen.print(table)
+    if not findings:
+        screen.print(f"{name}: not a limit of this robot, or reported only where it fails")
 
 
 def _print_table(findings: "list[Finding]", every: bool) -> None:

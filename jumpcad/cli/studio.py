@@ -12,8 +12,10 @@ from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
+    from jumpcad.studio.points import Points
 
 PORT = 8080
+STUDY = ".db"
 
 
 def register(app: typer.Typer) -> None:
@@ -23,48 +25,67 @@ def register(app: typer.Typer) -> None:
 
 def studio(
     design: Annotated[
-        str, typer.Argument(help="A template, a design file, a bundle, or a study (its best).", metavar="DESIGN|F.db")
+        str, typer.Argument(help="A template, a design file, a bundle, or a study.", metavar="DESIGN|F.db")
     ] = "kenan-2.0",
     workshop: WorkshopOption = None,
+    trial: Annotated[
+        int | None, typer.Option(help="Trial of the study, numbered from 1.", show_default="the best", metavar="N")
+    ] = None,
     port: Annotated[int, typer.Option(help="Port of the page, on this computer alone.", min=1, max=65535)] = PORT,
 ) -> None:
-    """Change the eight numbers in a browser and see the robot that they give (extra `studio`)."""
-    from jumpcad.design import load_design
-    from jumpcad.files.templates import template_names
-    from jumpcad.workshop import DEFAULT
-
+    """Change the eight numbers in a browser and see the robot that they give, wind and jump (extra `studio`)."""
     try:
         import viser
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
+    from jumpcad.files.templates import template_names
     from jumpcad.studio import Studio
 
-    if design.endswith(".db"):
-        opened = _best(Path(design))
-    else:
-        bundle_of(design, workshop)
-        opened = load_design(design_file(design))
-    name = Path(design).name.removesuffix(".toml").removesuffix(".db")
-    chosen = workshop or DEFAULT
-    workshops = [chosen, *(other for other in template_names("workshops") if other != chosen)]
+    is_study = design.endswith(STUDY) and not Path(design).is_dir()
+    if trial is not None and not is_study:
+        raise JumpcadError(f"--trial {trial}: {design} is no study (F.db)")
+    opened, own, points, number = (
+        _point(Path(design), trial, workshop) if is_study else (*_design(design, workshop), None, 1)
+    )
+    shops = dict.fromkeys(name for name in (workshop, own, *template_names("workshops")) if name is not None)
+    name = Path(design).name.removesuffix(".toml").removesuffix(STUDY)
     with contextlib.redirect_stdout(io.StringIO()):  # its banner has the address too
         server = viser.ViserServer(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
-    shown = Studio(opened, name, workshops, server, Path.cwd())
+    shown = Studio(opened, name, list(shops), server, Path.cwd(), points, number)
     shown.start()
-    print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio)")
+    print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio; the browser needs WebGL)")
     try:
         server.sleep_forever()
     finally:
         shown.end()
 
 
-def _best(file: Path) -> "Design":
-    """Return the best design of a study; raise `JumpcadError` if none can be built."""
-    from jumpcad.search.store import StudyStore
-    from jumpcad.search.trial import feasible_trials, searched
+def _point(file: Path, trial: int | None, workshop: str | None) -> "tuple[Design, str, Points, int]":
+    """Return a trial's design, the name of its workshop in the studio, the study's points and the trial's number.
 
-    with StudyStore.read(file) as store:
-        top = feasible_trials(searched(store.trials()))
-    if not top:
-        raise JumpcadError(f"{file}: no design of this study can be built")
-    return top[0].design
+    Raises
+    ------
+    JumpcadError
+        If there is no such trial, or its robot cannot be built.
+    """
+    from jumpcad.studio.points import STUDYS, Points
+
+    points = Points(file)
+    number = points.best if trial is None else trial
+    design = points.trial(number).design
+    if trial is not None and workshop is None:
+        points.require_built(number)
+    return design, STUDYS, points, number
+
+
+def _design(subject: str, workshop: str | None) -> "tuple[Design, str]":
+    """Return the design of a bundle, a template or a file, and its workshop; raise `JumpcadError` if there is none."""
+    from jumpcad.bundle.inputs import WORKSHOP, kept_workshop
+    from jumpcad.design import load_design
+    from jumpcad.workshop import DEFAULT
+
+    bundle = bundle_of(subject, workshop)
+    if bundle is None:
+        return load_design(design_file(subject)), DEFAULT
+    kept_workshop(bundle)  # raises if it names other files
+    return load_design(design_file(subject)), str(bundle.file(WORKSHOP))

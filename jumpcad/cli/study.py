@@ -103,6 +103,7 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
     trials, identity = store.trials(), store.identity
     proposed = searched(trials)
     top = feasible_trials(proposed)
+    numbers = {trial.position: number for number, trial in enumerate(trials, start=1)}
     return {
         "study": str(file),
         "identity": identity,
@@ -112,7 +113,7 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
         "refused": count_rejections(proposed),
         "evaluation_time_s": sum(trial.duration_s for trial in trials),
         "best": top[0].to_dict() if top else None,
-        "top": [trial.to_dict() for trial in top[:best]],
+        "top": [{"trial": numbers[trial.position], **trial.to_dict()} for trial in top[:best]],
         "quarantined": [trial.to_dict() for trial in trials if trial.evaluation.verdict == "quarantined"],
         "notes": store.notes(),
     }
@@ -135,7 +136,7 @@ def _print_one(summary: dict[str, Any]) -> None:
             f"  {key}={value if isinstance(value, str) else f'{value:.5g}'}"
             for key, value in trial.get("workshop", {}).items()
         )
-        print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}")
+        print(f"{number:3d}. {trial['score']:10.4f}  {trial['phase']:6s}  {values}  (trial {trial['trial']})")
 
 
 def _print_comparison(summaries: list[dict[str, Any]]) -> None:

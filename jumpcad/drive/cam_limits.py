@@ -89,41 +89,12 @@ class CamLimits:
     lead_max_rad: float = math.radians(45)
 
 
-@dataclass(frozen=True)
-class Limit:
-    """A checked limit: its finding's name, unit, message and remedy, and the margin that scales to 1."""
-
-    name: str
-    unit: str
-    scale: float
-    message: str
-    remedy: str
-
-
-_WIND_LESS = "lower compression_ratio"
-LIMITS = (
-    Limit("cam_pressure_angle", "rad", 0.1, "pressure angle below its limit", f"{_WIND_LESS}, or a larger cam"),
-    Limit("cam_undercut", "mm", 1.0, "convex radius of the profile above its limit", "a smaller bought.roller"),
-    Limit("cam_contact", "MPa", 10.0, "contact pressure below its limit",
-           "lower stiffness_nmm_per_deg or compression_ratio, or a wider cam"),
-    Limit("cam_roller_load", "N", 10.0, "force on the roller below its static rating",
-           "lower stiffness_nmm_per_deg or compression_ratio, or a larger bought.roller"),
-    Limit("cam_core", "mm", 1.0, "material left around the cam's axis, beyond the dog's boss (no gap)", _WIND_LESS),
-    Limit("cam_hub", "mm", 1.0, "gap between cam and hub, beyond the clearance and its reserve",
-           f"{_WIND_LESS}, or a smaller bought.leg_bearing"),
-    Limit("cam_drop", "rad", 0.1, "cam angle left between the roller's drop, with the dog's play, and the next lift",
-           "a smaller bought.roller, or less release.play_deg"),
-    Limit("cam_next_lift", "mm", 1.0, "gap of the leg past rest to the next lift, beyond the clearance and its reserve",
-           "a smaller bought.roller, or less release.play_deg"),
-    Limit("cam_overshoot", "rad", 0.1, "room for the leg past rest, beyond the overshoot", "a smaller body.stop_deg"),
-    Limit("cam_place", "rad", 0.1, "range of directions around the hub in which there is room for the cam", _WIND_LESS),
-)  # fmt: skip
-
-
 ROWS = np.array([0, 0, 1, 1, 2, 2, 3, 4, 4, 5, 6, 7, 7, 7, 8, 8, 9])
-"""The limit of every row of margins. A limit with several causes has a row for each, so that all rows are smooth."""
+"""The limit of every row of margins, by its number in `cam_findings.LIMITS`.
+
+A limit with several causes has a row for each, so that all rows are smooth.
+"""
 FIRST_ROWS = np.flatnonzero(np.diff(ROWS, prepend=-1))
-SCALES = np.array([LIMITS[row].scale for row in ROWS])
 
 
 def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tuple[Array, Array, dict[str, Array]]:

@@ -16,10 +16,10 @@ import numpy as np
 from scipy import optimize
 
 from jumpcad.drive.cam import Cam, CamGeometry
+from jumpcad.drive.cam_findings import SCALES, cam_findings, missed
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.cam_limits import FIRST_ROWS, LIMITS, ROWS, SCALES, CamLimits, axis_range, measure
+from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits, axis_range, measure
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding, limit
 from jumpcad.transforms import Array
 
 
@@ -44,7 +44,7 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
         search.allow_for(shape, margins[:, 0])
     margin = np.minimum.reduceat(margins[:, 0], FIRST_ROWS)
     if not fine:
-        raise CannotBuildError(_refusal(law, margin), "cam", (margin / SCALES[FIRST_ROWS]).min(), "")
+        raise CannotBuildError(_refusal(law, limits, margin), "cam", (margin / SCALES[FIRST_ROWS]).min(), "")
     geometry = _geometry(law, limits, shape, outer)
     outline = geometry.outline_mm()
     radii = np.hypot(*outline.T)
@@ -58,34 +58,14 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
         min_convex_radius_mm=float(numbers["convex_radius"][0]),
         peak_contact_n=float(numbers["force"][0]),
         contact_pressure_mpa=float(numbers["pressure"][0]),
-        findings=_findings(limits, margin, numbers),
+        findings=cam_findings(limits, margin, numbers),
     )
 
 
-def _findings(limits: CamLimits, margin: Array, numbers: dict[str, Array]) -> tuple[Finding, ...]:
-    """Return the finding of every limit; those of places and gaps have only a margin."""
-    compared = {
-        "cam_pressure_angle": (numbers["pressure_angle"][0], limits.pressure_angle_rad),
-        "cam_contact": (numbers["pressure"][0], limits.pressure_mpa),
-        "cam_roller_load": (numbers["force"][0], limits.roller_load_n),
-    }
-    found = []
-    for checked, room in zip(LIMITS, margin, strict=True):
-        value, allowed = compared.get(checked.name, (None, None))
-        found.append(
-            limit(checked.name, room, checked.unit, checked.message, checked.remedy, value=value, allowed=allowed)
-        )
-    return tuple(found)
-
-
-def _refusal(law: CamLaw, margin: Array) -> str:
-    missing = margin / SCALES[FIRST_ROWS]
-    binding = [i for i in np.argsort(missing) if missing[i] < 0.7 * missing.min()]
-    missed = ", ".join(f"{LIMITS[i].message} ({-margin[i]:.2g} {LIMITS[i].unit} short)" for i in binding)
+def _refusal(law: CamLaw, limits: CamLimits, margin: Array) -> str:
     return (
         f"no cam winds the leg by {math.degrees(law.compression_rad):.1f}° against "
-        f"{law.spring_torque_nm:.2f} N·m; the nearest one misses: {missed}: "
-        f"{'; '.join(dict.fromkeys(LIMITS[i].remedy for i in binding))}"
+        f"{law.spring_torque_nm:.2f} N·m; the nearest one misses: {missed(limits, margin)}"
     )
 
 

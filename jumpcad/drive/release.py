@@ -14,7 +14,7 @@ from jumpcad.drive.corner import clear_window_rad, roll_over
 from jumpcad.drive.dog import PLAY_MORE_RAD
 from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
 from jumpcad.drive.synthesis import Drive
-from jumpcad.findings import Finding, at_least, at_most
+from jumpcad.findings import Basis, Finding, at_least, at_most
 from jumpcad.mechanism.model import RollerOff, Spring
 from jumpcad.mechanism.reflected import ReflectedMass
 
@@ -24,6 +24,25 @@ slower the roller comes over the top, the less the leg swings up on its lever, a
 the speed it changes by 3 %."""
 SLOWEST_RAD_S = 0.05
 """A cam that turns more slowly, once in two minutes, is computed with this speed: the leg no longer swings."""
+MODEL = "equations of motion: jumpcad/drive/rolling.py, checked by a contact simulation (tests/clients)"
+BASIS = {
+    "release_energy": Basis(
+        "(springs' energy + I·ω²/2 when the roller has left the cam)/energy stored before ≥ release.energy_ratio_min "
+        "(%); least of a sharp and a rounded corner, each with a slow and a quick motor",
+        f"{MODEL}; limit: judgement",
+    ),
+    "release_kick": Basis(
+        "(1 + safety.kick_reserve)·T ≤ min(safety.motor_torque_max_nm, torque at which a pinion's teeth reach "
+        "strength_in_plane_mpa/s) (mN·m); T largest torque at the gear motor after the cam reaches the "
+        "end of the dog's play, same cases as `release_energy`",
+        f"impacts with rebound: jumpcad/drive/blows.py; {MODEL}; teeth: Lewis",
+    ),
+    "release_window": Basis(
+        "play + ω·t + 3° ≤ window (°); ω unloaded cam with a full battery, t time of the push-off up to past rest, "
+        "window: cam angle past the lift up to which the roller's whole path is free",
+        "energy of the push-off: jumpcad/mechanism/reflected.py; geometry of cam and roller; 3°: judgement",
+    ),
+}
 
 
 @dataclass(frozen=True)

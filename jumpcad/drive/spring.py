@@ -12,8 +12,16 @@ from typing import Literal
 
 from jumpcad.catalogue import Wire
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, free_arm_angle_rad
-from jumpcad.findings import Finding, at_most
+from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.mechanism.model import Spring
+
+BASIS = {
+    "spring_stress": Basis(
+        "q·32·M/(π·d³) ≤ c·R_m/(1 + safety.stress_reserve) (MPa); M torque of one loaded spring, d wire, "
+        "q = (w + 0.07)/(w - 0.75) with w = D/d, c smaller of safety.spring_stress_share and that of `spring_fatigue`",
+        "EN 13906-3; R_m: EN 10270-1 SM",
+    )
+}
 
 
 @dataclass(frozen=True)

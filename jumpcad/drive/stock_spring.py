@@ -7,8 +7,15 @@ from jumpcad.design import Design
 from jumpcad.drive.spring import SpringLimits, TorsionSpring, torsion_spring
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, beside_mm, between_pins_rad
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding
+from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.model import Spring
+
+BASIS = {
+    "spring_rate": Basis(
+        "2·k of the bought spring beside stiffness_nmm_per_deg (N·mm/°); no limit: the robot is computed with 2·k",
+        "data sheet of the spring: templates/hardware/springs.toml, or [springs.NAME]",
+    )
+}
 
 
 def springs_on_leg(design: Design, stock: StockSpring | None = None, preload_rad: float = 0.0) -> Spring:

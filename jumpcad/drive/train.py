@@ -11,13 +11,41 @@ from jumpcad.catalogue import Motor
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_choice import by_cost
 from jumpcad.drive.gear_pair import GearPair
-from jumpcad.drive.motor import allowed_nm, free_speed_rad_s, winding
+from jumpcad.drive.motor import EMPTY_SHARE, allowed_nm, free_speed_rad_s, winding
 from jumpcad.drive.train_limits import TrainLimits
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding, at_most, limit
+from jumpcad.findings import SHOWN_AS, Basis, Finding, at_most, limit
 
 CONTACT_RATIO_MIN = 1.1
 """Least pairs of teeth in contact on average; judgement: handbooks advise 1.2 for gears that run long and fast."""
+BASIS = {
+    "motor_torque": Basis(
+        "U/(lift - ramp/2)/(i·η) ≤ min(f·safety.motor_stall_share·T_stall, f·safety.motor_torque_max_nm, "
+        f"{EMPTY_SHARE:g}·T_empty) (N·m); U springs' energy, lift and ramp cam angles of 310° and 30° in rad, i "
+        f"ratio, η = {TrainLimits.cam_efficiency:g}·safety.gear_efficiency^pairs, T_stall at rated voltage, T_empty "
+        "with an empty battery, f = (1 - safety.motor_torque_reserve)/(1 + safety.spring_rate_scatter)",
+        "constant torque over the lift; T_stall and its share: makers' data sheets, templates/hardware/motors.toml; "
+        f"{TrainLimits.cam_efficiency:g} and {EMPTY_SHARE:g}: judgement",
+    ),
+    "cam_speed": Basis(
+        f"ω/i ≤ min({TrainLimits.cam_speed_max_rad_s:g} rad/s, (window - play - 3°)/0.05 s) (rad/s, shown in °/s); ω "
+        "unloaded with a full battery, i ratio, window as of `release_window`",
+        "judgement: the next lift must not reach the roller while the leg swings back",
+    ),
+    "gear_strength_*": Basis(
+        "F/(b·m·Y) ≤ the gears' strength_in_plane_mpa/s (MPa); F = T/pitch radius of the pinion with all load at "
+        "the tip of one tooth, b width, m module, Y form factor of the tooth as the rack cuts it",
+        "Lewis (Shigley 14-1)",
+    ),
+    "gear_mesh_*": Basis(
+        f"min(g, ε - {CONTACT_RATIO_MIN:g}) ≥ 0; ε contact ratio, g length of roll (mm) by which contact ends before "
+        "either fillet begins",
+        "ISO 21771; least contact ratio: judgement, handbooks advise 1.2",
+    ),
+    "cam_gear_room": Basis(
+        "r_tip ≤ a - axle with its spacers - gap (mm); a from the hub to the cam's axis", "geometry; gap: judgement"
+    ),
+}
 
 
 class NoTrainError(CannotBuildError):
@@ -81,8 +109,9 @@ def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) 
     raise NoTrainError(
         f"no motor turns the cam: it needs {1000 * torque:.0f} mN·m, the strongest allowed motor may give "
         f"{1000 * allowed:.0f} mN·m, and no one or two gear pairs make "
-        f"{torque / allowed / limits.pair_efficiency:.1f}:1 at no more than {limits.cam_speed_max_rad_s:.1f} rad/s "
-        f"with a cam gear of at most {limits.cam_gear_tip_max_mm:.1f} mm radius and {limits.stress_mpa:g} MPa in "
+        f"{torque / allowed / limits.pair_efficiency:.1f}:1 at no more than "
+        f"{math.degrees(limits.cam_speed_max_rad_s):.0f} °/s with a cam gear of at most "
+        f"{limits.cam_gear_tip_max_mm:.1f} mm radius and {limits.stress_mpa:g} MPa in "
         f"teeth {limits.face_width_mm:g} mm wide: lower stiffness_nmm_per_deg or compression_ratio, or allow a "
         "stronger motor"
     )
@@ -118,7 +147,7 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
 
 
 def _motor_findings(motor: Motor, cam_speed: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
-    allowed = allowed_nm(motor, limits)
+    allowed, (unit, factor) = allowed_nm(motor, limits), SHOWN_AS["rad/s"]
     return [
         at_most(
             "motor_torque", torque_nm, allowed, "N·m",
@@ -127,7 +156,8 @@ def _motor_findings(motor: Motor, cam_speed: float, torque_nm: float, limits: Tr
         ),
         at_most(
             "cam_speed", cam_speed, limits.cam_speed_max_rad_s, "rad/s",
-            f"the unloaded cam turns at {cam_speed:.1f} rad/s",
+            f"the unloaded cam turns at {factor * cam_speed:.0f} {unit}; "
+            f"{factor * limits.cam_speed_max_rad_s:.0f} {unit} are allowed",
             "a slower motor, or a larger ratio",
         ),
     ]  # fmt: skip
@@ -148,7 +178,8 @@ def _gear_findings(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimit
             ),
             limit(
                 f"gear_mesh_{number}", min(pair.involute_margin_mm, pair.contact_ratio - CONTACT_RATIO_MIN), "mm",
-                f"pair {number} meshes with a contact ratio of {pair.contact_ratio:.2f}",
+                f"pair {number} has a contact ratio of {pair.contact_ratio:.2f}, of {CONTACT_RATIO_MIN:g} at least; "
+                f"contact ends {pair.involute_margin_mm:.2f} mm before the fillets, of 0 mm at least",
                 "more teeth",
             ),
         ]  # fmt: skip

@@ -1,10 +1,9 @@
-"""The net list: which terminals are connected, by what wire, and its errors.
+"""The net list: which terminals are connected, and by what wire.
 
 Terminals have the names printed on the boards. Pins of the controller are chosen by what they can do, or named by the
 workshop (`[bought.pins]`).
 """
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +13,6 @@ from jumpcad.catalogue.electrical import GPIO
 from jumpcad.electronics.chain import supply_pin
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Finding, at_least
 
 LOWER_OHM = 200_000
 UPPER_OHMS = (200_000, 470_000, 680_000, 1_000_000)
@@ -26,8 +24,6 @@ PULL_UP_MORE = 1.1
 AT = {"upper resistor": "controller", "lower resistor": "controller", "pull-up resistor": "controller",
       "diode": "controller", "capacitor": "driver"}  # fmt: skip
 """Small parts, and the board at which they are soldered where a net has a terminal of it."""
-OWN_PULL_UP_OHM = 45_000
-"""Of a pin of the ESP32 family; its data sheet."""
 SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": ""}
 """Signals of the controller in the order in which they get their pins, and what a pin must be able to do."""
 AVOIDED = ("strapping", "boot_log")
@@ -126,94 +122,6 @@ def gpio(board: Board, pin: str) -> int:
     raise CannotBuildError(f"{board.name} has no GPIO at {pin}: name another pin in [bought.pins]")
 
 
-def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
-    """Yield `wiring_pins`, `wiring_strapping`, `wiring_contact`, `wiring_ground` and `wiring_capacitor`."""
-    yield _enough_pins(chosen, wiring)
-    yield _fit_pins(chosen, wiring)
-    yield from _contact_current(chosen, wiring)
-    grounded = {terminal.part for net in wiring.nets if net.kind == "ground" for terminal in net.terminals}
-    lacking = [role for role in ("battery", *chosen.boards) if role not in grounded]
-    yield _yes_or_no(
-        "wiring_ground", not lacking, "error",
-        "every board is connected to the battery's minus" if not lacking else f"no ground at {', '.join(lacking)}",
-        'give the board a pin with "ground"',
-    )  # fmt: skip
-    yield _yes_or_no(
-        "wiring_capacitor", "capacitor" in chosen.components, "warning",
-        f"{'a' if 'capacitor' in chosen.components else 'no'} capacitor is connected to the driver's supply",
-        "name one in bought.capacitor: without it the starting motor lowers the controller's voltage",
-    )  # fmt: skip
-    if chosen.regulator is not None:
-        pin = supply_pin(chosen.controller, _logic_range(chosen))
-        needed = pin in chosen.controller.diode_at
-        yield _yes_or_no(
-            "wiring_diode", not needed or chosen.diode is not None, "error",
-            f"{chosen.controller.name} {'has its' if chosen.diode else 'needs a'} diode at {pin}",
-            "name one in bought.diode: without it USB feeds current into the regulator's output",
-        )  # fmt: skip
-
-
-def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
-    """Return whether every signal has a pin of its own at controller and driver."""
-    have = [signal for signal in SIGNALS if signal in wiring.pins]
-    missing = [s for s in ("motor", "ready") if s not in wiring.pins]
-    if "sensor" not in chosen.components:
-        return _yes_or_no("wiring_pins", False, "error", "no sensor reports that the springs are loaded",
-                          "name one in bought.sensor")  # fmt: skip
-    lost = [f for f in ("forward", "motor+", "motor-") if not chosen.driver.with_function(f)]
-    twice = [pin for pin, count in Counter(wiring.pins.values()).items() if count > 1]
-    if missing:
-        wanted = len(have) + len(missing)
-        message = f"{chosen.controller.name} has no pin left for {' and '.join(missing)}: {len(have)} of {wanted} suit"
-        return _yes_or_no(
-            "wiring_pins", False, "error", message, "choose a controller with more pins, or give its pins"
-        )
-    if lost:
-        message = f"driver {chosen.driver.name} has no pin {' and '.join(lost)}"
-        return _yes_or_no("wiring_pins", False, "error", message, "choose another bought.driver, or give its pins")
-    if twice:
-        signals = " and ".join(s for s in have if wiring.pins[s] in twice)
-        message = f"{chosen.controller.name}: {', '.join(twice)} is used twice, by {signals}"
-        return _yes_or_no("wiring_pins", False, "error", message, "name another pin in [bought.pins]")
-    used = ", ".join(f"{wiring.pins[s]} {s}" for s in have)
-    return _yes_or_no("wiring_pins", True, "error", f"pins of {chosen.controller.name}: {used}", "[bought.pins]")
-
-
-def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:
-    """Return whether the pins can do what their signals need, and that no strapping pin is among them."""
-    wrong = []
-    for signal, pin in wiring.pins.items():
-        functions = chosen.controller.pins.get(pin, ())
-        wrong += [f"{pin} ({signal}) is a {bad.replace('_', ' ')} pin" for bad in AVOIDED if bad in functions]
-        needed = SIGNALS[signal]
-        if not any(map(GPIO.fullmatch, functions)):
-            wrong.append(f"{pin} ({signal}) has no GPIO")
-        elif needed and needed not in functions:
-            wrong.append(f"{pin} ({signal}) has no {needed}")
-    message = "; ".join(wrong) or "no strapping pin is used, and every pin does what its signal needs"
-    return _yes_or_no("wiring_strapping", not wrong, "error", message, "name another pin in [bought.pins]")
-
-
-def _contact_current(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
-    """Yield whether the sensor's contact gets the current that keeps it clean."""
-    sensor, volts = chosen.components.get("sensor"), chosen.controller.logic_v
-    if sensor is None or sensor.least_a is None or volts is None:
-        return
-    ohm = wiring.pull_up_ohm or OWN_PULL_UP_OHM
-    by = f"{ohm / 1000:g} kOhm to {volts:g} V" if wiring.pull_up_ohm else "the controller's own pull-up"
-    current, needed = 1000.0 * volts / ohm, 1000.0 * sensor.least_a
-    yield at_least(
-        "wiring_contact", current, needed, "mA",
-        f"{by} gives the contact of {sensor.name} {current:.2g} mA; it is rated from {needed:g} mA",
-        'give the controller a pin with "out" at its logic_v: a pull-up resistor is connected to it', "warning",
-    )  # fmt: skip
-
-
-def _yes_or_no(name: str, good: bool, severity: str, message: str, remedy: str) -> Finding:
-    bad = "warning" if severity == "warning" else "error"
-    return Finding(name, "info" if good else bad, 0.0 if good else -1.0, "", message, remedy)  # type: ignore[arg-type]
-
-
 def _pins(controller: Board, wanted: list[str], named: Mapping[Any, str]) -> dict[str, str]:
     """Return a pin for each signal while there are any: those named, then the least capable suitable one."""
     pins = {signal: named[signal] for signal in wanted if signal in named}
@@ -261,7 +169,7 @@ def _contact(chosen: Chosen) -> str:
     return "" if sensor is None else "NC" if "NC" in sensor.terminals else "NO"
 
 
-def _logic_range(chosen: Chosen) -> tuple[float, float]:
+def logic_range(chosen: Chosen) -> tuple[float, float]:
     """Return the volts at the controller's supply input, without load."""
     if chosen.regulator is None:
         return chosen.battery.range_v
@@ -280,7 +188,7 @@ def _power_nets(chosen: Chosen, pins: dict[str, str], upper: int | None) -> Iter
     ends = [*before, Terminal("driver", supply_pin(chosen.driver, battery))]
     ends += [Terminal("capacitor", "+")] if "capacitor" in components else []
     ends += [Terminal("upper resistor", "1")] if "battery" in pins else []
-    controller = Terminal("controller", supply_pin(chosen.controller, _logic_range(chosen)))
+    controller = Terminal("controller", supply_pin(chosen.controller, logic_range(chosen)))
     if chosen.regulator is None:
         yield Net("battery switched", "supply", (*ends, controller))
         return

@@ -201,9 +201,9 @@ class Mechanism:
         return Linkage(self.design)
 
     def __repr__(self) -> str:
+        name = repr(self.name[:40]) if self.name else "without a name"
         return (
-            f"<{type(self).__name__} {self.name[:40]!r}: {1000.0 * self.mass_kg:.1f} g, "
-            f"spring energy {self.spring.energy_j:.3f} J>"
+            f"<{type(self).__name__} {name}: {1000.0 * self.mass_kg:.1f} g, spring energy {self.spring.energy_j:.3f} J>"
         )
 
 

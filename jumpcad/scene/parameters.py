@@ -14,6 +14,10 @@ PANEL_PX = 230.0
 """Width of the largest drawing in a panel."""
 BASE_PX = 270.0
 """Height of the ground line, below the picture's upper edge."""
+EXTENSION_PX = 46.0
+"""Length of the body's line beyond the front pivot: both legs are parallel, and there is room for their angle."""
+BELOW_ARC = 0.66
+"""Where the front link's label is along it, so that it is below that of the angle."""
 BODY, LEG, FRONT, FOOT, INK, GHOST = "#4a4f57", "#1f6fb2", "#c8641a", "#2f8f4e", "#22262b", "#9aa1aa"
 
 Points = dict[str, complex]
@@ -62,19 +66,21 @@ def _width(joints: Points) -> float:
 def _at_rest(design: Design, joints: Points, scale: float) -> list[str]:
     at = _placed(joints, scale)
     body = cmath.phase(joints["front"] - joints["back"])
-    leg = cmath.phase(joints["ankle"] - joints["back"])
+    leg = cmath.phase(joints["eye"] - joints["front"])
+    along_body = at["front"] + EXTENSION_PX * _below(body)
     return [
         _ground(at),
+        _line(at["front"], along_body, GHOST, 1.0, dashed=True),
         *_links(at),
-        _arc(at["back"], 34.0, leg, body),
+        _arc(at["front"], 34.0, leg, body),
         _coil(at["back"]),
         _label(_middle(at["back"], at["ankle"]) + complex(-10, -8), "end", "carrying_link_mm",
                f"{design.l2_mm:g} mm", LEG),
-        _label(_middle(at["front"], at["eye"]) + complex(10, -8), "start", "c_coef",
+        _label(at["front"] + BELOW_ARC * (at["eye"] - at["front"]) + complex(10, -8), "start", "c_coef",
                f"× main leg = {design.l3_mm:.1f} mm", FRONT),
         _label(_middle(at["ankle"], at["eye"]) + complex(0, 22), "middle", "d_coef",
                f"× main leg = {design.l4_mm:.1f} mm", FOOT),
-        _label(at["back"] + 50.0 * _below(0.5 * (leg + body)), "start", "rest_angle_deg",
+        _label(at["front"] + 42.0 * _below(0.5 * (leg + body)), "start", "rest_angle_deg",
                f"{design.rest_angle_deg:g}°", INK),
         _label(at["back"] + complex(0, -38), "middle", "stiffness_nmm_per_deg",
                f"{design.stiffness_nmm_per_deg:g} N·mm/°, both springs", INK),
@@ -87,13 +93,13 @@ def _with_springs_loaded(design: Design, linkage: Linkage, joints: Points, scale
     leg = cmath.phase(joints["ankle"] - joints["back"])
     before = body - linkage.rest_rad
     ghost = at["back"] + scale * design.l2_mm * _below(before)
-    degrees = math.degrees(design.compression_rad)
+    degrees, top = math.degrees(design.compression_rad), min(at["back"].imag, at["front"].imag)
     return [
         _ground(at),
         _line(at["back"], ghost, GHOST, 2.0, dashed=True),
         *_links(at),
         _arc(at["back"], 60.0, before, leg),
-        _label(at["back"] + complex(0, -38), "middle", "compression_ratio",
+        _label(complex(at["back"].real - 6.0, top - 30.0), "start", "compression_ratio",
                f"{design.compression_ratio:.3g} of the way to a flat leg: {degrees:.1f}°", INK),
     ]  # fmt: skip
 

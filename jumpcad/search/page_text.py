@@ -17,12 +17,26 @@ def broken(name: str) -> str:
 
 
 def table(
-    head: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = (), bars: int = -1
+    head: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    numbers: Sequence[int] = (),
+    bars: int = -1,
+    extra: Sequence[int] = (),
 ) -> Iterator[str]:
-    """Yield a table; cells are HTML. The columns `numbers` are right-aligned, the column `bars` is narrow."""
-    kinds = [' class="number"' if place in numbers else ' class="bars"' * (place == bars) for place in range(len(head))]
-    yield '<div class="wide"><table>'
-    yield f"<tr>{''.join(f'<th{kind}>{broken(title)}</th>' for kind, title in zip(kinds, head, strict=True))}</tr>"
+    """Yield a table; cells are HTML.
+
+    The columns `numbers` are right-aligned, the column `bars` is narrow. On a phone the columns `extra` are left out;
+    a table without any has the cells of a row below each other there, each after its heading.
+    """
+    kinds = [
+        " ".join(kind for kind, places in (("number", numbers), ("bars", (bars,)), ("extra", extra)) if place in places)
+        for place in range(len(head))
+    ]
+    marks = [f' class="{kind}"' if kind else "" for kind in kinds]
+    heads = [written(title) for title in head]
+    yield f'<div class="wide{"" if extra else " stacked"}"><table>'
+    yield f"<tr>{''.join(f'<th{mark}>{broken(title)}</th>' for mark, title in zip(marks, head, strict=True))}</tr>"
     for row in rows:
-        yield f"<tr>{''.join(f'<td{kind}>{cell}</td>' for kind, cell in zip(kinds, row, strict=True))}</tr>"
+        cells = zip(marks, heads, row, strict=True)
+        yield "<tr>" + "".join(f'<td{mark} data-head="{title}">{cell}</td>' for mark, title, cell in cells) + "</tr>"
     yield "</table></div>"

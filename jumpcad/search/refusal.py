@@ -20,8 +20,10 @@ def refusal_findings(error: CannotBuildError) -> tuple[Finding, ...]:
 
 def room_findings(layout: Layout, reserve_mm: float) -> tuple[Finding, ...]:
     """Return what a robot has left, above a reserve, of the room for which most designs are refused."""
-    apart = legs_apart_mm(layout.linkage, layout.sections) - GAP_MM - reserve_mm
+    gap, room = legs_apart_mm(layout.linkage, layout.sections), layout.stop.room_mm
+    needed = GAP_MM + reserve_mm
+    apart = f"main leg and front link are {gap:.2f} mm apart, of {needed:g} mm at least"
     return (
-        limit("legs_apart", apart, "mm", "gap of main leg and front link", ""),
-        limit("stop_room", layout.stop.room_mm, "mm", "room for the rest stop", ""),
+        limit("legs_apart", gap - GAP_MM - reserve_mm, "mm", apart, ""),
+        limit("stop_room", room, "mm", f"the rest stop has {room:.2f} mm of room, of 0 mm at least", ""),
     )

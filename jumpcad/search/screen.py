@@ -7,6 +7,7 @@ never a score: what is proposed as the best was built.
 """
 
 import itertools
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -30,8 +31,8 @@ from jumpcad.transforms import Array
 
 MARK = "release_turn_rad"
 """A figure that only robots have that were built for a screen."""
-LEAST, RENEWED = 60, 40
-"""Robots from which on the screen works, and new trials after which it is fitted anew."""
+LEAST, GROWTH = 80, 1.2
+"""Robots from which on the screen works; it is fitted anew when there are so many times more."""
 FITTED = 300
 """Most robots that it is fitted to: the nearest to the best."""
 REACH = 0.25
@@ -59,7 +60,7 @@ class Fit:
     Parameters
     ----------
     rows
-        How many trials the search had when they were fitted.
+        How many trials, without those that were screened, they were fitted to.
     coefficients
         Of each figure and, as ``margin NAME``, of each limit: (features,).
     errors
@@ -115,10 +116,11 @@ class Screen:
 
     def learn(self, trials: Sequence[Trial], kept: Mapping[str, Any] | None = None) -> bool:
         """Fit the trials of the search so far, or take up the fit that was kept; return whether it is a new one."""
-        rows = len(trials) // RENEWED * RENEWED
-        if self.fit is not None and self.fit.rows == rows:
+        known = [trial for trial in trials if trial.evaluation.verdict != SCREENED]
+        rows = learned_rows(len(known))
+        if rows == 0 or (self.fit is not None and self.fit.rows == rows):
             return False
-        known = [trial for trial in trials[:rows] if trial.evaluation.verdict != SCREENED]
+        known = known[:rows]
         best = best_trial(known)
         if best is None or sum(MARK in trial.evaluation.metrics for trial in known) < LEAST:
             return False
@@ -183,6 +185,13 @@ class Screen:
                 guess = self._guess(trial.variant, part)
                 if guess is not None:
                     yield guess, trial
+
+
+def learned_rows(known: int) -> int:
+    """Return how many of the `known` trials to learn from: `LEAST` times the greatest power of `GROWTH`; 0 of fewer."""
+    if known < LEAST:
+        return 0
+    return round(LEAST * GROWTH ** math.floor(math.log(known / LEAST, GROWTH) + 1e-9))
 
 
 STATICS = ("tips", "too_weak")

@@ -12,7 +12,6 @@ from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
-from scipy.stats import qmc
 
 from jumpcad.arguments import require_fields, typed
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design
@@ -28,6 +27,7 @@ from jumpcad.search.parameter import (
     several,
 )
 from jumpcad.search.variant import NOTHING, Variant
+from jumpcad.spread import sobol
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.varied import Value
@@ -227,7 +227,7 @@ class Space:
     def spread(self, count: int, generator: np.random.Generator) -> Array:
         """Return `count` scrambled Sobol points (count, dimension) of the unit cube."""
         power = max(0, math.ceil(math.log2(max(count, 1))))
-        return self.snap(qmc.Sobol(self.dimension, seed=generator).random_base2(power)[:count])
+        return self.snap(sobol(self.dimension, 2**power, generator)[:count])
 
     def near(self, centre: Variant, names: Sequence[str] = (), percent: float | None = None) -> "Space | None":
         """Return the part of the space in which only some parameters vary; the others have the values of `centre`.

@@ -7,9 +7,9 @@ milliseconds, and designs with which it jumps far are probably good. The other h
 import math
 
 import numpy as np
-from scipy.stats import qmc
 
 from jumpcad.search.evaluator import Evaluator
+from jumpcad.spread import sobol
 from jumpcad.transforms import Array
 
 SCREENED = 512
@@ -24,7 +24,7 @@ def first_points(evaluator: Evaluator, count: int, generator: np.random.Generato
     quick = getattr(evaluator.model, "quick_score", None)
     if quick is None or count < 2:
         return spread
-    points = evaluator.space.snap(qmc.Sobol(evaluator.space.dimension, seed=generator).random(SCREENED))
+    points = evaluator.space.snap(sobol(evaluator.space.dimension, SCREENED, generator))
     scores = np.array([quick(evaluator.space.to_design(point), evaluator.objective) for point in points])
     chosen: list[Array] = []
     for index in np.argsort(-scores, kind="stable"):

@@ -3,16 +3,18 @@
 from collections.abc import Iterator
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.explore import LEAST_R_SQUARED, importance
-from jumpcad.search.figures import MEANINGS
-from jumpcad.search.page_text import table, written
+from jumpcad.search.explore import LEAST_R_SQUARED, Importance, importance
+from jumpcad.search.page_text import broken, table, written
 from jumpcad.search.replay import Known, Replay
 from jumpcad.search.robust import ActiveBound
 from jumpcad.search.store import StudyStore
+from jumpcad.search.study_words import reason_words, with_unit
 from jumpcad.search.trial import count_rejections
 
 MOST_LEARNED = 200
 """Largest number of designs from which importances are computed, evenly chosen: the time grows with their cube."""
+LEAST_GAIN = 5e-4
+"""Share of the score below which a gain is shown as +0.0 %."""
 
 
 def importances(store: StudyStore, found: Known) -> Iterator[str]:
@@ -30,7 +32,9 @@ def importances(store: StudyStore, found: Known) -> Iterator[str]:
         yield f"<p>From {learned.designs} designs the score of others cannot be predicted (R² {learned.r_squared:.2f}, "
         yield f"at least {LEAST_R_SQUARED:g} is asked for): this study does not say what is important.</p>"
         return
-    yield f"<p>{written(MEANINGS['importance'])} Learned from {learned.designs} designs; R² on designs held out: "
+    yield "<p>How much worse the score of a design is predicted when the values of one parameter are exchanged among "
+    yield "the designs: R² is 1 for a perfect prediction, 0 for a guess, and falls by the length of the bar. "
+    yield f"{written(_matters(learned))} Learned from {learned.designs} designs; R² on designs held out: "
     yield f"{learned.r_squared:.2f}. The search looked mostly near its best designs: over the whole space, ask "
     yield "<code>jumpcad explore importance</code>.</p>"
     order = sorted(range(len(learned.names)), key=lambda index: (-round(float(learned.mean[index]), 2), index))
@@ -46,6 +50,17 @@ def importances(store: StudyStore, found: Known) -> Iterator[str]:
     yield from table(("parameter", "", "fall of R²"), rows, numbers=(2,), bars=1)
 
 
+def _matters(learned: Importance) -> str:
+    """Return which parameters matter most, and which not more than the error of their bar."""
+    known = zip(learned.names, learned.mean.tolist(), learned.deviation.tolist(), strict=True)
+    order = sorted(known, key=lambda one: -round(one[1], 2))
+    clear = [name for name, mean, deviation in order if mean > deviation]
+    rest = [name for name, mean, deviation in order if mean <= deviation]
+    most = f"{', then '.join(clear[:3])} matter{'s' * (len(clear[:3]) == 1)} most." if clear else ""
+    none = f"No more than their error, so perhaps nothing: {', '.join(rest)}." if rest else ""
+    return f"{most} {none}".strip()
+
+
 def active(found: Known) -> Iterator[str]:
     """Yield the bounds on which the winner lies, and the change of the score beyond each."""
     if found.winner is None:
@@ -54,13 +69,33 @@ def active(found: Known) -> Iterator[str]:
     if not found.bounds:
         yield "<p>The winner lies on no bound of the search that could be widened.</p>"
         return
-    yield "<p>The winner lies on these bounds of the search. The last column says how the score changes a twentieth of "
-    yield "the range beyond the bound, the other parameters unchanged.</p>"
+    unit = found.objective.unit
+    yield "<p>The winner lies on these ends of what was searched. The last column says what each of them costs: how "
+    yield "the score changes a twentieth of the range beyond it, the other parameters unchanged. Where it rises, "
+    yield "<code>--bound</code> with a wider range, or <code>--widen</code>, may find a better design. "
+    yield f"{_gains(found)}</p>"
     rows = [
-        [written(one.name), one.side, f"{one.value:g}", f"{one.beyond:g}", written(_cost(one, found.objective.unit))]
+        [
+            written(one.name),
+            one.side,
+            written(with_unit(f"{one.value:g}", one.name)),
+            written(with_unit(f"{one.beyond:g}", one.name)),
+            written(_cost(one, unit, found.winner.score or 0.0)),
+        ]
         for one in found.bounds
     ]
-    yield from table(("parameter", "bound", "at", "examined", "beyond it"), rows, numbers=(2, 3))
+    yield from table(("parameter", "end of its range", "at", "examined at", "score beyond it"), rows, numbers=(2, 3))
+
+
+def _gains(found: Known) -> str:
+    """Return beyond which bounds the score rises by more than rounding, in words."""
+    score = abs(found.winner.score or 0.0) if found.winner else 0.0
+    rising = [one.name for one in found.bounds if one.worth is not None and one.worth > LEAST_GAIN * score]
+    if rising:
+        return f"Here it rises beyond that of {written(', '.join(rising))}."
+    if any(one.worth is not None for one in found.bounds):
+        return "Here it rises beyond none that was examined."
+    return "This search did not examine them: one that picks a robust design does (method ga or bo)."
 
 
 def rejections(found: Known) -> Iterator[str]:
@@ -71,15 +106,25 @@ def rejections(found: Known) -> Iterator[str]:
     yield f"<p>{rejected} of {len(found.trials)} designs of the search were rejected; one may have several reasons. "
     yield "<code>jumpcad check</code> tells limit and remedy for a design.</p>"
     if counts:
-        most = max(counts.values())
-        rows = [[written(reason), _bar(count / most), str(count)] for reason, count in counts.items()]
-        yield from table(("reason", "", "designs"), rows, numbers=(2,), bars=1)
+        most, first = max(counts.values()), next(iter(counts))
+        meaning = reason_words(first)
+        said = f": {written(meaning)}" if meaning else ""
+        yield f"<p>The most frequent reason is {broken(first)}, of {counts[first]} designs{said}.</p>"
+        rows = [
+            [broken(reason), written(reason_words(reason)), _bar(count / most), str(count)]
+            for reason, count in counts.items()
+        ]
+        yield from table(("reason", "what it means", "", "designs"), rows, numbers=(3,), bars=2)
 
 
-def _cost(bound: ActiveBound, unit: str) -> str:
+def _cost(bound: ActiveBound, unit: str, score: float) -> str:
     if bound.worth is not None:
-        return f"{bound.worth:+.4g} {unit}"
-    return "not examined in this study" if bound.reason.startswith("not examined") else f"rejected: {bound.reason}"
+        share = f" ({100.0 * bound.worth / abs(score):+.1f} %)" if score else ""
+        return f"{bound.worth:+.4g} {unit}{share}"
+    if bound.reason.startswith("not examined"):
+        return "not examined in this study"
+    means = "; ".join(filter(None, map(reason_words, bound.reason.split(", "))))
+    return f"rejected, {bound.reason}{f': {means}' if means else ''}"
 
 
 def _bar(share: float) -> str:

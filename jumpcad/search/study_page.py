@@ -11,19 +11,21 @@ from typing import Any
 import numpy as np
 
 from jumpcad.arguments import typed
-from jumpcad.design import Design
 from jumpcad.files.templates import templates_folder
 from jumpcad.search.figures import MEANINGS, svg_text
 from jumpcad.search.fronts import REFERENCE_ENERGY_J, energy_j, front, hypervolume
 from jumpcad.search.methods import FRONTS
-from jumpcad.search.page_text import table, written
+from jumpcad.search.objective import Objective
+from jumpcad.search.page_text import broken, table, written
 from jumpcad.search.replay import Known, known
 from jumpcad.search.robust import best_apart
 from jumpcad.search.shown_design import shown_designs
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study_chart import chart
+from jumpcad.search.study_drawings import history, parallel, slices
 from jumpcad.search.study_lessons import active, importances, rejections
 from jumpcad.search.study_plots import study_figures
+from jumpcad.search.study_words import meaning_of, named, with_unit
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.workshop.varied import Value
 
@@ -31,8 +33,13 @@ SHOWN = 10
 """Number of best designs that are shown if no neighbours were examined and no front was searched."""
 MOST_SHOWN = 100
 """Largest number of a front's designs that are shown, evenly chosen along it: each has 5 kB."""
-CHOSEN = ("pareto",)
-"""Pictures that the page replaces by its own chart."""
+PICTURES = {"acquisition-first": "What the method knew at first", "acquisition": "What the method knew at last"}
+"""Pictures that are drawn by matplotlib, and their titles: the page draws the others itself."""
+ACQUISITION = (
+    "From the designs that it had tried, dots, Bayesian optimisation predicts the score of all others (surrogate). It "
+    "tries next where the acquisition is highest: the gain that it expects (EI, expected improvement) times the "
+    "probability that the design jumps, as a power of ten."
+)
 CANDIDATE_HEAD = ("±1 %", "lengths", "rejected")
 
 
@@ -49,6 +56,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
     style = "".join((folder / file).read_text(encoding="ascii") for file in ("style.css", "study.css"))
     program = (folder / "study.js").read_text(encoding="ascii")
     found, title = known(store), written(name)
+    shown = _shown(found, store.identity["method"] in FRONTS)
     return "\n".join(
         [
             "<!DOCTYPE html>",
@@ -59,7 +67,10 @@ def write_study_page(store: StudyStore, name: str) -> str:
             f"<h1>{title}</h1>",
             *_verdict(store, found),
             *_asked(store, found),
-            *_best(store, found),
+            *_best(store, found, shown),
+            *history(found),
+            *slices(found, shown),
+            *parallel(found, shown),
             *_pictures(store),
             *importances(store, found),
             *active(found),
@@ -81,8 +92,9 @@ def _verdict(store: StudyStore, found: Known) -> Iterator[str]:
     if found.winner is None:
         yield f'<p class="error">None of {len(found.trials)} designs jumps.</p>'
     else:
+        which = "most robust of the best designs" if found.candidates else f"best of {len(found.trials)} designs"
         yield (
-            f'<p class="verdict">{written(objective.meaning[:1].upper() + objective.meaning[1:])}: '
+            f'<p class="verdict">The {which}: {written(objective.meaning)} '
             f"{found.winner.score:.4g} {written(objective.unit)}.</p>"
         )
     planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
@@ -110,12 +122,12 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
         f"{' against the energy of the springs' if identity['method'] in FRONTS else ''}, "
         f"searched by {written(', then '.join(stages) or identity['method'])}.</p>"
     )
-    fields = Design.model_fields
     rows = []
     for parameter in found.space.parameters:
-        described = fields[parameter.name].description if parameter.name in fields else ""
         value = "" if found.winner is None else _value(found.winner.variant.value(parameter.name))
-        rows.append([written(parameter.name), written(described or ""), written(_range(parameter.describe())), value])
+        searched = with_unit(_range(parameter.describe()), parameter.name)
+        meaning, name = written(meaning_of(parameter.name)), parameter.name
+        rows.append([broken(name), meaning, written(searched), with_unit(value, name) if value else ""])
     yield from table(
         ("parameter", "meaning", "searched", "highest" if identity["method"] in FRONTS else "winner"),
         rows,
@@ -125,31 +137,38 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
 
 def _range(record: Mapping[str, Any]) -> str:
     if "fixed" in record:
-        return f"fixed at {record['fixed']:g}"
+        return f"fixed at {_plain(record['fixed'])}"
     if "choices" in record:
-        return "one of " + ", ".join(f"{choice:g}" for choice in record["choices"])
+        return "one of " + ", ".join(map(_plain, record["choices"]))
     return f"{record['lower']:g} … {record['upper']:g}"
 
 
-def _best(store: StudyStore, found: Known) -> Iterator[str]:
+def _plain(value: Value) -> str:
+    return value if isinstance(value, str) else f"{value:g}"
+
+
+def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[str]:
     """Yield the best designs: chart, side views, table."""
     objective, is_front = found.objective, store.identity["method"] in FRONTS
-    shown = _shown(found, is_front)
     if not shown:
         return
     yield f"<h2>{'The front' if is_front else 'The best designs'}</h2>"
     if is_front:
         area = hypervolume(found.trials)
-        yield f"<p>{MEANINGS['pareto']} It dominates {area:.4g} {written(objective.unit)}·J, seen from score 0 and "
-        yield f"{REFERENCE_ENERGY_J:g} J (hypervolume).</p>"
+        yield f"<p>{MEANINGS['pareto']} {written(_reach(shown, objective))} The area below its line, up to "
+        yield f"{REFERENCE_ENERGY_J:g} J, is {area:.4g} {written(objective.unit)}·J (hypervolume); of two searches, "
+        yield "the better one has more.</p>"
         if len(shown) < (whole := len(front(found.trials))):
             yield f"<p>{len(shown)} of its {whole} designs are shown, evenly chosen along it.</p>"
     else:
-        yield "<p>Score against the energy in the springs: the large points are the designs of the table below.</p>"
-    yield "<p>Click a point, or go to it with Tab and the arrow keys, to see its robot.</p>"
+        yield "<p>Score against the energy in the springs: the rings are the designs of the table below, the small "
+        yield "dots all other designs that jump.</p>"
+    yield "<p>Click a point, or go to it with Tab and the arrow keys, to see its robot; where points lie on each "
+    yield "other, each further click shows the next one. The pictures below mark the chosen design too.</p>"
     yield '<div class="map">'
     yield chart(found.trials, shown, objective, is_front)
-    yield '<div id="robots" aria-live="polite">'
+    yield '<div id="robots" aria-live="polite"><p id="turn" hidden="hidden"><button type="button" id="before">Previous'
+    yield '</button> <button type="button" id="after">Next</button></p>'
     yield from shown_designs(shown, objective)
     yield "</div></div>"
     yield from _designs(found, shown)
@@ -161,6 +180,14 @@ def _shown(found: Known, is_front: bool) -> list[Trial]:
         places = np.linspace(0, len(best) - 1, min(len(best), MOST_SHOWN))
         return [best[round(place)] for place in places.tolist()]
     return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
+
+
+def _reach(shown: Sequence[Trial], objective: Objective) -> str:
+    """Return from where to where a front goes, in words."""
+    low, high = shown[0], shown[-1]
+    half = next(trial for trial in shown if (trial.score or 0.0) >= 0.5 * (high.score or 0.0))
+    ends = [f"{one.score:.3g} {objective.unit} with {energy_j(one.design):.3g} J" for one in (low, high)]
+    return f"Here it goes from {ends[0]} to {ends[1]}; half of the highest score takes {energy_j(half.design):.3g} J."
 
 
 def _designs(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
@@ -190,8 +217,18 @@ def _designs(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
         ]
         for number, (trial, cells) in enumerate(zip(shown, neighbours, strict=True), start=1)
     ]
-    titles = ("design", "score", *head, "spring J", *(parameter.name for parameter in found.space.free))
-    yield from table(titles, rows, numbers=range(1, len(titles)))
+    score = f"score ({found.objective.unit})"
+    titles = ["design", score, *head, "springs (J)"]
+    last = len(titles)
+    titles += [_headed(parameter.name) for parameter in found.space.free]
+    yield from table(titles, rows, numbers=range(1, len(titles)), extra=range(last, len(titles)))
+    yield '<p class="narrow"><small>A wider screen shows the parameters in this table too; here, a click on a number '
+    yield "shows those of its design.</small></p>"
+
+
+def _headed(parameter: str) -> str:
+    """Return a parameter's name with its unit; ratios have none."""
+    return named(parameter).removesuffix(" (ratio)")
 
 
 def _value(value: Value) -> str:
@@ -200,15 +237,13 @@ def _value(value: Value) -> str:
 
 
 def _pictures(store: StudyStore) -> Iterator[str]:
-    for name, draw in study_figures(store).items():
-        if name in CHOSEN:
+    for name, draw in study_figures(store, columns=1).items():
+        if name not in PICTURES:
             continue
-        figure = draw()
-        data = base64.b64encode(svg_text(figure).encode()).decode()
-        kind = "narrow" if figure.get_figwidth() < 5.0 else "full"
-        yield f"<h2>{written(name.replace('-', ', ').capitalize())}</h2>"
-        yield f'<figure class="picture"><img class="{kind}" alt="{name}" src="data:image/svg+xml;base64,{data}" />'
-        yield f"<figcaption>{written(MEANINGS[name])}</figcaption></figure>"
+        data = base64.b64encode(svg_text(draw()).encode()).decode()
+        yield f"<h2>{PICTURES[name]}</h2>"
+        yield f'<figure class="picture"><img alt="{name}" src="data:image/svg+xml;base64,{data}" />'
+        yield f"<figcaption>{ACQUISITION}</figcaption></figure>"
 
 
 def _notes(store: StudyStore) -> Iterator[str]:

@@ -23,8 +23,8 @@ def plot_study(store: StudyStore, folder: str | Path) -> list[Path]:
     return [save_figure(draw(), folder, name) for name, draw in study_figures(store).items()]
 
 
-def study_figures(store: StudyStore) -> dict[str, Callable[[], Figure]]:
-    """Return functions that draw the pictures of a study, by the pictures' names."""
+def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[], Figure]]:
+    """Return functions that draw the pictures of a study, by the pictures' names; see `plots.acquisition`."""
     trials, identity = searched(store.trials()), store.identity
     space, objective = Space.from_record(identity["space"]), described_objective(identity)
     figures: dict[str, Callable[[], Figure]] = {}
@@ -38,7 +38,7 @@ def study_figures(store: StudyStore) -> dict[str, Callable[[], Figure]]:
     if space.dimension <= 2:
         for name, number, count in _moments(trials):
             posterior = SearchPosterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=())
-            figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective)
+            figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective, columns)
     return figures
 
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import ndtri
-from scipy.stats import qmc
 
 from jumpcad.design import PARAMETERS, Design, limits_of
 from jumpcad.errors import JumpcadError
@@ -18,6 +17,7 @@ from jumpcad.files.complaints import shown
 from jumpcad.mechanism.variants import Robot, design_within_limits, with_length_errors, with_lengths, with_spring_factor
 from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.settings import Settings, coefficients
+from jumpcad.spread import sobol
 from jumpcad.transforms import Array
 from jumpcad.workshop.varied import Value
 
@@ -149,5 +149,4 @@ def tenth(scores: list[float]) -> float:
 
 def _even(dimension: int, generator: np.random.Generator) -> Array:
     """Return evenly spread points (SAMPLES, dimension) of the cube from -1 to 1."""
-    points: Array = qmc.Sobol(dimension, seed=generator).random(SAMPLES)
-    return 2.0 * points - 1.0
+    return 2.0 * sobol(dimension, SAMPLES, generator) - 1.0

@@ -11,12 +11,13 @@ from contextlib import contextmanager
 import numpy as np
 
 from jumpcad.errors import JumpcadError
-from jumpcad.findings import Finding, limit
+from jumpcad.findings import Basis, Finding, limit
 from jumpcad.mechanism.linkage import Complex as ComplexArray
 from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings, takeoff_clearance_m
 from jumpcad.simulation import planar_kernel as kernel
+from jumpcad.simulation import run
 from jumpcad.simulation.mechanics import State
 from jumpcad.simulation.planar_model import planar_model
 from jumpcad.simulation.planar_state import Moment, PushOff
@@ -25,6 +26,10 @@ from jumpcad.transforms import Array
 
 LACKING = ("restitution", "rolling_friction_m", "drag_per_s", "published_quantities")
 """Settings that a planar engine, or a run that ends at touchdown, does not support."""
+BASIS = {
+    **run.BASIS,
+    "body_contact": Basis("least height of the body above the ground during the push-off ≥ 0 (mm)", "geometry"),
+}
 
 
 class PlanarWorld:
@@ -109,8 +114,10 @@ class PlanarRun(Run):
         """Return the audit's findings, and `body_contact` where the body has touched the ground."""
         if self.body_gap_m > 0.0:
             return super().findings()
+        deep_mm = -1000.0 * self.body_gap_m
         touching = limit(
-            "body_contact", 1000.0 * self.body_gap_m, "mm", "the body touches the ground during the push-off",
+            "body_contact", -deep_mm, "mm",
+            f"the body reaches {deep_mm:.2f} mm below the ground during the push-off, of 0 mm at most",
             "use --engine pybullet: the planar engine stops when the body touches the ground", violated="warning",
         )  # fmt: skip
         return (*super().findings(), touching)

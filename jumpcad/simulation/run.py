@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from jumpcad.findings import Finding, at_most, limit
+from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
 from jumpcad.settings import Settings, takeoff_clearance_m
 from jumpcad.simulation.jump import EnergyBudget, PublishedQuantities, Trajectory
@@ -27,6 +27,22 @@ PUBLISHED_CONTACT_AFTER_S = 0.5
 ENERGY_RATIO_LIMIT = 1.005
 """Mechanical energy over that at release; the run starts at 1, and only what an engine adds can raise it."""
 LOOP_GAP_LIMIT_M = 0.0005
+BASIS = {
+    "audit_energy": Basis(
+        f"1 + (energy - energy at release)/U ≤ {ENERGY_RATIO_LIMIT:g}, largest of kinetic, potential and springs' "
+        "energy during the run",
+        "conservation of energy; limit: judgement",
+    ),
+    "audit_loop": Basis(
+        f"largest gap between the two halves of the loop's joint ≤ {1000.0 * LOOP_GAP_LIMIT_M:g} mm",
+        "the loop is closed; limit: judgement",
+    ),
+    "no_takeoff": Basis(
+        "v ≥ √(g·z) (m/s), v and z speed and height of the centre of mass when the springs are spent; the verdict "
+        "comes from the run, this from its nearest figure",
+        "Froude number 1, as in walking",
+    ),
+}
 BODY_INDEX = BODY_NAMES.index(BODY)
 
 

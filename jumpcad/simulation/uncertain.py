@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from scipy.special import ndtri
-from scipy.stats import qmc
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
@@ -21,6 +20,7 @@ from jumpcad.robot import Robot
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
 from jumpcad.simulation.simulator import simulate
+from jumpcad.spread import sobol
 from jumpcad.transforms import Array
 
 SAMPLES = 256
@@ -92,7 +92,7 @@ def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0,
     """
     groups = _groups(robot, settings)
     width = sum(group.inputs for group in groups.values())
-    points: Array = qmc.Sobol(width, seed=np.random.default_rng(seed)).random(samples)
+    points = sobol(width, samples, np.random.default_rng(seed))
     inputs, start = {}, 0
     for name, group in groups.items():
         inputs[name] = group.values(np.clip(points[:, start : start + group.inputs], EDGE, 1.0 - EDGE))

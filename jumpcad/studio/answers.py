@@ -1,22 +1,21 @@
 """The figures that the studio shows of a design: at once those of the capsule robot, then those of the printed one."""
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from jumpcad.building import build
 from jumpcad.bundle.limits import ordered
-from jumpcad.bundle.motion import motion
 from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.findings import Finding
+from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.robot import Robot
-from jumpcad.simulation import Jump, Settings, simulate
+from jumpcad.simulation import Jump, simulate
 from jumpcad.workshop import Workshop
 
 SHOWN = 5
-"""Number of limits that are shown."""
+"""Number of limits that are shown, and more where more are violated."""
 
 
 @dataclass(frozen=True)
@@ -28,25 +27,24 @@ class Printed:
     jump: Jump | None = None
     reason: str = ""
 
-    @property
+    @cached_property
     def findings(self) -> list[Finding]:
-        """The violated limits, then the tightest ones."""
+        """Every limit, the violated ones first, then the tightest ones."""
         if self.robot is None:
             return []
-        found = [one for one in ordered(quick_findings(self.robot)) if one.severity != "info" or one.use is not None]
-        return found[:SHOWN]
+        return [one for one in ordered(quick_findings(self.robot)) if one.severity != "info" or one.use is not None]
 
     def to_markdown(self, before: "Printed | None" = None) -> str:
         """Return figures and limits as tables in Markdown, with the differences of the figures from another robot's."""
         if self.robot is None or self.jump is None:
-            return f"**cannot be built**: {self.reason}"
+            return f"**cannot be built**: {self.reason} (pale: the last robot that could be built)"
         lines = [f"| printed robot | {self.jump.verdict} |", "|:--|--:|"]
         old = before.figures() if before else {}
         for name, (value, unit) in self.figures().items():
             change = f" ({value - old[name][0]:+.1f})" if name in old and abs(value - old[name][0]) >= 0.05 else ""
             lines.append(f"| {name} | {value:.1f} {unit}{change} |")
         lines += ["", "| tightest limits | used |", "|:--|--:|"]
-        for finding in self.findings:
+        for finding in self.findings[: max(SHOWN, len(errors(self.findings)))]:
             used = f"{100.0 * finding.use:.0f} %" if finding.use is not None else f"{finding.margin:.3g} {finding.unit}"
             lines.append(f"| {'**' + finding.name + '**' if finding.severity != 'info' else finding.name} | {used} |")
         return "\n".join(lines)
@@ -82,15 +80,3 @@ def printed_answer(design: Design, workshop: Workshop, name: str = "robot") -> P
         return Printed(design, robot, simulate(robot, engine="planar"))
     except JumpcadError as error:
         return Printed(design, reason=str(error))
-
-
-def simulated_motion(robot: Robot, engine: str) -> dict[str, object]:
-    """Return the motion of a robot from rest to landing, see `jumpcad.bundle.motion`.
-
-    Raises
-    ------
-    JumpcadError
-        If the engine is not installed.
-    """
-    jump = simulate(robot, Settings(flight="simulated", trajectory=True), engine)
-    return motion(robot, jump.trajectory, jump.takeoff_time_s)

@@ -1,41 +1,47 @@
-"""The studio's page: sliders, figures and playback, on a viser server."""
+"""The studio's page: sliders, figures, motion and the points of a study, on a viser server."""
 
 import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from jumpcad.bundle.export import export
-from jumpcad.design import SEARCH_BOUNDS, Design
+from jumpcad.bundle.viewer import parts_facts
+from jumpcad.design import SEARCH_BOUNDS, Design, limits_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import require_free, sealed, write_atomically
-from jumpcad.mechanism.poses import body_poses
-from jumpcad.simulation.engines import default_engine
-from jumpcad.studio.answers import Printed, capsule_answer, printed_answer, simulated_motion
+from jumpcad.robot import Robot
+from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
+from jumpcad.studio.inputs import when_changed
+from jumpcad.studio.playback import Playback, playback
+from jumpcad.studio.player import Player
+from jumpcad.studio.points import STUDYS, Points
 from jumpcad.studio.stage import Stage
 from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import Workshop, load_workshop
 
-FRAME_S = 1.0 / 30.0
-"""Time between two frames of the playback."""
 WIDER = 0.5
 """How far sliders extend beyond the bounds of the search, over the bounds' distance."""
+BY_NUMBER = "by its number"
+"""What the list of points says of one that is not in it."""
+CLICK = "Click on a part for its mass, material and file."
 
 
 class Studio:
-    """A studio that serves one design until it is stopped.
+    """A studio that serves one design, or the points of a study, until it is stopped.
 
     Parameters
     ----------
     design, name
         The first design; saved files and bundles are called after `name`.
     workshops
-        Names or files of workshops to choose from; the first is used at the start.
+        Names or files of workshops to choose from; the first is used at the start, unless there are points.
     server
         A viser server.
     folder
         Where designs are saved and bundles built.
+    points, number
+        The points of a study, and the number of the one that `design` is.
 
     Raises
     ------
@@ -43,16 +49,19 @@ class Studio:
         If the first workshop cannot be loaded.
     """
 
-    def __init__(self, design: Design, name: str, workshops: list[str], server: Any, folder: Path) -> None:
+    def __init__(
+        self, design: Design, name: str, workshops: list[str], server: Any, folder: Path,
+        points: Points | None = None, number: int = 1,
+    ) -> None:  # fmt: skip
         self.first, self.name, self.folder = design, name, folder
-        self.server, self.stage = server, Stage(server)
+        self.points, self.number = points, number
+        self.server, self.stage = server, Stage(server, self._say_part)
         self.shown: Printed | None = None
         self.kept: Printed | None = None
         self._newest = threading.Condition()
         self._wanted: Design | None = design
         self._ended = False
-        self._playing = threading.Event()
-        self.workshop: Workshop = load_workshop(workshops[0])
+        self.workshop: Workshop = self._loaded(workshops[0])
         self.stage.look_at(design)
         self._make_panel(workshops)
 
@@ -66,7 +75,7 @@ class Studio:
         with self._newest:
             self._ended = True
             self._newest.notify()
-        self._playing.clear()
+        self.player.rest()
         self._thread.join()
         self.shown = self.kept = None
         self.stage.meshes.clear()
@@ -81,26 +90,71 @@ class Studio:
         gui.set_panel_label(self.name)
         gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)  # sharing needs a network
         self.quick, self.figures = gui.add_markdown(""), gui.add_markdown("building …")
+        self.part = gui.add_markdown(CLICK)
+        self.player = Player(self.server, self.stage, self._motion)
+        if self.points is not None:
+            self._make_choice(self.points)
         self.sliders = {}
         for key, value in self.first.model_dump().items():
             low, high = _range(key, value)
             hint = Design.model_fields[key].description
             slider = gui.add_slider(key, low, high, _step(high - low), value, hint=hint)
-            slider.on_update(lambda _: self._ask())
+            when_changed(slider, self._ask)
             self.sliders[key] = slider
-        choice = gui.add_dropdown("workshop", tuple(workshops), initial_value=workshops[0])
-        choice.on_update(lambda _: self._change_workshop(choice.value))
+        self.choice = gui.add_dropdown("workshop", tuple(workshops), initial_value=workshops[0])
+        when_changed(self.choice, lambda: self._run_action(self._change_workshop))
         actions = {
-            "Play jump": self._play, "Keep as ghost": self._keep, "Reset": self._reset,
-            "Save design": self._save, "Build bundle": self._build,
+            "Keep as ghost": self._keep, "Reset": self._reset, "Save design": self._save, "Build bundle": self._build,
         }  # fmt: skip
         buttons = gui.add_button_group("", tuple(actions))
         buttons.on_click(lambda _: self._run_action(actions[buttons.value]))
         self.status = gui.add_markdown("")
 
+    def _make_choice(self, points: Points) -> None:
+        """Make a list of the best trials and the front, and a field for the number of any trial."""
+        gui, last = self.server.gui, len(points.trials)
+        self.point = gui.add_markdown(points.to_text(self.number))
+        texts = (BY_NUMBER, *points.listed)
+        hint = "the best designs, then the front"
+        self.best = gui.add_dropdown("point", texts, initial_value=points.listed_as(self.number, BY_NUMBER), hint=hint)
+        self.trial = gui.add_number("trial", self.number, min=1, max=last, step=1, hint=f"any trial, 1 to {last}")
+        when_changed(self.best, lambda: self._run_action(self._open_listed))
+        when_changed(self.trial, lambda: self._run_action(lambda: self.open(int(self.trial.value))))
+
+    def _open_listed(self) -> str:
+        assert self.points is not None
+        return self.open(self.points.listed.get(self.best.value, self.number))
+
+    def open(self, number: int) -> str:
+        """Open the point of a study with a number: its design and its workshop.
+
+        Raises
+        ------
+        JumpcadError
+            If there is no such point, or its workshop cannot be used.
+        """
+        assert self.points is not None
+        trial, before = self.points.trial(number), self.number
+        try:
+            self.number = number
+            self.workshop = self._loaded(STUDYS)
+        except JumpcadError:
+            self.number = before
+            raise
+        self.first, self.choice.value, self.trial.value = trial.design, STUDYS, number
+        self.point.content = self.points.to_text(number)
+        if self.points.listed.get(self.best.value) != number:
+            self.best.value = self.points.listed_as(number, BY_NUMBER)
+        return self._reset()
+
+    def _loaded(self, workshop: str) -> Workshop:
+        if self.points is not None and workshop == STUDYS:
+            return self.points.workshop_of(self.points.trial(self.number))
+        return load_workshop(workshop)
+
     def _ask(self) -> None:
         """Show the capsule robot's figures at once; let the thread build the newest design."""
-        self._playing.clear()
+        self.player.pause()
         design = self.design
         self.quick.content = capsule_answer(design)
         with self._newest:
@@ -123,15 +177,36 @@ class Studio:
         found = printed_answer(design, self.workshop, self.name)
         self.quick.content = capsule_answer(design)
         self.figures.content = found.to_markdown(self.kept)
-        if found.robot is not None:
-            with self.server.atomic():
+        with self.stage.lock, self.server.atomic():
+            self.player.rest()
+            self.shown = found
+            self.part.content = CLICK
+            if found.robot is None:
+                self.stage.fade()
+            else:
                 self.stage.show(found.robot, wrong_parts(found.findings))
-        self.shown = found
         return found
 
-    def _change_workshop(self, name: str) -> None:
-        self.workshop = load_workshop(name)
+    def _robot(self) -> Robot:
+        """Return the robot that is shown; raise `JumpcadError` if there is none."""
+        if self.shown is None or self.shown.robot is None:
+            raise JumpcadError("there is no robot: the design cannot be built")
+        return self.shown.robot
+
+    def _motion(self) -> Playback:
+        return playback(self._robot())
+
+    def _say_part(self, name: str) -> None:
+        """Show what a part of the robot is."""
+        if self.shown is not None and self.shown.robot is not None:
+            facts = parts_facts(self.shown.robot)[name]
+            file = f", {facts['file']}" if facts["file"] else ""
+            self.part.content = f"**{facts['label']}**: {facts['mass_g']:.2f} g, {facts['material']}{file}"
+
+    def _change_workshop(self) -> str:
+        self.workshop = self._loaded(self.choice.value)
         self._ask()
+        return f"workshop {self.choice.value}"
 
     def _run_action(self, action: Callable[[], str]) -> None:
         """Run a button's action and show its result or its error."""
@@ -142,9 +217,11 @@ class Studio:
 
     def _reset(self) -> str:
         for key, value in self.first.model_dump().items():
-            self.sliders[key].value = value
+            slider, (low, high) = self.sliders[key], _range(key, value)
+            slider.min, slider.max = min(slider.min, low), max(slider.max, high)
+            slider.value = value
         self._ask()
-        return "as at the start"
+        return "as at the start" if self.points is None else f"as trial {self.number}"
 
     def _keep(self) -> str:
         self.kept = self.shown
@@ -154,28 +231,6 @@ class Studio:
             return "no ghost"
         self.stage.show_ghost(self.kept.robot)
         return "kept: figures show the difference to it"
-
-    def _play(self) -> str:
-        robot = self.shown.robot if self.shown else None
-        if robot is None:
-            raise JumpcadError("there is no robot to play: it cannot be built")
-        motion = simulated_motion(robot, default_engine())
-        self._playing.set()
-        threading.Thread(target=self._animate, args=(motion, body_poses(robot)), daemon=True).start()
-        return "winding, drop, push-off and flight, slowed"
-
-    def _animate(self, motion: Any, rest: Any) -> None:
-        """Show the poses of a motion at their times, then the robot at rest; late poses are skipped."""
-        start, number = time.monotonic(), 0
-        shown = motion["show_s"]
-        while number < len(shown) and self._playing.is_set():
-            with self.server.atomic():
-                for body, poses in motion["frames"].items():
-                    self.stage.place(f"/robot/{body}", poses[number])
-            time.sleep(FRAME_S)
-            while number < len(shown) and shown[number] <= time.monotonic() - start:
-                number += 1
-        self.stage.pose(rest)
 
     def _save(self) -> str:
         path = self.folder / f"{self.name}-studio.toml"
@@ -193,11 +248,10 @@ class Studio:
 
 def _range(key: str, value: float) -> tuple[float, float]:
     """Return the ends of a parameter's slider: the search's bounds, widened, within what a design may be."""
-    bounds = SEARCH_BOUNDS[key]
+    bounds, (lowest, highest) = SEARCH_BOUNDS[key], limits_of(key)
     more = WIDER * (bounds.upper - bounds.lower)
-    limits = {type(one).__name__: one for one in Design.model_fields[key].metadata}
-    low = max(limits["Ge"].ge, min(bounds.lower - more, value))
-    high = min(limits["Le"].le, max(bounds.upper + more, value))
+    low = max(lowest, min(bounds.lower - more, value))
+    high = min(highest, max(bounds.upper + more, value))
     return round(low, 4), round(high, 4)
 
 

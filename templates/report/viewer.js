@@ -4,13 +4,19 @@
 import {
   AmbientLight, BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, Line, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene, SphereGeometry,
-  Vector2, WebGLRenderer,
+  Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 
 // Share of the rise by which the camera goes up with the robot: the ground stays in view, and the jump is seen.
 const RISING = 0.85;
+// A key turns by 7.5°, moves by a twelfth of the robot's size, zooms by a seventh, and goes a fiftieth of a second on.
+const TURN = Math.PI / 24;
+const MOVE = 1 / 12;
+const ZOOM = 1.15;
+const MOMENT_S = 0.02;
+const HINT = "Click on a part, or choose one, for its mass, material and file.";
 
 const page = (id) => document.getElementById(id);
 const text = (id) => page(id).textContent.trim();
@@ -34,11 +40,15 @@ class Viewer {
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     box.appendChild(this.renderer.domElement);
+    this.hidden = new Set();
+    this.name();
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(35, 1, 0.01, 20);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.draw());
+    this.controls.minDistance = 0.3 * data.size_m;
+    this.controls.maxDistance = 12 * data.size_m;
     this.dress();
     this.take(robot);
     this.trace();
@@ -47,6 +57,14 @@ class Viewer {
     this.home();
     this.connect();
     this.resize();
+  }
+
+  // Who cannot see the canvas hears what it shows and which keys move it.
+  name() {
+    const canvas = this.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "application");
+    canvas.setAttribute("aria-label", `The robot in 3-D. ${this.box.dataset.keys}`);
   }
 
   // Ground and light.
@@ -125,7 +143,57 @@ class Viewer {
     this.followed = [x, z];
     this.controls.target.set(x, 0, 0.8 * z);
     this.camera.position.set(x + 0.75 * far, -far, z + 0.5 * far);
+    if (this.seen) this.follow(...this.seen);
     this.controls.update();
+  }
+
+  // Turn the camera about what it looks at, by angles to the left and up (rad).
+  turn(left, up) {
+    const away = new Vector3().subVectors(this.camera.position, this.controls.target);
+    const flat = Math.hypot(away.x, away.y);
+    const side = Math.atan2(away.y, away.x) - left;
+    const rise = Math.min(Math.max(Math.atan2(away.z, flat) + up, -1.5), 1.5);
+    const far = away.length();
+    away.set(Math.cos(side) * Math.cos(rise), Math.sin(side) * Math.cos(rise), Math.sin(rise)).multiplyScalar(far);
+    this.camera.position.copy(this.controls.target).add(away);
+    this.controls.update();
+  }
+
+  // Move camera and what it looks at across the picture, in shares of the robot's size.
+  move(right, up) {
+    this.camera.updateMatrixWorld();
+    for (const [axis, share] of [[0, right], [1, up]]) {
+      const way = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, axis);
+      way.multiplyScalar(share * this.data.size_m);
+      this.camera.position.add(way);
+      this.controls.target.add(way);
+    }
+    this.controls.update();
+  }
+
+  zoom(factor) {
+    this.camera.position.sub(this.controls.target).multiplyScalar(1 / factor).add(this.controls.target);
+    this.controls.update();
+  }
+
+  // Do what a key on the canvas asks for; false if it asks for nothing.
+  key({ key, shiftKey, ctrlKey, altKey, metaKey }) {
+    if (ctrlKey || altKey || metaKey) return false;
+    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    if (key in arrows) {
+      const [right, up] = arrows[key];
+      if (shiftKey) this.move(-MOVE * right, -MOVE * up);
+      else this.turn(TURN * right, TURN * up);
+    } else if (key === "+" || key === "=") this.zoom(ZOOM);
+    else if (key === "-" || key === "_") this.zoom(1 / ZOOM);
+    else if (key === "0" || key === "Home") this.home();
+    else if (key === " ") this.play(!this.playing);
+    else if (key === "," || key === ".") {
+      this.play(false);
+      this.pose(this.at + (key === "." ? MOMENT_S : -MOMENT_S));
+    } else return false;
+    this.draw();
+    return true;
   }
 
   // Move the camera with the robot.
@@ -157,12 +225,15 @@ class Viewer {
     });
     const [x, z] = [0, 1].map((axis) => mix(com_m[low][axis], com_m[low + 1][axis]));
     this.ball.position.set(x, 0, z);
-    this.follow(x, com_m[0][1] + RISING * Math.max(z - com_m[0][1], 0));
+    this.seen = [x, com_m[0][1] + RISING * Math.max(z - com_m[0][1], 0)];
+    this.follow(...this.seen);
     page("scrub").value = this.at;
     const now = phase[share < 1 ? low : low + 1];
     const slow = this.data.phases[now];
     const moment = mix(time_s[low], time_s[low + 1]);
-    page("moment").textContent = `${now}, ${moment.toFixed(moment < 1 ? 3 : 1)} s${slow}`;
+    const said = `${now}, ${moment.toFixed(moment < 1 ? 3 : 1)} s${slow}`;
+    page("moment").textContent = said;
+    page("scrub").setAttribute("aria-valuetext", said);
     this.box.dataset.phase = now;
     this.box.dataset.shown = this.at.toFixed(3);
     this.draw();
@@ -180,17 +251,32 @@ class Viewer {
 
   // Show what is there after a number of steps of assembly.
   step(count) {
-    const there = new Set(this.data.steps.slice(0, count).flatMap((step) => step.parts));
+    this.count = count;
     const all = count >= this.data.steps.length;
+    const said = all ? "all parts" : `${count}. ${this.data.steps[count - 1].title}`;
+    page("step-title").textContent = said;
+    page("step").setAttribute("aria-valuetext", said);
+    this.show();
+  }
+
+  // Show the parts that are there, but those of the kinds that are switched off.
+  show() {
+    const there = new Set(this.data.steps.slice(0, this.count).flatMap((step) => step.parts));
+    const all = this.count >= this.data.steps.length;
     let shown = 0;
     for (const name of this.parts) {
-      this.nodes[name].visible = all || there.has(name);
-      shown += this.nodes[name].visible ? 1 : 0;
+      const visible = (all || there.has(name)) && !this.hidden.has(this.kind(name));
+      this.nodes[name].visible = visible;
+      shown += visible ? 1 : 0;
     }
-    this.path.visible = this.ball.visible = all;
-    page("step-title").textContent = all ? "all parts" : `${count}. ${this.data.steps[count - 1].title}`;
+    this.path.visible = this.ball.visible = all && !this.hidden.has("path");
     this.box.dataset.parts = shown;
     this.draw();
+  }
+
+  kind(name) {
+    if (!this.data.parts[name].file) return "bought";
+    return name.startsWith("body_plate") ? "plates" : "printed";
   }
 
   pick(event) {
@@ -217,15 +303,27 @@ class Viewer {
         if (!node.isMesh) return;
         this.lit.push([node, node.material]);
         node.material = node.material.clone();
-        node.material.emissive = new Color(0x884400);
+        node.material.color = new Color(0xffb000);
+        node.material.emissive = new Color(0x442200);
       });
     }
-    const file = part && part.file ? `, ${part.file}` : "";
+    page("choose").value = name;
     page("part").textContent = part
-      ? `${part.label}: ${part.mass_g.toFixed(2)} g, ${part.material}${file}`
-      : "Click on a part for its mass, material and file.";
+      ? `${part.label}: ${part.mass_g.toFixed(2)} g, ${part.material}${part.file ? ", " : ""}`
+      : HINT;
+    if (part && part.file) page("part").append(this.link(part.file));
     this.box.dataset.part = name;
     this.draw();
+  }
+
+  // A part's file: a link where the page has one, among those to the files beside it.
+  link(file) {
+    const there = [...document.links].find((link) => link.getAttribute("href") === file);
+    if (!there) return file;
+    const link = document.createElement("a");
+    link.href = file;
+    link.textContent = file;
+    return link;
   }
 
   play(on) {
@@ -262,8 +360,24 @@ class Viewer {
     steps.max = this.data.steps.length;
     steps.value = this.data.steps.length;
     steps.addEventListener("input", () => this.step(Number(steps.value)));
+    for (const kind of ["plates", "printed", "bought", "path"]) {
+      const box = page(`show-${kind}`);
+      box.addEventListener("change", () => {
+        this.hidden[box.checked ? "delete" : "add"](kind);
+        this.show();
+      });
+    }
+    const choose = page("choose");
+    const label = (name) => this.data.parts[name].label;
+    for (const name of [...this.parts].sort((one, other) => label(one).localeCompare(label(other), "en"))) {
+      choose.add(new Option(label(name), name));
+    }
+    choose.addEventListener("change", () => this.select(choose.value));
     let pressed = null;
     const canvas = this.renderer.domElement;
+    canvas.addEventListener("keydown", (event) => {
+      if (this.key(event)) event.preventDefault();
+    });
     canvas.addEventListener("pointerdown", (event) => (pressed = [event.clientX, event.clientY]));
     canvas.addEventListener("pointerup", (event) => {
       if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 4) this.pick(event);
@@ -282,6 +396,7 @@ class Viewer {
 
   draw() {
     this.renderer.render(this.scene, this.camera);
+    this.box.dataset.camera = this.camera.position.toArray().map((place) => place.toFixed(4));
   }
 }
 
@@ -290,7 +405,7 @@ function start() {
   const failed = (reason) => {
     page("viewer-message").textContent =
       `The robot cannot be shown in 3-D here (${reason}). All figures below and the pictures are complete without it.`;
-    page("viewer-controls").hidden = true;
+    page("viewer-controls").hidden = page("viewer-keys").hidden = true;
     box.dataset.state = "failed";
   };
   if (!window.WebGLRenderingContext) {
@@ -309,7 +424,7 @@ function start() {
         viewer.select("");
         viewer.pose(0);
         page("viewer-message").textContent = "";
-        page("viewer-controls").hidden = false;
+        page("viewer-controls").hidden = page("viewer-keys").hidden = false;
         box.dataset.state = "ready";
       } catch (error) {
         failed("WebGL did not start");

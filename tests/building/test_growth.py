@@ -68,7 +68,7 @@ def test_any_check_can_make_a_section_grow(monkeypatch: pytest.MonkeyPatch) -> N
         return [at_least("dog_width", robot.layout.sections.dog_mm, 11.7, "mm", "found", "remedy", grows="dog")]
 
     as_sized = build(load_design("kenan-2.0")).layout.sections.dog_mm
-    monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, checks.Check(wide_dog, cheap=True)))
+    monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, checks.Check(wide_dog, {}, cheap=True)))
     assert build(load_design("kenan-2.0")).layout.sections.dog_mm == pytest.approx(1.1 * as_sized)
 
 

@@ -12,14 +12,18 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import jumpcad
 from jumpcad.building import build
+from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.bundle.compared import compared_of
+from jumpcad.bundle.limits import limits, verdict_on
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.uncertainty import uncertainty_of
 from jumpcad.calibration.measurements import load_measurements
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
 from jumpcad.files import template_names
+from jumpcad.findings import at_least, at_most, limit
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
 from jumpcad.simulation import Jump, Settings, simulate, uncertain_jump
@@ -121,7 +125,7 @@ def test_is_closed_html_that_asks_for_nothing_else(robot: Robot, jump: Jump) -> 
 
     Reader(convert_charrefs=True).feed(page)
     assert opened == []
-    assert re.findall(r"https?:|src=\"(?!data:)|href=|<script", page) == []
+    assert re.findall(r"https?:|src=\"(?!data:)|href=\"(?!#)|<script", page) == []
     assert len(page) < 40_000
     (image,) = parsed(page).iter("img")
     assert base64.b64decode(image.attrib["src"].removeprefix("data:image/png;base64,")) == PNG
@@ -182,6 +186,72 @@ def test_the_motion_begins_at_rest_winds_the_springs_and_ends_in_flight(robot: R
 
 
 def test_the_page_links_to_the_files_beside_it(robot: Robot, jump: Jump) -> None:
-    page = write_report(robot, {}, jump, None, ["bom.csv", "print/plate 1.3mf"])
-    links = [link.get("href") for link in parsed(page).iter("a")]
-    assert {"bom.csv", "print/plate%201.3mf"} == set(links)
+    page = write_report(robot, {}, jump, None, ["assembly.html", "bom.csv", "print/plate 1.3mf"])
+    root = parsed(page)
+    links = [link.get("href") or "" for link in root.iter("a")]
+    assert {"assembly.html", "bom.csv", "print/plate%201.3mf"} == {link for link in links if link[0] != "#"}
+    assert links.count("assembly.html") == 3  # at the top, where printing is told, and among the files
+    anchors = {element.get("id") for element in root.iter()}
+    assert {link[1:] for link in links if link[0] == "#"} <= anchors
+
+
+def test_bars_stand_in_one_order_and_what_has_no_share_comes_last_with_its_reason() -> None:
+    page = "".join(
+        limits(
+            [
+                at_most("half", 5.0, 10.0, "mm", "", ""),
+                limit("just", 1e-9, "mm", "", ""),
+                at_most("twice", 20.0, 10.0, "mm", "too much", "less", violated="warning"),
+                limit("asked", 0.0, "", "", ""),
+                at_least("nine tenths", 10.0, 9.0, "mm", "", ""),
+                at_most("thrice", 30.0, 10.0, "mm", "too much", "less"),
+                limit("apart", -2.0, "mm", "too near", "further"),
+                at_least("above", 3.0, 0.0, "mm", "", ""),
+                at_most("tenth", 1.0, 10.0, "mm", "", ""),
+            ]
+        )
+    )
+    rows = re.findall(r'<tr class="(\w+)"><td>([^<]*)</td><td>(.*?)</td>', page)
+    assert [name for _, name, _ in rows] == [
+        "thrice", "twice", "apart", "nine tenths", "half", "tenth", "just", "asked", "above",
+    ]  # fmt: skip
+    reasons = {name: cell.partition("<small>")[2].partition("<")[0] for _, name, cell in rows}
+    assert [name for name, reason in reasons.items() if reason] == ["apart", "just", "asked", "above"]
+    assert reasons["asked"] == "no share: a condition, kept or not"
+    assert reasons["above"] == "no share: the limit is 0"
+    assert page.count("<details open") == 1  # what is just kept is seen at once
+
+
+def test_the_top_says_how_many_limits_are_violated_and_which(robot: Robot, jump: Jump) -> None:
+    assert "All 80 limits are kept" in write_report(robot, {}, jump)
+    one = [at_most("a", 20.0, 10.0, "mm", "20 mm of 10 mm", "less", violated="warning")] * 5
+    sentence, worst = (" ".join(lines) for lines in verdict_on([*one, at_most("b", 1.0, 10.0, "mm", "", "")]))
+    assert "5 of its 6 limits are violated: it can be built, but" in sentence
+    assert worst.count("<li>") == 3
+    assert '<a href="#limits">' in worst
+    sentence, worst = (" ".join(lines) for lines in verdict_on([at_most("c", 2.0, 1.0, "mm", "", ""), *one]))
+    assert "do not build it as it is" in sentence
+    assert worst.index(">a<") < worst.index("20 mm of 10 mm")
+
+
+def test_the_top_says_what_it_costs_or_where_prices_are_entered(robot: Robot, jump: Jump) -> None:
+    page = write_report(robot, {}, jump)
+    assert "What it costs is not known" in page
+    assert "<code>[prices_eur]</code>" in page
+    pla = robot.workshop.materials["PLA"].model_copy(update={"price_eur_per_kg": 20.0})
+    materials = dict.fromkeys(robot.workshop.materials, pla)
+    some = robot.workshop.model_copy(update={"materials": materials})
+    printed_kg = sum(item.total_kg for item in bill_of_materials(robot).items if item.kind == "printed")
+    assert f"cost {20.0 * printed_kg:.2f} € at least" in write_report(replace(robot, workshop=some), {}, jump)
+    every = some.model_copy(update={"prices_eur": dict.fromkeys(map(chr, range(33, 127)), 1.0)})
+    pieces = sum(item.quantity for item in bill_of_materials(robot).items if item.kind == "bought")
+    assert f"cost {20.0 * printed_kg + pieces:.2f} €." in write_report(replace(robot, workshop=every), {}, jump)
+
+
+def test_a_robot_that_does_not_jump_says_why_at_the_top(robot: Robot) -> None:
+    light = robot.design.model_copy(update={"stiffness_nmm_per_deg": 1.0})
+    found = simulate(jumpcad.capsule_robot(light), Settings())
+    page = write_report(robot, {}, found)
+    verdict = next(one for one in parsed(page).iter("p") if "verdict" in (one.get("class") or ""))
+    assert (verdict.text or "").startswith("It does not jump: the springs hold 14.5 mJ;")
+    assert "What to change: raise stiffness_nmm_per_deg" in page

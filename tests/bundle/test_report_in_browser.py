@@ -1,7 +1,7 @@
 """report.html in Debian's Chromium without a screen: it shows, plays and answers, and asks the network for nothing."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +10,10 @@ import pytest
 from PIL import Image
 from support.browsers import PHONE, browser, needs_browser, require_quiet, wait, webdriver
 
-from jumpcad.building import build
-from jumpcad.bundle.export import export
-from jumpcad.design import load_design
 from jumpcad.notebook import ShownPage
 
 pytestmark = needs_browser
+Keys = webdriver.Keys
 THREE_D = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1400,1200")
 
 
@@ -41,22 +39,26 @@ def seen(box: Any, path: Path) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("report") / "robot"
-    return export(build(load_design("kenan-2.0"), name="kenan-2.0"), folder).folder / "report.html"
+def page(bundle_of: Callable[..., Path]) -> Path:
+    return bundle_of("kenan-2.0", pictures=True) / "report.html"
 
 
 @pytest.fixture(scope="module")
 def driver() -> Iterator[Any]:
-    made = browser(
-        "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1400,1200"
-    )
+    made = browser(*THREE_D)
     yield made
     made.quit()
 
 
-def test_play_scrub_apart_and_assembly_change_what_is_seen(driver: Any, page: Path, tmp_path: Path) -> None:
-    box = opened(driver, page)
+@pytest.fixture
+def box(driver: Any, page: Path) -> Any:
+    """Return the viewer's box of the page, which is opened again only if another one was: that takes a second."""
+    if driver.current_url == page.as_uri():
+        return driver.find_element("id", "viewer")
+    return opened(driver, page)
+
+
+def test_play_scrub_apart_assembly_and_toggles_change_what_is_seen(driver: Any, box: Any, tmp_path: Path) -> None:
     assert box.get_attribute("data-state") == "ready"
     shot = tmp_path / "shot.png"
     rest = seen(box, shot)
@@ -71,9 +73,67 @@ def test_play_scrub_apart_and_assembly_change_what_is_seen(driver: Any, page: Pa
     put(driver, "step", 1)
     assert 0 < int(box.get_attribute("data-parts")) < parts
     put(driver, "step", 99)
+    toggle = driver.find_element("id", "show-plates")
+    toggle.send_keys(Keys.SPACE)
+    assert int(box.get_attribute("data-parts")) == parts - 2  # the left and the right one
+    assert np.abs(seen(box, shot) - rest).mean() > 0.2
+    toggle.send_keys(Keys.SPACE)
     before = float(box.get_attribute("data-shown"))
     driver.find_element("id", "play").click()
     wait(driver, lambda _: float(box.get_attribute("data-shown")) > before)
+    driver.find_element("id", "play").click()
+    put(driver, "scrub", 0.0)
+
+
+def test_the_keyboard_turns_moves_zooms_and_plays(driver: Any, box: Any, tmp_path: Path) -> None:
+    """Each key moves the camera, and 0 brings it back; the canvas says its keys, and shows that it has the focus."""
+    shot = tmp_path / "shot.png"
+    driver.execute_script("document.getElementById('home').focus()")
+    without_focus = seen(box, shot)
+    driver.execute_script("document.querySelector('nav a:last-of-type').focus()")
+    driver.switch_to.active_element.send_keys(Keys.TAB)
+    canvas = driver.switch_to.active_element
+    assert canvas.tag_name == "canvas"
+    assert "Arrow keys turn" in canvas.get_attribute("aria-label")
+    first = seen(box, shot)
+    assert np.count_nonzero(np.abs(first - without_focus).sum(axis=2) > 60) > 1000  # the ring around it
+    home = box.get_attribute("data-camera")
+    for key in (Keys.ARROW_LEFT, Keys.ARROW_UP, "+", "-", Keys.SHIFT + Keys.ARROW_LEFT + Keys.SHIFT):
+        canvas.send_keys(key)
+        assert box.get_attribute("data-camera") != home, key
+        canvas.send_keys("0")
+        assert box.get_attribute("data-camera") == home, key
+    canvas.send_keys(Keys.ARROW_LEFT)
+    assert np.abs(seen(box, shot) - first).mean() > 0.2
+    canvas.send_keys(".")
+    assert box.get_attribute("data-shown") == "0.020"
+    canvas.send_keys(",", " ")
+    assert box.get_attribute("data-playing") == "true"
+    canvas.send_keys(" ")
+    assert box.get_attribute("data-playing") == "false"
+    choose = driver.find_element("id", "choose")
+    choose.send_keys("cam gear")
+    assert box.get_attribute("data-part") == "cam_gear"
+    link = driver.find_element("css selector", "#part a")
+    assert link.get_attribute("href").endswith("stl/cam_gear.stl")
+    put(driver, "scrub", 0.0)
+
+
+def test_a_click_on_a_part_tells_what_it_is(driver: Any, box: Any) -> None:
+    driver.execute_script("arguments[0].scrollIntoView()", box)
+    canvas = driver.find_element("css selector", "#viewer canvas")
+    height = canvas.size["height"]
+    for up in range(-height // 4, height // 4, 12):  # somewhere on the middle line stands the robot
+        webdriver.ActionChains(driver).move_to_element_with_offset(canvas, 0, up).click().perform()
+        if box.get_attribute("data-part"):
+            break
+    assert box.get_attribute("data-part")
+    assert " g, " in driver.find_element("id", "part").text
+
+
+@pytest.mark.usefixtures("box")
+def test_nothing_is_asked_of_the_network_and_no_error_is_logged(driver: Any) -> None:
+    require_quiet(driver)
 
 
 def test_the_camera_follows_a_jump_of_half_a_metre(driver: Any, page: Path, tmp_path: Path) -> None:
@@ -90,23 +150,6 @@ def test_the_camera_follows_a_jump_of_half_a_metre(driver: Any, page: Path, tmp_
     put(driver, "scrub", data["show_s"][last])
     red, _, blue = np.moveaxis(seen(box, tmp_path / "shot.png"), -1, 0)
     assert np.count_nonzero(red - blue > 100) > 1000
-
-
-def test_a_click_on_a_part_tells_what_it_is(driver: Any, page: Path) -> None:
-    box = opened(driver, page)
-    canvas = driver.find_element("css selector", "#viewer canvas")
-    height = canvas.size["height"]
-    for up in range(-height // 4, height // 4, 12):  # somewhere on the middle line stands the robot
-        webdriver.ActionChains(driver).move_to_element_with_offset(canvas, 0, up).click().perform()
-        if box.get_attribute("data-part"):
-            break
-    assert box.get_attribute("data-part")
-    assert " g, " in driver.find_element("id", "part").text
-
-
-def test_nothing_is_asked_of_the_network_and_no_error_is_logged(driver: Any, page: Path) -> None:
-    opened(driver, page)
-    require_quiet(driver)
 
 
 def test_it_fits_a_phone(page: Path) -> None:

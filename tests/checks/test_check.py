@@ -31,9 +31,9 @@ def test_constraints_are_among_all_checks_and_leave_the_gates_to_the_jump(kenan:
 
 def test_a_check_of_the_registry_is_run_by_all_that_is_cheap(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     weight = at_most("weight", 1000.0 * kenan.mass_kg, 200.0, "g", "found", "remedy")
-    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight], cheap=True),))
+    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight], {}, cheap=True),))
     assert checks.check(kenan) == checks.quick_findings(kenan) == constraint_findings(kenan) == [weight]
-    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight]),))
+    monkeypatch.setattr(checks, "CHECKS", (checks.Check(lambda robot: [weight], {}),))
     assert (checks.check(kenan), checks.quick_findings(kenan), constraint_findings(kenan)) == ([weight], [], [])
     assert checks.check(capsule_robot(kenan.design)) == []
 

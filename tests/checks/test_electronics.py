@@ -9,10 +9,11 @@ import pytest
 
 from jumpcad.building import build
 from jumpcad.checks.electronics import _voltage, electronics_findings
+from jumpcad.checks.wiring import wiring_findings
 from jumpcad.design import load_design
 from jumpcad.electronics.chain import Link
 from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.nets import Wiring, wiring_findings, wiring_of
+from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.workshop import Workshop, load_workshop

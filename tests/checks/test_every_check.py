@@ -20,7 +20,8 @@ from jumpcad.checks.printability import bed_findings
 from jumpcad.checks.strength import strength_findings
 from jumpcad.design import load_design
 from jumpcad.drive import CamLimits, synthesise
-from jumpcad.drive.cam_limits import LIMITS, ROWS, measure
+from jumpcad.drive.cam_findings import LIMITS
+from jumpcad.drive.cam_limits import ROWS, measure
 from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.drive.spring_choice import synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg

@@ -7,6 +7,7 @@ import pytest
 from support.commands import Run, exit_code_of
 from support.kept import once, robot_key
 from support.places import ROOT
+from support.proposals import with_less_work
 
 from jumpcad.bundle import export
 from jumpcad.exporters.registry import Exporter, Files
@@ -43,6 +44,12 @@ def contents() -> Iterator[None]:
 @pytest.fixture(autouse=True)
 def findings(checked_once: None) -> None:
     """Let a robot be checked once: these tests show what commands do with its findings."""
+
+
+@pytest.fixture(autouse=True)
+def quick_proposals(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let searches make proposals with less work: these tests show what commands do with them."""
+    with_less_work(monkeypatch)
 
 
 @pytest.fixture(scope="session")

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from jumpcad import checks
 from jumpcad.cli.check import TIGHT, margin_in_words
 from jumpcad.cli.commands import app
-from jumpcad.errors import CannotBuildError
+from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import limit
 
 
@@ -62,6 +62,7 @@ def test_it_shows_what_is_tight_and_with_all_the_rest(monkeypatch: pytest.Monkey
         (-1.3e-05, "rad", "just beyond"),
         (math.pi / 18.0, "rad", "+10 °"),
         (0.0123, "J", "+12.3 mJ"),
+        (0.0017, "N·m", "+1.7 mN·m"),
         (-62.14, "MPa", "-62.1 MPa"),
         (0.0, "faults", ""),
         (0.05, "mm³", "+0.05 mm³"),
@@ -84,3 +85,25 @@ def test_command_says_which_part_does_not_fit_the_bed(tmp_path: Path) -> None:
     result = CliRunner().invoke(app, ["check", "kenan-2.0", "--workshop", str(small)])
     assert isinstance(result.exception, CannotBuildError)
     assert "part foot of" in str(result.exception)
+
+
+def test_one_limit_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "CHECKS", tuple(check for check in checks.CHECKS if check.cheap))
+
+    def explained(name: str, *more: str) -> str:
+        return CliRunner().invoke(app, ["check", "kenan-2.0", "--explain", name, *more], env={"COLUMNS": "999"}).output
+
+    basis, output = checks.basis_of("gear_strength_1"), explained("gear_strength_1")
+    assert basis is not None
+    for words in (basis.formula, basis.source, "bending of teeth, pair 1: ", "wider gears"):
+        assert words in output
+    assert [one["name"] for one in json.loads(explained("gear_strength_1", "--json"))["findings"]] == [
+        "gear_strength_1"
+    ]
+    assert "not a limit of this robot" in explained("toe_joint_strength")
+
+
+def test_a_limit_that_no_check_has_is_refused_with_the_nearest() -> None:
+    result = CliRunner().invoke(app, ["check", "kenan-2.0", "--explain", "leg_strenght"])
+    assert isinstance(result.exception, JumpcadError)
+    assert "did you mean leg_strength?" in str(result.exception)

@@ -3,14 +3,14 @@
 import re
 from pathlib import Path
 
-from support.searches import QUICK, data, refusal, run
+from support.searches import NARROW, QUICK, data, refusal, run
 
 
 def test_views_of_the_space(folder):
     views = {
-        "sweep": ["--points", 3],
-        "pca": ["--samples", 80],
-        "importance": ["--samples", 80],
+        "sweep": [*NARROW, "--points", 3],
+        "pca": [*NARROW, "--samples", 80],
+        "importance": [*NARROW, "--samples", 80],
         "feasibility": ["--points", 4],
     }
     for view, options in views.items():

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 from support.commands import interruptible
-from support.searches import QUICK, data, run
+from support.searches import NARROW, QUICK, data, run
 from typer.testing import CliRunner
 
 from jumpcad.cli.commands import app
@@ -19,9 +19,9 @@ JUMPCAD = [sys.executable, "-m", "jumpcad"]
 
 
 def test_optimize_finds_a_jumper_and_writes_it(folder):
-    found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
-    assert found["searched"] == 45
-    assert 45 < found["evaluations"] <= 60
+    found = data("optimize", *QUICK, "--study", "s.db", "--evaluations", 48, "-o", "best.toml")
+    assert found["searched"] == 36
+    assert 36 < found["evaluations"] <= 48
     assert found["best"]["fitness"] == found["best"]["score"] > 5.0
     assert set(found["best"]["design"]) == set(PARAMETERS)
     winner = load_design("best.toml")
@@ -29,11 +29,11 @@ def test_optimize_finds_a_jumper_and_writes_it(folder):
     neighbours = [candidate["neighbours"] for candidate in found["candidates"]]
     assert neighbours == sorted(neighbours, reverse=True)
     assert found["active_bounds"]
-    shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 60, "-o", "best.toml")
+    shown = run("optimize", *QUICK, "--study", "s.db", "--evaluations", 48, "-o", "best.toml")
     assert "next: jumpcad build best.toml" in shown
-    assert "evaluations: 45 for the search, 15 for the robust pick" in shown
+    assert "evaluations: 36 for the search, 12 for the robust pick" in shown
     summary = data("study", "s.db")
-    assert summary["evaluations"] == summary["planned"] == 45
+    assert summary["evaluations"] == summary["planned"] == 36
     assert summary["evaluations"] + summary["other_evaluations"] == found["evaluations"]
     assert summary["best"]["score"] == found["best"]["score"]
     assert f"{found['best']['score']:.4f}" in run("study", "s.db")
@@ -46,7 +46,7 @@ def test_what_optimize_finds_jumps_like_that(folder):
 
 
 def test_pareto_reports_its_front(folder):
-    found = data("optimize", "pareto", *QUICK, "--evaluations", 16, "--study", "p.db", "--plots", "pics")
+    found = data("optimize", "pareto", *QUICK, *NARROW, "--evaluations", 16, "--study", "p.db", "--plots", "pics")
     energies = [trial["metrics"]["spring_energy_j"] for trial in found["front"]]
     ranges = [trial["metrics"]["ballistic_range_m"] for trial in found["front"]]
     assert energies == sorted(energies)

@@ -32,7 +32,7 @@ def called(*arguments: str, shell: str = "", folder: Path, **environment: str) -
 
 
 @needs_full
-@pytest.mark.parametrize("arguments", [LIGHT, [*LIGHT, "--json"], ["--help"]], ids=" ".join)
+@pytest.mark.parametrize("arguments", [LIGHT, ["list", "--json"], ["--help"]], ids=" ".join)
 def test_a_full_disk_behind_standard_output_is_one_line(tmp_path: Path, arguments: list[str]) -> None:
     code, _, err = called(*arguments, shell=">/dev/full", folder=tmp_path)
     assert (code, err) == (2, "jumpcad: standard output cannot be written: No space left on device\n")
@@ -43,7 +43,7 @@ def test_an_error_that_nobody_can_read_keeps_its_exit_code(tmp_path: Path) -> No
     assert called("fly", shell="2>/dev/full", folder=tmp_path) == (2, "", "")
 
 
-@pytest.mark.parametrize("arguments", [LIGHT, [*LIGHT, "--json"]], ids=" ".join)
+@pytest.mark.parametrize("arguments", [["list"], ["list", "--json"]], ids=" ".join)
 def test_a_reader_that_has_gone_is_no_error(tmp_path: Path, arguments: list[str]) -> None:
     reading, writing = os.pipe()
     os.close(reading)
@@ -53,9 +53,11 @@ def test_a_reader_that_has_gone_is_no_error(tmp_path: Path, arguments: list[str]
     assert (done.returncode, done.stderr) == (141, b"")
 
 
-@pytest.mark.parametrize("shell", [">&-", "2>&-", "<&- >&- 2>&-"])
-def test_closed_streams_are_no_error(tmp_path: Path, shell: str) -> None:
-    code, _, err = called(*LIGHT, shell=shell, folder=tmp_path)
+@pytest.mark.parametrize(
+    ("shell", "arguments"), [(">&-", ["list"]), ("2>&-", ["list"]), ("<&- >&- 2>&-", LIGHT)], ids=["1", "2", "all"]
+)
+def test_closed_streams_are_no_error(tmp_path: Path, shell: str, arguments: list[str]) -> None:
+    code, _, err = called(*arguments, shell=shell, folder=tmp_path)
     assert (code, err) == (0, "")
 
 
@@ -121,7 +123,7 @@ main()
 """
 
 
-@pytest.mark.parametrize("module", ["typer", "numpy", "jumpcad.simulation"])
+@pytest.mark.parametrize("module", ["numpy", "jumpcad.simulation"])
 def test_an_interrupt_while_modules_load_is_exit_code_130(tmp_path: Path, module: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", PRESSED.format(module=module)], capture_output=True, text=True, cwd=tmp_path,

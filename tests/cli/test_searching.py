@@ -3,7 +3,7 @@
 import os
 
 import pytest
-from support.searches import QUICK, data, refusal, run
+from support.searches import NARROW, QUICK, data, refusal, run
 
 from jumpcad.design import load_design
 
@@ -79,15 +79,16 @@ def test_wrong_requests_are_one_line_and_leave_no_study(folder, arguments, messa
 
 
 def test_a_winner_that_somebody_edited_is_kept(folder):
-    search = ["optimize", "ga", *QUICK, "--evaluations", 10, "--study", "s.db", "-o", "best.toml", "--plots", "pics"]
-    run(*search)
-    run(*search[:-2], "--plots", "pics", "--evaluations", 12)  # what jumpcad wrote itself is written again
+    plots = ["--plots", "pics"]
+    search = ["optimize", "ga", *QUICK, *NARROW, "--evaluations", 10, "--study", "s.db", "-o", "best.toml"]
+    run(*search, *plots)
+    run(*search, *plots, "--evaluations", 12)  # what jumpcad wrote itself is written again
     winner = (folder / "best.toml").read_text()
     mine = winner.replace("c_coef = ", "c_coef = 1.0 # my own; it was ")
     (folder / "best.toml").write_text(mine)
-    assert "best.toml: exists already" in refusal(*search[:-2], "--evaluations", 12)
+    assert "best.toml: exists already" in refusal(*search, "--evaluations", 12)
     assert (folder / "best.toml").read_text() == mine
-    run(*search[:-2], "--evaluations", 12, "--force")
+    run(*search, "--evaluations", 12, "--force")
     assert (folder / "best.toml").read_text() == winner
     (folder / "pics" / "history.svg").write_text("<svg/>")
     assert "history.svg: exists already" in refusal("study", "s.db", "--plots", "pics")

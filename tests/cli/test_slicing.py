@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 from support.commands import Run
-from support.slicers import OBEDIENT, pretend_slicer, three_parts
+from support.slicers import OBEDIENT, pretend_slicer, three_parts, with_seams_behind
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle, verify
@@ -41,7 +41,10 @@ def pretend(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], 
 
 
 @needs_slicer
-def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(run: Run, bundle: Path, tmp_path: Path) -> None:
+def test_sliced_masses_agree_with_the_model_and_become_weighed_ones(
+    run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with_seams_behind(monkeypatch)
     code, out, err = run("slice", str(bundle), "--write-masses", "weighed.toml", "--json")
     assert (code, err) == (0, "")
     found = json.loads(out)

@@ -5,12 +5,14 @@ files, shapely for roller and cam, manifold3d for volumes. The leg's angle follo
 down on the cam's outline; the five-bar is closed with circles. `python clearances.py BUNDLE` prints what meets.
 """
 
+import io
 import json
 import math
 import sys
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -79,7 +81,7 @@ class Bundle:
 
     def poses(self) -> list[Pose]:
         """Return the positions: the cam's lift, the fall of the roller, and past rest with the cam running on."""
-        turns = np.linspace(0.0, 2.0 * math.pi, 721)
+        turns = np.linspace(0.0, 2.0 * math.pi, 241)
         top = int(np.argmin(self._legs_on_cam(turns)))
         lifting = np.linspace(0.0, turns[top], LIFTED)
         lift = [Pose(float(leg), float(turn)) for leg, turn in zip(self._legs_on_cam(lifting), lifting, strict=True)]
@@ -187,12 +189,12 @@ class Bundle:
 
     def _legs_on_cam(self, turns: np.ndarray) -> np.ndarray:
         """Return the leg's angles (n,) while its roller lies on the cam: those nearest to rest without overlap."""
-        legs = np.linspace(0.0, self.wound, 120)
+        legs = np.linspace(0.0, self.wound, 60)
         free = np.full(len(turns), len(legs) - 1)
         for i in range(len(legs))[::-1]:
             free[self._roller_gaps(np.full(len(turns), legs[i]), turns) >= -FACET_MM] = i
         low, high = legs[np.maximum(free - 1, 0)], legs[free]
-        for _ in range(30):
+        for _ in range(20):
             middle = (low + high) / 2.0
             meet = self._roller_gaps(middle, turns) < -FACET_MM
             low, high = np.where(meet, middle, low), np.where(meet, high, middle)
@@ -225,15 +227,21 @@ def _frame(element: ET.Element) -> np.ndarray:
     return matrix
 
 
+@cache
+def _solid(stl: bytes) -> Manifold:
+    """Return what an STL file encloses; many robots have the same motor, bearings and screws."""
+    mesh = trimesh.load_mesh(io.BytesIO(stl), file_type="stl")
+    mesh.merge_vertices()
+    return Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))
+
+
 def _piece(folder: Path, link: str | None, visual: ET.Element) -> Piece:
     file = visual.find("geometry/mesh")
     assert link is not None
     assert file is not None
     path = folder / "urdf" / str(file.get("filename"))
     printed = folder / "stl" / path.name
-    mesh = trimesh.load_mesh(printed if printed.exists() else path)
-    mesh.merge_vertices()
-    solid = Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))
+    solid = _solid((printed if printed.exists() else path).read_bytes())
     assert solid.volume() > 0.0, visual.get("name")
     matrix = _frame(visual)
     matrix[:3, 3] *= 1000.0

@@ -1,4 +1,4 @@
-"""Bundles for independent programs: those of all templates, and one made of a few parts, asymmetric on purpose."""
+"""Bundles for independent programs: the first robot, the strongest, and one of a few parts, asymmetric on purpose."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -11,7 +11,7 @@ from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle
 from jumpcad.robot import Robot
 
-TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
+TEMPLATES = ("kenan-2.0", "best-bo")
 ON_BARS = "kenan-2.0 on carbon tubes"
 """Its legs are tubes with printed ends: more parts in a link, and hardware that turns with it."""
 

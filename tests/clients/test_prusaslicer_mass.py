@@ -1,7 +1,7 @@
 """The printed-mass model against what PrusaSlicer extrudes: grams, and inertia integrated from its G-code.
 
-A part takes PrusaSlicer 0.3 to 5 s of CPU time, so those of a robot are sliced at the workshop's infill alone, and one
-shape of each kind with hardly any infill and with nothing else.
+A part takes PrusaSlicer 0.2 to 3.5 s of CPU time, so those of a robot are sliced at the workshop's infill alone, and
+one shape of each kind with hardly any infill and with nothing else.
 """
 
 import math
@@ -9,6 +9,7 @@ import math
 import numpy as np
 import pytest
 from support.built import built
+from support.slicers import with_seams_behind
 
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
@@ -25,6 +26,11 @@ needs_slicer = pytest.mark.skipif(slicer_program() is None, reason="PrusaSlicer 
 
 WORKSHOP = load_workshop("default")
 MATERIAL = WORKSHOP.material("links")
+
+
+@pytest.fixture(autouse=True)
+def quick_seams(monkeypatch):
+    with_seams_behind(monkeypatch)
 
 
 def plate():

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,18 +11,21 @@ from manifold3d import CrossSection
 from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
 
-pgw = pytest.importorskip("py_gearworks", reason="py_gearworks is not installed (the extra `clients`)")
-
 PAIRS = [(12, 31, 1.0), (14, 40, 1.25), (17, 18, 1.5)]
 BACKLASH_MM = 0.15
 CHORDS = 24
 """Points along each of its curves."""
 
 
-def other(gear: Gear) -> "pgw.SpurGear":
+def program() -> Any:
+    """Return the other program; it takes 4 s to import, so not where tests are collected."""
+    return pytest.importorskip("py_gearworks", reason="py_gearworks is not installed (the extra `clients`)")
+
+
+def other(gear: Gear) -> Any:
     """Return the other program's gear: its backlash is that of a pair, in modules, along the line of action."""
     module, line = gear.module_mm, math.cos(math.radians(20.0))
-    return pgw.SpurGear(
+    return program().SpurGear(
         number_of_teeth=gear.teeth,
         module=module,
         height=gear.face_width_mm,
@@ -32,7 +36,7 @@ def other(gear: Gear) -> "pgw.SpurGear":
     )
 
 
-def outline(gear: "pgw.SpurGear") -> np.ndarray:
+def outline(gear: Any) -> np.ndarray:
     """Return points (n, 2) along the other program's outline, in order."""
     edges = gear.build_boundary_wire(0.0).order_edges()
     points = [[tuple(edge.position_at(share))[:2] for share in np.arange(CHORDS) / CHORDS] for edge in edges]
@@ -70,7 +74,7 @@ def test_circles_and_flanks_are_the_same(pair: GearPair) -> None:
 def test_they_stand_at_the_same_distance(pair: GearPair) -> None:
     """Without backlash, which the other program takes by moving gears apart and this one by thinner teeth."""
     pinion, wheel = (other(replace(gear, thinning_mm=0.0)) for gear in (pair.pinion, pair.wheel))
-    pinion.mesh_to(wheel, target_dir=pgw.RIGHT)
+    pinion.mesh_to(wheel, target_dir=program().RIGHT)
     assert float(np.hypot(*pinion.center[:2])) == pytest.approx(pair.centre_distance_mm, abs=1e-6)
 
 

@@ -8,8 +8,9 @@ import pytest
 from support.limits import default_limits
 
 from jumpcad.drive.cam import CamGeometry
+from jumpcad.drive.cam_findings import LIMITS
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.cam_limits import LIMITS, ROWS, axis_range, measure
+from jumpcad.drive.cam_limits import ROWS, axis_range, measure
 from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.transforms import turned_about_y
 

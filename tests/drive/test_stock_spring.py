@@ -9,12 +9,13 @@ from support.limits import default_limits
 
 from jumpcad.building import build
 from jumpcad.catalogue import StockSpring, load_catalogue
-from jumpcad.checks import check, constraint_findings
+from jumpcad.checks import constraint_findings
+from jumpcad.checks.interference import interference_findings
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import TorsionSpring
 from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.findings import errors
+from jumpcad.findings import Finding, errors
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -32,6 +33,11 @@ def with_stock(name: str, **table: StockSpring) -> Workshop:
 def fitted(spring: StockSpring, design: Design = KENAN, limits: object = LIMITS) -> TorsionSpring:
     on_leg = springs_on_leg(design, spring)
     return fitted_spring(spring, on_leg, -math.radians(design.rest_angle_deg), WIRE, limits)  # type: ignore[arg-type]
+
+
+def wrong(robot: Robot) -> list[Finding]:
+    """Return the violated limits that springs have a part in: forces, and what meets."""
+    return errors([*constraint_findings(robot), *interference_findings(robot)])
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +63,7 @@ def test_a_stock_spring_can_be_built_in(robot: Robot) -> None:
     assert weak.name == "leg_axle_strength"
     rate = float(weak.remedy.partition("bought.spring of ")[2].partition(" ")[0])
     softer = STOCK.model_copy(update={"name": "softer", "rate_nmm_per_deg": rate})
-    assert errors(check(build(KENAN, with_stock("softer", softer=softer)))) == []
+    assert wrong(build(KENAN, with_stock("softer", softer=softer))) == []
     assert {item.article.split(",")[0] for item in robot.hardware if "spring_l" in item.name} == {
         "torsion spring 9271K589"
     }
@@ -121,17 +127,17 @@ def test_an_own_one_may_be_chosen() -> None:
     spring = robot.layout.drive.spring
     assert spring.turns == 4.25
     assert spring.rate_nmm_per_deg == pytest.approx(4.8)
-    assert errors(check(robot)) == []
+    assert wrong(robot) == []
 
 
 def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits() -> None:
     """Arms further apart by what is named plus a degree bring the pin into the range, from its smallest to largest."""
     limits = replace(LIMITS, plate_pins_rad=tuple(map(math.radians, (70.0, 50.0, 60.0))))
-    wrong = STOCK.model_copy(update={"arm_angle_deg": (STOCK.arm_angle_deg + 150.0) % 360.0})
+    askew = STOCK.model_copy(update={"arm_angle_deg": (STOCK.arm_angle_deg + 150.0) % 360.0})
     with pytest.raises(CannotBuildError, match="there is room from 50° to 70°") as refused:
-        fitted(wrong, limits=limits)
+        fitted(askew, limits=limits)
     about = float(str(refused.value).partition("arms about ")[2].partition("°")[0])
     away = float(re.findall(r"(\d+)° away", str(refused.value))[0])
-    turned = abs((about - wrong.arm_angle_deg + 180.0) % 360.0 - 180.0)
+    turned = abs((about - askew.arm_angle_deg + 180.0) % 360.0 - 180.0)
     assert turned == pytest.approx(away + 1.0, abs=1.01)
-    fitted(wrong.model_copy(update={"arm_angle_deg": about}), limits=limits)
+    fitted(askew.model_copy(update={"arm_angle_deg": about}), limits=limits)

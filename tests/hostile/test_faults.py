@@ -219,7 +219,8 @@ def test_a_lost_worker_is_no_lost_search(sandbox: Sandbox) -> None:
     )  # fmt: skip
 
 
-INTERRUPTED_AT = ["typer", "pydantic", "numpy", "jumpcad.design", "pybullet"]
+INTERRUPTED_AT = ["typer", "pydantic", "jumpcad.design", "pybullet"]
+"""`cli/test_output.py` has numpy, which is compiled."""
 
 
 @pytest.mark.parametrize("module", INTERRUPTED_AT)
@@ -319,13 +320,13 @@ def test_a_search_ends_at_an_interrupt_that_was_ignored(sandbox: Sandbox, case: 
     assert done.err == "jumpcad: interrupted\n"
 
 
-@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("list",), ("--help",)])
-def test_a_full_standard_output_is_said(sandbox: Sandbox, command: tuple[str, ...]) -> None:
+def test_a_full_standard_output_is_said(sandbox: Sandbox) -> None:
+    """`cli/test_output.py` has the words."""
     with open("/dev/full", "wb") as full:
-        sandbox.process(*command, exits=(2,), stdout=full)
+        sandbox.process("list", exits=(2,), stdout=full)
 
 
-@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("simulate", "no.toml")])
+@pytest.mark.parametrize("command", [("list",), ("simulate", "no.toml")])
 def test_a_full_standard_error_is_borne(sandbox: Sandbox, command: tuple[str, ...]) -> None:
     with open("/dev/full", "wb") as full:
         done = subprocess.run(
@@ -336,7 +337,7 @@ def test_a_full_standard_error_is_borne(sandbox: Sandbox, command: tuple[str, ..
     assert done.returncode == (2 if "no.toml" in command else 0)
 
 
-@pytest.mark.parametrize("descriptors", [(1,), (2,), (0, 1, 2)], ids=str)
+@pytest.mark.parametrize("descriptors", [(1,), (0, 1, 2)], ids=str)
 def test_closed_streams_are_borne(sandbox: Sandbox, descriptors: tuple[int, ...]) -> None:
     """And the numbers of those that are closed do not become those of a user's files."""
 
@@ -367,7 +368,7 @@ def test_a_locale_of_ascii_is_borne(sandbox: Sandbox) -> None:
     sandbox.process("simulate", "机器人.toml", exits=(2,), environment=surroundings)
 
 
-@pytest.mark.parametrize("command", [("simulate", "kenan-2.0", "--capsule"), ("new", "r.toml"), ("coupon",)])
+@pytest.mark.parametrize("command", [("new", "r.toml"), ("coupon",)])
 def test_a_deleted_folder_is_said(sandbox: Sandbox, command: tuple[str, ...]) -> None:
     gone = sandbox.work / "gone"
     gone.mkdir()
@@ -376,7 +377,7 @@ def test_a_deleted_folder_is_said(sandbox: Sandbox, command: tuple[str, ...]) ->
         os.chdir(gone)
         os.rmdir(gone)
 
-    sandbox.process(*command, exits=(0, 2) if command[0] == "simulate" else (2,), prepare=leave, leaves=["gone"])
+    sandbox.process(*command, exits=(2,), prepare=leave, leaves=["gone"])
 
 
 SURROUNDINGS = {

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 from support.hills import SMALL, Hill
-from support.searches import QUICK, data, refusal
+from support.searches import NARROW, QUICK, data, refusal
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.code_hash import code_hash
@@ -133,7 +133,9 @@ def test_an_own_objective_on_the_command_line(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     folder = tmp_path
     (folder / "aims.py").write_text(FILE.replace("fitness", "ballistic_range_m"))
-    found = data("optimize", "bo", *QUICK, "--evaluations", 12, "--objective", "aims.py:light", "--plots", "pics")
+    found = data(
+        "optimize", "bo", *QUICK, *NARROW, "--evaluations", 12, "--objective", "aims.py:light", "--plots", "pics"
+    )
     assert found["objective"] == "light"
     assert found["best"]["score"] == pytest.approx(
         found["best"]["metrics"]["ballistic_range_m"] - 2.0 * found["best"]["metrics"]["mass_kg"]

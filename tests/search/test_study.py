@@ -23,6 +23,8 @@ from jumpcad.search.study import run_study
 REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4)
 SCRIPT = TESTS / "support" / "study_script.py"
 
+pytestmark = pytest.mark.usefixtures("quick_proposals")
+
 
 def contents(path):
     """Return all trials of a study without their durations."""

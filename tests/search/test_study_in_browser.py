@@ -78,9 +78,26 @@ def test_nothing_is_asked_of_the_network_and_no_error_is_logged(driver: Any, pag
     driver.get(page.as_uri())
     points(driver)[1].find_element("css selector", "circle:last-child").click()
     require_quiet(driver)
-    pictures = driver.find_elements("css selector", "figure img")
-    assert pictures
-    assert all(driver.execute_script("return arguments[0].naturalWidth", picture) > 0 for picture in pictures)
+
+
+def test_points_on_each_other_are_shown_by_one_click_after_the_other(driver: Any, page: Path) -> None:
+    """So does `Next`; the pictures below mark what is chosen, and nothing else."""
+    driver.get(page.as_uri())
+    driver.execute_script(
+        "for (const one of arguments[1].children) for (const at of ['cx', 'cy'])"
+        " one.setAttribute(at, arguments[0].lastElementChild.getAttribute(at))",
+        *points(driver)[:2],
+    )
+    for number in (2, 1, 2):
+        points(driver)[1].find_element("css selector", "circle:last-child").click()
+        assert shown(driver)[0].startswith(f"Design {number}:")
+    driver.find_element("id", "after").click()
+    assert shown(driver)[0].startswith("Design 3:")
+    marked = driver.execute_script(
+        "return [...document.querySelectorAll('[data-of]')].filter(one => getComputedStyle(one).display != 'none')"
+        ".map(one => one.dataset.of)"
+    )
+    assert marked == ["3"] * 4  # in the chart and both slices, and its line
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -93,6 +110,10 @@ def test_text_and_plots_stand_out_from_the_paper(driver: Any, page: Path, scheme
     paper = driver.execute_script(read, "body", "backgroundColor")
     for thing, colour in (("svg.chart text", "fill"), ("svg.side .rest path", "stroke"), ("h1", "color")):
         assert contrast(driver.execute_script(read, thing, colour), paper) > 4.5, thing
+    for line in ("best", "phase0", "age0", "age4", "top", "bundle3"):  # as their legends show them
+        stroke = driver.execute_script(read, f"svg.drawn:not(.mark) .{line}", "stroke")
+        assert driver.execute_script(read, f".legend .{line}", "stroke") == stroke
+        assert contrast(stroke, paper) > 3.0, line
 
 
 def contrast(one: str, other: str) -> float:
@@ -111,6 +132,14 @@ def test_it_fits_a_phone(driver: Any, page: Path) -> None:
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
     driver.get(page.as_uri())
     assert driver.execute_script("return document.documentElement.scrollWidth") <= 390
+    sizes = driver.execute_script(
+        "return [...document.querySelectorAll('svg.drawn:not(.mark) text, svg.chart text')].map(one =>"
+        " parseFloat(getComputedStyle(one).fontSize) * one.getScreenCTM().a)"
+    )
+    assert min(abs(size) for size in sizes) > 10.0  # pixels
+    assert driver.execute_script(
+        "return [...document.querySelectorAll('.wide')].every(one => one.scrollWidth <= one.clientWidth)"
+    )
     last = points(driver)[-1]
     last.find_element("css selector", "circle:last-child").click()
     assert shown(driver)[0].startswith(f"Design {last.get_attribute('data-design')}:")

@@ -2,19 +2,24 @@
 
 import re
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from functools import cache
 from urllib.parse import unquote
 
 import pytest
 from support.bumps import REST, Bump, studied
+from support.shops import SHOP, Shop
 
 from jumpcad.search.fronts import front
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
+from jumpcad.search.replay import known
 from jumpcad.search.request import Request
+from jumpcad.search.robust import ActiveBound
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
+from jumpcad.search.study_lessons import active
 from jumpcad.search.study_page import write_study_page
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
@@ -93,7 +98,7 @@ def test_says_what_was_asked_and_found(studies):
     found = tables(page)
     asked = {row[0]: row for row in found["parameter"]}
     assert asked["compression_ratio"][2] == "0.1 … 0.8"
-    assert asked["carrying_link_mm"][1:] == ["length of the main leg, l2", "fixed at 100", "100"]
+    assert asked["carrying_link_mm"][1:] == ["length of the main leg, l2", "fixed at 100 mm", "100 mm"]
     assert float(asked["compression_ratio"][3]) == pytest.approx(0.5, abs=0.05)  # the top of the bump
     cards = {text(card[0]): text(card[1]) for card in parsed(page).iter("div") if len(card) and card[0].tag == "dt"}
     assert (cards["method"], cards["robot"], cards["seed"]) == ("bo", "bump", "0")
@@ -102,8 +107,9 @@ def test_says_what_was_asked_and_found(studies):
         around = len(store.trials()) - len(searched)
     assert int(cards["designs of the search"]) == len(searched)
     assert int(cards["designs around the best"]) == around > 0
-    reasons = {row[0]: row[2] for row in found["reason"][1:]}
-    assert reasons == {"loop": str(sum(trial.design.compression_ratio > 0.7 for trial in searched))}
+    ((reason, meaning, _, count),) = found["reason"][1:]
+    assert (reason, count) == ("loop", str(sum(trial.design.compression_ratio > 0.7 for trial in searched)))
+    assert "do not reach each other" in meaning
     best = found["design"][1]
     assert float(best[1]) == pytest.approx(9.0, abs=0.05)
     assert "of" in best[4]  # rejected of its neighbours
@@ -123,7 +129,7 @@ def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(stu
         assert f"{trial.score:.4g}" == line[1]
         shown = {text(row[0]): text(row[1]) for row in section.iter("tr")}
         assert float(shown["compression_ratio"]) == pytest.approx(trial.design.compression_ratio, rel=1e-4)
-        assert float(shown["spring energy"].removesuffix(" mJ")) == pytest.approx(
+        assert float(shown["energy in the springs"].removesuffix(" mJ")) == pytest.approx(
             1000.0 * trial.design.spring_energy_j, rel=1e-3
         )
         assert [group.get("class") for group in section.iter("g")] == ["loaded", "rest"]
@@ -131,6 +137,68 @@ def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(stu
     across = [float(point.find("circle").get("cx")) for point in points]
     assert heights == sorted(heights, reverse=True)
     assert across == sorted(across)
+
+
+def drawn_in(page, heading):
+    """Return the paths of the picture below a heading by their kinds, and the words of its section."""
+    section = page.partition(f"<h2>{heading}</h2>")[2].partition("<h2>")[0]
+    pictures = "".join(re.findall(r'<svg class="drawn(?: lines)?" .*?</svg>', section, re.DOTALL))
+    return dict(re.findall(r'<path class="([\w ]+)" d="([^"]*)"', pictures)), re.sub(r"<[^>]*>", "", section)
+
+
+def test_pictures_have_every_design_once_and_their_words_are_true(studies):
+    page = known_page_of(studies / "bo.db")
+    with StudyStore.read(studies / "bo.db") as store:
+        scores = [trial.score for trial in store.trials() if trial.phase == "bo"]
+    jumped = [score for score in scores if score is not None]
+    paths, words = drawn_in(page, "History")
+    assert paths["dots phase0"].count("M") == len(jumped)
+    assert paths["rejected"].count("M") == len(scores) - len(jumped) > 0
+    assert f"The best is number {scores.index(max(jumped)) + 1} of {len(scores)}." in words
+    before = max(score for score in scores[: len(scores) - len(scores) // 5] if score is not None)
+    assert ("found nothing better" in words) == (before == max(jumped))
+    paths, words = drawn_in(page, "Slices")
+    assert sum(drawn.count("M") for kind, drawn in paths.items() if kind.startswith("dots age")) == len(jumped)
+    best = words.partition("rest_angle_deg (°): angle between body and legs at rest. Best: ")[2]
+    assert float(best.partition("°")[0]) == pytest.approx(50.0, abs=0.5)  # the top of the bump
+    paths, words = drawn_in(page, "Parallel lines")
+    assert sum(drawn.count("M") for kind, drawn in paths.items() if kind.startswith("bundle")) == len(jumped)
+    assert "run together, within a tenth of the range, in compression_ratio, rest_angle_deg" in words
+
+
+def test_bounds_say_what_they_cost(studies):
+    with StudyStore.read(studies / "bo.db") as store:
+        found = known(store)
+    bounds = [
+        ActiveBound("carrying_link_mm", "lower", 100.0, 95.0, 0.1 * found.winner.score),
+        ActiveBound("rest_angle_deg", "upper", 70.0, 72.5, None, "tips, sideways_tipping"),
+        ActiveBound("d_coef", "upper", 0.9, 0.92, 1e-4 * found.winner.score),
+    ]
+    root = ElementTree.fromstring(f"<body>{''.join(active(replace(found, bounds=bounds)))}</body>")
+    rows = {text(row[0]): [text(cell) for cell in row[2:]] for row in root.iter("tr")}
+    assert rows["carrying_link_mm"][:2] == ["100 mm", "95 mm"]
+    assert rows["carrying_link_mm"][2].endswith("body lengths (+10.0 %)")
+    assert "it falls over" in rows["rest_angle_deg"][2]
+    assert "tips over sideways" in rows["rest_angle_deg"][2]
+    assert "Here it rises beyond that of carrying_link_mm." in text(root)  # 0.01 % more is not told
+    unknown = replace(found, bounds=[replace(bounds[0], worth=None, reason="not examined: no evaluations left")])
+    assert "This search did not examine them" in "".join(active(unknown))
+
+
+def test_values_of_the_workshop_are_told_names_by_numbers(tmp_path):
+    """The best battery of the shop is the second of two; its plates are best 1.6 mm thick."""
+    with local_pool(0) as pool:
+        run_study(Request(SHOP, Shop(), method="ga", evaluations=60), tmp_path / "s.db", pool)
+    page = page_of(tmp_path / "s.db")
+    asked = {row[0]: row for row in tables(page)["parameter"]}
+    assert asked["bought.battery"][2:] == ["one of lipo-2s-180, lipo-1s-300", "lipo-1s-300"]
+    assert asked["body.plate_mm"][2] == "1.2 … 2.4 mm"
+    _, words = drawn_in(page, "Slices")
+    assert "bought.battery: 1 is lipo-2s-180, 2 is lipo-1s-300. Best: lipo-1s-300." in words
+    first = next(one for one in parsed(page).iter("section") if one.get("id") == "design-1")
+    shown = {text(row[0]): text(row[1]) for row in first.iter("tr")}
+    assert shown["bought.battery"] == "lipo-1s-300"
+    assert shown["body.plate_mm"][:4] == asked["body.plate_mm"][3][:4]
 
 
 def test_a_parameter_without_effect_matters_least(tmp_path):

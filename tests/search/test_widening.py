@@ -17,8 +17,10 @@ from jumpcad.search.widening import SHARE, TOGETHER, widen
 BELOW = Space.parse(fix=FIXED, bound=["rest_angle_deg=30:50", "stiffness_nmm_per_deg=5:18"])
 """The hill's top (55° and 20 N·mm/°) lies outside."""
 
+pytestmark = pytest.mark.usefixtures("quick_proposals")
 
-def searched(path=None, evaluations=100, **others):
+
+def searched(path=None, evaluations=80, **others):
     with local_pool(0) as pool:
         return run_study(Request(BELOW, Hill(), method="bo", evaluations=evaluations, widen=True, **others), path, pool)
 
@@ -30,7 +32,7 @@ def test_a_top_beyond_the_bounds_is_found():
     first = {one.name: one for one in result.widened[:3]}
     assert (first["rest_angle_deg"].side, first["rest_angle_deg"].beyond) == ("upper", 50.0 + SHARE * 20.0)
     assert first[TOGETHER].worth > max(first["rest_angle_deg"].worth, 0.0)
-    assert result.evaluations <= 100
+    assert result.evaluations <= 80
 
 
 def test_the_worth_of_a_bound_is_the_difference_of_the_hill(evaluator):
@@ -88,17 +90,17 @@ def test_it_ends_with_the_rows_of_an_uninterrupted_search(tmp_path):
         with StudyStore.read(path) as store:
             return [(trial.position, trial.key, trial.score) for trial in store.trials()]
 
-    searched(tmp_path / "whole.db", 60)
+    searched(tmp_path / "whole.db", 45)
     seen = []
 
     def stop(trial, computed):
         seen.append(trial)
-        if len(seen) == 33:
+        if len(seen) == 26:
             raise Stop
 
     with local_pool(0) as pool, pytest.raises(Stop):
-        run_study(Request(BELOW, Hill(), method="bo", evaluations=60, widen=True), tmp_path / "cut.db", pool, stop)
-    searched(tmp_path / "cut.db", 60)
+        run_study(Request(BELOW, Hill(), method="bo", evaluations=45, widen=True), tmp_path / "cut.db", pool, stop)
+    searched(tmp_path / "cut.db", 45)
     assert rows(tmp_path / "cut.db") == rows(tmp_path / "whole.db")
 
 

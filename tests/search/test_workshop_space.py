@@ -29,6 +29,8 @@ from jumpcad.workshop import load_workshop
 
 WORKSHOP = load_workshop()
 
+pytestmark = pytest.mark.usefixtures("quick_proposals")
+
 
 def test_points_and_variants_correspond():
     assert SHOP.categories == (0, 0, 0, 0, 2)

@@ -36,9 +36,13 @@ def test_screening_is_within_its_promise(jumping: list[Flight]) -> None:
 
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 def test_converged_jumps(jumping: list[Flight], engine: str) -> None:
-    """At fine steps both engines, which share nothing but the robot, tell the table's jumps (5 s for MuJoCo)."""
+    """At fine steps both engines, which share nothing but the robot, tell the table's jumps.
+
+    MuJoCo takes more than a second for a jump, and does the shortest and the longest.
+    """
     pytest.importorskip(engine)
-    for flight in jumping:
+    by_range = sorted(jumping, key=lambda flight: flight.values["ballistic_range_m"])
+    for flight in jumping if engine == "pybullet" else (by_range[0], by_range[-1]):
         jump, table = simulate(flight.robot, FINE, engine), flight.values
         assert jump.ballistic_range_m == pytest.approx(table["ballistic_range_m"], rel=0.0025), flight.name
         assert jump.com_rise_m == pytest.approx(table["com_rise_m"], rel=0.001), flight.name

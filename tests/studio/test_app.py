@@ -1,11 +1,13 @@
 """The studio without a browser: a real viser server, its sliders, what it shows and says."""
 
-import socket
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.design import load_design
 from jumpcad.evaluation import evaluate
 from jumpcad.scene.visuals import visuals
@@ -13,23 +15,17 @@ from jumpcad.workshop import load_workshop
 
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
-from jumpcad.studio import Studio  # noqa: E402
+from jumpcad.studio import Points, Studio  # noqa: E402
 from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
+from jumpcad.studio.app import BY_NUMBER  # noqa: E402
 
 
 @pytest.fixture
-def studio(tmp_path: Path, free_port: int) -> Iterator[Studio]:
-    server = viser.ViserServer(host="127.0.0.1", port=free_port, verbose=False)
+def studio(tmp_path: Path) -> Iterator[Studio]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
     made = Studio(load_design("kenan-2.0"), "kenan-2.0", ["default", "fine"], server, tmp_path)
     yield made
     server.stop()
-
-
-@pytest.fixture
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def test_it_shows_every_part_and_says_what_evaluate_says(studio: Studio) -> None:
@@ -79,11 +75,78 @@ def test_what_only_moves_is_moved(studio: Studio) -> None:
         assert tuple(handle.position) == pytest.approx(tuple(one.T_body_mesh[:3, 3]), abs=1e-9)
 
 
+def test_a_motion_moves_nodes_and_sends_no_mesh(studio: Studio) -> None:
+    """The cam turns about its axis, which stays where it is in the body; another design stands at rest again."""
+    robot = studio.answer(studio.design).robot
+    assert robot is not None
+    studio.player.show(0.5)
+    moment, sent = studio.player._motion.at(1.5), []
+    studio.server.scene.add_mesh_simple = lambda name, *_, **__: sent.append(name)
+    studio.player.show(1.5)
+    del studio.server.scene.add_mesh_simple
+    assert sent == []
+    handle = studio.stage.meshes["/robot/body/cam"][1]
+    (rest,) = [one.T_body_mesh for one in visuals(robot) if one.name == "cam"]
+    turned = Rotation.from_quat(handle.wxyz, scalar_first=True) * Rotation.from_matrix(rest[:3, :3]).inv()
+    assert turned.as_rotvec() == pytest.approx([0.0, moment.turned_rad["cam"], 0.0], abs=1e-6)
+    axis = np.array([robot.layout.cam_axis_mm[0], 0.0, robot.layout.cam_axis_mm[1]]) / 1000.0
+    assert turned.apply(rest[:3, 3] - axis) + axis == pytest.approx(handle.position, abs=1e-6)
+    studio.player.time.value = 1.5
+    studio.answer(studio.design)
+    assert handle.position == pytest.approx(rest[:3, 3], abs=1e-9)
+    assert studio.player.time.value == 0.0
+
+
+def test_a_hidden_part_that_is_violated_is_seen_through_the_others(studio: Studio) -> None:
+    """With legs of 240 mm the cam's window of release is missed: the cam is red between plates that are pale."""
+    studio.answer(studio.design.model_copy(update={"carrying_link_mm": 240.0}))
+    cam, plate = (studio.stage.meshes[f"/robot/body/{name}"][1] for name in ("cam", "body_plate_left"))
+    assert cam.opacity is None
+    assert cam.color[0] > 2 * max(cam.color[1:])
+    assert plate.opacity < 0.5
+    studio.answer(studio.design)
+    (whole,) = [mesh for name, (_, mesh) in studio.stage.meshes.items() if name.endswith("/body_plate_left")]
+    assert whole.opacity is None
+
+
+def test_a_part_says_what_the_bill_of_materials_says(studio: Studio) -> None:
+    robot = studio.answer(studio.design).robot
+    assert robot is not None
+    studio._say_part("spring_left")
+    (spring,) = [line for line in bill_of_materials(robot).items if "right hand" in line.name]
+    assert f"{1000.0 * spring.mass_kg:.2f} g, {spring.name}" in studio.part.content
+    studio._say_part("main_leg")
+    assert "stl/main_leg.stl" in studio.part.content
+
+
+def test_a_point_of_a_study_brings_its_design_and_workshop(study: Path, tmp_path: Path) -> None:
+    server, points = viser.ViserServer(host="127.0.0.1", port=0, verbose=False), Points(study)
+    shown = Studio(points.trial(1).design, "four", ["fine", "of the study"], server, tmp_path, points)
+    assert shown.workshop == load_workshop("fine")
+    assert "best 1: 2 body lengths (trial 1)" in points.listed
+    shown._run_action(lambda: shown.open(4))
+    assert (shown.design, shown.workshop) == (points.trial(4).design, load_workshop())
+    assert "trial 4 of 4" in shown.point.content
+    assert shown.best.value == "best 3: 1 body lengths (trial 4)"
+    shown.open(2)
+    assert shown.best.value == BY_NUMBER
+    shown.open(4)
+    shown.sliders["e_coef"].value = 1.1
+    shown._reset()
+    assert shown.design == points.trial(4).design
+    shown._run_action(lambda: shown.open(9))
+    assert "has no trial 9" in shown.status.content
+    assert shown.number == 4
+    server.stop()
+
+
 def test_a_design_that_cannot_be_built_is_told_with_its_reason(studio: Studio) -> None:
     found = studio.answer(studio.design.model_copy(update={"stiffness_nmm_per_deg": 200.0}))
     assert found.robot is None
     assert found.reason
     assert found.reason in studio.figures.content
+    studio.player.show(1.0)
+    assert "no motion" in studio.player.words.content
 
 
 def test_the_ghost_is_what_was_kept_and_figures_show_the_difference(studio: Studio) -> None:
@@ -118,7 +181,8 @@ def test_the_answer_at_once_is_the_capsule_robots() -> None:
 
 
 def test_the_workshop_can_be_changed(studio: Studio) -> None:
-    studio._change_workshop("fine")
+    studio.choice.value = "fine"
+    studio._change_workshop()
     assert studio.workshop == load_workshop("fine")
 
 

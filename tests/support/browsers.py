@@ -32,10 +32,10 @@ def wait(driver: Any, condition: Callable[[Any], object]) -> None:
     WebDriverWait(driver, WAIT_S).until(condition)
 
 
-def require_quiet(driver: Any) -> None:
-    """Fail if a page asked the network for anything, or logged an error."""
+def require_quiet(driver: Any, own: str = "file:") -> None:
+    """Fail if a page asked the network for anything but an address of its `own`, or logged an error."""
     asked = [
         entry["message"] for entry in driver.get_log("performance") if "Network.requestWillBeSent" in entry["message"]
     ]
-    assert [message for message in asked if '"url":"http' in message] == []
+    assert [message for message in asked if '"url":"http' in message and f'"url":"{own}' not in message] == []
     assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"] == []

@@ -10,6 +10,9 @@ from jumpcad.cli import commands
 from jumpcad.cli.commands import app
 
 QUICK = ["--model", "capsule", "--workers", "0", "--settings", "screening"]
+FIXED = ("carrying_link_mm=100", "c_coef=1", "d_coef=0.833", "e_coef=0.934", "ground_link_angle_deg=40")
+NARROW = [word for one in FIXED for word in ("--fix", one)]
+"""Three free parameters are left: pictures have a panel for each."""
 
 
 def run(*arguments, code=0):

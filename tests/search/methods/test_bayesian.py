@@ -37,6 +37,7 @@ def test_few_of_the_proposals_are_refused(evaluator):
     assert len(refused) <= 3
 
 
+@pytest.mark.usefixtures("quick_proposals_once")
 def test_a_resumed_search_goes_on_with_the_same_proposals(evaluator, tmp_path):
     whole = evaluator()
     run_bayesian(whole, Task(18, 3, initial=6, batch=2))

@@ -1,5 +1,6 @@
 """The published study's stages."""
 
+import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.design import PARAMETERS
@@ -11,6 +12,8 @@ from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
 from jumpcad.search.study_plots import plot_study
+
+pytestmark = pytest.mark.usefixtures("quick_proposals")
 
 
 def test_each_stage_moves_what_it_should(evaluator):
@@ -42,11 +45,12 @@ def test_it_resumes_and_its_study_is_read(tmp_path):
         with local_pool(0) as pool:
             run_study(Request(SMALL, Hill(), method="paper", evaluations=evaluations), path, pool)
         with StudyStore.read(path) as store:
-            assert plot_study(store, path.with_suffix(""))
             return [(trial.position, trial.key) for trial in store.trials()]
 
     whole = rows(tmp_path / "a.db", 80)
     assert rows(tmp_path / "a.db", 80) == whole
+    with StudyStore.read(tmp_path / "a.db") as store:
+        assert plot_study(store, tmp_path / "a")
 
 
 def test_without_a_jumper_it_ends():

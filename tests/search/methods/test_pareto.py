@@ -58,6 +58,7 @@ def test_of_two_that_score_alike_the_one_with_less_energy_is_as_good_or_better()
     assert found[0][1] > found[1][1]
 
 
+@pytest.mark.usefixtures("quick_proposals_once")
 def test_a_front_resumes(evaluator, tmp_path):
     whole, first = evaluator(), evaluator(tmp_path / "s.db")
     run_pareto(whole, Task(21, 0, initial=9))

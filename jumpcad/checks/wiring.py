@@ -1,0 +1,122 @@
+"""The wiring: pins, the sensor's contact, ground, capacitor and diode."""
+
+from collections import Counter
+from collections.abc import Iterator
+
+from jumpcad.catalogue.electrical import GPIO
+from jumpcad.electronics.chain import supply_pin
+from jumpcad.electronics.chosen import Chosen
+from jumpcad.electronics.nets import AVOIDED, SIGNALS, Wiring, logic_range
+from jumpcad.findings import Basis, Finding, Severity, at_least
+
+OWN_PULL_UP_OHM = 45_000
+"""Of a pin of the ESP32 family; its data sheet."""
+SHEETS = "data sheets of the boards: templates/hardware/electronics.toml"
+BASIS = {
+    "wiring_pins": Basis(
+        "every signal has a pin of its own at controller and driver; 0, or -1 where one has none", SHEETS
+    ),
+    "wiring_strapping": Basis(
+        "no signal's pin is a strapping or boot log pin, and each can do what its signal needs; 0, or -1", SHEETS
+    ),
+    "wiring_contact": Basis(
+        "U/R ≥ least current of the sensor's contact (mA); U logic supply, R pull-up resistor, or 45 kOhm in the "
+        "controller",
+        "Ohm; data sheets of switch and controller",
+    ),
+    "wiring_ground": Basis("every board has a terminal in the net of the battery's minus; 0, or -1", "net list"),
+    "wiring_capacitor": Basis(
+        "a capacitor lies at the driver's supply; 0, or -1", "judgement: usual at a motor driver"
+    ),
+    "wiring_diode": Basis(
+        "a diode lies before a supply pin that USB feeds too; 0, or -1",
+        "data sheet of the controller: its entry diode_at",
+    ),
+}
+
+
+def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
+    """Yield `wiring_pins`, `wiring_strapping`, `wiring_contact`, `wiring_ground` and `wiring_capacitor`."""
+    yield _enough_pins(chosen, wiring)
+    yield _fit_pins(chosen, wiring)
+    yield from _contact_current(chosen, wiring)
+    grounded = {terminal.part for net in wiring.nets if net.kind == "ground" for terminal in net.terminals}
+    lacking = [role for role in ("battery", *chosen.boards) if role not in grounded]
+    yield _yes_or_no(
+        "wiring_ground", not lacking, "error",
+        "every board is connected to the battery's minus" if not lacking else f"no ground at {', '.join(lacking)}",
+        'give the board a pin with "ground"',
+    )  # fmt: skip
+    yield _yes_or_no(
+        "wiring_capacitor", "capacitor" in chosen.components, "warning",
+        f"{'a' if 'capacitor' in chosen.components else 'no'} capacitor is connected to the driver's supply",
+        "name one in bought.capacitor: without it the starting motor lowers the controller's voltage",
+    )  # fmt: skip
+    if chosen.regulator is not None:
+        pin = supply_pin(chosen.controller, logic_range(chosen))
+        needed = pin in chosen.controller.diode_at
+        yield _yes_or_no(
+            "wiring_diode", not needed or chosen.diode is not None, "error",
+            f"{chosen.controller.name} {'has its' if chosen.diode else 'needs a'} diode at {pin}",
+            "name one in bought.diode: without it USB feeds current into the regulator's output",
+        )  # fmt: skip
+
+
+def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
+    """Return whether every signal has a pin of its own at controller and driver."""
+    have = [signal for signal in SIGNALS if signal in wiring.pins]
+    missing = [s for s in ("motor", "ready") if s not in wiring.pins]
+    if "sensor" not in chosen.components:
+        return _yes_or_no("wiring_pins", False, "error", "no sensor reports that the springs are loaded",
+                          "name one in bought.sensor")  # fmt: skip
+    lost = [f for f in ("forward", "motor+", "motor-") if not chosen.driver.with_function(f)]
+    twice = [pin for pin, count in Counter(wiring.pins.values()).items() if count > 1]
+    if missing:
+        wanted = len(have) + len(missing)
+        message = f"{chosen.controller.name} has no pin left for {' and '.join(missing)}: {len(have)} of {wanted} suit"
+        return _yes_or_no(
+            "wiring_pins", False, "error", message, "choose a controller with more pins, or give its pins"
+        )
+    if lost:
+        message = f"driver {chosen.driver.name} has no pin {' and '.join(lost)}"
+        return _yes_or_no("wiring_pins", False, "error", message, "choose another bought.driver, or give its pins")
+    if twice:
+        signals = " and ".join(s for s in have if wiring.pins[s] in twice)
+        message = f"{chosen.controller.name}: {', '.join(twice)} is used twice, by {signals}"
+        return _yes_or_no("wiring_pins", False, "error", message, "name another pin in [bought.pins]")
+    used = ", ".join(f"{wiring.pins[s]} {s}" for s in have)
+    return _yes_or_no("wiring_pins", True, "error", f"pins of {chosen.controller.name}: {used}", "[bought.pins]")
+
+
+def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:
+    """Return whether the pins can do what their signals need, and that no strapping pin is among them."""
+    wrong = []
+    for signal, pin in wiring.pins.items():
+        functions = chosen.controller.pins.get(pin, ())
+        wrong += [f"{pin} ({signal}) is a {bad.replace('_', ' ')} pin" for bad in AVOIDED if bad in functions]
+        needed = SIGNALS[signal]
+        if not any(map(GPIO.fullmatch, functions)):
+            wrong.append(f"{pin} ({signal}) has no GPIO")
+        elif needed and needed not in functions:
+            wrong.append(f"{pin} ({signal}) has no {needed}")
+    message = "; ".join(wrong) or "no strapping pin is used, and every pin does what its signal needs"
+    return _yes_or_no("wiring_strapping", not wrong, "error", message, "name another pin in [bought.pins]")
+
+
+def _contact_current(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
+    """Yield whether the sensor's contact gets the current that keeps it clean."""
+    sensor, volts = chosen.components.get("sensor"), chosen.controller.logic_v
+    if sensor is None or sensor.least_a is None or volts is None:
+        return
+    ohm = wiring.pull_up_ohm or OWN_PULL_UP_OHM
+    by = f"{ohm / 1000:g} kOhm to {volts:g} V" if wiring.pull_up_ohm else "the controller's own pull-up"
+    current, needed = 1000.0 * volts / ohm, 1000.0 * sensor.least_a
+    yield at_least(
+        "wiring_contact", current, needed, "mA",
+        f"{by} gives the contact of {sensor.name} {current:.2g} mA; it is rated from {needed:g} mA",
+        'give the controller a pin with "out" at its logic_v: a pull-up resistor is connected to it', "warning",
+    )  # fmt: skip
+
+
+def _yes_or_no(name: str, good: bool, bad: Severity, message: str, remedy: str) -> Finding:
+    return Finding(name, "info" if good else bad, 0.0 if good else -1.0, "", message, remedy)

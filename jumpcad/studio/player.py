@@ -1,0 +1,114 @@
+"""The studio's controls of a motion: play and pause, a slider of time, how slowly it is played."""
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from jumpcad.bundle.motion import SHOWN_S
+from jumpcad.errors import JumpcadError
+from jumpcad.studio.inputs import when_changed
+from jumpcad.studio.playback import Playback
+from jumpcad.studio.stage import Stage
+
+FRAME_S = 1.0 / 30.0
+"""Time between two frames."""
+STEP_S = 0.01
+SLOWEST = 10.0
+PLAY, PAUSE = "Play", "Pause"
+RESTING = "at rest"
+
+
+class Player:
+    """Controls of the motion of the robot that is shown; the motion is computed when it is first asked for.
+
+    Parameters
+    ----------
+    server, stage
+        The viser server, and the scene that is moved.
+    make
+        Returns the motion of the robot that is shown, or raises `JumpcadError`.
+    """
+
+    def __init__(self, server: Any, stage: Stage, make: Callable[[], Playback]) -> None:
+        self.server, self.stage, self._make = server, stage, make
+        self._motion: Playback | None = None
+        self._run = 0
+        gui, longest = server.gui, round(sum(SHOWN_S.values()), 2)
+        self.button = gui.add_button(PLAY, hint="winding, drop of the roller, push-off and flight")
+        self.time = gui.add_slider("motion, s", 0.0, longest, STEP_S, 0.0, hint="winding to landing, each phase slowed")
+        self.slower = gui.add_slider("slow motion", 0.5, SLOWEST, 0.5, 1.0, hint="how many times slower Play is")
+        self.words = gui.add_markdown(RESTING)
+        self.button.on_click(lambda _: self.toggle())
+        when_changed(self.time, self._scrub)
+
+    def rest(self) -> None:
+        """Forget the motion: another robot stands there, at rest."""
+        with self.stage.lock:
+            self.pause()
+            self._motion = None
+            self.time.value = 0.0
+            self.words.content = RESTING
+            self.stage.show_path(None)
+
+    def toggle(self) -> None:
+        """Play from where the slider is, or from the start if it is at the end; pause what plays."""
+        with self.stage.lock:
+            if self.button.label == PAUSE:
+                self.pause()
+                return
+            motion = self._ready()
+            if motion is None:
+                return
+            self.button.label = PAUSE
+            start_s = 0.0 if self.time.value >= motion.end_s - STEP_S else self.time.value
+            threading.Thread(target=self._play, args=(start_s, self._run), daemon=True).start()
+
+    def pause(self) -> None:
+        """Stop where the motion is."""
+        with self.stage.lock:
+            self._run += 1
+            self.button.label = PLAY
+
+    def show(self, shown_s: float) -> None:
+        """Show the robot as it is at a time of the motion (s)."""
+        with self.stage.lock:
+            motion = self._ready()
+            if motion is None:
+                return
+            moment = motion.at(shown_s)
+            with self.server.atomic():
+                self.stage.move(moment)
+                self.words.content = moment.to_text(self.slower.value)
+
+    def _scrub(self) -> None:
+        self.pause()
+        self.show(self.time.value)
+
+    def _ready(self) -> Playback | None:
+        """Return the motion; say why there is none."""
+        if self._motion is None:
+            try:
+                self._motion = self._make()
+            except JumpcadError as error:
+                self.words.content = f"**no motion**: {error}"
+                return None
+            self.time.max = self._motion.end_s
+            self.stage.show_path(self._motion.com_m)
+        return self._motion
+
+    def _play(self, shown_s: float, run: int) -> None:
+        """Show the moments of the motion at their times, late ones skipped, until it ends or another run begins."""
+        before = time.monotonic()
+        while True:
+            with self.stage.lock:
+                if run != self._run or self._motion is None:
+                    return
+                shown_s = min(shown_s, self._motion.end_s)
+                self.time.value = round(shown_s, 2)
+                self.show(shown_s)
+                if shown_s == self._motion.end_s:
+                    self.pause()
+            time.sleep(FRAME_S)
+            now = time.monotonic()
+            shown_s, before = shown_s + (now - before) / self.slower.value, now

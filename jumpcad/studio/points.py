@@ -1,0 +1,132 @@
+"""The designs of a study that the studio opens: every trial by its number, the best ones and the front in a list."""
+
+from functools import cached_property
+from pathlib import Path
+
+from jumpcad.building import build
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.search.fronts import energy_j, front
+from jumpcad.search.models import RobotModel
+from jumpcad.search.objective import described_objective
+from jumpcad.search.store import StudyStore
+from jumpcad.search.trial import Trial, feasible_trials, searched
+from jumpcad.workshop import Workshop, load_workshop
+
+STUDYS = "of the study"
+"""The workshop of a point, in the studio's list of workshops."""
+BEST = 10
+"""Number of best trials in the list."""
+
+
+class Points:
+    """The trials of a study file, numbered from 1 in the order of the study, as `jumpcad study --export` lists them.
+
+    Raises
+    ------
+    JumpcadError
+        If the file cannot be read, or has no trial.
+    """
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        with StudyStore.read(file) as store:
+            self.trials, identity = store.trials(), store.identity
+        if not self.trials:
+            raise JumpcadError(f"{file}: this study has no trial yet")
+        self._unit = described_objective(identity).unit
+        self._held = identity["model"].get("workshop")
+        self._numbers = {trial.position: number for number, trial in enumerate(self.trials, start=1)}
+
+    @cached_property
+    def workshop(self) -> Workshop:
+        """The workshop of the study; the default for robots that are made in none.
+
+        Raises
+        ------
+        JumpcadError
+            If it was written by another version, and is none any more.
+        """
+        if self._held is None:
+            return load_workshop()
+        try:
+            return Workshop(**self._held)
+        except JumpcadError as error:
+            raise JumpcadError(f"{self.file}: its workshop cannot be used: {error}") from None
+
+    @cached_property
+    def listed(self) -> dict[str, int]:
+        """Numbers of the best trials and of the front, by what a list says of them; the best one is the first."""
+        proposed = searched(self.trials)
+        best = {
+            f"best {place}: {self._listed(trial)}": self.number(trial)
+            for place, trial in enumerate(feasible_trials(proposed)[:BEST], start=1)
+        }
+        return best | {
+            f"front, {1000.0 * energy_j(trial.design):.1f} mJ: {self._listed(trial)}": self.number(trial)
+            for trial in front(proposed)
+        }
+
+    def listed_as(self, number: int, otherwise: str) -> str:
+        """Return what the list first says of a trial."""
+        return next((text for text, listed in self.listed.items() if listed == number), otherwise)
+
+    @property
+    def best(self) -> int:
+        """The number of the best trial.
+
+        Raises
+        ------
+        JumpcadError
+            If no design jumps.
+        """
+        if not self.listed:
+            raise JumpcadError(f"{self.file}: no design of this study jumps; --trial N opens one that does not")
+        return next(iter(self.listed.values()))
+
+    def number(self, trial: Trial) -> int:
+        """Return the number of a trial."""
+        return self._numbers[trial.position]
+
+    def trial(self, number: int) -> Trial:
+        """Return the trial of a number.
+
+        Raises
+        ------
+        JumpcadError
+            If there is none.
+        """
+        if not 1 <= number <= len(self.trials):
+            raise JumpcadError(f"{self.file}: has no trial {number}: its trials are 1 to {len(self.trials)}")
+        return self.trials[number - 1]
+
+    def workshop_of(self, trial: Trial) -> Workshop:
+        """Return the workshop in which a trial's robot was made; raises as `workshop`."""
+        if not trial.workshop:
+            return self.workshop
+        return RobotModel("printed", self.workshop).varied(trial.workshop).workshop or self.workshop
+
+    def require_built(self, number: int) -> None:
+        """Reject a trial whose robot cannot be built.
+
+        Raises
+        ------
+        JumpcadError
+            With the reason; also as `trial` and `workshop`.
+        """
+        trial = self.trial(number)
+        try:
+            build(trial.design, self.workshop_of(trial), self.file.stem)
+        except CannotBuildError as error:
+            raise JumpcadError(f"{self.file}: trial {number} cannot be built: {error}") from None
+
+    def to_text(self, number: int) -> str:
+        """Return number, score and place of a trial in words."""
+        trial = self.trial(number)
+        outcome = self._score(trial) if trial.score is not None else f"rejected: {' '.join(trial.evaluation.reasons)}"
+        return f"trial {number} of {len(self.trials)} ({trial.phase} {trial.step}.{trial.place}): {outcome}"
+
+    def _score(self, trial: Trial) -> str:
+        return f"{trial.score:.4g} {self._unit}"
+
+    def _listed(self, trial: Trial) -> str:
+        return f"{self._score(trial)} (trial {self.number(trial)})"

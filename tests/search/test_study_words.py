@@ -1,0 +1,44 @@
+"""Words of a study's page: every reason of a refusal has some, and figures have their units."""
+
+import ast
+import re
+
+from support.places import ROOT
+
+from jumpcad.search.study_words import REASONS, figure_words, named, reason_words, with_unit
+
+
+def refusals():
+    """Return the names of the limits with which the package refuses to build a design."""
+    for path in (ROOT / "jumpcad").rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        if "CannotBuildError(" not in text:
+            continue
+        for call in ast.walk(ast.parse(text)):
+            if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "CannotBuildError" and len(call.args) > 1:
+                name = call.args[1]
+                yield name.value if isinstance(name, ast.Constant) else name.values[0].value + "x"
+
+
+def test_every_check_and_every_refusal_has_words():
+    """All checks of the reference, and every refusal of a layout: who adds one writes its words into `REASONS`."""
+    reference = (ROOT / "docs/reference/checks.md").read_text(encoding="utf-8")
+    checks = re.findall(r"^### `(\w+?)(?:_\*)?`$", reference, re.MULTILINE)
+    assert {"tips", "gear_strength"} <= set(checks)
+    names = {*checks, *refusals()}
+    assert [name for name in sorted(names) if not reason_words(name)] == []
+
+
+def test_the_longest_name_counts_and_an_unknown_reason_has_no_words():
+    assert reason_words("room_battery") == REASONS["room"]
+    assert reason_words("gear_strength_2") == REASONS["gear_strength"]
+    assert reason_words("sensor_track") == REASONS["sensor_track"] != reason_words("sensor_open")
+    assert reason_words("roomy") == ""
+
+
+def test_figures_and_parameters_have_their_units():
+    assert figure_words("ballistic_range_m", 0.2024) == ("range", "202.4 mm")
+    assert figure_words("takeoff_angle_deg", 58.0) == ("angle of take-off above the ground", "58°")
+    assert figure_words("foot_mass_kg", 0.0117) == ("foot mass", "11.7 g")
+    assert named("stiffness_nmm_per_deg") == "stiffness_nmm_per_deg (N·mm/°)"
+    assert (with_unit("5 … 30", "body.plate_mm"), with_unit("0.8", "c_coef")) == ("5 … 30 mm", "0.8")

@@ -1,0 +1,72 @@
+"""The motion at any time: the report's moments, and between them a linkage that stays closed."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from support.built import built
+
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.studio.playback import Moment, Playback, playback
+
+ROBOT = "kenan-2.0"
+
+
+@pytest.fixture(scope="module")
+def played() -> Playback:
+    return playback(built(ROBOT))
+
+
+def point(moment: Moment, body: str, x_mm: float) -> np.ndarray:
+    """Return a point on the x axis of a body's frame in the world (m)."""
+    seven = moment.frames[body]
+    return seven[:3] + Rotation.from_quat(seven[3:]).apply([x_mm / 1000.0, 0.0, 0.0])
+
+
+def test_it_begins_at_rest_and_ends_in_the_air_beyond_the_start(played: Playback) -> None:
+    for body, pose in body_poses(built(ROBOT)).items():
+        assert played.at(0.0).frames[body][:3] == pytest.approx(pose[:3, 3], abs=1e-5)
+    last = played.at(1e9)
+    assert last.phase == "flight"
+    assert last.frames[BODY][0] > played.at(0.0).frames[BODY][0] + 0.1
+    assert played.at(1e9).real_s == played.at(played.end_s).real_s
+
+
+def test_between_moments_the_linkage_stays_closed(played: Playback) -> None:
+    """Ankle and front eye, each seen from both bodies that it joins, stay within 0.2 mm."""
+    design = built(ROBOT).design
+    for time_s in np.linspace(0.0, played.end_s, 97).tolist():
+        moment = played.at(time_s)
+        ankle = point(moment, MAIN_LEG, design.l2_mm) - point(moment, FOOT, 0.0)
+        eye = point(moment, FRONT_LINK, design.l3_mm) - point(moment, FOOT, design.l4_mm)
+        assert np.abs([ankle, eye]).max() < 2e-4
+
+
+def test_phases_follow_one_another_and_say_how_slow_they_are(played: Playback) -> None:
+    moments = [played.at(time_s) for time_s in np.arange(0.0, played.end_s, 0.05).tolist()]
+    assert list(dict.fromkeys(one.phase for one in moments)) == ["winding", "drop", "push-off", "flight"]
+    winding_s = built(ROBOT).layout.drive.train.winding_s
+    first = moments[1]
+    assert first.real_s == pytest.approx(0.05 / first.slower, rel=0.01)
+    assert 3.0 / first.slower == pytest.approx(max(one.real_s for one in moments if one.phase == "winding"), rel=0.03)
+    assert 3.0 / first.slower < winding_s * 1.01
+    assert first.to_text(2.0).endswith(f"({2.0 * first.slower:.3g} times slower than real)")
+
+
+def test_gears_turn_against_each_other_while_the_spring_is_wound(played: Playback) -> None:
+    turned = played.at(2.0).turned_rad
+    assert turned["cam"] == turned["cam_gear"] > 1.0
+    assert turned["motor_pinion"] < -turned["cam_gear"]
+    dropped = played.at(3.59).turned_rad
+    assert dropped["cam"] > dropped["cam_gear"] + 0.01  # it runs ahead
+
+
+def test_a_turn_through_half_a_circle_takes_the_short_way() -> None:
+    """From 179° to 181° it is 180° half way: the quaternions, each with w >= 0, point away from each other."""
+    turns = [Rotation.from_euler("y", angle, degrees=True).as_quat(canonical=True).tolist() for angle in (179, 181)]
+    columns = {key: [0.0, 1.0] for key in ("show_s", "time_s", "cam_rad", "gear_rad")}
+    frames = {BODY: [[0.0, 0.0, 0.0, *turn] for turn in turns]}
+    motion = {**columns, "phase": ["flight"] * 2, "com_m": [[0.0, 0.0]] * 2, "frames": frames}
+    half = Rotation.from_quat(Playback(motion, []).at(0.5).frames[BODY][3:])
+    assert half.magnitude() == pytest.approx(np.pi, abs=1e-9)
+    assert np.abs(half.apply([1.0, 0.0, 0.0]) - [-1.0, 0.0, 0.0]).max() < 1e-9

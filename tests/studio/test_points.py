@@ -1,0 +1,66 @@
+"""The points of a study: numbered as the study's table is, chosen by number, refused in one line."""
+
+from pathlib import Path
+
+import pytest
+from support.searches import refusal
+from support.studies import IDENTITY, trials
+
+from jumpcad.errors import JumpcadError
+from jumpcad.search.store import StudyStore
+from jumpcad.search.table import write_table
+from jumpcad.studio.points import Points
+from jumpcad.workshop import load_workshop
+
+pytest.importorskip("viser", reason="the extra studio is not installed")
+
+
+def test_a_trials_number_is_its_line_in_the_exported_table(study: Path, tmp_path: Path) -> None:
+    points = Points(study)
+    write_table(points.trials, tmp_path / "all.csv")
+    heading, *lines = (tmp_path / "all.csv").read_text().splitlines()
+    column = heading.split(",").index("carrying_link_mm")
+    for number, line in enumerate(lines, start=1):
+        assert float(line.split(",")[column]) == points.trial(number).design.carrying_link_mm
+
+
+def test_best_and_front_are_listed(study: Path) -> None:
+    """Trial 1 has the best score; 4 has weaker springs, 1 and 3 the same: 3 is beaten with the same energy."""
+    listed = Points(study).listed
+    best, front = [[number for text, number in listed.items() if text.startswith(word)] for word in ("best", "front")]
+    assert best == [1, 3, 4]
+    assert front == [4, 1]
+    assert Points(study).best == 1
+
+
+def test_the_workshop_is_that_of_the_study_with_the_trials_values(tmp_path: Path) -> None:
+    fine, file = load_workshop("fine"), tmp_path / "w.db"
+    identity = IDENTITY | {"model": {"name": "printed", "workshop": fine.model_dump(mode="json")}}
+    with StudyStore.write(file, identity) as store:
+        store.append(trials(1))
+    points = Points(file)
+    assert points.workshop == fine
+    one = points.trial(1)
+    object.__setattr__(one, "workshop", {"body.plate_mm": 4.0})
+    assert points.workshop_of(one).body.plate_mm == 4.0
+    assert points.workshop_of(one).printer == fine.printer
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["{study}", "--trial", "5"], "has no trial 5: its trials are 1 to 4"),
+        (["{study}", "--trial", "2"], "trial 2 cannot be built: no cam winds"),
+        (["kenan-2.0", "--trial", "1"], "--trial 1: kenan-2.0 is no study"),
+    ],
+    ids=["none", "refused", "no study"],
+)
+def test_a_wrong_trial_is_one_line(study: Path, arguments: list[str], words: str) -> None:
+    assert words in refusal("studio", *(one.format(study=study) for one in arguments))
+
+
+def test_a_study_without_a_trial_has_no_points(tmp_path: Path) -> None:
+    with StudyStore.write(tmp_path / "empty.db", IDENTITY):
+        pass
+    with pytest.raises(JumpcadError, match="no trial yet"):
+        Points(tmp_path / "empty.db")

@@ -1,0 +1,22 @@
+"""Proposals of the Bayesian search with a fifth of the work, for tests of what becomes of them.
+
+`search/test_acquisition.py`, `test_surrogate.py`, `methods/test_bayesian.py` and `test_pareto.py` have the whole work.
+"""
+
+import pytest
+
+from jumpcad.search import acquisition, surrogate
+
+LESS = {
+    (acquisition, "CANDIDATES"): 256,
+    (acquisition, "LOCAL"): 32,
+    (acquisition, "STARTS"): 2,
+    (acquisition, "_STEPS"): 12,
+    (surrogate, "_FIT_STEPS"): 8,
+}
+
+
+def with_less_work(patch: pytest.MonkeyPatch) -> None:
+    """Draw fewer candidates and improve them, and the processes, with fewer steps."""
+    for (module, name), value in LESS.items():
+        patch.setattr(module, name, value)
