@@ -6,8 +6,8 @@ from typing import Any
 
 from reference_page import page, table
 
+from jumpcad.dimensions import unit_of_key
 from jumpcad.files import find_template
-from jumpcad.search.study_words import KEY_UNITS
 from jumpcad.workshop import OWN_PARTS, Workshop, load_workshop
 
 
@@ -48,7 +48,7 @@ def _definition(schema: dict[str, Any], entry: dict[str, Any]) -> dict[str, Any]
 
 def _section(name: str, kind: dict[str, Any], values: dict[str, Any], comments: dict[tuple[str, str], str]) -> str:
     rows = [
-        (f"`{key}`", _unit(key), _allowed(entry), _value(values.get(key)), comments.get(("", key), ""))
+        (f"`{key}`", unit_of_key(key), _allowed(entry), _value(values.get(key)), comments.get(("", key), ""))
         for key, entry in kind["properties"].items()
     ]
     head = ("key", "unit", "allowed", "default", "meaning or source")
@@ -58,7 +58,7 @@ def _section(name: str, kind: dict[str, Any], values: dict[str, Any], comments: 
 def _own_part(name: str, kind: dict[str, Any]) -> str:
     required = set(kind.get("required", ()))
     rows = [
-        (f"`{key}`", _unit(key), _allowed(entry), "yes" if key in required else "")
+        (f"`{key}`", unit_of_key(key), _allowed(entry), "yes" if key in required else "")
         for key, entry in kind["properties"].items()
         if key != "name"
     ]
@@ -67,10 +67,6 @@ def _own_part(name: str, kind: dict[str, Any]) -> str:
 
 def _description(kind: dict[str, Any]) -> str:
     return "\n".join(line.strip() for line in kind.get("description", "").splitlines())
-
-
-def _unit(key: str) -> str:
-    return next((unit for end, unit in KEY_UNITS.items() if key.endswith(f"_{end}")), "")
 
 
 def _allowed(entry: dict[str, Any]) -> str:

@@ -90,3 +90,15 @@ MESH_FOLDER = "meshes"
 """Folder of the meshes beside a URDF file; MJCF and SDF files see it as `MESHES_FROM_BESIDE`."""
 MESHES_FROM_BESIDE = f"../urdf/{MESH_FOLDER}"
 """The same folder, seen from the folder of another format."""
+
+KEY_UNITS = {
+    "nmm_per_deg": "N·mm/°", "nm_per_rad": "N·m/rad", "n_per_mm": "N/mm", "kg_m2": "kg·m²", "g_cm3": "g/cm³",
+    "eur_per_kg": "EUR/kg", "area_mm2": "mm²", "mm": "mm", "deg": "°", "mpa": "MPa", "nm": "N·m", "n": "N", "g": "g",
+    "c": "°C", "v": "V", "a": "A", "ma": "mA", "mah": "mAh", "ohm": "Ω", "rpm": "1/min", "uf": "µF", "eur": "EUR",
+}  # fmt: skip
+"""Units of a design's and a workshop's values by the end of their keys, the longest ends first."""
+
+
+def unit_of_key(key: str) -> str:
+    """Return the unit of a value by the end of its key; empty if it says none."""
+    return next((unit for end, unit in KEY_UNITS.items() if key.endswith(f"_{end}")), "")

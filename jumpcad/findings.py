@@ -7,7 +7,12 @@ from typing import Any, Literal, get_args
 
 Severity = Literal["info", "warning", "error"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
-SHOWN_AS = {"rad": ("°", 180.0 / math.pi), "rad/s": ("°/s", 180.0 / math.pi), "J": ("mJ", 1000.0)}
+SHOWN_AS = {
+    "rad": ("°", 180.0 / math.pi),
+    "rad/s": ("°/s", 180.0 / math.pi),
+    "J": ("mJ", 1000.0),
+    "N·m": ("mN·m", 1000.0),
+}
 """The unit that people read instead of another one, and the factor."""
 
 

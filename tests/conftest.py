@@ -16,9 +16,11 @@ import support.threads  # noqa: F401  # before numpy
 from support.built import built
 from support.costs import Costs
 from support.kept import once as once_of
+from support.kept import robot_key
 from support.robots import make_small_robot
 
 from jumpcad import checks
+from jumpcad.bundle import export as bundle_export
 from jumpcad.bundle.export import export
 from jumpcad.checks import Check, printability
 from jumpcad.findings import Finding
@@ -36,7 +38,10 @@ sys.dont_write_bytecode = False
 
 @pytest.fixture(scope="session", autouse=True)
 def shapes() -> Iterator[None]:
-    """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before."""
+    """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before.
+
+    So are a report's hundred jumps and its pictures: of equal robots they are the same.
+    """
     known: dict[Shape, dict[str, Any]] = {}
 
     def once(name: str, make: Callable[[Any], Any], shape_of: Callable[[Any], Shape]) -> Callable[[Any], Any]:
@@ -65,6 +70,8 @@ def shapes() -> Iterator[None]:
         for module in (finish, printability):
             patch.setattr(module, "faults", faults)
         patch.setattr(printability, "_undersides", undersides)
+        for name in ("uncertainty_of", "renders"):
+            patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
         patch.setattr(Stack, "solid", once("solid", Stack.solid, lambda stack: stack))
         for name in ("mesh", "look"):
             patch.setattr(Drawing, name, kept(name))

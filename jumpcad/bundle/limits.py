@@ -130,5 +130,5 @@ def _why_no_share(finding: Finding) -> str:
     if finding.margin == 0.0 and not finding.unit:
         return "no share: a condition, kept or not"
     if finding.value is None or finding.limit is None:
-        return "no share: only a margin is known"
+        return "no share: given as a margin"
     return "no share: the limit is 0" if finding.limit == 0.0 else "no share of a figure below 0"

@@ -15,6 +15,7 @@ from jumpcad.bundle.limits import limits, verdict_on
 from jumpcad.bundle.uncertainty import uncertainty
 from jumpcad.bundle.viewer import viewer
 from jumpcad.checks import quick_findings
+from jumpcad.dimensions import unit_of_key
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.templates import templates_folder
 from jumpcad.findings import Finding, errors
@@ -213,8 +214,9 @@ def _pictures(pictures: Mapping[str, bytes]) -> Iterator[str]:
 
 def _figures(robot: Robot) -> Iterator[Sequence[str]]:
     """Yield the design's parameters and the robot's figures."""
-    for key, value in robot.design.model_dump().items():
-        yield key, f"{value:g}", ""
+    for key, field in type(robot.design).model_fields.items():
+        value = getattr(robot.design, key)
+        yield f"{key}: {field.description}", f"{value:g}", unit_of_key(key) or "ratio"
     yield "mass", f"{1000.0 * robot.mass_kg:.1f}", "g"
     for name, body in robot.bodies.items():
         yield f"mass of the {name.replace('_', ' ')}", f"{1000.0 * body.mass_kg:.1f}", "g"

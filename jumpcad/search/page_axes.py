@@ -33,8 +33,8 @@ class Axes:
     right: float = 14.0
     top: float = 44.0
     foot: float = 62.0
-    names: tuple[str, ...] = ()
-    """What stands at the ticks 0, 1, … of `across` instead of numbers."""
+    first: float = 0.0
+    """What stands at the tick 0 of `across`."""
 
     def x(self, value: float) -> float:
         """Return the place of a value of `across`."""
@@ -64,7 +64,7 @@ class Axes:
         right, foot = self.width - self.right, self.height - self.foot
         lines = []
         for value in self.across[2]:
-            label = f"{value:g}" if not self.names else self._name(value)
+            label = f"{value + self.first:g}"
             lines.append(f'<path class="grid" d="M{self.x(value):.1f} {self.top:g}V{foot:g}" />')
             lines.append(
                 f'<text x="{self.x(value):.1f}" y="{foot + 22:g}" text-anchor="middle">{written(label)}</text>'
@@ -76,10 +76,6 @@ class Axes:
         lines.append(f'<text x="{middle:g}" y="{self.height - 10:g}" text-anchor="middle">{written(across)}</text>')
         lines.append(f'<text x="4" y="22">{written(up)}</text>')
         return lines
-
-    def _name(self, value: float) -> str:
-        index = round(value)
-        return self.names[index] if index == value and 0 <= index < len(self.names) else ""
 
 
 def evenly(count: int, most: int) -> list[int]:

@@ -183,20 +183,20 @@ def acquisition(
 ) -> Figure:
     """Draw surrogate and expected improvement over the one or two free parameters of a Bayesian search.
 
-    Of two parameters, they stand beside each other, or with one column below.
+    Of two parameters, they stand beside each other; with one column, which is narrow, below each other.
     """
     best = max((trial.score for trial in trials if trial.score is not None), default=0.0)
     return (
-        _one_parameter(space, trials, posterior, objective, best)
+        _one_parameter(space, trials, posterior, objective, best, 6.4 if columns > 1 else 4.6)
         if space.dimension == 1
         else _two(space, trials, posterior, objective, best, columns)
     )
 
 
 def _one_parameter(
-    space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, best: float
+    space: Space, trials: Sequence[Trial], posterior: SearchPosterior, objective: Objective, best: float, width: float
 ) -> Figure:
-    figure, (above, below) = panels(2, 6.4, 2.6, columns=1)
+    figure, (above, below) = panels(2, width, 2.6, columns=1)
     unit = np.linspace(0.0, 1.0, 401)
     points, parameter = unit[:, None], space.free[0]
     x = parameter.lower + unit * parameter.width

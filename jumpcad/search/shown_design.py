@@ -46,6 +46,8 @@ def _lines(trial: Trial) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     first = []
     for name, value in design.model_dump().items():
         first.append((name, with_unit(f"{value:.5g}" if isinstance(value, float) else str(value), name)))
+    for name, setting in trial.workshop.items():
+        first.append((name, setting if isinstance(setting, str) else with_unit(f"{setting:.5g}", name)))
     lengths = (design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm)
     first.append(("main leg, front link, foot, toe", ", ".join(f"{length:.1f}" for length in lengths) + " mm"))
     first.append(figure_words("spring_energy_j", metrics.get("spring_energy_j", energy_j(design))))

@@ -53,6 +53,8 @@ def chart(trials: Sequence[Trial], shown: Sequence[Trial], objective: Objective,
             f'<a href="#design-{number}" data-design="{number}" aria-label="{said}"><title>{said}</title>'
             f'<circle class="touch" {at} r="{TOUCHED:g}" /><circle {at} r="{radius:.1f}" /></a>'
         )
+    for number, (x, y) in enumerate(places, start=1):  # above all points, so that the chosen one is seen among others
+        lines.append(f'<circle class="of" data-of="{number}" cx="{x:.1f}" cy="{y:.1f}" r="9" />')
     return "\n".join([*lines, "</svg>"])
 
 

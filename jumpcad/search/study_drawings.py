@@ -61,7 +61,9 @@ def history(found: Known) -> Iterator[str]:
     yield axes.steps([(n + 1, best[n]) for n in rises], "best")
     yield "</svg>"
     keys = [(f"dot phase{number % 4}", f"tried by {phase}") for number, phase in enumerate(phases)]
-    yield from _legend([*keys, ("line best", "best so far"), ("tick rejected", "rejected")])
+    yield from _legend(
+        [*keys, ("line best", "best so far"), *([("tick rejected", "rejected")] if len(rejected) else [])]
+    )
 
 
 def _gain(scores: np.ndarray) -> str:
@@ -115,7 +117,8 @@ def _slice(
         return parameter.number(trial.variant.value(parameter.name)), trial.score or 0.0
 
     across = scale([parameter.lower, parameter.upper], ticks=3, whole=bool(parameter.names))
-    axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, names=parameter.names)
+    first = 1.0 if parameter.names else 0.0
+    axes = Axes(across, up, 300.0, 228.0, left=58.0, foot=34.0, top=42.0, first=first)
     unit = unit_of(parameter.name)
     yield f'<figure><svg class="drawn" viewBox="0 0 {axes.width:g} {axes.height:g}" role="img" '
     yield f'aria-label="score over {written(parameter.name)}">'
@@ -126,7 +129,7 @@ def _slice(
     for number, trial in enumerate(shown, start=1):
         x, y = at(trial)
         yield f'<circle class="of" data-of="{number}" cx="{axes.x(x):.1f}" cy="{axes.y(y):.1f}" r="7" />'
-    meaning = meaning_of(parameter.name)
+    meaning = meaning_of(parameter.name) or ", ".join(f"{n} is {name}" for n, name in enumerate(parameter.names, 1))
     said = f"{f' ({written(unit)})' if unit else ''}{f': {written(meaning)}' if meaning else ''}"
     best_at = _best(parameter, at(best)[0])
     yield f"</svg><figcaption><b>{broken(parameter.name)}</b>{said}. Best: {best_at}.</figcaption></figure>"
@@ -152,17 +155,12 @@ def parallel(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
     yield "<p>One line for each design that jumps, down through its parameters: each axis goes from the lower end of "
     yield "the parameter's range, left, to the upper end, right. Where the best lines run together, a parameter is "
     yield f"decided; where they spread, it matters little, or others make up for it. {_spread(space, best)}</p>"
-    yield from _legend(
-        [
-            ("line bundle3", f"the best {len(best)}"),
-            ("line bundle2", "the others, the better the stronger"),
-            ("line of", "chosen design"),
-        ]
-    )
+    others = feasible[len(best) : MOST_LINES]
+    rest = [("line bundle2", "the others, the better the stronger")] if others else []
+    yield from _legend([("line bundle3", f"the best {len(best)}"), *rest, ("line of", "chosen design")])
     height = ROW * space.dimension + 6.0
     yield f'<svg class="drawn lines" viewBox="0 0 640 {height:g}" role="img" '
     yield 'aria-label="every design as a line through its parameters">'
-    others = feasible[len(best) : MOST_LINES]
     third = -(-len(others) // 3) or 1
     bundles = [others[2 * third :], others[third : 2 * third], others[:third], best]
     for number, bundle in enumerate(bundles):

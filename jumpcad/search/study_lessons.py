@@ -13,6 +13,8 @@ from jumpcad.search.trial import count_rejections
 
 MOST_LEARNED = 200
 """Largest number of designs from which importances are computed, evenly chosen: the time grows with their cube."""
+LEAST_GAIN = 5e-4
+"""Share of the score below which a gain is shown as +0.0 %."""
 
 
 def importances(store: StudyStore, found: Known) -> Iterator[str]:
@@ -86,8 +88,9 @@ def active(found: Known) -> Iterator[str]:
 
 
 def _gains(found: Known) -> str:
-    """Return which bounds keep the score down, in words."""
-    rising = [one.name for one in found.bounds if one.worth is not None and one.worth > 0.0]
+    """Return beyond which bounds the score rises by more than rounding, in words."""
+    score = abs(found.winner.score or 0.0) if found.winner else 0.0
+    rising = [one.name for one in found.bounds if one.worth is not None and one.worth > LEAST_GAIN * score]
     if rising:
         return f"Here it rises beyond that of {written(', '.join(rising))}."
     if any(one.worth is not None for one in found.bounds):

@@ -137,10 +137,14 @@ def _asked(store: StudyStore, found: Known) -> Iterator[str]:
 
 def _range(record: Mapping[str, Any]) -> str:
     if "fixed" in record:
-        return f"fixed at {record['fixed']:g}"
+        return f"fixed at {_plain(record['fixed'])}"
     if "choices" in record:
-        return "one of " + ", ".join(f"{choice:g}" for choice in record["choices"])
+        return "one of " + ", ".join(map(_plain, record["choices"]))
     return f"{record['lower']:g} … {record['upper']:g}"
+
+
+def _plain(value: Value) -> str:
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[str]:

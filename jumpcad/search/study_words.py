@@ -1,13 +1,7 @@
 """Words for a study's page: units of parameters, what figures are called, and what each reason of a refusal means."""
 
 from jumpcad.design import Design
-
-KEY_UNITS = {
-    "nmm_per_deg": "N·mm/°", "nm_per_rad": "N·m/rad", "n_per_mm": "N/mm", "kg_m2": "kg·m²", "g_cm3": "g/cm³",
-    "eur_per_kg": "EUR/kg", "area_mm2": "mm²", "mm": "mm", "deg": "°", "mpa": "MPa", "nm": "N·m", "n": "N", "g": "g",
-    "c": "°C", "v": "V", "a": "A", "ma": "mA", "mah": "mAh", "ohm": "Ω", "rpm": "1/min", "uf": "µF", "eur": "EUR",
-}  # fmt: skip
-"""Units of parameters by the end of their names, the longest ends first."""
+from jumpcad.dimensions import unit_of_key
 
 FIGURE_UNITS = {
     "_m_s": ("m/s", 1.0),
@@ -147,6 +141,8 @@ REASONS = {
     "overhangs": "an overhang is too long to print without support",
     "bridges": "a bridge is too long to print without support",
     "solid": "a part is not one closed solid",
+    "engraving": "the plates cannot show the whole name",
+    "body_contact": "in the push-off the body touches the ground, which the planar engine does not compute",
     "interference": "two parts overlap somewhere in the motion",
     "assembly_paths": "a part has no free path to its place",
     "tool_access": "a fastener cannot be reached by its tool",
@@ -156,8 +152,7 @@ REASONS = {
 
 def unit_of(parameter: str) -> str:
     """Return the unit of a parameter by the end of its name; of one of the design without any, `ratio`."""
-    unit = next((unit for end, unit in KEY_UNITS.items() if parameter.endswith(f"_{end}")), "")
-    return unit or ("ratio" if parameter in Design.model_fields else "")
+    return unit_of_key(parameter) or ("ratio" if parameter in Design.model_fields else "")
 
 
 def with_unit(text: str, parameter: str) -> str:

@@ -303,7 +303,8 @@ class Viewer {
         if (!node.isMesh) return;
         this.lit.push([node, node.material]);
         node.material = node.material.clone();
-        node.material.emissive = new Color(0x884400);
+        node.material.color = new Color(0xffb000);
+        node.material.emissive = new Color(0x442200);
       });
     }
     page("choose").value = name;

@@ -24,7 +24,6 @@ NOT_MET = {"winding", "toe_joint_strength", "engraving", "no_takeoff", "body_con
 YES_OR_NO = {"wiring_pins", "wiring_strapping", "wiring_ground", "wiring_capacitor", "wiring_diode"}
 NOTHING = {"interference", "assembly_paths", "tool_access", "solid"}
 """Limits of what must not be there at all."""
-SHOWN = {**SHOWN_AS, "N·m": ("mN·m", 1000.0)}
 BUNDLE = ROOT / "exports" / "kenan-2.0"
 
 
@@ -75,7 +74,7 @@ def test_value_and_limit_stand_in_the_text() -> None:
 
 def _numbers(finding: Finding) -> Iterator[tuple[float, float]]:
     """Yield the numbers of a text in the finding's unit, with what rounding takes."""
-    shown, factor = SHOWN.get(finding.unit, ("", 1.0))
+    shown, factor = SHOWN_AS.get(finding.unit, ("", 1.0))
     for text in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?", finding.message):
         decimals = len(text.partition(".")[2])
         scale = factor if shown and shown in finding.message else 1.0

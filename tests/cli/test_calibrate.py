@@ -5,20 +5,17 @@ import shutil
 from pathlib import Path
 
 import pytest
+from support.calibrations import with_coarse_calibration
 from support.commands import Run
 
-from jumpcad.calibration import posterior, surface
 from jumpcad.files.templates import templates_folder
 from jumpcad.simulation import uncertain
-
-COARSE = ((0.45, 0.7, 1.0, 1.6, 2.5), (0.0, 0.9), (0.3, 0.5, 0.65, 1.0))
 
 
 @pytest.fixture(autouse=True)
 def _short(monkeypatch: pytest.MonkeyPatch) -> None:
     """Coarse jumps and short chains: the numbers are not what is tested here."""
-    monkeypatch.setattr(surface.surface_of, "__defaults__", (None, COARSE))
-    monkeypatch.setattr(posterior.sampled, "__defaults__", (0, 200, 200, 10))
+    with_coarse_calibration(monkeypatch)
     monkeypatch.setattr(uncertain.uncertain_jump, "__defaults__", (0, 32))
 
 

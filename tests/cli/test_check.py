@@ -62,6 +62,7 @@ def test_it_shows_what_is_tight_and_with_all_the_rest(monkeypatch: pytest.Monkey
         (-1.3e-05, "rad", "just beyond"),
         (math.pi / 18.0, "rad", "+10 °"),
         (0.0123, "J", "+12.3 mJ"),
+        (0.0017, "N·m", "+1.7 mN·m"),
         (-62.14, "MPa", "-62.1 MPa"),
         (0.0, "faults", ""),
         (0.05, "mm³", "+0.05 mm³"),

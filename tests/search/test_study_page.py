@@ -2,24 +2,27 @@
 
 import re
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from functools import cache
 from urllib.parse import unquote
 
 import pytest
 from support.bumps import REST, Bump, studied
+from support.shops import SHOP, Shop
 
 from jumpcad.search.fronts import front
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
+from jumpcad.search.replay import known
 from jumpcad.search.request import Request
+from jumpcad.search.robust import ActiveBound
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
+from jumpcad.search.study_lessons import active
 from jumpcad.search.study_page import write_study_page
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
-
-pytestmark = pytest.mark.usefixtures("quick_proposals")
 
 
 class Never(Bump):
@@ -56,7 +59,7 @@ def tables(page):
 
 
 @pytest.fixture(scope="module")
-def studies(tmp_path_factory, quick_proposals):
+def studies(tmp_path_factory):
     folder = tmp_path_factory.mktemp("studies")
     for method, evaluations in (("bo", 40), ("nsga2", 60), ("ga", 60)):
         studied(folder / f"{method}.db", SPACE, method, evaluations).close()
@@ -156,22 +159,46 @@ def test_pictures_have_every_design_once_and_their_words_are_true(studies):
     assert ("found nothing better" in words) == (before == max(jumped))
     paths, words = drawn_in(page, "Slices")
     assert sum(drawn.count("M") for kind, drawn in paths.items() if kind.startswith("dots age")) == len(jumped)
-    assert "rest_angle_deg (°): angle between body and legs at rest. Best: 50" in words  # the top of the bump
+    best = words.partition("rest_angle_deg (°): angle between body and legs at rest. Best: ")[2]
+    assert float(best.partition("°")[0]) == pytest.approx(50.0, abs=0.5)  # the top of the bump
     paths, words = drawn_in(page, "Parallel lines")
     assert sum(drawn.count("M") for kind, drawn in paths.items() if kind.startswith("bundle")) == len(jumped)
     assert "run together, within a tenth of the range, in compression_ratio, rest_angle_deg" in words
 
 
-def test_bounds_say_what_they_cost(tmp_path):
-    """The bump is highest at 0.5: a search up to 0.4 ends at its upper end, beyond which the score rises."""
-    studied(tmp_path / "s.db", Space.parse(fix=REST, bound=["compression_ratio=0.1:0.4"]), "bo", 40).close()
+def test_bounds_say_what_they_cost(studies):
+    with StudyStore.read(studies / "bo.db") as store:
+        found = known(store)
+    bounds = [
+        ActiveBound("carrying_link_mm", "lower", 100.0, 95.0, 0.1 * found.winner.score),
+        ActiveBound("rest_angle_deg", "upper", 70.0, 72.5, None, "tips, sideways_tipping"),
+        ActiveBound("d_coef", "upper", 0.9, 0.92, 1e-4 * found.winner.score),
+    ]
+    root = ElementTree.fromstring(f"<body>{''.join(active(replace(found, bounds=bounds)))}</body>")
+    rows = {text(row[0]): [text(cell) for cell in row[2:]] for row in root.iter("tr")}
+    assert rows["carrying_link_mm"][:2] == ["100 mm", "95 mm"]
+    assert rows["carrying_link_mm"][2].endswith("body lengths (+10.0 %)")
+    assert "it falls over" in rows["rest_angle_deg"][2]
+    assert "tips over sideways" in rows["rest_angle_deg"][2]
+    assert "Here it rises beyond that of carrying_link_mm." in text(root)  # 0.01 % more is not told
+    unknown = replace(found, bounds=[replace(bounds[0], worth=None, reason="not examined: no evaluations left")])
+    assert "This search did not examine them" in "".join(active(unknown))
+
+
+def test_values_of_the_workshop_are_told_names_by_numbers(tmp_path):
+    """The best battery of the shop is the second of two; its plates are best 1.6 mm thick."""
+    with local_pool(0) as pool:
+        run_study(Request(SHOP, Shop(), method="ga", evaluations=60), tmp_path / "s.db", pool)
     page = page_of(tmp_path / "s.db")
-    (table,) = [one for one in parsed(page).iter("table") if "score beyond it" in text(one)]
-    ((name, end, at, examined, cost),) = [[text(cell) for cell in row] for row in table.iter("tr")][1:]
-    assert (name, end, at) == ("compression_ratio", "upper", "0.4")
-    gain = 20.0 * (0.1**2 - (0.5 - float(examined)) ** 2)
-    assert float(cost.split()[0]) == pytest.approx(gain, abs=0.01)
-    assert "Here it rises beyond that of compression_ratio." in text(parsed(page).find("body"))
+    asked = {row[0]: row for row in tables(page)["parameter"]}
+    assert asked["bought.battery"][2:] == ["one of lipo-2s-180, lipo-1s-300", "lipo-1s-300"]
+    assert asked["body.plate_mm"][2] == "1.2 … 2.4 mm"
+    _, words = drawn_in(page, "Slices")
+    assert "bought.battery: 1 is lipo-2s-180, 2 is lipo-1s-300. Best: lipo-1s-300." in words
+    first = next(one for one in parsed(page).iter("section") if one.get("id") == "design-1")
+    shown = {text(row[0]): text(row[1]) for row in first.iter("tr")}
+    assert shown["bought.battery"] == "lipo-1s-300"
+    assert shown["body.plate_mm"][:4] == asked["body.plate_mm"][3][:4]
 
 
 def test_a_parameter_without_effect_matters_least(tmp_path):
