@@ -12,7 +12,7 @@ from jumpcad.bundle.lead_lines import leads_of
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
-from jumpcad.parts.lead_ways import battery_way, gap_mm, lead_way, outer_way, plate_of, way_words
+from jumpcad.parts.lead_ways import battery_way, corners, gap_mm, lead_way, outer_way, plate_of, way_words
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import contained
 from jumpcad.workshop import load_workshop
@@ -168,3 +168,16 @@ def test_leads_lie_side_by_side_about_the_middle_of_their_part(robot: Robot) -> 
         assert ends.mean(axis=0) == pytest.approx(outer_way(robot.layout, part)[0], abs=1e-6), part
         apart = [np.abs(a - b).max() for a, b in itertools.combinations(ends, 2)]
         assert min(apart, default=1.0) > 0.05, part
+        seat = robot.layout.electronics.seats(robot.layout.lateral.inside).get(part)
+        if seat is not None:  # 1.5 mm from the edges of what they are soldered to
+            assert (np.ptp(ends, axis=0)[:2] <= np.array(seat.size_mm[:2]) - 3.0 + 1e-6).all(), part
+
+
+def test_inside_a_lead_runs_along_the_plate_at_the_height_of_its_hole(robot: Robot) -> None:
+    """Whichever end is at the plate, the corners at its side have its y, and the lead goes down beside the boards."""
+    start, end = np.array([10.0, 15.0, 40.0]), np.array([60.0, 2.0, 20.0])
+    there = np.array(corners(robot.layout, "sensor", "controller", start, end))
+    back = np.array(corners(robot.layout, "controller", "sensor", end, start))
+    expected = [[60.0, 15.0, 40.0], [60.0, 15.0, 20.0]]
+    assert there.tolist() == expected
+    assert back.tolist() == expected[::-1]
