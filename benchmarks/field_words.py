@@ -167,6 +167,7 @@ WORDS = {
     "searched": "of them, proposed by the search",
     "refused.*": "designs with this verdict",
     "phase": "stage that proposed it",
+    "trial": "number of the trial in the order of the study, for `jumpcad studio --trial`",
     "score": "value of the objective; null without one",
     "detail": "why there is no verdict",
     "metrics": "figures of the jump",

@@ -1,6 +1,6 @@
 """From a slider of the studio to new figures, to the printed robot's figures, and to its new meshes.
 
-CPU times (ms), and under `wall` what a clock on the wall says, which is longer where other programs run. Every slider of
+CPU times (ms), and under `wall` what a clock on the wall says, more where other programs run. Every slider of
 two templates takes one step down. Figures at once are those of the study's masses in the planar engine; then the
 printed robot is built and simulated; then the meshes that changed are made and sent to a viser server.
 Run `python benchmarks/studio.py [--json] [--steps N]`; needs the extra `studio`, and `fast` for times worth having.

@@ -27,8 +27,6 @@ KEYS = (
     "Arrow keys turn the robot, with Shift they move it; + and − zoom, 0 shows it as at first; space plays and "
     "pauses, comma and full stop go back and forth in the motion."
 )
-GRAM_DIGITS = 2
-"""Decimals of masses in g, those that are shown: rounded twice, 1.335 would become 1.33."""
 CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <p><button type="button" id="play">Play</button>
 <label>motion <input type="range" id="scrub" min="0" max="1" step="0.02" value="0" /></label>
@@ -99,8 +97,8 @@ def turning_parts(robot: Robot) -> list[dict[str, Any]]:
 def parts_facts(robot: Robot) -> dict[str, dict[str, Any]]:
     """Return what a click on a part shows: label, material or article, file, and mass (g), by the name in the picture.
 
-    What is bought in one piece and seen as several, such as a spring and its second arm, has the mass of the whole in
-    the bill of materials: a scale shows that.
+    Of what is bought in one piece and seen as several that move apart, such as a spring and its second arm, the words
+    also have the mass of the whole in the bill of materials: a scale shows that.
     """
     seen_apart = {thing.article for thing in robot.hardware if thing.units == 0}
     whole_kg = {line.name: line.mass_kg for line in bill_of_materials(robot).items if line.name in seen_apart}
@@ -112,9 +110,9 @@ def _facts(thing: Visual, whole_kg: Mapping[str, float]) -> dict[str, Any]:
     if isinstance(source, Part):
         words = {"label": source.name.replace("_", " "), "material": source.material, "file": f"stl/{source.name}.stl"}
     else:
-        words = {"label": thing.name.replace("_", " "), "material": source.article, "file": ""}
-    mass_kg = whole_kg.get(words["material"], source.mass.mass_kg)
-    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * mass_kg, GRAM_DIGITS)}
+        whole = f"; as bought {1000.0 * whole_kg[source.article]:.2f} g" if source.article in whole_kg else ""
+        words = {"label": thing.name.replace("_", " "), "material": f"{source.article}{whole}", "file": ""}
+    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * source.mass.mass_kg, 3)}
 
 
 def _embedded(data: dict[str, Any]) -> str:

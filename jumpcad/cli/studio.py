@@ -3,12 +3,16 @@
 import contextlib
 import io
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from jumpcad.cli.subjects import WorkshopOption, bundle_of, design_file
 from jumpcad.errors import JumpcadError
+
+if TYPE_CHECKING:
+    from jumpcad.design import Design
+    from jumpcad.studio.points import Points
 
 PORT = 8080
 STUDY = ".db"
@@ -30,39 +34,58 @@ def studio(
     port: Annotated[int, typer.Option(help="Port of the page, on this computer alone.", min=1, max=65535)] = PORT,
 ) -> None:
     """Change the eight numbers in a browser and see the robot that they give, wind and jump (extra `studio`)."""
-    from jumpcad.design import load_design
-    from jumpcad.files.templates import template_names
-    from jumpcad.workshop import DEFAULT
-
     try:
         import viser
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
-    from jumpcad.studio import Points, Studio
-    from jumpcad.studio.app import STUDYS
+    from jumpcad.files.templates import template_names
+    from jumpcad.studio import Studio
 
-    others = template_names("workshops")
-    if design.endswith(STUDY) and not Path(design).is_dir():
-        points = Points(Path(design))
-        number = points.best if trial is None else trial
-        opened, first = points.trial(number).design, workshop or STUDYS
-        if trial is not None and workshop is None:
-            points.require_built(number)
-        others = [STUDYS, *others]
-    else:
-        if trial is not None:
-            raise JumpcadError(f"--trial {trial}: {design} is no study (F.db)")
-        bundle_of(design, workshop)
-        points, number = None, 1
-        opened, first = load_design(design_file(design)), workshop or DEFAULT
+    is_study = design.endswith(STUDY) and not Path(design).is_dir()
+    if trial is not None and not is_study:
+        raise JumpcadError(f"--trial {trial}: {design} is no study (F.db)")
+    opened, own, points, number = (
+        _point(Path(design), trial, workshop) if is_study else (*_design(design, workshop), None, 1)
+    )
+    shops = dict.fromkeys(name for name in (workshop, own, *template_names("workshops")) if name is not None)
     name = Path(design).name.removesuffix(".toml").removesuffix(STUDY)
-    workshops = [first, *(other for other in others if other != first)]
     with contextlib.redirect_stdout(io.StringIO()):  # its banner has the address too
         server = viser.ViserServer(host="127.0.0.1", port=port, label="jumpcad studio", verbose=False)
-    shown = Studio(opened, name, workshops, server, Path.cwd(), points, number)
+    shown = Studio(opened, name, list(shops), server, Path.cwd(), points, number)
     shown.start()
     print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio; the browser needs WebGL)")
     try:
         server.sleep_forever()
     finally:
         shown.end()
+
+
+def _point(file: Path, trial: int | None, workshop: str | None) -> "tuple[Design, str, Points, int]":
+    """Return a trial's design, the name of its workshop in the studio, the study's points and the trial's number.
+
+    Raises
+    ------
+    JumpcadError
+        If there is no such trial, or its robot cannot be built.
+    """
+    from jumpcad.studio.points import STUDYS, Points
+
+    points = Points(file)
+    number = points.best if trial is None else trial
+    design = points.trial(number).design
+    if trial is not None and workshop is None:
+        points.require_built(number)
+    return design, STUDYS, points, number
+
+
+def _design(subject: str, workshop: str | None) -> "tuple[Design, str]":
+    """Return the design of a bundle, a template or a file, and its workshop; raise `JumpcadError` if there is none."""
+    from jumpcad.bundle.inputs import WORKSHOP, kept_workshop
+    from jumpcad.design import load_design
+    from jumpcad.workshop import DEFAULT
+
+    bundle = bundle_of(subject, workshop)
+    if bundle is None:
+        return load_design(design_file(subject)), DEFAULT
+    kept_workshop(bundle)  # raises if it names other files
+    return load_design(design_file(subject)), str(bundle.file(WORKSHOP))

@@ -12,6 +12,8 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial, feasible_trials, searched
 from jumpcad.workshop import Workshop, load_workshop
 
+STUDYS = "of the study"
+"""The workshop of a point, in the studio's list of workshops."""
 BEST = 10
 """Number of best trials in the list."""
 
@@ -63,6 +65,10 @@ class Points:
             f"front, {1000.0 * energy_j(trial.design):.1f} mJ: {self._listed(trial)}": self.number(trial)
             for trial in front(proposed)
         }
+
+    def listed_as(self, number: int, otherwise: str) -> str:
+        """Return what the list first says of a trial."""
+        return next((text for text, listed in self.listed.items() if listed == number), otherwise)
 
     @property
     def best(self) -> int:

@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from support.built import built, geared
+from support.built import built, geared, placed
 
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.wiring import drawings_of
@@ -147,3 +147,40 @@ def test_a_spring_is_asked_for_with_its_figures(robot: Robot, drawings: dict[str
         inside = spring.arms.mean_mm * spring.turns / wound - spring.wire_mm
         mandrel = float(rows["inside, loaded"].split()[-2])
         assert inside - 0.5 < mandrel < inside
+
+
+def test_plates_are_drawn_to_scale_seen_from_outside(robot: Robot, drawings: dict[str, ET.Element]) -> None:
+    """From the left the front, x, is on the left; standoffs, trays and words stand where they are on the robot."""
+    root, layout = drawings["leads.svg"], robot.layout
+    outlines = [np.array(re.findall(r"(-?[\d.]+),(-?[\d.]+)", one.get("d")), dtype=float)
+                for one in root.iter(f"{SPACE}path") if one.get("fill") == "#e6e8eb"]  # fmt: skip
+    heads = [(float(one.get("cx")), float(one.get("cy"))) for one in root.iter(f"{SPACE}circle")
+             if one.get("fill") == "#c3c9d1"]  # fmt: skip
+    texts = [(one.text, float(one.get("x")), float(one.get("y"))) for one in root.iter(f"{SPACE}text")]
+    count = len(layout.standoffs_mm)
+    assert len(heads) == 2 * count
+    for side, sign, points, circles in zip(
+        ("left", "right"), (-1.0, 1.0), outlines, (heads[:count], heads[count:]), strict=True
+    ):
+        mesh = placed(robot, f"body_plate_{side}")
+        low, high = mesh.bounds[:, [0, 2]]
+        scale = np.ptp(points[:, 0]) / (high[0] - low[0])
+        assert np.ptp(points[:, 1]) / (high[1] - low[1]) == pytest.approx(scale, rel=0.02)
+        left = points[:, 0].min() - scale * min(sign * low[0], sign * high[0])
+        top = points[:, 1].max() + scale * low[1]
+
+        def drawn(place: np.ndarray, left: float = left, top: float = top, scale: float = scale, sign: float = sign):
+            return left + scale * sign * place[0], top - scale * place[1]
+
+        for place, circle in zip(layout.standoffs_mm, circles, strict=True):
+            assert circle == pytest.approx(drawn(place), abs=0.4)
+        hole = layout.fittings.left_mm if side == "left" else layout.fittings.right_mm
+        words = [(x, y) for text, x, y in texts if text == "wire hole, tie above it"]
+        assert min(abs(x - drawn(hole)[0]) for x, _ in words) < 0.4
+        if side == "right" and layout.fittings.usb_mm is not None:
+            (usb,) = ((x, y) for text, x, y in texts if text == "USB")
+            assert usb[0] == pytest.approx(drawn(layout.fittings.usb_mm)[0], abs=0.4)
+        if side == "left" and layout.sensor is not None:
+            assert any(
+                text == "sensor" and math.dist((x, y), drawn(layout.sensor.place_mm)) < 40.0 for text, x, y in texts
+            )

@@ -9,7 +9,7 @@ import pytest
 
 from jumpcad.calibration.likelihood import Model
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.posterior import CalibrationPosterior, sampled
+from jumpcad.calibration.posterior import CalibrationPosterior, _verdict, sampled
 from jumpcad.calibration.priors import FLOOR, SPRING_EFFICIENCY
 from jumpcad.calibration.subject import Subject
 from jumpcad.errors import JumpcadError
@@ -133,3 +133,16 @@ def test_without_emcee(subject: Subject, monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setitem(sys.modules, "emcee", None)
     with pytest.raises(JumpcadError, match=r'pip install "jumpcad\[calibrate\]"'):
         fitted(subject, jumps=({"distance_mm": (250.0,), "distance_of": "centre-of-mass"},))
+
+
+@pytest.mark.parametrize(
+    ("spread", "shift", "words"),
+    [
+        (0.1, 0.0, "identified"), (0.5, 3.0, "identified"), (0.51, 0.0, "partly identified"),
+        (0.85, 0.0, "partly identified"), (0.86, 0.9, "stays at its prior"), (0.86, 1.0, "partly identified"),
+        (0.99, -1.5, "partly identified"),
+    ],
+)  # fmt: skip
+def test_data_identify_what_they_make_twice_as_sure(spread: float, shift: float, words: str) -> None:
+    """Half of the prior's deviation; partly from 0.85 of it on, or where the mean has moved by one deviation."""
+    assert _verdict(spread, shift) == words

@@ -6,9 +6,13 @@ import numpy as np
 import pytest
 from support.built import built
 
+from jumpcad.building import build
 from jumpcad.checks.load_case import LoadCase, leg_axle_moment_nmm
+from jumpcad.design import load_design
 from jumpcad.dimensions import GAP_MM
 from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM
+from jumpcad.workshop import load_workshop
 
 
 def test_leg_axle_is_a_simple_beam() -> None:
@@ -80,3 +84,30 @@ def test_a_landing_is_stopped_over_the_workshops_distance() -> None:
     share = 1.0 / (1.0 + (x / k_y) ** 2 + (y / k_x) ** 2)
     assert case.toe_blow_n == pytest.approx(share * case.landing_n)
     assert case.axial_n == pytest.approx(robot.workshop.ground.foot_friction * case.landing_n)
+
+
+def test_the_thread_of_a_screw_that_is_an_axle_bears_less_than_its_shank() -> None:
+    """Near the right plate the moment is as much less as the thread is nearer to the plate than the middle.
+
+    The springs' pin has the same moment all along between its arms. M3's core: 2.39 mm; thread of at least 6 mm.
+    """
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update={"retention": "nuts"})
+    robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought}))
+    case, lateral = LoadCase(robot), robot.layout.lateral
+    plates = [sum(plate) / 2.0 for plate in (lateral.left_plate, lateral.right_plate)]
+    half = (plates[0] - plates[1]) / 2.0
+    screw = next(item for item in robot.hardware if item.name == "leg_axle")
+    points = screw.look.copy().apply_transform(screw.T_body_part).bounds[:, 1]
+    thread = points[0] + SCREW_THREAD_MM  # its end towards the head, which is on the left
+    share = min(1.0, max(0.0, thread - plates[1]) / half)
+    spring = robot.layout.drive.spring
+    pin = spring.torque_nmm / spring.arms.lever_mm * (half - lateral.spring_left[1] + (plates[0] + plates[1]) / 2.0)
+    in_thread = 32.0 * pin / (math.pi * SCREW_CORE_MM**3)
+    assert case.steel_stresses_mpa["spring_pin"] == pytest.approx(in_thread, rel=0.1)
+    roller = next(item for item in robot.hardware if item.name == "roller")
+    cam = float(roller.look.copy().apply_transform(roller.T_body_part).bounds[:, 1].mean())
+    moment = robot.layout.drive.cam.peak_contact_n * (cam - plates[1]) * (plates[0] - cam) / (2.0 * half)
+    shank = case.bars["cam_axle"].stress_mpa(moment)
+    thread_mpa = share * 32.0 * moment / (math.pi * SCREW_CORE_MM**3)
+    assert case.steel_stresses_mpa["cam_axle"] == pytest.approx(max(shank, thread_mpa), rel=0.06)

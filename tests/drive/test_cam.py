@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.built import built
 from support.limits import default_limits
 
 from jumpcad.drive.cam import CamGeometry
@@ -142,3 +143,20 @@ def test_contact_pressure_is_hertz_for_a_cylinder_on_a_flat():
     force = (1000 * 1.0 * cam.wind_rad(phi) / arm)[late]
     pressure = np.sqrt(force * 2000.0 / (1 - 0.3**2) * flat / (math.pi * 6.0))
     assert pressure[:-5].max() == pytest.approx(cam.contact_pressure_mpa, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_relief_ends_where_the_lift_begins(name):
+    """An arc about the cam's axis, from the hollow on to the direction of the lift's first point: a radial step."""
+    geometry = built(name).layout.drive.cam.geometry
+    outline = geometry.outline_mm()
+    last, first = outline[-1], outline[0]
+    assert math.remainder(math.atan2(*last[::-1]) - math.atan2(*first[::-1]), 2.0 * math.pi) == pytest.approx(
+        0, abs=1e-9
+    )
+    relief = np.hypot(*outline[-15:].T)
+    assert np.ptp(relief) == pytest.approx(0.0, abs=1e-9)
+    turns = np.diff(np.unwrap(np.arctan2(*outline[-16:].T[::-1])))
+    assert turns == pytest.approx(turns[0], abs=1e-9)  # even steps from the hollow on
+    assert np.hypot(*first) >= relief[0] - 1e-9
+    assert first == pytest.approx(geometry.contact_mm(0.0))

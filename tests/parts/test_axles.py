@@ -1,6 +1,7 @@
 """Axles and pins cannot come out: pushed to either side, each with what is on it meets what it carries."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from jumpcad.building import build
 from jumpcad.checks.interference import components, interference_findings
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.parts.axles import require_retention
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -95,3 +97,18 @@ def test_axles_of_two_millimetres_have_pins_with_clips() -> None:
     assert sum(article.startswith("silver steel rod 1.2210, annealed 2 x ") for article in articles) == 3
     assert robot.layout.hub_bearing.bore_mm == 2.0
     assert [found.message for found in interference_findings(robot) if found.severity == "error"] == []
+
+
+def test_clips_are_needed_only_where_clevis_pins_are_not_made_so_thin() -> None:
+    """Clevis pins (ISO 2341) begin at 3 mm: thinner pins of foot and leg are rods with clips."""
+    shop = load_workshop()
+    clipless, bought = replace(shop.catalogue, clips={}), shop.bought
+    require_retention(clipless, bought.model_copy(update={"axle_mm": 3.0}))
+    with pytest.raises(JumpcadError):
+        require_retention(clipless, bought.model_copy(update={"axle_mm": 2.0}))
+    with pytest.raises(JumpcadError):
+        require_retention(clipless, bought.model_copy(update={"axle_mm": 3.0, "retention": "clips"}))
+    screws = bought.model_copy(update={"retention": "nuts", "axle_mm": 3.0})
+    require_retention(shop.catalogue, screws)
+    with pytest.raises(JumpcadError, match="screws of 3 mm as axles"):
+        require_retention(shop.catalogue, screws.model_copy(update={"axle_mm": 4.0}))

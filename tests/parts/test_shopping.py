@@ -5,9 +5,10 @@ import re
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
 from manifold3d import Manifold, Mesh64
-from support.built import LONG_TOES, body_in_plane, built
+from support.built import LONG_TOES, body_in_plane, built, cut, placed, region
 
 from jumpcad.building import build
 from jumpcad.building.assembly import assembled
@@ -185,3 +186,48 @@ def test_what_has_its_place_is_not_weighed_among_the_wires_too(name: str) -> Non
     assert names.count("switch") == placed
     assert names.count("wiring_switch") == (not placed)
     assert names.count("wiring_sensor") == (robot.layout.sensor is None)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "size", "grams"),
+    [
+        ("strap_battery", (10.0, 1.0), 0.8), ("tie_(driver|controller)", (2.5, 1.1), 0.3),
+        ("tie_(plug|capacitor)", (2.5, 1.1), 0.3), ("tape_.*", (1.0,), None),
+        ("wiring_resistor_.*", None, 0.2), ("wiring_heat_shrink", None, 0.4),
+        ("tie_(sensor|motor)_leads", None, 0.3),
+    ],
+)  # fmt: skip
+def test_small_things_have_the_size_and_mass_of_their_kind(
+    pattern: str, size: tuple | None, grams: float | None
+) -> None:
+    """A strap of 10 mm, ties of 2.5 x 1.1 mm, foam tape of 1 mm and 0.5 g/cm³; a quarter watt resistor weighs 0.2 g."""
+    robot = built("kenan-2.0")
+    found = [item for item in robot.hardware if re.fullmatch(pattern, item.name)]
+    assert found
+    for item in found:
+        extents = np.ptp(item.shape.bounds_mm, axis=0)
+        for asked in size or ():
+            assert np.abs(extents - asked).min() < 2e-3, item.name
+        if grams is not None:
+            assert 1000.0 * item.mass_kg == pytest.approx(grams), item.name
+        elif pattern.startswith("tape"):
+            assert 1e6 * item.mass_kg == pytest.approx(0.5 * np.prod(extents), rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_motor_stands_in_its_socket_as_it_is_turned(name: str) -> None:
+    """Its section, 12 x 10 mm, lies in the right plate's socket with a gap of less than half a millimetre."""
+    robot = built(name)
+    motor = next(item for item in robot.hardware if item.name == "motor")
+    mesh = motor.look.copy().apply_transform(motor.T_body_part)
+    case = shapely.MultiPoint(mesh.vertices[:, ::2]).convex_hull
+    assert sorted(np.ptp(motor.shape.bounds_mm, axis=0))[:2] == pytest.approx([10.0, 12.0], abs=0.01)
+    walls = placed(robot, "body_plate_right")
+    socket = region(cut(walls, max(mesh.bounds[0, 1] + 1.0, walls.bounds[1, 1] - 1.0)))
+    assert case.intersection(socket).area < 0.3
+    for corner in np.array(case.exterior.coords)[:-1]:
+        assert shapely.Point(corner).distance(socket) < 0.6
+    around = case.buffer(0.6, join_style="mitre")
+    assert socket.intersection(around).area > 0.2 * around.difference(case).area
+    everything = [1000.0 * item.mass_kg for item in robot.hardware if item.name in ("motor", "motor_shaft")]
+    assert sum(everything) == pytest.approx(robot.layout.drive.train.motor.mass_g)

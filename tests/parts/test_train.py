@@ -307,4 +307,4 @@ def test_a_motors_shaft_is_held_by_five_ribs() -> None:
     others = [at for at in middles if at not in flat]
     for x, y in ((-1.5, 0.0), (0.0, 1.5), (0.0, -1.5)):
         assert min(math.dist((x, y), at) for at in others) < fits.rib_mm
-    assert bore.difference(shaft.buffer(fits.press_mm + 1e-3)).area < 1e-3
+    assert bore.difference(shaft.buffer(fits.press_mm + 2e-3)).area < 1e-2

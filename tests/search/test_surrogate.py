@@ -1,8 +1,11 @@
 """Gaussian processes against scikit-learn's own predictions, improvement against numerical integration."""
 
+import math
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.special import ndtr
 from scipy.stats import norm
 from sklearn.gaussian_process import GaussianProcessRegressor
 from support.hills import SMALL, Hill
@@ -14,6 +17,7 @@ from jumpcad.search.surrogate import (
     SearchPosterior,
     Surrogate,
     _kernel,
+    _log_h,
     constraint_margins,
     forwards,
     unwarped,
@@ -179,3 +183,24 @@ def test_a_neighbour_is_as_probably_feasible_as_by_drawing_neighbours():
         margins = plane.predict(point + scatter * generator.standard_normal((400_000, 2)))[0]
         drawn = margins + 0.2 * generator.standard_normal(400_000) > 0.0
         assert chance == pytest.approx(drawn.mean(), abs=0.004)
+
+
+@pytest.mark.parametrize("z", [-5.0, -50.0, -900.0, -1100.0, -1e5])
+def test_improvement_far_below_the_mean_keeps_its_logarithm(z):
+    """φ(z) + z·Φ(z) is φ(z)/z²·(1 - 3/z² + 15/z⁴ - …) for large -z (Abramowitz and Stegun, 26.2.12)."""
+    series = math.log1p(-3.0 / z**2 + 15.0 / z**4 - 105.0 / z**6) if z < -20.0 else None
+    found = float(_log_h(np.array([z]))[0])
+    if series is None:
+        grid = np.linspace(z - 12.0, z, 400001)
+        integral = np.trapezoid(ndtr(grid), grid)  # its derivative is Φ
+        assert found == pytest.approx(math.log(integral), abs=1e-6)
+    else:
+        assert found == pytest.approx(
+            series - 0.5 * z**2 - 0.5 * math.log(2.0 * math.pi) - 2.0 * math.log(-z), abs=1e-5
+        )
+
+
+def test_improvement_near_the_mean_is_the_integral_of_the_distribution():
+    for z in (-0.5, 0.0, 1.5):
+        grid = np.linspace(-12.0, z, 400001)
+        assert float(_log_h(np.array([z]))[0]) == pytest.approx(math.log(np.trapezoid(ndtr(grid), grid)), abs=1e-6)

@@ -1,12 +1,14 @@
 """The PyBullet back end: it holds the robot that it was given."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.bullet import LINKS
+from jumpcad.simulation.bullet import LINKS, BulletWorld
 from jumpcad.simulation.engines import engine_named
 
 pytest.importorskip("pybullet")
@@ -35,3 +37,27 @@ def test_a_run_that_blows_up_is_rejected_and_leaves_no_trace(kenan: Robot) -> No
     assert jump.trajectory is not None
     assert np.isfinite(jump.trajectory.position_m).all()
     assert simulate(kenan).ballistic_range_m == before.ballistic_range_m
+
+
+def test_slip_takes_the_contacts_force_times_the_foots_velocity_there() -> None:
+    """v + w x r by numpy's cross product; the mean of before and after, against the force, for a time step."""
+    rng = np.random.default_rng(5)
+    before, after = ([rng.normal(size=3) for _ in range(3)] for _ in range(2))
+    contacts = [
+        [None] * 5
+        + [rng.normal(size=3)]
+        + [None] * 4
+        + [0.7, np.array([0.6, 0.8, 0.0]), -0.4, np.array([-0.8, 0.6, 0.0])]
+        for _ in range(2)
+    ]
+    world = object.__new__(BulletWorld)
+    world._bullet = SimpleNamespace(getContactPoints=lambda *_, **__: contacts)
+    world._dt_s, world._foot, world.robot_id, world._ground, world._client = 0.01, tuple(before), 0, 1, 0
+    world._foot_motion = lambda: tuple(after)
+    lost = 0.0
+    for contact in contacts:
+        force = 0.7 * contact[11] - 0.4 * contact[13]
+        for com, velocity, spin in (before, after):
+            lost -= 0.5 * force @ (velocity + np.cross(spin, contact[5] - com)) * 0.01
+    assert world._slip_work_j() == pytest.approx(lost)
+    assert world._foot == tuple(after)

@@ -17,6 +17,7 @@ viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
 from jumpcad.studio import Points, Studio  # noqa: E402
 from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
+from jumpcad.studio.app import BY_NUMBER  # noqa: E402
 
 
 @pytest.fixture
@@ -90,6 +91,7 @@ def test_a_motion_moves_nodes_and_sends_no_mesh(studio: Studio) -> None:
     assert turned.as_rotvec() == pytest.approx([0.0, moment.turned_rad["cam"], 0.0], abs=1e-6)
     axis = np.array([robot.layout.cam_axis_mm[0], 0.0, robot.layout.cam_axis_mm[1]]) / 1000.0
     assert turned.apply(rest[:3, 3] - axis) + axis == pytest.approx(handle.position, abs=1e-6)
+    studio.player.time.value = 1.5
     studio.answer(studio.design)
     assert handle.position == pytest.approx(rest[:3, 3], abs=1e-9)
     assert studio.player.time.value == 0.0
@@ -112,7 +114,7 @@ def test_a_part_says_what_the_bill_of_materials_says(studio: Studio) -> None:
     assert robot is not None
     studio._say_part("spring_left")
     (spring,) = [line for line in bill_of_materials(robot).items if "right hand" in line.name]
-    assert f"{1000.0 * spring.mass_kg:.2f} g, {spring.name}" in studio.part.content
+    assert f"{spring.name}; as bought {1000.0 * spring.mass_kg:.2f} g" in studio.part.content
     studio._say_part("main_leg")
     assert "stl/main_leg.stl" in studio.part.content
 
@@ -125,6 +127,10 @@ def test_a_point_of_a_study_brings_its_design_and_workshop(study: Path, tmp_path
     shown._run_action(lambda: shown.open(4))
     assert (shown.design, shown.workshop) == (points.trial(4).design, load_workshop())
     assert "trial 4 of 4" in shown.point.content
+    assert shown.best.value == "best 3: 1 body lengths (trial 4)"
+    shown.open(2)
+    assert shown.best.value == BY_NUMBER
+    shown.open(4)
     shown.sliders["e_coef"].value = 1.1
     shown._reset()
     assert shown.design == points.trial(4).design

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from scipy.ndimage import uniform_filter
-from support.browsers import browser, needs_browser, require_quiet, wait, webdriver
+from support.browsers import PHONE, browser, needs_browser, require_quiet, wait, webdriver
 
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
@@ -26,7 +26,8 @@ CHANGED = 2.0
 @pytest.fixture(scope="module")
 def studio(study: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    server.scene.configure_environment_map(None)  # light that takes software rendering 7 s
+    server.scene.configure_environment_map(None)  # with it, and with shadows, software rendering takes 20 s
+    server.scene.configure_default_lights(cast_shadow=False)
     points = Points(study)
     made = Studio(points.trial(3).design, "four", ["of the study"], server, tmp_path_factory.mktemp("saved"), points, 3)
     made.start()
@@ -74,7 +75,7 @@ def changed(driver: Any, before: np.ndarray) -> Callable[[Any], bool]:
 def test_the_time_slider_moves_the_robot(driver: Any, studio: Studio) -> None:
     wait(driver, lambda _: len(np.unique(seen(driver))) > 60)  # not blank
     rest = seen(driver)
-    type_into(driver, "motion, s", "5.5")
+    type_into(driver, "motion, s", "7.0")
     wait(driver, changed(driver, rest))
     wait(driver, lambda _: "flight, " in words(driver))
     flying = seen(driver)
@@ -103,6 +104,13 @@ def test_a_chosen_trial_is_another_robot(driver: Any, studio: Studio) -> None:
     assert studio.design == studio.points.trial(1).design
     type_into(driver, "trial", "2")
     wait(driver, lambda _: "cannot be built" in words(driver))
+
+
+def test_it_fits_a_phone(driver: Any) -> None:
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
+    wait(driver, lambda _: driver.execute_script("return window.innerWidth") == PHONE["width"])
+    wait(driver, lambda _: "carrying_link_mm" in words(driver))
+    assert driver.execute_script("return document.documentElement.scrollWidth") <= PHONE["width"]
 
 
 def test_nothing_leaves_the_machine_and_no_error_is_logged(driver: Any, studio: Studio) -> None:

@@ -57,3 +57,16 @@ def test_gears_turn_against_each_other_while_the_spring_is_wound(played: Playbac
     turned = played.at(2.0).turned_rad
     assert turned["cam"] == turned["cam_gear"] > 1.0
     assert turned["motor_pinion"] < -turned["cam_gear"]
+    dropped = played.at(3.59).turned_rad
+    assert dropped["cam"] > dropped["cam_gear"] + 0.01  # it runs ahead
+
+
+def test_a_turn_through_half_a_circle_takes_the_short_way() -> None:
+    """From 179° to 181° it is 180° half way: the quaternions, each with w >= 0, point away from each other."""
+    turns = [Rotation.from_euler("y", angle, degrees=True).as_quat(canonical=True).tolist() for angle in (179, 181)]
+    columns = {key: [0.0, 1.0] for key in ("show_s", "time_s", "cam_rad", "gear_rad")}
+    frames = {BODY: [[0.0, 0.0, 0.0, *turn] for turn in turns]}
+    motion = {**columns, "phase": ["flight"] * 2, "com_m": [[0.0, 0.0]] * 2, "frames": frames}
+    half = Rotation.from_quat(Playback(motion, []).at(0.5).frames[BODY][3:])
+    assert half.magnitude() == pytest.approx(np.pi, abs=1e-9)
+    assert np.abs(half.apply([1.0, 0.0, 0.0]) - [-1.0, 0.0, 0.0]).max() < 1e-9

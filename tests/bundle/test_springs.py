@@ -1,0 +1,96 @@
+"""The order of the springs and the manifest's entries, by EN 13906-3 and the shares that are accepted."""
+
+import math
+import re
+
+import pytest
+from support.built import built
+
+from jumpcad.building import build
+from jumpcad.bundle.springs import (
+    allowable_mpa,
+    arms_off_deg,
+    loaded_arms,
+    spring_facts,
+    spring_order,
+    torque_requirement,
+    torque_shares,
+)
+from jumpcad.design import load_design
+from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
+
+
+@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return built(request.param)
+
+
+def test_the_torque_that_is_accepted_is_between_weak_and_strong(robot: Robot) -> None:
+    """Least: 10 % softer and 10° narrower, rounded up; most: 10 % more, or what the wire bears without its reserve."""
+    spring = robot.layout.drive.spring
+    wound = math.degrees(spring.wound_rad)
+    least, most = torque_shares(robot)
+    assert 0.0 <= 100.0 * (least - 0.9 * (1.0 - 10.0 / wound)) < 1.0
+    assert allowable_mpa(robot) == pytest.approx(1.05 * spring.allowable_mpa)
+    assert 0.0 <= 100.0 * (min(1.1, allowable_mpa(robot) / spring.stress_mpa) - most) < 1.0
+    assert arms_off_deg(robot) == (10.0, math.floor(0.1 * wound))
+    words = torque_requirement(robot)
+    assert words.startswith(f"{spring.torque_nmm:.0f} N·mm, +{100 * (most - 1):.0f} % / -{100 * (1 - least):.0f} %")
+    assert words.endswith("a pair within 5 %")
+
+
+def test_loaded_arms_have_closed_by_the_springs_angle(robot: Robot) -> None:
+    """180° less the part of a turn beyond whole ones, less what the leg winds."""
+    spring = robot.layout.drive.spring
+    free = (180.0 - 360.0 * (spring.turns % 1.0)) % 360.0
+    angle = free - math.degrees(spring.wound_rad)
+    found = re.fullmatch(r"([\d.]+)° apart|crossed by ([\d.]+)°", loaded_arms(robot))
+    assert found is not None
+    read = float(found[1]) if found[1] else -float(found[2])
+    assert read == pytest.approx(angle, abs=0.051)
+
+
+def test_the_manifest_has_both_springs_with_their_pins(robot: Robot) -> None:
+    """The robot's left has the right-hand one; pins lie at one distance from the hub, as far as the arms reach."""
+    spring = robot.layout.drive.spring
+    left, right = spring_facts(robot)
+    assert (left["side"], left["hand"]) == ("left", "right")
+    assert (right["side"], right["hand"]) == ("right", "left")
+    different = {key for key in left if left[key] != right[key]}
+    assert different == {"side", "hand"}
+    radius = math.hypot((spring.arms.mean_mm + spring.wire_mm + spring.arms.pin_mm) / 2.0, spring.arms.lever_mm)
+    for key, angle in (("plate_pin_mm", spring.plate_pin_rad), ("leg_pin_mm", spring.leg_pin_rad)):
+        assert math.hypot(*left[key]) == pytest.approx(radius, abs=1e-5)
+        assert math.remainder(math.atan2(*left[key][::-1]) - angle, 2 * math.pi) == pytest.approx(0.0, abs=1e-6)
+    assert left["rate_nmm_per_deg"] == pytest.approx(500 * math.pi / 180 * robot.spring.stiffness_nm_per_rad, rel=1e-5)
+    assert left["inside_diameter_mm"] == pytest.approx(spring.arms.mean_mm - spring.wire_mm, abs=1e-5)
+    assert left["arm_length_mm"] == pytest.approx(spring.arms.lever_mm + 2.0, abs=1e-5)
+    assert (left["preload_deg"], left["pin_diameter_mm"]) == (0.0, 3.0)
+
+
+def test_the_order_names_stress_and_life(robot: Robot) -> None:
+    """EN 13906-3: 32·M/(pi·d³) with q = (4w² - w - 1)/(4w(w - 1)) of the inner fibre, w = D/d of the loaded coil."""
+    text, spring = "\n".join(spring_order(robot)), robot.layout.drive.spring
+    loaded = re.search(r"(\d+) MPa at most \((\d+) MPa allowed; EN 13906-3, inner fibre\), (\d+) MPa with", text)
+    assert loaded is not None
+    stress, allowed, most = map(float, loaded.groups())
+    index = spring.arms.mean_mm / spring.wire_mm
+    inner = (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
+    assert stress == pytest.approx(inner * 32.0 * spring.torque_nmm / (math.pi * spring.wire_mm**3), rel=0.03)
+    assert allowed == pytest.approx(allowable_mpa(robot), abs=0.51)
+    assert most == pytest.approx(torque_shares(robot)[1] * stress, abs=1.2)
+    assert f"wire {spring.wire_mm:g} mm" in text
+    assert f"- for {robot.workshop.safety.jumps:g} loadings, each closing" in text
+    assert "the preload adds" not in text
+    assert text.startswith("\n## Springs to order")
+
+
+def test_stock_springs_are_cut_and_not_made() -> None:
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update={"spring": "9271K589"})
+    robot = build(load_design("kenan-1.0"), shop.model_copy(update={"bought": bought}))
+    text = "\n".join(spring_order(robot))
+    assert text.startswith("\n## Springs\n")
+    assert f"cut both arms to {robot.layout.drive.spring.arm_length_mm:.1f} mm from the coil" in text
+    assert "EN 10270-1" not in text

@@ -1,0 +1,66 @@
+"""Voltages from the battery to the motor's winding, part by part, by Ohm's law."""
+
+import pytest
+
+from jumpcad.electronics.chain import Link, chain, supply_pin
+from jumpcad.electronics.chosen import Chosen, chosen_parts
+from jumpcad.electronics.supply import supply_of
+from jumpcad.workshop import load_workshop
+
+PEAK_A, TORQUE_NM = 0.5, 0.2
+
+
+def links(kit: str) -> tuple[dict[str, Link], Chosen]:
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update=shop.catalogue.kits[kit].model_dump() | {"kit": kit})
+    chosen = chosen_parts(shop.model_copy(update={"bought": bought}))
+    motor = shop.catalogue.motors["n20-298"]
+    return {one.role: one for one in chain(chosen, motor, supply_of(chosen), PEAK_A, TORQUE_NM)}, chosen
+
+
+def test_one_cell_feeds_controller_and_driver() -> None:
+    """3.3 V less the drop of the battery's own resistance at the motor's largest current, to 4.2 V."""
+    found, chosen = links("light-1s")
+    low = 3.3 - PEAK_A * chosen.battery.ohm
+    for role in ("controller", "driver", "switch", "plug", "capacitor"):
+        if role in found:
+            assert found[role].gets_v == pytest.approx((low, 4.2)), role
+    assert found["controller"].bears_v == chosen.controller.supply_v[found["controller"].pin]
+    assert found["driver"].bears_v == chosen.driver.supply_v[found["driver"].pin]
+    assert "regulator" not in found
+    for role in ("switch", "plug", "capacitor"):
+        part = chosen.components.get(role)
+        assert (role in found) == (part is not None and part.rated_v is not None)
+        if role in found:
+            assert found[role].bears_v == (0.0, part.rated_v)
+
+
+def test_two_cells_pass_a_regulator_and_a_diode_to_the_controller() -> None:
+    found, chosen = links("strong-2s")
+    low = 6.6 - PEAK_A * chosen.battery.ohm
+    assert found["regulator"].gets_v == pytest.approx((low, 8.4))
+    assert found["driver"].gets_v == pytest.approx((low, 8.4))
+    logic = chosen.regulator.output_v - (chosen.diode.drop_v if chosen.diode else 0.0)
+    assert found["controller"].gets_v == pytest.approx((logic, logic))
+
+
+def test_the_winding_gets_the_mean_of_the_pwm() -> None:
+    """A motor of 6 V on 8.4 V: no more than the highest voltage that it bears, the same share of an empty battery."""
+    found, chosen = links("strong-2s")
+    motor = load_workshop().catalogue.motors["n20-298"]
+    low, high = found["motor"].gets_v
+    assert high <= motor.range_v[1] + 1e-9
+    assert low / high == pytest.approx(chosen.battery.range_v[0] / chosen.battery.range_v[1])
+    assert found["motor"].bears_v == motor.range_v
+    assert found["motor"].name == "n20-298"
+
+
+def test_the_input_is_the_first_that_bears_the_range() -> None:
+    board = load_workshop().catalogue.boards["xiao-esp32c3"].model_copy(
+        update={"supply_v": {"A": (3.0, 4.0), "B": (3.0, 6.0), "C": (2.0, 9.0)}}
+    )  # fmt: skip
+    assert supply_pin(board, (3.0, 4.0)) == "A"
+    assert supply_pin(board, (3.0, 4.1)) == "B"
+    assert supply_pin(board, (2.9, 4.0)) == "C"
+    assert supply_pin(board, (1.0, 4.0)) == "A"
+    assert supply_pin(board.model_copy(update={"supply_v": {}}), (3.0, 4.0)) == ""

@@ -1,0 +1,94 @@
+"""The switch's place and track, from the data sheet's plunger positions and plane geometry."""
+
+import math
+
+import numpy as np
+import pytest
+from support.built import built, geared
+
+from jumpcad.dimensions import GAP_MM
+from jumpcad.layout.sensor import middle_mm, sensor_obstacle, track_mm
+from jumpcad.robot import Robot
+
+
+@pytest.fixture(scope="module", params=[lambda: built("kenan-2.0"), lambda: built("best-bo"), geared])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return request.param()
+
+
+def test_the_land_is_halfway_between_surely_operated_and_the_end_of_travel(robot: Robot) -> None:
+    travel = robot.layout.sensor.needs.travel
+    surest = travel.operating_mm - travel.operating_tolerance_mm
+    assert middle_mm(travel) == pytest.approx((surest + travel.total_mm) / 2.0)
+    assert robot.layout.sensor.press_mm == pytest.approx(travel.operating_mm - middle_mm(travel))
+
+
+def test_the_groove_frees_the_plunger_and_leaves_the_gear_its_web(robot: Robot) -> None:
+    """In whole layers, deep enough for the free position at the worst, and less than a layer deeper."""
+    sensor, needs = robot.layout.sensor, robot.layout.sensor.needs
+    layers = sensor.depth_mm / needs.layer_mm
+    assert layers == pytest.approx(round(layers))
+    free = middle_mm(needs.travel) + sensor.depth_mm - needs.axial_mm - needs.travel.free_mm
+    assert 0.0 <= free < 2.0 * needs.layer_mm
+    assert robot.layout.drive.train.stages[-1].face_width_mm - sensor.depth_mm >= 1.6 - 1e-9
+
+
+def test_the_track_is_as_wide_as_plunger_and_errors_and_lies_between_dog_and_teeth(robot: Robot) -> None:
+    sensor, needs = robot.layout.sensor, robot.layout.sensor.needs
+    assert 2.0 * sensor.half_width_mm == pytest.approx(needs.travel.pin_mm + 2.0 * (needs.along_mm + 0.3))
+    wall = (track_mm(needs.travel, needs.along_mm) - 2.0 * sensor.half_width_mm) / 2.0
+    assert wall > 0.5
+    inner, outer = sensor.radius_mm - sensor.half_width_mm, sensor.radius_mm + sensor.half_width_mm
+    assert inner - robot.layout.drive.dog.outer_mm / 2.0 >= wall - 1e-3
+    assert robot.layout.drive.train.stages[-1].wheel.root_radius_mm - outer >= wall - 1e-3
+
+
+def test_the_switch_lies_along_its_track(robot: Robot) -> None:
+    """Its plunger on the track's circle, its long side a tangent."""
+    sensor, layout = robot.layout.sensor, robot.layout
+    away = sensor.place_mm - layout.cam_axis_mm
+    assert math.hypot(*away) == pytest.approx(sensor.radius_mm)
+    along = np.array([math.cos(sensor.turn_rad), math.sin(sensor.turn_rad)])
+    assert along @ away == pytest.approx(0.0, abs=1e-6)
+    assert math.remainder(math.atan2(away[1], away[0]) - sensor.direction_rad, 2.0 * math.pi) == pytest.approx(
+        0.0, abs=1e-6
+    )
+
+
+def test_angles_of_ready_and_open_have_their_scatter_and_reserve(robot: Robot) -> None:
+    """On a ramp of 45° an error of height is one along the track; the motor stands before the drop."""
+    sensor, needs = robot.layout.sensor, robot.layout.sensor.needs
+    scatter = (needs.axial_mm + needs.travel.operating_tolerance_mm + needs.along_mm) / sensor.radius_mm
+    assert sensor.scatter_rad == pytest.approx(scatter)
+    assert sensor.ready_rad == pytest.approx(scatter + needs.stop_rad + needs.reserve_rad)
+    assert sensor.open_rad == pytest.approx(scatter + needs.reserve_rad)
+    lift = robot.layout.drive.cam.law.lift_rad
+    begin, end = sensor.land_rad(sensor.depth_mm - sensor.press_mm, lift)
+    assert lift + sensor.direction_rad - begin == pytest.approx(sensor.ready_rad)
+    assert end - lift - sensor.direction_rad == pytest.approx(sensor.open_rad)
+    higher = sensor.land_rad(sensor.depth_mm - sensor.press_mm + 0.5, lift)
+    assert (higher[0] - begin, end - higher[1]) == pytest.approx((0.5 / sensor.radius_mm, 0.5 / sensor.radius_mm))
+
+
+def test_the_switchs_base_is_where_the_land_presses_it_in_the_middle_of_its_play(robot: Robot) -> None:
+    """The gear can go 0.5 mm to the right and 0.1 mm to the left: its land is 0.2 mm to the right of the drawing."""
+    sensor, lateral = robot.layout.sensor, robot.layout.lateral
+    land = lateral.gears[0][1] - 0.2
+    base = lateral.left_plate[1] + sensor.base_mm
+    assert base - land == pytest.approx(middle_mm(sensor.needs.travel), abs=1e-6)
+    assert GAP_MM == 0.5
+
+
+def test_the_room_kept_free_holds_switch_mount_and_terminals(robot: Robot) -> None:
+    """From the gear's face to 6 mm beyond the mount's wall of 1.2 mm over the base; ears of the mount to the sides."""
+    sensor, lateral = robot.layout.sensor, robot.layout.lateral
+    found = sensor_obstacle(sensor, lateral)
+    assert found.y_mm[0] == lateral.gears[0][1]
+    assert found.y_mm[1] == pytest.approx(lateral.left_plate[1] + sensor.base_mm + 1.2 + 6.0)
+    along = np.array([math.cos(sensor.turn_rad), math.sin(sensor.turn_rad)])
+    across = np.array([-along[1], along[0]])
+    length, width = sensor.case_mm
+    for axis, half in ((along, length / 2.0 + 0.2 + 1.2 + 1.9 + 2.6), (across, width / 2.0 + 0.2 + 1.2)):
+        reach = (found.points_mm - sensor.place_mm) @ axis
+        assert reach.max() + found.radius_mm == pytest.approx(half + 0.8, abs=1e-6)
+        assert reach.min() - found.radius_mm == pytest.approx(-half - 0.8, abs=1e-6)

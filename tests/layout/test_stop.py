@@ -1,0 +1,99 @@
+"""The rest stop's place in the plane: the heel on the pad, the bar behind it, and how far past rest the links reach."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.built import built
+
+from jumpcad.design import load_design
+from jumpcad.errors import CannotBuildError
+from jumpcad.layout.room import disc
+from jumpcad.layout.stop import stop_angle_rad, stop_obstacles, stop_place, stop_tab_obstacle
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.robot import Robot
+
+
+@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return built(request.param)
+
+
+def frame(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors along the leg at its stop, and out of it, the way that it turns; z is up, angles below x."""
+    below = math.radians(robot.design.rest_angle_deg) + robot.layout.stop.angle_rad
+    return np.array([math.cos(below), -math.sin(below)]), np.array([-math.sin(below), -math.cos(below)])
+
+
+def test_the_heel_touches_the_pads_middle(robot: Robot) -> None:
+    """Half of the leg's height or its eye's radius, and one layer of 0.2 mm, behind the leg's middle line."""
+    stop, sections, (along, behind) = robot.layout.stop, robot.layout.sections, frame(robot)
+    heel = max(sections.leg_root_mm / 2.0, sections.eye_radius_mm) + 0.2
+    assert stop.heel_mm == pytest.approx(heel)
+    np.testing.assert_allclose(stop.face_mm, robot.layout.hub_mm + stop.radius_mm * along + heel * behind, atol=2e-6)
+    np.testing.assert_allclose(stop.along, along, atol=1e-8)
+    np.testing.assert_allclose(stop.behind, behind, atol=1e-8)
+    assert 9.0 <= stop.radius_mm <= 24.25
+
+
+def test_the_bar_begins_at_the_pads_seat_and_its_tabs_at_the_bars_face(robot: Robot) -> None:
+    """The pad is sunk by 0.6 mm; tabs of 5 x 4 mm lie at the bar's edge nearest to the hub."""
+    stop, (along, behind) = robot.layout.stop, frame(robot)
+    seat = stop.face_mm + (stop.pad.thickness_mm - 0.6) * behind
+    np.testing.assert_allclose(stop.seat_mm, seat, atol=1e-6)
+    np.testing.assert_allclose(stop.middle_mm, seat + stop.depth_mm / 2.0 * behind, atol=1e-6)
+    np.testing.assert_allclose(stop.tab_mm, seat + (2.5 - 4.0) * along + 2.0 * behind, atol=1e-6)
+    assert math.degrees(stop.reach_rad - stop.angle_rad) == pytest.approx(3.0)
+    assert stop.depth_mm == robot.layout.sections.stop_mm
+
+
+def test_the_obstacles_are_the_bar_and_its_tabs(robot: Robot) -> None:
+    stop, (along, behind) = robot.layout.stop, frame(robot)
+    (bar,) = stop_obstacles(stop, robot.layout.lateral.inside)
+    tab = stop_tab_obstacle(stop, robot.layout.lateral.left_plate)
+    for found, middle, size in ((bar, stop.middle_mm, (4.8, stop.depth_mm / 2.0 + 0.8)), (tab, stop.tab_mm, None)):
+        for axis, half in zip((along, behind), size or (None, None), strict=True):
+            reach = (found.points_mm - middle) @ axis
+            assert reach.max() == pytest.approx(-reach.min(), abs=1e-6)
+            if half is not None:
+                assert reach.max() + found.radius_mm == pytest.approx(half, abs=1e-6)
+    assert bar.y_mm == robot.layout.lateral.inside
+    assert tab.y_mm == robot.layout.lateral.left_plate
+
+
+def test_the_stop_gives_way_to_what_is_there_and_says_what_misses(robot: Robot) -> None:
+    layout, stop, (along, _) = robot.layout, robot.layout.stop, frame(robot)
+    given = (robot.linkage, layout.sections, stop.angle_rad, stop.pad, layout.lateral.inside, layout.lateral.left_plate)
+    free = stop_place([], *given)
+    assert free.radius_mm == 18.0  # where it is wanted
+    assert free.room_mm == 3.0
+    post = disc("post", free.middle_mm + 1.0 * along, 1.0, layout.lateral.inside)
+    moved = stop_place([post], *given)
+    assert moved.radius_mm < 18.0
+    gap = np.abs((post.points_mm[0] - moved.middle_mm) @ along) - 4.0 - 1.0
+    assert 0.0 <= gap < 0.25 + 1e-6
+    farther = stop_place([post], *given, 0.5)
+    assert moved.radius_mm - farther.radius_mm == pytest.approx(0.5)
+    with pytest.raises(CannotBuildError, match=r"no room for the rest stop .* mm too little"):
+        stop_place([replace(post, radius_mm=40.0)], *given)
+    thin = stop.pad.model_copy(update={"thickness_mm": 0.5})
+    with pytest.raises(CannotBuildError, match="choose a thicker pad"):
+        stop_place([], *given[:3], thin, *given[4:])
+
+
+def test_the_stop_is_as_far_past_rest_as_asked_for_or_as_the_loop_closes() -> None:
+    """Foot and front link reach as far as they are long together; 3° of the pad's give are needed beyond the stop."""
+    sections = built("kenan-2.0").layout.sections
+    linkage = Linkage(load_design("kenan-2.0"))
+    wanted = math.radians(5.0)
+    assert stop_angle_rad(linkage, sections, wanted) == wanted
+    far = stop_angle_rad(linkage, sections, math.radians(170.0))
+    assert 3.0 <= math.degrees(far) < 170.0
+    steps = (170.0 - math.degrees(far)) / 0.5
+    assert steps == pytest.approx(round(steps), abs=1e-6)
+
+    def closes(angle: float) -> bool:
+        return float(linkage.diagonal_mm(angle + math.radians(3.0))) <= linkage.l3 + linkage.l4
+
+    assert closes(far)

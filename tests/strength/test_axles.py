@@ -1,0 +1,60 @@
+"""Axles and pins as round bars, and what holds them along their axes."""
+
+import math
+
+import pytest
+
+from jumpcad.dimensions import AXLE_FLOOR_MM
+from jumpcad.strength.axles import RoundBar, axle_bar, clipped_pins, pin_bar, pin_head_mm
+from jumpcad.workshop import Workshop, load_workshop
+
+
+def workshop(**bought: object) -> Workshop:
+    shop = load_workshop()
+    return shop.model_copy(update={"bought": shop.bought.model_copy(update=bought)})
+
+
+def test_a_bored_bar_by_the_handbook() -> None:
+    """32·M·D/(pi·(D⁴ - d⁴)): 400 N·mm on 4 x 2 mm are 67.9 MPa, and without the bore 63.7."""
+    assert RoundBar(4.0, 0.0, 1.0, 1.0).stress_mpa(400.0) == pytest.approx(32.0 * 400.0 / (math.pi * 64.0))
+    assert RoundBar(4.0, 2.0, 1.0, 1.0).stress_mpa(400.0) == pytest.approx(12800.0 * 4.0 / (math.pi * 240.0))
+
+
+def test_a_rod_in_blind_bores_is_held_by_their_floors() -> None:
+    """The floor shears off around the rod: pi·d·t·(strength/sqrt 3), over the printed parts' factor."""
+    shop = workshop(axle_mm=3.0)
+    bar, rod = axle_bar(shop), shop.catalogue.rods[shop.bought.axle]
+    strength = shop.material("body").strength_in_plane_mpa
+    held = math.pi * 3.0 * AXLE_FLOOR_MM * strength / math.sqrt(3.0) / shop.safety.printed_factor
+    assert bar.axial_n == pytest.approx(held, rel=1e-3)
+    assert bar.yield_mpa == min(rod.yield_mpa, shop.safety.steel_yield_mpa)
+    assert (bar.diameter_mm, bar.bore_mm) == (3.0, rod.bore_share * 3.0)
+
+
+def test_a_clip_bears_its_rating_and_a_screw_its_yield_stress() -> None:
+    clips = workshop(retention="clips", axle="silver-steel")
+    assert axle_bar(clips).axial_n == clips.catalogue.clip_for(3.0).load_n / clips.safety.metal_factor
+    nuts = axle_bar(workshop(retention="nuts"))
+    assert nuts.bore_mm == 0.0
+    assert nuts.axial_n == pytest.approx(5.03 * nuts.yield_mpa / load_workshop().safety.metal_factor, rel=1e-2)
+
+
+def test_pins_are_clevis_pins_where_they_are_made_and_rods_elsewhere() -> None:
+    """ISO 2341 begins at 3 mm. M3's stressed area is 5.03 mm² (ISO 898-1)."""
+    usual = workshop(axle_mm=3.0)
+    pin = usual.catalogue.clevis_pin_for(3.0)
+    assert clipped_pins(usual.catalogue, usual.bought) is None
+    assert pin_head_mm(usual.catalogue, usual.bought) == pin.head_mm
+    bar = pin_bar(usual)
+    assert (bar.diameter_mm, bar.bore_mm) == (pin.diameter_mm, 0.0)
+    assert bar.axial_n == pin.load_n / usual.safety.metal_factor
+    assert bar.yield_mpa == min(pin.yield_mpa, usual.safety.steel_yield_mpa)
+    clips = workshop(retention="clips", axle="silver-steel")
+    rod = clips.catalogue.rods["silver-steel"]
+    assert clipped_pins(clips.catalogue, clips.bought) == rod
+    assert pin_head_mm(clips.catalogue, clips.bought) == clips.catalogue.clip_for(3.0).outer_mm
+    held = pin_bar(clips)
+    assert held.axial_n == clips.catalogue.clip_for(3.0).load_n / clips.safety.metal_factor
+    assert (held.diameter_mm, held.bore_mm) == (3.0, 3.0 * rod.bore_share)
+    thin = workshop(axle_mm=2.0)
+    assert clipped_pins(thin.catalogue, thin.bought) is not None
