@@ -8,10 +8,11 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
+from jumpcad.bundle.lead_lines import leads_of
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
-from jumpcad.parts.lead_ways import battery_way, gap_mm, lead_way, plate_of, way_words
+from jumpcad.parts.lead_ways import battery_way, gap_mm, lead_way, outer_way, plate_of, way_words
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import contained
 from jumpcad.workshop import load_workshop
@@ -145,3 +146,25 @@ def test_what_is_soldered_beside_the_robot_has_longer_leads(robot: Robot) -> Non
 
 def _ends(robot: Robot) -> list[tuple[str, tuple[str, str], tuple[str, str]]]:
     return [(net, (start.part, start.pin), (end.part, end.pin)) for net, start, end, *_ in wires(robot)]
+
+
+def test_the_batterys_leads_go_from_its_front_end_around_the_trays_to_the_plug(robot: Robot) -> None:
+    """Both ends in the middle of what they come out of, as it lies on the trays; ahead of all that is on them."""
+    way = battery_way(robot.layout)
+    for name, end in (("battery", way[0]), ("plug", way[-1])):
+        item = next((one for one in robot.hardware if one.name == name), None)
+        assert item is not None
+        low, high = item.look.copy().apply_transform(item.T_body_part).bounds
+        assert end == pytest.approx([high[0], (low[1] + high[1]) / 2.0, (low[2] + high[2]) / 2.0], abs=0.02), name
+    assert np.ptp(way[1:4, 0]) == 0.0
+    assert way[1, 0] > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
+
+
+def test_leads_lie_side_by_side_about_the_middle_of_their_part(robot: Robot) -> None:
+    """Of all leads that end at a part the ends' mean is where the part's way begins, and no two are the same."""
+    leads = leads_of(robot)
+    for part in {part for lead in leads for part in lead.parts} - {"battery", "plug", "switch"}:
+        ends = np.array([lead.points_mm[0 if lead.parts[0] == part else -1] for lead in leads if part in lead.parts])
+        assert ends.mean(axis=0) == pytest.approx(outer_way(robot.layout, part)[0], abs=1e-6), part
+        apart = [np.abs(a - b).max() for a, b in itertools.combinations(ends, 2)]
+        assert min(apart, default=1.0) > 0.05, part
