@@ -107,6 +107,7 @@ def test_examples_run(
     """Run blocks of bash and Python in their order; of sh, whose commands cost minutes, check command and options."""
     if any("import mujoco" in block for _, block in BLOCKS[chapter]):
         pytest.importorskip("mujoco")
+    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 3)
     monkeypatch.chdir(tmp_path)
     if "exports/kenan-2.0" in CHAPTERS[chapter]:
         (tmp_path / "exports").mkdir()
