@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from manifold3d import Manifold, Mesh
-from support.built import LONG_TOES, built, geared, placed
+from support.built import LONG_TOES, built, placed
 
 from jumpcad.building import assembly, build
 from jumpcad.checks.assembly import assembly_findings, assembly_ways, paths, tools
