@@ -1,11 +1,12 @@
 """Assembly: in the guide's order all paths are free and tools reach their fasteners; in another they do not."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from manifold3d import Manifold, Mesh
-from support.built import LONG_TOES, built, geared, placed
+from support.built import LONG_TOES, built, placed
 
 from jumpcad.building import assembly, build
 from jumpcad.checks.assembly import assembly_findings, assembly_ways, paths, tools
@@ -18,14 +19,15 @@ from jumpcad.workshop import load_workshop
 
 ROBOTS = {
     "kenan-2.0": lambda: built("kenan-2.0"),
-    "two pairs of gears": geared,
     LONG_TOES: lambda: built(LONG_TOES),
-    "strong-2s, screws as axles": lambda: _bought("best-bo", kit="strong-2s", retention="nuts"),
+    "strong-2s, screws as axles, two pairs of gears": lambda: _bought(
+        "best-bo", kit="strong-2s", retention="nuts", motors=("n20-50",)
+    ),
     "clips": lambda: _bought("best-printable", axle="silver-steel", retention="clips"),
 }
 
 
-def _bought(name: str, kit: str = "light-1s", **chosen: str) -> Robot:
+def _bought(name: str, kit: str = "light-1s", **chosen: Any) -> Robot:
     shop = load_workshop()
     parts = shop.catalogue.kits[kit].model_dump() | {"kit": kit} | chosen
     return build(load_design(name), shop.model_copy(update={"bought": shop.bought.model_copy(update=parts)}), name)
