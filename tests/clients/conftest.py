@@ -1,4 +1,4 @@
-"""Bundles for independent programs: the first robot, the recommended one, and one of a few parts, asymmetric on purpose."""
+"""Bundles for independent programs: the first robot, the recommended one, and one of few parts, asymmetric."""
 
 from collections.abc import Callable
 from pathlib import Path
