@@ -9,6 +9,7 @@ from unittest.mock import ANY
 
 import pytest
 from support.commands import Run
+from support.pictures import with_few_pictures
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY_NAMES
@@ -84,7 +85,7 @@ def test_verify_finds_what_was_changed(run: Run, bundle: Path, tmp_path: Path) -
 def test_render_draws_stills_and_the_jump_of_a_bundle(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 3)
+    with_few_pictures(monkeypatch)
     code, out, _ = run("render", bundle, "-o", tmp_path / "p", "--json")
     assert code == 0
     assert json.loads(out)["files"] == ["compressed.png", "exploded.png", "jump.gif", "rest.png"]
@@ -104,7 +105,7 @@ def test_a_folder_in_the_way_is_refused_in_one_line(run: Run, tmp_path: Path) ->
 def test_pictures_belong_to_the_bundle_that_they_are_drawn_into(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 2)
+    with_few_pictures(monkeypatch, 2)
     own = Path(shutil.copytree(bundle, tmp_path / "own"))
     (own / "pictures").mkdir()
     (own / "pictures" / "rest.png").write_bytes(b"mine")

@@ -1,4 +1,4 @@
-"""Bundles for independent programs: the first robot, the recommended one, and one of few parts, asymmetric."""
+"""Bundles for independent programs: of two templates, and of a robot of a few parts, asymmetric on purpose."""
 
 from collections.abc import Callable
 from pathlib import Path
