@@ -44,20 +44,21 @@ def points(driver: Any) -> list[Any]:
 def test_a_click_on_a_point_shows_its_robot(driver: Any, page: Path) -> None:
     driver.get(page.as_uri())
     (first,) = shown(driver)
-    highest = points(driver)[-1].get_attribute("data-design")  # of a front
-    assert first.startswith(f"Design {highest} (")
-    point = points(driver)[0]
+    last = points(driver)[-1]
+    number = last.get_attribute("data-design")  # of a front, the highest score
+    assert first.startswith(f"Design {number} (")
+    driver.find_element("css selector", 'td a[data-design="1"]').click()
+    assert shown(driver)[0].startswith("Design 1 (")
     box = driver.find_element("id", "robots")
     before = box.screenshot_as_png
-    point.find_element("css selector", "circle:last-child").click()
+    last.find_element("css selector", "circle:last-child").click()
     (now,) = shown(driver)
-    number = point.get_attribute("data-design")
     assert now.startswith(f"Design {number} (")
     assert box.screenshot_as_png != before
     drawn = driver.find_element("css selector", f"#design-{number} svg.side")
     assert drawn.size["width"] > 200
     assert drawn.size["height"] > 50
-    assert point.get_attribute("aria-current") == "true"
+    assert last.get_attribute("aria-current") == "true"
     driver.find_element("css selector", 'td a[data-design="2"]').click()
     assert shown(driver)[0].startswith("Design 2 (")
 
