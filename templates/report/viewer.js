@@ -10,7 +10,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 
 // The first view: from which side (along, across, up), and the share of the picture that robot and jump fill.
-const FROM = [0.3, -1, 0.3];
+const FROM = [0.2, -1, 0.24];
 const FILLED = 0.92;
 // Share of the rise by which a camera that follows goes up with the robot: the ground stays in view.
 const RISING = 0.85;
