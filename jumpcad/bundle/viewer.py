@@ -23,6 +23,8 @@ from jumpcad.transforms import chained
 
 MICRONS = 6
 """Decimals of lengths in m."""
+CELL_MM = 50
+"""Distance of the lines of the ground; judgement: a third of a robot."""
 KEYS = (
     "Arrow keys turn the robot, with Shift they move it; + and − zoom, 0 shows it as at first; space plays and "
     "pauses, comma and full stop go back and forth in the motion."
@@ -39,7 +41,8 @@ CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <label><input type="checkbox" id="show-plates" checked="checked" /> body plates</label>
 <label><input type="checkbox" id="show-printed" checked="checked" /> other printed parts</label>
 <label><input type="checkbox" id="show-bought" checked="checked" /> bought parts</label>
-<label><input type="checkbox" id="show-path" checked="checked" /> path of the centre of mass</label></p>
+<label><input type="checkbox" id="show-path" checked="checked" /> path of the centre of mass</label>
+<label><input type="checkbox" id="follow" /> follow the robot</label></p>
 <p><label>part <select id="choose"><option value="">none</option></select></label>
 <output id="part" aria-live="polite"></output></p>
 </div>"""
@@ -49,7 +52,7 @@ def viewer(robot: Robot, jump: Jump, glb: bytes) -> Iterator[str]:
     """Yield the viewer's elements: a box, controls, and scripts with data, GLB file and program."""
     yield f'<div id="viewer" data-keys="{KEYS}"></div>'
     yield '<p id="viewer-message">The robot is shown here in 3-D where the browser runs scripts and WebGL.</p>'
-    hint = f"Drag to turn, scroll or pinch to zoom. <span>{KEYS}</span>"
+    hint = f"Drag to turn, scroll or pinch to zoom. Lines of the ground {CELL_MM} mm apart. <span>{KEYS}</span>"
     yield f'<p id="viewer-keys" hidden="hidden"><small>{hint}</small></p>'
     yield CONTROLS
     yield f'<script type="application/json" id="viewer-data">{_embedded(viewer_data(robot, jump))}</script>'
@@ -66,6 +69,7 @@ def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
     apart = [after[:3, 3] - before[:3, 3] for before, after in zip(poses, exploded(things, poses), strict=True)]
     return motion(robot, jump.trajectory, jump.takeoff_time_s) | {
         "size_m": round(float(extent_m(robot).max()), MICRONS),
+        "cell_m": CELL_MM / 1000.0,
         "turning": turning_parts(robot),
         "explode_m": {
             thing.name: round(float(offset[1]), MICRONS) for thing, offset in zip(things, apart, strict=True)
