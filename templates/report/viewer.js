@@ -14,9 +14,8 @@ const FROM = [0.2, -1, 0.24];
 const FILLED = 0.92;
 // Share of the rise by which a camera that follows goes up with the robot: the ground stays in view.
 const RISING = 0.85;
-// The shadow of a robot on the ground, as a share of its size, and how dark it is.
+// The radius of the shadow of a robot on the ground, as a share of its size.
 const SHADOW = 0.55;
-const DARK = 0.5;
 // The most that a picture goes on (s): after a pause of the browser the motion goes on where it was.
 const LONGEST_S = 0.25;
 // A key turns by 7.5°, moves by a twelfth of the robot's size, zooms by a seventh, and goes a fiftieth of a second on.
@@ -38,7 +37,11 @@ function bytes(base64) {
 
 function seeable() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
-  return { background: new Color(dark ? 0x1c1f24 : 0xf4f6f8), grid: dark ? 0x3a4048 : 0xc4ccd4 };
+  return {
+    background: new Color(dark ? 0x1c1f24 : 0xf4f6f8),
+    grid: dark ? 0x3a4048 : 0xc4ccd4,
+    shadow: dark ? 1 : 0.5, // how dark, of 1
+  };
 }
 
 class Viewer {
@@ -79,6 +82,7 @@ class Viewer {
   dress() {
     const seen = seeable();
     this.scene.background = seen.background;
+    this.darkest = seen.shadow;
     this.shadow = this.disc();
     this.scene.add(this.ground(seen.grid), this.shadow, new AmbientLight(0xffffff, 1.4));
     for (const [x, y, z, strength] of [[1, -2, 3, 2.0], [-2, 1.5, 1, 0.8]]) {
@@ -124,7 +128,7 @@ class Viewer {
     const height = Math.max(box.min.z, 0) / this.data.size_m;
     this.shadow.position.x = (box.min.x + box.max.x) / 2;
     this.shadow.scale.setScalar(SHADOW * this.data.size_m * (1 + 0.3 * height));
-    this.shadow.material.opacity = DARK / (1 + 0.7 * height);
+    this.shadow.material.opacity = this.darkest / (1 + 0.7 * height);
     this.box.dataset.shadow = this.shadow.material.opacity.toFixed(3);
   }
 
