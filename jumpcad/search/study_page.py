@@ -238,11 +238,11 @@ def _designs(found: Known, shown: Sequence[Trial], numbers: Sequence[int]) -> It
     ]
     score = f"score ({found.objective.unit})"
     titles = ["design", "trial", score, *head, "springs (J)"]
-    last = len(titles)
+    first_extra = len(titles) - bool(head)  # a phone has no room for the springs beside the neighbours
     titles += [_headed(parameter.name) for parameter in found.space.free]
-    yield from table(titles, rows, numbers=range(1, len(titles)), extra=range(last, len(titles)))
-    yield '<p class="narrow"><small>A wider screen shows the parameters in this table too; here, a click on a number '
-    yield "shows those of its design.</small></p>"
+    yield from table(titles, rows, numbers=range(1, len(titles)), extra=range(first_extra, len(titles)))
+    yield '<p class="narrow"><small>A wider screen shows more in this table; here, a click on a number shows all of '
+    yield "its design.</small></p>"
 
 
 def _headed(parameter: str) -> str:
