@@ -100,7 +100,8 @@ WORDS = {
     "boards_j": "of it, the boards'",
     "winding.efficiency": "springs' energy over the battery's",
     "notes": "what else to know",
-    "too_weak": "findings of parts that would break",
+    "violated": "limits that are violated, the worst first",
+    "violation": "how many, and whether to build the robot; empty where none is",
     # jumps
     "verdict": "`jump`, or why there is none",
     "engine": "engine that simulated",
@@ -126,7 +127,7 @@ WORDS = {
     **ACCOUNT,
     # findings
     "findings.name": "the check; see [Checks](checks.md)",
-    "too_weak.name": "the check; see [Checks](checks.md)",
+    "violated.name": "the check; see [Checks](checks.md)",
     "severity": "`error`, `warning` or `info`",
     "margin": "how far from its limit, in `unit`; negative: violated",
     "unit": "of the margin",

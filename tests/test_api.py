@@ -2,13 +2,18 @@
 
 from pathlib import Path
 
+import pytest
+from support.pictures import with_few_pictures
+
 import jumpcad
 from jumpcad.robot import Robot
 
 
 def test_a_bundle_has_pictures_and_no_step_files_unless_it_is_told_otherwise(
-    small_robot: Robot, tmp_path: Path
+    small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    with_few_pictures(monkeypatch)
+    monkeypatch.setattr("jumpcad.bundle.export.uncertainty_of", lambda _: None)
     for folder, pictures in (("with", True), ("without", False)):
         bundle = jumpcad.export(small_robot, tmp_path / folder, pictures=pictures, step=False)
         suffixes = {Path(name).suffix for name in bundle.files}

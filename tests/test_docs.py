@@ -12,6 +12,7 @@ from types import ModuleType
 import pytest
 import typer
 from support.calibrations import with_coarse_calibration
+from support.pictures import with_few_pictures
 from support.places import ROOT
 from support.proposals import with_less_work
 
@@ -107,6 +108,7 @@ def test_examples_run(
     """Run blocks of bash and Python in their order; of sh, whose commands cost minutes, check command and options."""
     if any("import mujoco" in block for _, block in BLOCKS[chapter]):
         pytest.importorskip("mujoco")
+    with_few_pictures(monkeypatch)
     monkeypatch.chdir(tmp_path)
     if "exports/kenan-2.0" in CHAPTERS[chapter]:
         (tmp_path / "exports").mkdir()

@@ -12,8 +12,10 @@ from jumpcad.bundle.ordering import order_lines, print_lines, tool_lines, weigh_
 from jumpcad.bundle.springs import spring_order
 from jumpcad.bundle.stuck import HEADING, UNTRIED, stuck_items
 from jumpcad.bundle.wiring import wiring_lines
+from jumpcad.checks import quick_findings
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.files.markdown import plain
+from jumpcad.findings import errors
 from jumpcad.parts.part import Part
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_order.plan import ROBOT
@@ -30,6 +32,7 @@ def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> str:
     lines = [
         f"# {robot.name}",
         "",
+        *_forbidden(robot),
         f"{1000.0 * robot.mass_kg:.1f} g. Left and right are as seen from behind the robot. Read all of it before you "
         "start: plan an evening for printing and ordering, and an afternoon for assembly. Torques and forces of hands "
         "are judgements.",
@@ -59,6 +62,16 @@ def duration(seconds: float) -> str:
     """Return a time in hours and minutes, rounded to whole minutes: `2:31 h`."""
     hours, minutes = divmod(round(seconds / 60.0), 60)
     return f"{hours}:{minutes:02d} h"
+
+
+def _forbidden(robot: Robot) -> Iterator[str]:
+    """Yield a warning if limits forbid the robot."""
+    if broken := [finding.name for finding in errors(quick_findings(robot))]:
+        limits = f"the limit {broken[0]} is" if len(broken) == 1 else f"the limits {', '.join(broken)} are"
+        yield from (
+            f"> **Warning.** Do not build it as it is: {limits} violated. `jumpcad check` says by how much.",
+            "",
+        )
 
 
 def _tables(bill: Bill) -> Iterator[str]:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
 from jumpcad.exporters.xml import allowed
-from jumpcad.findings import SHOWN_AS, Finding
+from jumpcad.findings import SHOWN_AS, Finding, errors
 
 SHOWN = 3
 """How many limits are named at the top of the page."""
@@ -46,15 +46,22 @@ def verdict_on(findings: Sequence[Finding]) -> tuple[list[str], list[str]]:
     violated, kept, _ = _groups(findings)
     if not violated:
         return [], [f"<p>All {len(findings)} limits are kept. The tightest:</p>", *_list(kept)]
-    forbids = any(finding.severity == "error" for finding in violated)
-    are = "is" if len(violated) == 1 else "are"
-    means = "do not build it as it is" if forbids else "it can be built, but read the warnings first"
-    sentence = f"{len(violated)} of its {len(findings)} limits {are} violated: {means}."
+    forbids = bool(errors(violated))
     more = f"The worst of {len(violated)} violated limits" if len(violated) > SHOWN else "Violated"
     return (
-        [f'<p class="{"error" if forbids else "warning"}">{sentence}</p>'],
+        [f'<p class="{"error" if forbids else "warning"}">{violation(findings)}.</p>'],
         [f'<p>{more}; <a href="#limits">Limits</a> says what to change:</p>', *_list(violated)],
     )
+
+
+def violation(findings: Sequence[Finding]) -> str:
+    """Return how many limits are violated, and whether to build the robot; empty where none is."""
+    violated = [finding for finding in findings if finding.severity != "info"]
+    if not violated:
+        return ""
+    are = "is" if len(violated) == 1 else "are"
+    means = "do not build it as it is" if errors(violated) else "it can be built, but read the warnings first"
+    return f"{len(violated)} of its {len(findings)} limits {are} violated: {means}"
 
 
 def _list(findings: Sequence[Finding]) -> Iterator[str]:

@@ -23,12 +23,12 @@ from jumpcad.transforms import chained
 
 MICRONS = 6
 """Decimals of lengths in m."""
+CELL_MM = 50
+"""Distance of the lines of the ground; judgement: a third of a robot."""
 KEYS = (
     "Arrow keys turn the robot, with Shift they move it; + and − zoom, 0 shows it as at first; space plays and "
     "pauses, comma and full stop go back and forth in the motion."
 )
-GRAM_DIGITS = 2
-"""Decimals of masses in g, those that are shown: rounded twice, 1.335 would become 1.33."""
 CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <p><button type="button" id="play">Play</button>
 <label>motion <input type="range" id="scrub" min="0" max="1" step="0.02" value="0" /></label>
@@ -41,7 +41,8 @@ CONTROLS = """<div id="viewer-controls" hidden="hidden">
 <label><input type="checkbox" id="show-plates" checked="checked" /> body plates</label>
 <label><input type="checkbox" id="show-printed" checked="checked" /> other printed parts</label>
 <label><input type="checkbox" id="show-bought" checked="checked" /> bought parts</label>
-<label><input type="checkbox" id="show-path" checked="checked" /> path of the centre of mass</label></p>
+<label><input type="checkbox" id="show-path" checked="checked" /> path of the centre of mass</label>
+<label><input type="checkbox" id="follow" /> follow the robot</label></p>
 <p><label>part <select id="choose"><option value="">none</option></select></label>
 <output id="part" aria-live="polite"></output></p>
 </div>"""
@@ -51,7 +52,7 @@ def viewer(robot: Robot, jump: Jump, glb: bytes) -> Iterator[str]:
     """Yield the viewer's elements: a box, controls, and scripts with data, GLB file and program."""
     yield f'<div id="viewer" data-keys="{KEYS}"></div>'
     yield '<p id="viewer-message">The robot is shown here in 3-D where the browser runs scripts and WebGL.</p>'
-    hint = f"Drag to turn, scroll or pinch to zoom. <span>{KEYS}</span>"
+    hint = f"Drag to turn, scroll or pinch to zoom. Lines of the ground {CELL_MM} mm apart. <span>{KEYS}</span>"
     yield f'<p id="viewer-keys" hidden="hidden"><small>{hint}</small></p>'
     yield CONTROLS
     yield f'<script type="application/json" id="viewer-data">{_embedded(viewer_data(robot, jump))}</script>'
@@ -68,6 +69,7 @@ def viewer_data(robot: Robot, jump: Jump) -> dict[str, Any]:
     apart = [after[:3, 3] - before[:3, 3] for before, after in zip(poses, exploded(things, poses), strict=True)]
     return motion(robot, jump.trajectory, jump.takeoff_time_s) | {
         "size_m": round(float(extent_m(robot).max()), MICRONS),
+        "cell_m": CELL_MM / 1000.0,
         "turning": turning_parts(robot),
         "explode_m": {
             thing.name: round(float(offset[1]), MICRONS) for thing, offset in zip(things, apart, strict=True)
@@ -99,8 +101,8 @@ def turning_parts(robot: Robot) -> list[dict[str, Any]]:
 def parts_facts(robot: Robot) -> dict[str, dict[str, Any]]:
     """Return what a click on a part shows: label, material or article, file, and mass (g), by the name in the picture.
 
-    What is bought in one piece and seen as several, such as a spring and its second arm, has the mass of the whole in
-    the bill of materials: a scale shows that.
+    Of what is bought in one piece and seen as several that move apart, such as a spring and its second arm, the words
+    also have the mass of the whole in the bill of materials: a scale shows that.
     """
     seen_apart = {thing.article for thing in robot.hardware if thing.units == 0}
     whole_kg = {line.name: line.mass_kg for line in bill_of_materials(robot).items if line.name in seen_apart}
@@ -112,9 +114,9 @@ def _facts(thing: Visual, whole_kg: Mapping[str, float]) -> dict[str, Any]:
     if isinstance(source, Part):
         words = {"label": source.name.replace("_", " "), "material": source.material, "file": f"stl/{source.name}.stl"}
     else:
-        words = {"label": thing.name.replace("_", " "), "material": source.article, "file": ""}
-    mass_kg = whole_kg.get(words["material"], source.mass.mass_kg)
-    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * mass_kg, GRAM_DIGITS)}
+        whole = f"; as bought {1000.0 * whole_kg[source.article]:.2f} g" if source.article in whole_kg else ""
+        words = {"label": thing.name.replace("_", " "), "material": f"{source.article}{whole}", "file": ""}
+    return {key: allowed(value) for key, value in words.items()} | {"mass_g": round(1000.0 * source.mass.mass_kg, 3)}
 
 
 def _embedded(data: dict[str, Any]) -> str:

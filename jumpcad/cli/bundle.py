@@ -1,5 +1,6 @@
 """`jumpcad build`, `jumpcad render`, `jumpcad verify`: bundles and their pictures."""
 
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -28,6 +29,8 @@ PICTURES = "pictures"
 GIF = "jump.gif"
 WIDE = 140
 """Width of a table that is not printed on a terminal (characters)."""
+LABEL = 15
+"""Width of the words before the lines below it."""
 
 
 def register(app: typer.Typer) -> None:
@@ -185,12 +188,12 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
 
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return the figures that `build` prints."""
+    from jumpcad.bundle.limits import ordered, violation
+    from jumpcad.checks import quick_findings
     from jumpcad.checks.engraving import engraving_findings
-    from jumpcad.checks.strength import strength_findings
-    from jumpcad.findings import errors
 
     train = robot.layout.drive.train
-    energy = robot.spring.energy_j
+    energy, findings = robot.spring.energy_j, quick_findings(robot)
     return {
         "name": robot.name,
         "folder": str(bundle.folder),
@@ -208,7 +211,8 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
             "efficiency": energy / train.electrical_j,
         },
         "notes": [finding.message for finding in engraving_findings(robot)],
-        "too_weak": [finding.to_dict() for finding in errors(strength_findings(robot))],
+        "violated": [finding.to_dict() for finding in ordered(findings) if finding.severity != "info"],
+        "violation": violation(findings),
         "jump": printed.to_dict(),
         "capsule_jump": capsule.to_dict(),
     }
@@ -229,21 +233,34 @@ def _print_facts(facts: dict[str, Any]) -> None:
     console(width=screen.width if screen.is_terminal else WIDE).print(table)
     winding, jump = facts["winding"], facts["jump"]
     print()
-    print(f"springs        {facts['spring_energy_j']:.4f} J")
-    print(
-        f"winding        {winding['electrical_j']:.2f} J electrical in {winding['time_s']:.2f} s ({winding['motor']}, "
-        f"{winding['ratio']:.2f}:1), {100.0 * winding['efficiency']:.1f} % of it in the springs"
+    _say("springs", f"{facts['spring_energy_j']:.4f} J")
+    _say(
+        "winding",
+        f"{winding['electrical_j']:.2f} J electrical in {winding['time_s']:.2f} s ({winding['motor']}, "
+        f"{winding['ratio']:.2f}:1), {100.0 * winding['efficiency']:.1f} % of it in the springs",
     )
     if jump["takeoff_energy_ratio"] is not None:
-        print(f"take-off       {100.0 * jump['takeoff_energy_ratio']:.1f} % of the springs' energy")
-    for finding in facts["too_weak"]:
-        print(f"too weak       {finding['message']}: {finding['remedy']}")
+        _say("take-off", f"{100.0 * jump['takeoff_energy_ratio']:.1f} % of the springs' energy")
     for note in facts["notes"]:
-        print(f"note           {note}")
-    print(f"printed robot  {_jump_in_words(jump)}")
-    print(f"study's masses {_jump_in_words(facts['capsule_jump'])}")
-    print(f"written        {len(facts['files']) + 1} files in {escaped(facts['folder'])}")
-    print("next           open its report.html: the jump in 3-D; assembly.html: how to print, order and assemble it")
+        _say("note", note)
+    _say("printed robot", _jump_in_words(jump))
+    _say("study's masses", _jump_in_words(facts["capsule_jump"]))
+    _say("written", f"{len(facts['files']) + 1} files in {escaped(facts['folder'])}")
+    for finding in facts["violated"]:
+        _say(finding["severity"], f"{finding['name']}: {finding['message']}; {finding['remedy']}")
+    if facts["violation"]:
+        _say("next", f"{facts['violation']}; jumpcad check says more")
+        return
+    _say("next", "open its report.html: the jump in 3-D; assembly.html: how to print, order and assemble it")
+
+
+def _say(label: str, text: str) -> None:
+    """Print a line; on a terminal that is too narrow, the rest stands below the text."""
+    start, screen = f"{label:<{LABEL}}", console()
+    if screen.is_terminal:
+        text = textwrap.fill(text, max(screen.width - LABEL, LABEL), break_long_words=False, break_on_hyphens=False)
+        text = text.replace("\n", "\n" + " " * LABEL)
+    print(start + text)
 
 
 def _jump_in_words(jump: dict[str, Any]) -> str:

@@ -98,12 +98,12 @@ def _watch(file: Path) -> None:
 
 
 def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
-    from jumpcad.search.trial import count_rejections, feasible_trials, searched
+    from jumpcad.search.trial import count_rejections, feasible_trials, searched, trial_numbers
 
     trials, identity = store.trials(), store.identity
     proposed = searched(trials)
     top = feasible_trials(proposed)
-    numbers = {trial.position: number for number, trial in enumerate(trials, start=1)}
+    numbers = trial_numbers(trials)
     return {
         "study": str(file),
         "identity": identity,

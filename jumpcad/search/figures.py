@@ -28,7 +28,8 @@ MEANINGS = {
     "can wind, and read the score.",
     "acquisition-first": "What the method knew at its first proposal, and where it expected to gain.",
     "acquisition": "What the method knew at its last proposal: it looks where score and doubt are high.",
-    "sweeps": "One parameter varied at a time around the centre design, which is ringed; crosses are rejected designs.",
+    "sweeps": "One parameter varied at a time around the centre design, whose value is the dashed line; crosses are "
+    "rejected designs.",
     "pca": "Directions in which the designs spread: a few large shares among the best say that they lie on a line or "
     "a surface.",
     "importance": "How much worse the score is predicted if a parameter is shuffled: a long bar matters, a bar no "

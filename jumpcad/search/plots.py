@@ -1,6 +1,7 @@
 """Pictures of a search: each function takes data and returns a figure."""
 
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -69,7 +70,7 @@ def slices(space: Space, trials: Sequence[Trial], objective: Objective) -> Figur
         )  # fmt: skip
         if best := best_trial(feasible):
             axes.plot(at(best), best.score or 0.0, **BEST)
-        labels(axes, parameter.name, objective.unit)
+        labels(axes, parameter.name, _named(objective))
     bar = figure.colorbar(dots, ax=all_axes, shrink=0.6)
     bar.set_ticks([0, max(len(feasible) - 1, 0)], labels=["first", "last"])
     return figure
@@ -121,7 +122,10 @@ def importance(found: Importance) -> Figure:
 
 @typed
 def sweeps(found: Sequence[Sweep], objective: Objective, centre: Design | None = None) -> Figure:
-    """Draw the score over each parameter varied alone; crosses where the design is rejected, a ring at the centre."""
+    """Draw the score over each parameter varied alone; crosses where the design is rejected.
+
+    A dashed line is at the value of the centre: it says no score, as the centre itself may not have been evaluated.
+    """
     figure, all_axes = panels(len(found))
     for axes, one in zip(all_axes, found, strict=True):
         scores = _scores(one.trials)
@@ -130,9 +134,8 @@ def sweeps(found: Sequence[Sweep], objective: Objective, centre: Design | None =
         rejected = np.isnan(scores)
         axes.plot(one.values[rejected], np.zeros(int(rejected.sum())), "x", color=RED, ms=4, label="rejected")
         if centre is not None and one.parameter in PARAMETERS:
-            value = getattr(centre, one.parameter)
-            axes.plot(value, _at(value, one.values, scores), **CENTRE)
-        labels(axes, one.parameter, objective.unit)
+            axes.axvline(getattr(centre, one.parameter), ls="--", lw=1.0, color="black", label=CENTRE["label"])
+        labels(axes, one.parameter, _named(objective))
     handles, names = all_axes[0].get_legend_handles_labels()
     figure.legend(handles, names, loc="outside upper right", ncols=len(names))
     return figure
@@ -210,7 +213,7 @@ def _one_parameter(
     _name_ticks(below, parameter.names)
     above.plot(values, _scores(feasible), "o", ms=4, color="black", label="evaluated")
     above.legend()
-    labels(above, "", objective.unit)
+    labels(above, "", _named(objective))
     below.plot(x, _log_acquisition(posterior, points, best), color=ORANGE)
     labels(below, parameter.name, ACQUISITION)
     return figure
@@ -225,7 +228,7 @@ def _two(
     first, second = space.free
     x, y = first.lower + unit * first.width, second.lower + unit * second.width
     mean = np.full(len(points), warped(best)) if posterior.score is None else posterior.score.predict(points)[0]
-    heat(figure, left, x, y, unwarped(mean).reshape(61, 61), objective.unit)
+    heat(figure, left, x, y, unwarped(mean).reshape(61, 61), _named(objective))
     heat(figure, right, x, y, _log_acquisition(posterior, points, best).reshape(61, 61), ACQUISITION)
     for axes, title in ((left, "surrogate"), (right, "acquisition")):
         for colour, chosen in (("white", True), (RED, False)):
@@ -257,9 +260,9 @@ def _name_ticks(axes: Axes, names: Sequence[str]) -> None:
         axes.set_xticks(range(len(names)), names, rotation=30, ha="right", fontsize=7)
 
 
-def _at(value: float, values: Array, scores: Array) -> float:
-    """Return the score interpolated between two neighbours of a sweep; 0, as crosses, if one of them is rejected."""
-    return float(np.nan_to_num(np.interp(value, values, scores)))
+def _named(objective: Objective) -> str:
+    """Return the score's name with its unit, in lines that fit the height of a small panel."""
+    return fill(f"{objective.meaning} ({objective.unit})", 26)
 
 
 def _scores(trials: Sequence[Trial]) -> Array:

@@ -15,7 +15,7 @@ from jumpcad.search.robust import MOST_PICK, ROUNDS, ActiveBound, Candidate, act
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.tolerances import Making
-from jumpcad.search.trial import Trial, best_trial, searched
+from jumpcad.search.trial import Trial, best_trial, searched, trial_numbers
 from jumpcad.search.variant import Key, Variant
 
 
@@ -71,6 +71,8 @@ class Known:
         The best designs with the scores of their neighbours, most robust first; none where the pick has not run.
     bounds
         The bounds of the search on which the winner lies.
+    numbers
+        The numbers of the study's trials, by position.
     """
 
     space: Space
@@ -79,13 +81,14 @@ class Known:
     winner: Trial | None
     candidates: list[Candidate]
     bounds: list[ActiveBound]
+    numbers: Mapping[tuple[int, int, int], int]
 
 
 def known(store: StudyStore) -> Known:
     """Return what a study knows, also while it runs."""
     replay = Replay(store)
-    trials, best = replay.trials, best_trial(replay.trials)
-    share = _share(store.trials(), len(trials))
+    held, trials, best = store.trials(), replay.trials, best_trial(replay.trials)
+    share = _share(held, len(trials))
     candidates: list[Candidate] = []
     if share and best is not None:
         identity = store.identity
@@ -93,7 +96,7 @@ def known(store: StudyStore) -> Known:
         candidates = rank_candidates(replay, trials, identity["seed"], making, share)
     winner = candidates[0].trial if candidates else best
     bounds = [] if winner is None else active_bounds(replay, winner, 0)
-    return Known(replay.space, replay.objective, trials, winner, candidates, bounds)
+    return Known(replay.space, replay.objective, trials, winner, candidates, bounds, trial_numbers(held))
 
 
 def _share(trials: Sequence[Trial], proposed: int) -> int:

@@ -1,5 +1,6 @@
-"""One design of a study as a section of its page: side view, the eight numbers, lengths and energy, figures."""
+"""One design of a study as a section of its page: side view, numbers, lengths and energy, figures, command."""
 
+import shlex
 from collections.abc import Iterator, Sequence
 
 from jumpcad.search.fronts import energy_j
@@ -13,12 +14,15 @@ HEADLINES = ("ballistic_range_m", "com_rise_m", "mass_kg", "winding_time_s")
 """Figures that are shown at once; the others open on a click."""
 
 
-def shown_designs(shown: Sequence[Trial], objective: Objective) -> Iterator[str]:
-    """Yield a section for each design, numbered from 1; all are drawn to the same scale."""
+def shown_designs(shown: Sequence[Trial], numbers: Sequence[int], objective: Objective, file: str) -> Iterator[str]:
+    """Yield a section for each design, numbered from 1; all are drawn to the same scale.
+
+    ``numbers`` are those of the study's trials, ``file`` is the study: the command below the figures has both.
+    """
     box = box_mm(trial.design for trial in shown)
-    for number, trial in enumerate(shown, start=1):
+    for number, (trial, of_study) in enumerate(zip(shown, numbers, strict=True), start=1):
         yield f'<section class="design" id="design-{number}">'
-        yield f"<h3>Design {number}: {trial.score:.4g} {written(objective.unit)}</h3>"
+        yield f"<h3>Design {number} (trial {of_study}): {trial.score:.4g} {written(objective.unit)}</h3>"
         yield from _drawn(trial, box)
         first, others = _lines(trial)
         yield from _rows(first)
@@ -26,6 +30,8 @@ def shown_designs(shown: Sequence[Trial], objective: Objective) -> Iterator[str]
             yield f"<details><summary>more figures ({len(others)})</summary>"
             yield from _rows(others)
             yield "</details>"
+        command = f"jumpcad studio {shlex.quote(file)} --trial {of_study}"
+        yield f'<p class="command">In the studio: <code>{written(command)}</code></p>'
         yield "</section>"
 
 

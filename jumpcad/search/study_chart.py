@@ -18,7 +18,9 @@ RADIUS, LEAST_RADIUS, TOUCHED = 6.0, 3.5, 13.0
 """Of a point, of one that has others near it, and of the area that a finger meets."""
 
 
-def chart(trials: Sequence[Trial], shown: Sequence[Trial], objective: Objective, is_front: bool) -> str:
+def chart(
+    trials: Sequence[Trial], shown: Sequence[Trial], numbers: Sequence[int], objective: Objective, is_front: bool
+) -> str:
     """Return the chart.
 
     Parameters
@@ -27,6 +29,8 @@ def chart(trials: Sequence[Trial], shown: Sequence[Trial], objective: Objective,
         All designs of the search; those that do not jump are left out.
     shown
         The designs that the page shows, in the order of their numbers 1, 2, …
+    numbers
+        Their numbers as trials of the study.
     objective
         The score's objective.
     is_front
@@ -46,8 +50,11 @@ def chart(trials: Sequence[Trial], shown: Sequence[Trial], objective: Objective,
     if is_front:
         lines.append(axes.steps([_values(trial) for trial in front(feasible)], "front"))
     places = [(axes.x(x), axes.y(y)) for x, y in map(_values, shown)]
-    for number, ((x, y), radius, trial) in enumerate(zip(places, _radii(places), shown, strict=True), start=1):
-        said = written(f"design {number}: {trial.score:.4g} {objective.unit} with {energy_j(trial.design):.3f} J")
+    for number, ((x, y), radius, trial, of_study) in enumerate(
+        zip(places, _radii(places), shown, numbers, strict=True), start=1
+    ):
+        figures = f"{trial.score:.4g} {objective.unit} with {energy_j(trial.design):.3f} J"
+        said = written(f"design {number} (trial {of_study}): {figures}")
         at = f'cx="{x:.1f}" cy="{y:.1f}"'
         lines.append(
             f'<a href="#design-{number}" data-design="{number}" aria-label="{said}"><title>{said}</title>'

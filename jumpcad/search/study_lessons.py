@@ -44,21 +44,27 @@ def importances(store: StudyStore, found: Known) -> Iterator[str]:
             written(learned.names[index]),
             _bar(float(learned.mean[index]) / most),
             f"{round(float(learned.mean[index]), 2) + 0.0:.2f} ± {float(learned.deviation[index]):.2f}",
+            "yes" if _is_clear(learned, index) else "no",
         ]
         for index in order
     ]
-    yield from table(("parameter", "", "fall of R²"), rows, numbers=(2,), bars=1)
+    yield from table(("parameter", "", "fall of R²", "beyond its error"), rows, numbers=(2,), bars=1)
 
 
 def _matters(learned: Importance) -> str:
     """Return which parameters matter most, and which not more than the error of their bar."""
-    known = zip(learned.names, learned.mean.tolist(), learned.deviation.tolist(), strict=True)
-    order = sorted(known, key=lambda one: -round(one[1], 2))
-    clear = [name for name, mean, deviation in order if mean > deviation]
-    rest = [name for name, mean, deviation in order if mean <= deviation]
-    most = f"{', then '.join(clear[:3])} matter{'s' * (len(clear[:3]) == 1)} most." if clear else ""
+    order = sorted(range(len(learned.names)), key=lambda index: -round(float(learned.mean[index]), 2))
+    clear = [learned.names[index] for index in order if _is_clear(learned, index)]
+    rest = [learned.names[index] for index in order if not _is_clear(learned, index)]
+    among = "Of those beyond their error, " if rest else ""
+    most = f"{among}{', then '.join(clear[:3])} matter{'s' * (len(clear[:3]) == 1)} most." if clear else ""
     none = f"No more than their error, so perhaps nothing: {', '.join(rest)}." if rest else ""
     return f"{most} {none}".strip()
+
+
+def _is_clear(learned: Importance, index: int) -> bool:
+    """Return whether the bar of a parameter is longer than its error."""
+    return bool(learned.mean[index] > learned.deviation[index])
 
 
 def active(found: Known) -> Iterator[str]:

@@ -40,6 +40,8 @@ ACQUISITION = (
     "tries next where the acquisition is highest: the gain that it expects (EI, expected improvement) times the "
     "probability that the design jumps, as a power of ten."
 )
+UNSAVED = "F.db"
+"""The file in the commands of a study that is kept in memory."""
 CANDIDATE_HEAD = ("±1 %", "lengths", "rejected")
 
 
@@ -164,14 +166,20 @@ def _best(store: StudyStore, found: Known, shown: Sequence[Trial]) -> Iterator[s
         yield "<p>Score against the energy in the springs: the rings are the designs of the table below, the small "
         yield "dots all other designs that jump.</p>"
     yield "<p>Click a point, or go to it with Tab and the arrow keys, to see its robot; where points lie on each "
-    yield "other, each further click shows the next one. The pictures below mark the chosen design too.</p>"
+    yield "other, each further click shows the next one. The pictures below mark the chosen design too. "
+    numbers = [found.numbers[trial.position] for trial in shown]
+    first = _first(shown, is_front)
+    which = "the most robust of the best" if _are_candidates(found, shown) else "the one with the highest score"
+    yield f"The page opens on design {first} (trial {numbers[first - 1]}), {which}; the number of a trial is that of "
+    yield "<code>jumpcad study</code> and <code>jumpcad studio</code>.</p>"
     yield '<div class="map">'
-    yield chart(found.trials, shown, objective, is_front)
-    yield '<div id="robots" aria-live="polite"><p id="turn" hidden="hidden"><button type="button" id="before">Previous'
+    yield chart(found.trials, shown, numbers, objective, is_front)
+    yield f'<div id="robots" data-first="{first}" aria-live="polite">'
+    yield '<p id="turn" hidden="hidden"><button type="button" id="before">Previous'
     yield '</button> <button type="button" id="after">Next</button></p>'
-    yield from shown_designs(shown, objective)
+    yield from shown_designs(shown, numbers, objective, str(store.path or UNSAVED))
     yield "</div></div>"
-    yield from _designs(found, shown)
+    yield from _designs(found, shown, numbers)
 
 
 def _shown(found: Known, is_front: bool) -> list[Trial]:
@@ -182,6 +190,16 @@ def _shown(found: Known, is_front: bool) -> list[Trial]:
     return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
 
 
+def _are_candidates(found: Known, shown: Sequence[Trial]) -> bool:
+    """Return whether the shown designs are those whose neighbours were examined."""
+    return bool(found.candidates) and shown[0] is found.candidates[0].trial
+
+
+def _first(shown: Sequence[Trial], is_front: bool) -> int:
+    """Return the number of the design that is seen first: a front ends at its highest score, a ranking starts so."""
+    return len(shown) if is_front else 1
+
+
 def _reach(shown: Sequence[Trial], objective: Objective) -> str:
     """Return from where to where a front goes, in words."""
     low, high = shown[0], shown[-1]
@@ -190,9 +208,9 @@ def _reach(shown: Sequence[Trial], objective: Objective) -> str:
     return f"Here it goes from {ends[0]} to {ends[1]}; half of the highest score takes {energy_j(half.design):.3g} J."
 
 
-def _designs(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
+def _designs(found: Known, shown: Sequence[Trial], numbers: Sequence[int]) -> Iterator[str]:
     """Yield the table of the shown designs, with the scores of their neighbours if they were examined."""
-    if found.candidates and shown[0] is found.candidates[0].trial:
+    if _are_candidates(found, shown):
         neighbours = [
             [
                 f"{one.parameters_score:.4g}",
@@ -210,20 +228,21 @@ def _designs(found: Known, shown: Sequence[Trial]) -> Iterator[str]:
     rows = [
         [
             f'<a href="#design-{number}" data-design="{number}">{number}</a>',
+            str(of_study),
             f"{trial.score:.4g}",
             *cells,
             f"{energy_j(trial.design):.4f}",
             *(_value(trial.variant.value(parameter.name)) for parameter in found.space.free),
         ]
-        for number, (trial, cells) in enumerate(zip(shown, neighbours, strict=True), start=1)
+        for number, (trial, of_study, cells) in enumerate(zip(shown, numbers, neighbours, strict=True), start=1)
     ]
     score = f"score ({found.objective.unit})"
-    titles = ["design", score, *head, "springs (J)"]
-    last = len(titles)
+    titles = ["design", "trial", score, *head, "springs (J)"]
+    first_extra = len(titles) - bool(head)  # a phone has no room for the springs beside the neighbours
     titles += [_headed(parameter.name) for parameter in found.space.free]
-    yield from table(titles, rows, numbers=range(1, len(titles)), extra=range(last, len(titles)))
-    yield '<p class="narrow"><small>A wider screen shows the parameters in this table too; here, a click on a number '
-    yield "shows those of its design.</small></p>"
+    yield from table(titles, rows, numbers=range(1, len(titles)), extra=range(first_extra, len(titles)))
+    yield '<p class="narrow"><small>A wider screen shows more in this table; here, a click on a number shows all of '
+    yield "its design.</small></p>"
 
 
 def _headed(parameter: str) -> str:

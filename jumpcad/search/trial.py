@@ -103,6 +103,11 @@ def best_trial(trials: Sequence[Trial]) -> Trial | None:
     return next(iter(feasible_trials(trials)), None)
 
 
+def trial_numbers(trials: Sequence[Trial]) -> dict[tuple[int, int, int], int]:
+    """Return the numbers of all trials of a study, by position: from 1 in its order, as its exported table has them."""
+    return {trial.position: number for number, trial in enumerate(trials, start=1)}
+
+
 def searched(trials: Sequence[Trial]) -> list[Trial]:
     """Return the trials that the search proposed, without those of the robust pick and the active bounds."""
     return [trial for trial in trials if trial.phase in SEARCH_PHASES]

@@ -7,12 +7,12 @@ from typing import Any
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.viewer import parts_facts
-from jumpcad.design import SEARCH_BOUNDS, Design, limits_of
+from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import require_free, sealed, write_atomically
 from jumpcad.robot import Robot
 from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
-from jumpcad.studio.inputs import when_changed
+from jumpcad.studio.inputs import slider_ends, slider_step, when_changed
 from jumpcad.studio.playback import Playback, playback
 from jumpcad.studio.player import Player
 from jumpcad.studio.points import STUDYS, Points
@@ -20,8 +20,6 @@ from jumpcad.studio.stage import Stage
 from jumpcad.studio.wrong_parts import wrong_parts
 from jumpcad.workshop import Workshop, load_workshop
 
-WIDER = 0.5
-"""How far sliders extend beyond the bounds of the search, over the bounds' distance."""
 BY_NUMBER = "by its number"
 """What the list of points says of one that is not in it."""
 CLICK = "Click on a part for its mass, material and file."
@@ -96,9 +94,9 @@ class Studio:
             self._make_choice(self.points)
         self.sliders = {}
         for key, value in self.first.model_dump().items():
-            low, high = _range(key, value)
+            low, high = slider_ends(key, value)
             hint = Design.model_fields[key].description
-            slider = gui.add_slider(key, low, high, _step(high - low), value, hint=hint)
+            slider = gui.add_slider(key, low, high, slider_step(high - low), value, hint=hint)
             when_changed(slider, self._ask)
             self.sliders[key] = slider
         self.choice = gui.add_dropdown("workshop", tuple(workshops), initial_value=workshops[0])
@@ -217,7 +215,7 @@ class Studio:
 
     def _reset(self) -> str:
         for key, value in self.first.model_dump().items():
-            slider, (low, high) = self.sliders[key], _range(key, value)
+            slider, (low, high) = self.sliders[key], slider_ends(key, value)
             slider.min, slider.max = min(slider.min, low), max(slider.max, high)
             slider.value = value
         self._ask()
@@ -244,20 +242,3 @@ class Studio:
             raise JumpcadError(found.reason)
         bundle = export(found.robot, self.folder / f"{self.name}-studio", pictures=True)
         return f"built {bundle.folder}"
-
-
-def _range(key: str, value: float) -> tuple[float, float]:
-    """Return the ends of a parameter's slider: the search's bounds, widened, within what a design may be."""
-    bounds, (lowest, highest) = SEARCH_BOUNDS[key], limits_of(key)
-    more = WIDER * (bounds.upper - bounds.lower)
-    low = max(lowest, min(bounds.lower - more, value))
-    high = min(highest, max(bounds.upper + more, value))
-    return round(low, 4), round(high, 4)
-
-
-def _step(span: float) -> float:
-    """Return a slider's step: a power of ten, at most a 500th of the slider's range."""
-    step = 1.0
-    while step > span / 500.0:
-        step /= 10.0
-    return step

@@ -60,11 +60,6 @@ class Playback:
         path = np.array(self.motion["com_m"])
         return np.insert(path, 1, 0.0, axis=1)
 
-    @property
-    def axes_m(self) -> dict[str, Array]:
-        """The axes of the turning parts: x and z in the frame of their body (m), by the part's name."""
-        return {one["node"]: np.array(one["axis_m"]) for one in self.turning}
-
     def at(self, shown_s: float) -> Moment:
         """Return the moment that is shown at a time, which is brought into the motion."""
         shown = self._shown_s

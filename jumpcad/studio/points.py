@@ -9,7 +9,7 @@ from jumpcad.search.fronts import energy_j, front
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import described_objective
 from jumpcad.search.store import StudyStore
-from jumpcad.search.trial import Trial, feasible_trials, searched
+from jumpcad.search.trial import Trial, feasible_trials, searched, trial_numbers
 from jumpcad.workshop import Workshop, load_workshop
 
 STUDYS = "of the study"
@@ -35,7 +35,7 @@ class Points:
             raise JumpcadError(f"{file}: this study has no trial yet")
         self._unit = described_objective(identity).unit
         self._held = identity["model"].get("workshop")
-        self._numbers = {trial.position: number for number, trial in enumerate(self.trials, start=1)}
+        self._numbers = trial_numbers(self.trials)
 
     @cached_property
     def workshop(self) -> Workshop:

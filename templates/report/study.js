@@ -59,5 +59,5 @@ if (designs.length) {
       show(String(((Number(chosen) - 1 + step + designs.length) % designs.length) + 1));
     });
   }
-  show("1");
+  show(document.getElementById("robots").dataset.first);
 }

@@ -2,15 +2,22 @@
 // Lengths are metres, z is up. What is shown comes from the page: a GLB file in base64, and data in JSON.
 
 import {
-  AmbientLight, BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, Line, LineBasicMaterial,
-  LineSegments, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene, SphereGeometry,
+  AmbientLight, Box3, BufferGeometry, CircleGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, Line,
+  LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene, SphereGeometry,
   Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 
-// Share of the rise by which the camera goes up with the robot: the ground stays in view, and the jump is seen.
+// The first view: from which side (along, across, up), and the share of the picture that robot and jump fill.
+const FROM = [0.2, -1, 0.24];
+const FILLED = 0.92;
+// Share of the rise by which a camera that follows goes up with the robot: the ground stays in view.
 const RISING = 0.85;
+// The radius of the shadow of a robot on the ground, as a share of its size.
+const SHADOW = 0.55;
+// The most that a picture goes on (s): after a pause of the browser the motion goes on where it was.
+const LONGEST_S = 0.25;
 // A key turns by 7.5°, moves by a twelfth of the robot's size, zooms by a seventh, and goes a fiftieth of a second on.
 const TURN = Math.PI / 24;
 const MOVE = 1 / 12;
@@ -30,7 +37,11 @@ function bytes(base64) {
 
 function seeable() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
-  return { background: new Color(dark ? 0x1c1f24 : 0xf4f6f8), grid: dark ? 0x3a4048 : 0xc4ccd4 };
+  return {
+    background: new Color(dark ? 0x1c1f24 : 0xf4f6f8),
+    grid: dark ? 0x3a4048 : 0xc4ccd4,
+    shadow: dark ? 1 : 0.5, // how dark, of 1
+  };
 }
 
 class Viewer {
@@ -48,13 +59,13 @@ class Viewer {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.draw());
     this.controls.minDistance = 0.3 * data.size_m;
-    this.controls.maxDistance = 12 * data.size_m;
+    this.controls.zoomToCursor = true;
     this.dress();
     this.take(robot);
     this.trace();
+    this.reached = this.reach();
     this.at = 0;
-    this.playing = false;
-    this.home();
+    this.playing = this.following = false;
     this.connect();
     this.resize();
   }
@@ -67,11 +78,13 @@ class Viewer {
     canvas.setAttribute("aria-label", `The robot in 3-D. ${this.box.dataset.keys}`);
   }
 
-  // Ground and light.
+  // Ground, shadow and light.
   dress() {
     const seen = seeable();
     this.scene.background = seen.background;
-    this.scene.add(this.ground(seen.grid), new AmbientLight(0xffffff, 1.4));
+    this.darkest = seen.shadow;
+    this.shadow = this.disc();
+    this.scene.add(this.ground(seen.grid), this.shadow, new AmbientLight(0xffffff, 1.4));
     for (const [x, y, z, strength] of [[1, -2, 3, 2.0], [-2, 1.5, 1, 0.8]]) {
       const light = new DirectionalLight(0xffffff, strength);
       light.position.set(x, y, z);
@@ -79,9 +92,9 @@ class Viewer {
     }
   }
 
-  // Squares of 50 mm under the whole jump; short lines, since some renderers drop those that pass behind the eye.
+  // Squares under the whole jump; short lines, since some renderers drop those that pass behind the eye.
   ground(color) {
-    const cell = 0.05;
+    const cell = this.data.cell_m;
     const xs = this.data.com_m.map(([x]) => x);
     const across = 10;
     const first = Math.floor(Math.min(...xs) / cell) - across;
@@ -98,8 +111,30 @@ class Viewer {
     return new LineSegments(geometry, new LineBasicMaterial({ color }));
   }
 
+  // A round shadow, black in the middle and clear at its rim; just below the lines of the ground, which stay seen.
+  disc() {
+    const geometry = new CircleGeometry(1, 48);
+    const colors = Array.from({ length: geometry.attributes.position.count }, (_, i) => [0, 0, 0, i ? 0 : 1]);
+    geometry.setAttribute("color", new Float32BufferAttribute(colors.flat(), 4));
+    const material = new MeshBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false });
+    const disc = new Mesh(geometry, material);
+    disc.position.z = -0.0005;
+    return disc;
+  }
+
+  // Put the shadow under the robot: the higher that is, the larger and paler.
+  shade() {
+    const box = new Box3().setFromObject(this.robot);
+    const height = Math.max(box.min.z, 0) / this.data.size_m;
+    this.shadow.position.x = (box.min.x + box.max.x) / 2;
+    this.shadow.scale.setScalar(SHADOW * this.data.size_m * (1 + 0.3 * height));
+    this.shadow.material.opacity = this.darkest / (1 + 0.7 * height);
+    this.box.dataset.shadow = this.shadow.material.opacity.toFixed(3);
+  }
+
   // The nodes of the GLB file: frames of the bodies, with their parts below.
   take(robot) {
+    this.robot = robot;
     this.scene.add(robot);
     robot.position.set(0, 0, 0);
     robot.quaternion.identity(); // the file has y up
@@ -137,14 +172,55 @@ class Viewer {
     this.scene.add(this.path, this.ball);
   }
 
+  // The corners of the boxes about the robot at all moments of its motion.
+  reach() {
+    return this.data.show_s.flatMap((_, index) => {
+      this.place(index, index, 0);
+      const { min, max } = new Box3().setFromObject(this.robot);
+      const corners = Array.from({ length: 8 }, (_, i) => [i & 1, i & 2, i & 4]);
+      return corners.map(([x, y, z]) => new Vector3((x ? max : min).x, (y ? max : min).y, (z ? max : min).z));
+    });
+  }
+
+  // The first view: of the whole jump, or near the robot if the camera follows it.
   home() {
+    if (this.following) this.near();
+    else this.whole();
+    this.controls.update();
+    this.first = this.camera.position.clone();
+  }
+
+  near() {
     const [x, z] = this.data.com_m[0];
     const far = 2.1 * this.data.size_m;
+    this.controls.maxDistance = 12 * this.data.size_m;
     this.followed = [x, z];
     this.controls.target.set(x, 0, 0.8 * z);
     this.camera.position.set(x + 0.75 * far, -far, z + 0.5 * far);
     if (this.seen) this.follow(...this.seen);
-    this.controls.update();
+  }
+
+  // As near as all places of the robot permit. With right, up and depth as axes, a point (r, u, d) is in the picture
+  // of a camera at (R, U, D) if |r - R| <= wide (d - D) and |u - U| <= high (d - D).
+  whole() {
+    const away = new Vector3(...FROM).normalize();
+    const right = new Vector3(0, 0, 1).cross(away).normalize();
+    const up = new Vector3().crossVectors(away, right);
+    const high = FILLED * Math.tan((this.camera.fov * Math.PI) / 360);
+    const depths = this.reached.map((point) => -point.dot(away));
+    const fits = [[right, high * this.camera.aspect], [up, high]].map(([axis, slope]) => {
+      const places = this.reached.map((point) => point.dot(axis));
+      const least = Math.min(...places.map((place, i) => place + slope * depths[i]));
+      const most = Math.max(...places.map((place, i) => place - slope * depths[i]));
+      return { middle: (least + most) / 2, depth: (least - most) / (2 * slope) };
+    });
+    const depth = Math.min(...fits.map((fit) => fit.depth));
+    const far = (Math.min(...depths) + Math.max(...depths)) / 2 - depth;
+    this.controls.maxDistance = Math.max(12 * this.data.size_m, 3 * far);
+    this.camera.position.set(0, 0, 0);
+    this.camera.position.addScaledVector(right, fits[0].middle).addScaledVector(up, fits[1].middle);
+    this.camera.position.addScaledVector(away, -depth);
+    this.controls.target.copy(this.camera.position).addScaledVector(away, -far);
   }
 
   // Turn the camera about what it looks at, by angles to the left and up (rad).
@@ -177,7 +253,7 @@ class Viewer {
   }
 
   // Do what a key on the canvas asks for; false if it asks for nothing.
-  key({ key, shiftKey, ctrlKey, altKey, metaKey }) {
+  key({ key, shiftKey, ctrlKey, altKey, metaKey, repeat }) {
     if (ctrlKey || altKey || metaKey) return false;
     const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     if (key in arrows) {
@@ -187,7 +263,7 @@ class Viewer {
     } else if (key === "+" || key === "=") this.zoom(ZOOM);
     else if (key === "-" || key === "_") this.zoom(1 / ZOOM);
     else if (key === "0" || key === "Home") this.home();
-    else if (key === " ") this.play(!this.playing);
+    else if (key === " ") repeat || this.play(!this.playing); // a key held down plays or pauses once
     else if (key === "," || key === ".") {
       this.play(false);
       this.pose(this.at + (key === "." ? MOMENT_S : -MOMENT_S));
@@ -205,6 +281,15 @@ class Viewer {
     this.followed = [x, z];
   }
 
+  // Put the bodies between two of their poses.
+  place(low, high, share) {
+    for (const [node, poses] of this.frames) {
+      const [a, b] = [poses[low], poses[high]];
+      node.position.set(...[0, 1, 2].map((axis) => a[axis] + share * (b[axis] - a[axis])));
+      node.quaternion.set(a[3], a[4], a[5], a[6]).slerp(new Quaternion(b[3], b[4], b[5], b[6]), share);
+    }
+  }
+
   // Pose everything as at a moment of the shown time (s).
   pose(at) {
     const { show_s, cam_rad, com_m, time_s, phase } = this.data;
@@ -213,11 +298,7 @@ class Viewer {
     while (low < show_s.length - 2 && show_s[low + 1] <= this.at) low++;
     const share = (this.at - show_s[low]) / (show_s[low + 1] - show_s[low]);
     const mix = (a, b) => a + share * (b - a);
-    for (const [node, poses] of this.frames) {
-      const [a, b] = [poses[low], poses[low + 1]];
-      node.position.set(mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2]));
-      node.quaternion.set(a[3], a[4], a[5], a[6]).slerp(new Quaternion(b[3], b[4], b[5], b[6]), share);
-    }
+    this.place(low, low + 1, share);
     const cam = mix(cam_rad[low], cam_rad[low + 1]);
     const gear = mix(this.data.gear_rad[low], this.data.gear_rad[low + 1]);
     this.turning.forEach(([pivot, per_cam], index) => {
@@ -226,7 +307,8 @@ class Viewer {
     const [x, z] = [0, 1].map((axis) => mix(com_m[low][axis], com_m[low + 1][axis]));
     this.ball.position.set(x, 0, z);
     this.seen = [x, com_m[0][1] + RISING * Math.max(z - com_m[0][1], 0)];
-    this.follow(...this.seen);
+    if (this.following) this.follow(...this.seen);
+    this.shade();
     page("scrub").value = this.at;
     const now = phase[share < 1 ? low : low + 1];
     const slow = this.data.phases[now];
@@ -332,15 +414,15 @@ class Viewer {
     this.playing = on;
     page("play").textContent = on ? "Pause" : "Play";
     this.box.dataset.playing = on;
+    cancelAnimationFrame(this.coming);
     let last = null;
     const next = (now) => {
-      if (!this.playing) return;
-      this.pose(this.at + (last === null ? 0 : (now - last) / 1000));
+      this.pose(this.at + (last === null ? 0 : Math.min((now - last) / 1000, LONGEST_S)));
       last = now;
       if (this.at >= end) this.play(false);
-      else requestAnimationFrame(next);
+      else this.coming = requestAnimationFrame(next);
     };
-    if (on) requestAnimationFrame(next);
+    if (on) this.coming = requestAnimationFrame(next);
   }
 
   connect() {
@@ -367,6 +449,13 @@ class Viewer {
         this.show();
       });
     }
+    const follow = page("follow");
+    follow.checked = false; // some browsers keep it when the page is loaded again
+    follow.addEventListener("change", () => {
+      this.following = follow.checked;
+      this.home();
+      this.draw();
+    });
     const choose = page("choose");
     const label = (name) => this.data.parts[name].label;
     for (const name of [...this.parts].sort((one, other) => label(one).localeCompare(label(other), "en"))) {
@@ -391,6 +480,7 @@ class Viewer {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (!this.first || this.camera.position.equals(this.first)) this.home();
     this.draw();
   }
 

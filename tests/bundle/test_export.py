@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from support.elsewhere import environment
+from support.pictures import with_few_pictures
 from support.places import ROOT, TESTS
 
 from jumpcad.bundle import export as bundle_module
@@ -48,14 +49,15 @@ def test_masses_in_the_manifest_add_up(small_robot: Robot, tmp_path: Path) -> No
 
 
 def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With few pictures of the jump, and few jumps for its uncertainty."""
-    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 4)
+    """With few pictures of jump and steps, and few jumps for its uncertainty."""
+    with_few_pictures(monkeypatch)
     monkeypatch.setattr(uncertainty, "JUMPS", 16)
     monkeypatch.setattr(bundle_module, "uncertainty_of", uncertainty.uncertainty_of)  # not one that is known
     export(small_robot, tmp_path / "here")
     code = (
         "from support.robots import make_small_robot; from jumpcad.bundle.export import export; import sys;"
-        "from jumpcad.bundle import renders, uncertainty; renders.JUMP_FRAMES = 4; uncertainty.JUMPS = 16;"
+        "from jumpcad.bundle import uncertainty; uncertainty.JUMPS = 16;"
+        "from support.pictures import with_few_pictures; import pytest; with_few_pictures(pytest.MonkeyPatch());"
         "export(make_small_robot(), sys.argv[1])"
     )
     paths = os.pathsep.join([str(TESTS), str(ROOT)])

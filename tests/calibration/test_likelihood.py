@@ -103,3 +103,21 @@ def test_a_series_is_one_datum_and_a_video_two() -> None:
     assert videos[1].error == pytest.approx(math.hypot(BODY_ANGLE_DEG, 3.0))
     assert videos[3].error == pytest.approx(math.hypot(ANGLE_DEG, 3.0))
     assert videos[0].scatter == pytest.approx(distance.scatter / 2.0)
+
+
+def test_a_measurement_is_of_what_it_is_read_as() -> None:
+    """Range 1 m, touchdown 0.2 m beyond it, 0.3 m of travel after that; a rise from 0.1 m above the floor."""
+    robot = Predicted(JumpAt(ONE, 1.0 * ONE, 2.0 * ONE, 50.0 * ONE), 0.3 * ONE, 4.0 * ONE, (0.2, 0.05), 0.1)
+    read = {
+        ("distance", "centre-of-mass"): robot.jump.range_m[0], ("distance", "first-touchdown"): 1.2,
+        ("distance", "resting-place"): 1.5, ("height", "rise"): robot.jump.rise_m[0],
+        ("height", "absolute"): robot.jump.rise_m[0] + 0.1, ("battery", "battery"): 4.0,
+        ("speed", "body"): robot.jump.speed_m_s[0], ("angle", "body"): robot.jump.angle_deg[0],
+    }  # fmt: skip
+    assert robot.jump.range_m[0] == 1.0
+    for (what, reading), value in read.items():
+        assert robot.of(what, reading) == pytest.approx([value]), (what, reading)
+    spread = robot.deviation(Datum("r", "distance", "first-touchdown", 1.0, 1, 0.0, 0.1), "first-touchdown", ONE)
+    assert spread == pytest.approx([math.hypot(0.1, 0.05)])
+    degrees = robot.deviation(Datum("r", "angle", "body", 50.0, 1, 0.0, 2.0, relative=False), "body", 50.0 * ONE)
+    assert degrees == pytest.approx([2.0])

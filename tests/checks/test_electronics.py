@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from jumpcad.building import build
-from jumpcad.checks.electronics import electronics_findings
+from jumpcad.checks.electronics import _voltage, electronics_findings
 from jumpcad.checks.wiring import wiring_findings
 from jumpcad.design import load_design
+from jumpcad.electronics.chain import Link
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -286,3 +287,17 @@ def test_every_link_is_refused_beyond_what_it_bears(name: str, text: str) -> Non
     assert finding.severity == "error"
     assert finding.margin < 0.0
     assert finding.remedy
+
+
+def test_a_board_of_unknown_inputs_is_a_warning_at_its_limit() -> None:
+    """What it bears is not known: neither room nor excess is claimed."""
+    (found,) = [_voltage(Link("controller", "my board", "", (3.0, 4.2), None, "x"))]
+    assert (found.severity, found.margin) == ("warning", 0.0)
+    assert "gets 3.00 to 4.20 V; what it bears is not known" in found.message
+    known = _voltage(Link("driver", "d", "VM", (3.0, 4.2), (2.7, 4.0), "x"))
+    assert (known.severity, known.value, known.limit) == ("error", 4.2, 4.0)
+    assert known.margin == pytest.approx(-0.2)
+    low = _voltage(Link("driver", "d", "VM", (3.0, 3.0), (3.4, 4.0), "x"))
+    assert (low.value, low.limit) == (3.0, 3.4)
+    assert low.margin == pytest.approx(-0.4)
+    assert "d at VM gets 3.00 V and bears 3.40 to 4.00 V" in low.message

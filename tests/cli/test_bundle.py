@@ -9,6 +9,7 @@ from unittest.mock import ANY
 
 import pytest
 from support.commands import Run
+from support.pictures import with_few_pictures
 
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY_NAMES
@@ -32,10 +33,26 @@ def test_build_says_how_far_it_jumps_and_what_it_weighs(run: Run, tmp_path: Path
     assert facts["jump"]["verdict"] == facts["capsule_jump"]["verdict"] == "jump"
     assert sum(line["quantity"] * line["mass_kg"] for line in facts["masses"]) == pytest.approx(facts["mass_kg"])
     assert facts["winding"]["efficiency"] == pytest.approx(facts["spring_energy_j"] / facts["winding"]["electrical_j"])
-    code, out, _ = run("build", "kenan-2.0", "-o", tmp_path / "b", "--no-pictures")
+    assert facts["violated"] == []
+
+
+def test_build_of_a_robot_with_violated_limits_names_them_and_says_not_to_build_it(run: Run, tmp_path: Path) -> None:
+    """The robot is written and jumps, but its steel is too soft; page, guide and command say the same."""
+    soft = tmp_path / "soft.toml"
+    soft.write_text("[safety]\nsteel_yield_mpa = 20.0\n", encoding="utf-8")
+    code, out, _ = run("build", "kenan-2.0", "--workshop", soft, "-o", tmp_path / "b", "--no-pictures")
     assert code == 0
-    assert f"{1000 * facts['jump']['ballistic_range_m']:.0f} mm far" in out
+    assert re.search(r"^printed robot +jumps \d+ mm far", out, re.MULTILINE)
     assert "main_leg" in out
+    names = re.findall(r"^error +(\w+): ", out, re.MULTILINE)
+    assert "leg_axle_strength" in names
+    sentence = re.search(r"^next +(\d+ of its \d+ limits are violated: do not build it as it is); ", out, re.MULTILINE)
+    assert sentence
+    assert "how to print, order and assemble" not in out
+    guide, page = ((tmp_path / "b" / name).read_text(encoding="utf-8") for name in ("assembly.md", "report.html"))
+    assert sentence[1] in page
+    warning = next(line for line in guide.splitlines() if "Do not build it as it is" in line)
+    assert all(name in warning for name in names)
 
 
 def test_simulating_the_bundle_gives_the_range_of_the_build(run: Run, bundle: Path) -> None:
@@ -68,7 +85,7 @@ def test_verify_finds_what_was_changed(run: Run, bundle: Path, tmp_path: Path) -
 def test_render_draws_stills_and_the_jump_of_a_bundle(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 3)
+    with_few_pictures(monkeypatch)
     code, out, _ = run("render", bundle, "-o", tmp_path / "p", "--json")
     assert code == 0
     assert json.loads(out)["files"] == ["compressed.png", "exploded.png", "jump.gif", "rest.png"]
@@ -88,7 +105,7 @@ def test_a_folder_in_the_way_is_refused_in_one_line(run: Run, tmp_path: Path) ->
 def test_pictures_belong_to_the_bundle_that_they_are_drawn_into(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("jumpcad.bundle.renders.JUMP_FRAMES", 2)
+    with_few_pictures(monkeypatch, 2)
     own = Path(shutil.copytree(bundle, tmp_path / "own"))
     (own / "pictures").mkdir()
     (own / "pictures" / "rest.png").write_bytes(b"mine")

@@ -9,7 +9,7 @@ from threading import Event
 import pytest
 from support.commands import Run, interruptible
 
-from jumpcad.cli.output import escaped, status
+from jumpcad.cli.output import console, escaped, status
 from jumpcad.design import load_design
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -193,3 +193,9 @@ def test_a_number_that_no_search_can_have_is_one_line(run: Run, tmp_path: Path, 
     assert err.count("\n") == 1
     assert arguments[-1] in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_table_shows_what_looks_like_markup_as_it_is(capsys: pytest.CaptureFixture[str]) -> None:
+    """Names of users may hold brackets and colons: neither a style nor a picture."""
+    console(width=60).print("a [red]b[/red] :frog:")
+    assert capsys.readouterr().out.strip() == "a [red]b[/red] :frog:"

@@ -1,4 +1,4 @@
-"""Bundles for independent programs: the first robot, the strongest, and one of a few parts, asymmetric on purpose."""
+"""Bundles for independent programs: of two templates, and of a robot of a few parts, asymmetric on purpose."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -11,7 +11,7 @@ from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import open_bundle
 from jumpcad.robot import Robot
 
-TEMPLATES = ("kenan-2.0", "best-bo")
+TEMPLATES = ("kenan-2.0", "best-printable")
 ON_BARS = "kenan-2.0 on carbon tubes"
 """Its legs are tubes with printed ends: more parts in a link, and hardware that turns with it."""
 

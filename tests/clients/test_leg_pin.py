@@ -15,7 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.workshop import load_workshop
 
 PIN = "leg_spring_pin"
-TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-printable")
 OTHERS = {
     "kenan-2.0 with clips": {"retention": "clips", "axle": "silver-steel"},
     "best-bo with screws as axles": {"retention": "nuts"},

@@ -61,8 +61,9 @@ def foot():
     return Blocks((rails, *toes, web))
 
 
-TWINS = ("front_spacer_right", "spring_bushing_left", "spring_bushing_right", "cam_spacer_right", "body_plate_left")
-"""Rings like the left front spacer, of another size, and the plate that has less than the right one."""
+RINGS = ("front_spacer_right", "spring_bushing_left", "spring_bushing_right", "cam_spacer_right")
+TWINS = (*RINGS, "body_plate_left", "cam_gear")
+"""Rings like the left front spacer, the plate that has less than the right one, and a wheel like `gear`."""
 PARTS = {"plate": plate, "link": link, "gear": gear, "foot": foot}
 
 

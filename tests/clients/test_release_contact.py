@@ -51,7 +51,7 @@ def test_a_slow_motor_is_the_hard_case(released: Callable[[str], tuple[Contact, 
 
 def test_too_little_play_loses_more_and_kicks_harder(bundle_of: Callable[[str], Path]) -> None:
     """With 5° the cam meets the end of its play while the roller is on its corner."""
-    contact = Contact(bundle_of("best-ga"))
+    contact = Contact(bundle_of("best-printable"))
     said = contact.files.manifest["drive"]["release"]
     short = contact.run(said["assumed"][1], math.radians(5.0))
     assert short.energy_ratio < said["energy_ratio_with_bending"] - 0.05

@@ -16,7 +16,7 @@ from jumpcad.workshop import load_workshop
 
 VARIANTS: dict[str, dict[str, dict[str, Any]]] = {
     "kenan-2.0": {},
-    "best-ga": {},
+    "best-printable": {},
     "kenan-2.0 preloaded": {"spring": {"preload_deg": 4.0}},
     "kenan-1.0 from stock": {"bought": {"spring": "9271K589"}},
 }

@@ -128,3 +128,16 @@ def test_an_own_one_may_be_chosen() -> None:
     assert spring.turns == 4.25
     assert spring.rate_nmm_per_deg == pytest.approx(4.8)
     assert wrong(robot) == []
+
+
+def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits() -> None:
+    """Arms further apart by what is named plus a degree bring the pin into the range, from its smallest to largest."""
+    limits = replace(LIMITS, plate_pins_rad=tuple(map(math.radians, (70.0, 50.0, 60.0))))
+    askew = STOCK.model_copy(update={"arm_angle_deg": (STOCK.arm_angle_deg + 150.0) % 360.0})
+    with pytest.raises(CannotBuildError, match="there is room from 50° to 70°") as refused:
+        fitted(askew, limits=limits)
+    about = float(str(refused.value).partition("arms about ")[2].partition("°")[0])
+    away = float(re.findall(r"(\d+)° away", str(refused.value))[0])
+    turned = abs((about - askew.arm_angle_deg + 180.0) % 360.0 - 180.0)
+    assert turned == pytest.approx(away + 1.0, abs=1.01)
+    fitted(askew.model_copy(update={"arm_angle_deg": about}), limits=limits)

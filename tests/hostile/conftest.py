@@ -19,6 +19,7 @@ import matplotlib.font_manager  # writes its list of fonts, if there is none
 import pytest
 from support.commands import exit_code_of
 from support.kept import once, robot_key
+from support.pictures import with_few_pictures
 from support.robots import make_small_robot
 from support.sandbox import Sandbox
 from support.slicers import OBEDIENT
@@ -136,7 +137,7 @@ def slicer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 @pytest.fixture(autouse=True)
 def findings(checked_once: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a robot be checked once, and a jump be drawn in few pictures: what is tried here is what becomes of them."""
-    monkeypatch.setattr(renders, "JUMP_FRAMES", 3)
+    with_few_pictures(monkeypatch)
 
 
 @pytest.fixture

@@ -279,7 +279,7 @@ def test_a_worker_that_starts_is_not_interrupted(sandbox: Sandbox) -> None:
     )
     package = Path(__file__).parents[2]
     done = sandbox.process(
-        *LONGER, "--evaluations", "24", "--workers", "2", "--json",
+        *LONGER, "--evaluations", "24", "--workers", "1", "--json",
         exits=(0, 1), writes=["s.toml"], leaves=["s.db", "s.db-wal", "s.db-shm"],
         environment={"PYTHONPATH": f"{sandbox.work / 'trap'}:{package}"},
     )  # fmt: skip
@@ -298,13 +298,6 @@ IGNORED = {
         f"    def __del__(self): {PRESS}\n"
         "import jumpcad.search.evaluator as module\n"
         "def ignored(*_): Last()\n"
-        "module.Evaluator._require_a_working_model = ignored\n"
-    ),
-    "a library's bare except": (
-        "import jumpcad.search.evaluator as module\n"
-        "def ignored(*_):\n"
-        f"    try: {PRESS}\n"
-        "    except: pass\n"
         "module.Evaluator._require_a_working_model = ignored\n"
     ),
 }

@@ -78,7 +78,7 @@ def test_a_note_is_kept_once(tmp_path: Path, study: Path) -> None:
         assert store.notes().count("a line") == 1
 
 
-DECOMPOSED = {"a": "a\u0301rbol", "ä": "Gro\u0308ße", "composed": "árbol"}
+DECOMPOSED = {"a": "a\u0301rbol", "composed": "árbol"}
 
 
 @pytest.mark.parametrize("name", DECOMPOSED.values())

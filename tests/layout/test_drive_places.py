@@ -124,3 +124,21 @@ def test_of_all_idlers_the_one_with_the_motor_nearest(monkeypatch: pytest.Monkey
         costs.append(cost(alone, beside))
     assert len(costs) > 5
     assert cost(idler, motor) == min(costs)
+
+
+def test_an_idler_stands_where_its_wheel_and_its_axle_are_free() -> None:
+    """Distances to a post that is beside the wheel's plane, and to one in it; the cam gear is meshed with."""
+    layout = geared().layout
+    drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
+    tip, distance = drive.train.stages[0].wheel.tip_radius_mm, drive.train.stages[-1].centre_distance_mm
+    beside = (lateral.inside[0], lateral.gears[1][0] - 0.5)
+    for interval, reach in ((beside, 3.2), (lateral.gears[1], tip)):
+        post = disc("post", axis + np.array([distance + 1.0, 2.0]), 4.0, interval)
+        found = drive_places._idler_places([post], drive, lateral, axis)
+        turns = 2.0 * math.pi * np.arange(72) / 72.0
+        ring = axis + distance * np.column_stack([np.cos(turns), np.sin(turns)])
+        free = np.hypot(*(ring - post.points_mm[0]).T) >= 4.0 + reach
+        assert 0 < free.sum() < 72
+        np.testing.assert_allclose(found, ring[free], atol=2e-6)
+    gear = disc("cam gear", axis, 5.0, lateral.inside)
+    assert len(drive_places._idler_places([gear], drive, lateral, axis)) in (0, 72)

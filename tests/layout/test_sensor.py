@@ -7,7 +7,7 @@ import pytest
 from support.built import built, geared
 
 from jumpcad.dimensions import GAP_MM
-from jumpcad.layout.sensor import middle_mm, sensor_obstacle, track_mm
+from jumpcad.layout.sensor import middle_mm, sensor_obstacle, sensor_place, track_mm
 from jumpcad.robot import Robot
 
 
@@ -92,3 +92,16 @@ def test_the_room_kept_free_holds_switch_mount_and_terminals(robot: Robot) -> No
         reach = (found.points_mm - sensor.place_mm) @ axis
         assert reach.max() + found.radius_mm == pytest.approx(half + 0.8, abs=1e-6)
         assert reach.min() - found.radius_mm == pytest.approx(-half - 0.8, abs=1e-6)
+
+
+def test_an_axle_just_beside_the_mount_leaves_the_switch_in_its_place_and_a_nearer_one_does_not(robot: Robot) -> None:
+    """A seat reaches 3 mm beyond its bore; measured across the mount, outwards from the cam's axis."""
+    layout, away = robot.layout, robot.layout.sensor.needs
+    given = (layout.drive, layout.lateral, layout.cam_axis_mm)
+    far = np.array([900.0, 900.0])
+    free = sensor_place([], *given, {}, far, layout.axle_mm, away)
+    outwards = (free.place_mm - layout.cam_axis_mm) / free.radius_mm
+    for more, stays in ((0.05, True), (-0.2, False)):
+        seat = free.place_mm + outwards * (free.half_mm[1] + layout.axle_mm / 2.0 + 3.0 + more)
+        found = sensor_place([], *given, {"leg": seat}, far, layout.axle_mm, away)
+        assert (found.place_mm == free.place_mm).all() == stays

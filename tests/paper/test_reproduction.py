@@ -2,7 +2,10 @@
 
 import pytest
 
-from jumpcad.paper.reproduction import HYPERPARAMETERS, Reproduction, reproduce
+from jumpcad.bundle.compared import compared_of
+from jumpcad.design import load_design
+from jumpcad.files import template_names
+from jumpcad.paper.reproduction import HYPERPARAMETERS, PUBLISHED_RESULTS, Reproduction, reproduce
 
 
 @pytest.fixture(scope="module")
@@ -36,3 +39,16 @@ def test_published_figures_flatter_weak_jumpers(rows: dict[str, Reproduction]) -
 def test_hyperparameters_that_differ_are_the_known_three() -> None:
     differing = {item.name for item in HYPERPARAMETERS if item.in_table not in (None, item.in_results)}
     assert differing == {"lateral friction", "spinning friction", "restitution"}
+
+
+def test_measured_jumps_are_those_that_the_predictions_stand_beside() -> None:
+    """Both prototypes' distances, heights and battery energies, as the templates of comparisons have them."""
+    measured = {one.template: one.measured for one in PUBLISHED_RESULTS if one.measured is not None}
+    assert set(measured) == set(template_names("compared"))
+    for name, values in measured.items():
+        found = compared_of(load_design(name))
+        assert found is not None
+        for row in found.rows:
+            kinds = {"distance": values.distance_m, "height": values.height_m, "battery": values.electrical_energy_j}
+            assert row.measured == kinds[row.what]
+        assert {row.what for row in found.rows} == {"distance", "height", "battery"}

@@ -8,10 +8,11 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
+from jumpcad.bundle.lead_lines import leads_of
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
-from jumpcad.parts.lead_ways import battery_way, gap_mm, lead_way, plate_of, way_words
+from jumpcad.parts.lead_ways import battery_way, corners, gap_mm, lead_way, outer_way, plate_of, way_words
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import contained
 from jumpcad.workshop import load_workshop
@@ -145,3 +146,38 @@ def test_what_is_soldered_beside_the_robot_has_longer_leads(robot: Robot) -> Non
 
 def _ends(robot: Robot) -> list[tuple[str, tuple[str, str], tuple[str, str]]]:
     return [(net, (start.part, start.pin), (end.part, end.pin)) for net, start, end, *_ in wires(robot)]
+
+
+def test_the_batterys_leads_go_from_its_front_end_around_the_trays_to_the_plug(robot: Robot) -> None:
+    """Both ends in the middle of what they come out of, as it lies on the trays; ahead of all that is on them."""
+    way = battery_way(robot.layout)
+    for name, end in (("battery", way[0]), ("plug", way[-1])):
+        item = next((one for one in robot.hardware if one.name == name), None)
+        assert item is not None
+        low, high = item.look.copy().apply_transform(item.T_body_part).bounds
+        assert end == pytest.approx([high[0], (low[1] + high[1]) / 2.0, (low[2] + high[2]) / 2.0], abs=0.02), name
+    assert np.ptp(way[1:4, 0]) == 0.0
+    assert way[1, 0] > robot.layout.tray_mm[0] + robot.layout.electronics.length_mm / 2.0
+
+
+def test_leads_lie_side_by_side_about_the_middle_of_their_part(robot: Robot) -> None:
+    """Of all leads that end at a part the ends' mean is where the part's way begins, and no two are the same."""
+    leads = leads_of(robot)
+    for part in {part for lead in leads for part in lead.parts} - {"battery", "plug", "switch"}:
+        ends = np.array([lead.points_mm[0 if lead.parts[0] == part else -1] for lead in leads if part in lead.parts])
+        assert ends.mean(axis=0) == pytest.approx(outer_way(robot.layout, part)[0], abs=1e-6), part
+        apart = [np.abs(a - b).max() for a, b in itertools.combinations(ends, 2)]
+        assert min(apart, default=1.0) > 0.05, part
+        seat = robot.layout.electronics.seats(robot.layout.lateral.inside).get(part)
+        if seat is not None:  # 1.5 mm from the edges of what they are soldered to
+            assert (np.ptp(ends, axis=0)[:2] <= np.array(seat.size_mm[:2]) - 3.0 + 1e-6).all(), part
+
+
+def test_inside_a_lead_runs_along_the_plate_at_the_height_of_its_hole(robot: Robot) -> None:
+    """Whichever end is at the plate, the corners at its side have its y, and the lead goes down beside the boards."""
+    start, end = np.array([10.0, 15.0, 40.0]), np.array([60.0, 2.0, 20.0])
+    there = np.array(corners(robot.layout, "sensor", "controller", start, end))
+    back = np.array(corners(robot.layout, "controller", "sensor", end, start))
+    expected = [[60.0, 15.0, 40.0], [60.0, 15.0, 20.0]]
+    assert there.tolist() == expected
+    assert back.tolist() == expected[::-1]

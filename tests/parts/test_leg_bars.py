@@ -149,3 +149,25 @@ def test_a_soft_bar_takes_the_energy_beyond_its_sockets_middle() -> None:
     second = place.bar.width_mm * place.bar.height_mm**3 / 12.0
     whole = case.torque_nmm**2 * length / (6.0 * 1e-3 * second)
     assert leg_bar._bent_nmm(case, soft) == pytest.approx(whole * beyond**3, rel=0.04)  # in steps
+
+
+@pytest.mark.parametrize("leg", ["carbon-tube-4x2", "carbon-strip-3x6"])
+def test_glue_bears_the_pull_along_a_bar_and_the_twist_of_a_landing_on_one_toe(leg: str) -> None:
+    """Around the section over 8 mm of the end's socket; the twist, of an inclined leg, at half of the smaller side."""
+    case = LoadCase(robot(leg))
+    bar, design = BARS[leg], case.robot.design
+    area = bar.around_mm * 8.0
+    aside = case.toe_blow_n * case.layout.toe_half_width_mm
+    twist = aside * math.cos(math.radians(design.rest_angle_deg))
+    pulls = (float(np.abs(case.forces.leg_axial_n).max()), case.front_n, case.landing_n)
+    stress = math.hypot(max(pulls) / area, twist / (area * min(bar.width_mm, bar.height_mm) / 2.0))
+    found = {finding.name: finding for finding in leg_bar_findings(case)}
+    assert found["leg_bar_bond"].value == pytest.approx(stress, rel=1e-6)
+    place = leg_bar_place(case.layout, case.holes)
+    assert place is not None
+    mouth = case.torque_nmm * (1.0 - place.mouth_mm / design.l2_mm)
+    bent = bar_bending_mpa(bar, mouth, pulls[0])
+    across = aside * math.sin(math.radians(design.rest_angle_deg)) * bar.width_mm / 2.0 / bar.sideways_mm4
+    shear = bar_shear_mpa(bar, case.torque_nmm / design.l2_mm + 1.5 * mouth / (place.mouth_mm - place.floor_mm), twist)
+    worst = max(bent, across, shear * bar.strength_mpa / bar.shear_mpa)
+    assert found["leg_bar_strength"].value == pytest.approx(worst, rel=1e-6)

@@ -1,9 +1,11 @@
 """Bought parts: the catalogue's mass spread over a shape that all copies share."""
 
 import math
+import re
 
 import numpy as np
 import pytest
+from support.built import built
 
 from jumpcad.parts.purchased import bought
 from jumpcad.solids.outline import disc, ring
@@ -33,3 +35,17 @@ def test_copies_are_one_shape_and_other_sizes_are_others():
 def test_a_turn_is_counter_clockwise_in_x_z():
     offset = bought("arm", "arm", "body", 1.0, [(0.0, 2.0, ring(4.0, 2.0, (10.0, 0.0)))], turn_rad=math.pi / 2)
     assert offset.mass.com_m == pytest.approx([0.0, 0.001, 0.010], abs=1e-12)
+
+
+def test_pins_weigh_what_their_steel_does() -> None:
+    """7.85 g/cm³: a split pin's wire over its length, a clevis pin's shank and head."""
+    robot = built("kenan-2.0")
+    found = {item.name: item for item in robot.hardware if "pin" in item.name and "ISO" in item.article}
+    assert {"ankle_pin", "ankle_pin_split_pin", "front_eye_pin", "leg_spring_pin"} <= set(found)
+    for name, item in found.items():
+        diameter, length = map(float, re.findall(r"([\d.]+) x ([\d.]+) ISO", item.article)[0])
+        shank = 7.85e-6 * math.pi / 4.0 * diameter**2 * length
+        if name.endswith("split_pin"):
+            assert item.mass_kg == pytest.approx(shank, rel=0.02), name
+        else:
+            assert shank < item.mass_kg < 1.6 * shank, name

@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections import defaultdict
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from support.built import LONG_TOES, body_in_plane, built, cut, placed, region
 
 from jumpcad.building import build
 from jumpcad.building.assembly import assembled
+from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
@@ -231,3 +233,17 @@ def test_the_motor_stands_in_its_socket_as_it_is_turned(name: str) -> None:
     assert socket.intersection(around).area > 0.2 * around.difference(case).area
     everything = [1000.0 * item.mass_kg for item in robot.hardware if item.name in ("motor", "motor_shaft")]
     assert sum(everything) == pytest.approx(robot.layout.drive.train.motor.mass_g)
+
+
+def test_wire_is_bought_in_tenths_of_a_metre_rounded_up() -> None:
+    """By the lengths to cut; what is exactly so many tenths is not rounded up to one more."""
+    robot = built("kenan-2.0")
+    cut: dict[str, float] = defaultdict(float)
+    for *_, colour, length in wires(robot):
+        cut[colour] += length / 1000.0
+    for colour, metres in cut.items():
+        if metres:
+            item = next(one for one in robot.hardware if one.name == f"wiring_wire_{colour}")
+            ordered = float(re.findall(rf"{colour}, ([\d.]+) m$", item.article)[0])
+            assert -1e-6 <= ordered - metres < 0.1 - 1e-9, colour
+            assert ordered * 10.0 == pytest.approx(round(ordered * 10.0))

@@ -80,3 +80,15 @@ def test_toe_and_stub_lie_face_to_face_along_the_joint() -> None:
         )
         assert of_toe[1, 2] == pytest.approx(of_stub[1, 2], abs=1e-3)
         assert of_stub[0, 1] - of_toe[1, 1] == pytest.approx(0.2, abs=5e-3)
+
+
+def test_cross_screws_are_16_and_30_mm_from_the_toes_root() -> None:
+    """Both in the overlap of toe and stub, from 12 to 34 mm, with more than their heads' radius to its ends."""
+    robot = built(LONG_TOES)
+    for toe in toes(robot.layout):
+        inverse = np.linalg.inv(toe.pose_mm)
+        places = []
+        for item in robot.hardware:
+            if item.name.startswith(f"{toe.name}_screw"):
+                places.append(item.look.copy().apply_transform(inverse @ item.T_body_part).bounds[:, 0].mean())
+        assert sorted(places) == pytest.approx([16.0, 30.0], abs=0.05)

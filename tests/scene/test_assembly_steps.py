@@ -1,8 +1,10 @@
 """The order of assembly: every thing on the robot is put on once."""
 
+import math
 import re
 from collections import Counter
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,8 +12,10 @@ from support.built import built
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
+from jumpcad.scene.assembly_order.plan import Move
 from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
+from jumpcad.transforms import pose_about_y, pose_about_z
 
 
 @pytest.fixture(scope="module", params=["kenan-2.0", "best-ga"])
@@ -108,3 +112,14 @@ def test_fasteners_have_their_heads_where_they_come_from_and_bearings_their_own_
             if thing.name.startswith("hub_bearing"):
                 assert points[:, 1].mean() * side > 0.0, thing.name
     assert {"roller_screw", "cap_screw_1", "standoff_1_screw_left", "standoff_1_screw_right", "ankle_pin"} <= seen
+
+
+@pytest.mark.parametrize(("name", "way"), [("toe_left", 1.0), ("toe_right", -1.0)])
+def test_toes_come_along_their_own_width(name: str, way: float) -> None:
+    """A toe is drawn along its own x, its width along y; the foot may be turned, and the toe in it."""
+    turned, foot = pose_about_y(0.4, (0.0, 0.0)), pose_about_z(-0.7)
+    thing = SimpleNamespace(name=name, T_body_mesh=foot)
+    found = travel(built("kenan-2.0"), thing, Move("toe_left", "from outside"), turned)  # type: ignore[arg-type]
+    np.testing.assert_allclose(found, way * turned[:3, :3] @ np.array([math.sin(0.7), math.cos(0.7), 0.0]), atol=1e-12)
+    with pytest.raises(ValueError, match="no direction from nowhere"):
+        travel(built("kenan-2.0"), thing, Move("toe_left", "from nowhere"), turned)  # type: ignore[arg-type]

@@ -1,5 +1,7 @@
 """One parameter of a search."""
 
+import math
+
 import pytest
 
 from jumpcad.errors import JumpcadError
@@ -37,3 +39,28 @@ def test_bounds_of_a_workshops_value_are_numbers_and_its_choices_are_left_to_the
     assert read_change("fix", "body_joint_mm=90").values == (90.0,)
     with pytest.raises(JumpcadError, match="'thin' is not a number"):
         read_change("bound", "body.plate_mm=thin:2.4")
+
+
+@pytest.mark.parametrize(
+    ("parameter", "record"),
+    [
+        (SearchParameter("c_coef", 0.9, 0.9), {"fixed": 0.9}),
+        (SearchParameter("c_coef", 0.8, 1.2), {"lower": 0.8, "upper": 1.2}),
+        (SearchParameter("c_coef", 0.8, 1.2, (0.8, 1.2)), {"choices": [0.8, 1.2]}),
+        (SearchParameter.of_names("bought.battery", ["one", "two"]), {"choices": ["one", "two"]}),
+        (SearchParameter.of_names("bought.battery", ["one"]), {"fixed": "one"}),
+    ],
+)
+def test_a_parameter_reads_back_from_its_record(parameter: SearchParameter, record: dict[str, object]) -> None:
+    assert parameter.describe() == record
+    assert SearchParameter.from_record(parameter.name, record) == parameter
+
+
+def test_names_are_numbered_and_unknown_ones_are_no_number() -> None:
+    named = SearchParameter.of_names("bought.battery", ["one", "two", "three"])
+    assert [named.number(value) for value in ("one", "three")] == [0.0, 2.0]
+    assert [named.value(number) for number in (0.0, 1.2, 1.9)] == ["one", "two", "three"]
+    assert math.isnan(named.number("four"))
+    plain = SearchParameter("c_coef", 0.8, 1.2)
+    assert (plain.number(0.9), plain.value(0.9)) == (0.9, 0.9)
+    assert math.isnan(plain.number("one"))

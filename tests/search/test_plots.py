@@ -42,7 +42,7 @@ def test_history_shows_every_row_and_the_best_so_far(tmp_path):
     assert np.nanmax(lines["best so far"]) == max(scores)
 
 
-def test_slices_and_sweeps_mark_the_best_and_the_centre(tmp_path):
+def test_slices_mark_the_best(tmp_path):
     space = Space.parse(fix=REST)
     with studied(tmp_path / "s.db", space, "ga", 40) as store:
         trials = [trial for trial in store.trials() if trial.phase == "ga"]
@@ -51,13 +51,26 @@ def test_slices_and_sweeps_mark_the_best_and_the_centre(tmp_path):
     for axes, parameter in zip(figure.axes, space.free, strict=False):
         (star,) = axes.lines
         assert (star.get_xdata()[0], star.get_ydata()[0]) == (getattr(best.design, parameter.name), best.score)
-    values = np.array([0.3, 0.5, 0.8])
+        assert axes.get_ylabel().split() == ["range", "over", "the", "longest", "link", "(body", "lengths)"]
+
+
+@pytest.mark.parametrize("ratio", [0.4, 0.7, 0.95], ids=["between two", "beside a rejected one", "outside"])
+def test_sweeps_show_the_centre_without_a_score_that_nobody_computed(tmp_path, ratio):
+    """Only the swept designs have a score: the centre is a line through the whole panel, where its value is."""
+    with studied(tmp_path / "s.db", Space.parse(fix=REST), "ga", 40) as store:
+        best = next(trial for trial in store.trials() if trial.score is not None)
     swept = [replace(best, score=score) for score in (5.0, 9.0, None)]
-    centre = best.design.model_copy(update={"compression_ratio": 0.4})
-    figure = plots.sweeps([Sweep("compression_ratio", values, swept)], find_objective("fitness"), centre)
-    ring = next(line for line in figure.axes[0].lines if line.get_label() == "centre design")
-    assert (ring.get_xdata()[0], ring.get_ydata()[0]) == pytest.approx((0.4, 7.0))
-    assert {text.get_text() for text in figure.legends[0].get_texts()} == {"jumps", "rejected", "centre design"}
+    centre = best.design.model_copy(update={"compression_ratio": ratio})
+    sweep = Sweep("compression_ratio", np.array([0.3, 0.5, 0.8]), swept)
+    figure = plots.sweeps([sweep], find_objective("fitness"), centre)
+    (axes,) = figure.axes
+    drawn = {line.get_label(): line for line in axes.lines}
+    assert set(drawn) == {text.get_text() for text in figure.legends[0].get_texts()}
+    assert list(drawn.pop("centre design").get_xdata()) == [ratio, ratio]
+    low, high = axes.get_xlim()
+    assert low < ratio < high
+    points = [(x, y) for line in drawn.values() for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)]
+    assert [point for point in points if np.isfinite(point[1])] == [(0.3, 5.0), (0.5, 9.0), (0.8, 0.0)]
 
 
 def test_every_picture_says_what_it_means(tmp_path):

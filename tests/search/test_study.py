@@ -59,7 +59,7 @@ def test_same_rows_for_any_number_of_workers(tmp_path, two_workers, method, batc
 
 def test_killed_at_random_moments_it_ends_with_the_rows_of_an_uninterrupted_run(tmp_path):
     """By both methods: the first half is the genetic algorithm's."""
-    method, evaluations, workers = "ga+bo", 28, 2
+    method, evaluations, workers = "ga+bo", 28, 1
     moments = random.Random(11)
     killed = 0
     while killed < 2:

@@ -44,21 +44,23 @@ def points(driver: Any) -> list[Any]:
 def test_a_click_on_a_point_shows_its_robot(driver: Any, page: Path) -> None:
     driver.get(page.as_uri())
     (first,) = shown(driver)
-    assert first.startswith("Design 1:")
     last = points(driver)[-1]
+    number = last.get_attribute("data-design")  # of a front, the highest score
+    assert first.startswith(f"Design {number} (")
+    driver.find_element("css selector", 'td a[data-design="1"]').click()
+    assert shown(driver)[0].startswith("Design 1 (")
     box = driver.find_element("id", "robots")
     before = box.screenshot_as_png
     last.find_element("css selector", "circle:last-child").click()
     (now,) = shown(driver)
-    number = last.get_attribute("data-design")
-    assert now.startswith(f"Design {number}:")
+    assert now.startswith(f"Design {number} (")
     assert box.screenshot_as_png != before
     drawn = driver.find_element("css selector", f"#design-{number} svg.side")
     assert drawn.size["width"] > 200
     assert drawn.size["height"] > 50
     assert last.get_attribute("aria-current") == "true"
     driver.find_element("css selector", 'td a[data-design="2"]').click()
-    assert shown(driver)[0].startswith("Design 2:")
+    assert shown(driver)[0].startswith("Design 2 (")
 
 
 def test_the_keyboard_goes_from_point_to_point(driver: Any, page: Path) -> None:
@@ -69,9 +71,9 @@ def test_the_keyboard_goes_from_point_to_point(driver: Any, page: Path) -> None:
             break
     driver.switch_to.active_element.send_keys(Keys.ARROW_RIGHT)
     driver.switch_to.active_element.send_keys(Keys.ARROW_RIGHT)
-    assert shown(driver)[0].startswith("Design 3:")
+    assert shown(driver)[0].startswith("Design 3 (")
     driver.switch_to.active_element.send_keys(Keys.ARROW_LEFT)
-    assert shown(driver)[0].startswith("Design 2:")
+    assert shown(driver)[0].startswith("Design 2 (")
 
 
 def test_nothing_is_asked_of_the_network_and_no_error_is_logged(driver: Any, page: Path) -> None:
@@ -88,11 +90,11 @@ def test_points_on_each_other_are_shown_by_one_click_after_the_other(driver: Any
         " one.setAttribute(at, arguments[0].lastElementChild.getAttribute(at))",
         *points(driver)[:2],
     )
-    for number in (2, 1, 2):
+    for number in (1, 2, 1, 2):
         points(driver)[1].find_element("css selector", "circle:last-child").click()
-        assert shown(driver)[0].startswith(f"Design {number}:")
+        assert shown(driver)[0].startswith(f"Design {number} (")
     driver.find_element("id", "after").click()
-    assert shown(driver)[0].startswith("Design 3:")
+    assert shown(driver)[0].startswith("Design 3 (")
     marked = driver.execute_script(
         "return [...document.querySelectorAll('[data-of]')].filter(one => getComputedStyle(one).display != 'none')"
         ".map(one => one.dataset.of)"
@@ -142,5 +144,5 @@ def test_it_fits_a_phone(driver: Any, page: Path) -> None:
     )
     last = points(driver)[-1]
     last.find_element("css selector", "circle:last-child").click()
-    assert shown(driver)[0].startswith(f"Design {last.get_attribute('data-design')}:")
+    assert shown(driver)[0].startswith(f"Design {last.get_attribute('data-design')} (")
     driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})

@@ -1,15 +1,19 @@
 """The page of a study: valid, self-contained, the same bytes, and what the study holds."""
 
 import re
+import shlex
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from functools import cache
 from urllib.parse import unquote
 
+import numpy as np
 import pytest
 from support.bumps import REST, Bump, studied
 from support.shops import SHOP, Shop
 
+from jumpcad.search import study_lessons
+from jumpcad.search.explore import Importance
 from jumpcad.search.fronts import front
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
@@ -21,6 +25,7 @@ from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
 from jumpcad.search.study_lessons import active
 from jumpcad.search.study_page import write_study_page
+from jumpcad.search.table import write_table
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
 
@@ -111,8 +116,8 @@ def test_says_what_was_asked_and_found(studies):
     assert (reason, count) == ("loop", str(sum(trial.design.compression_ratio > 0.7 for trial in searched)))
     assert "do not reach each other" in meaning
     best = found["design"][1]
-    assert float(best[1]) == pytest.approx(9.0, abs=0.05)
-    assert "of" in best[4]  # rejected of its neighbours
+    assert float(best[2]) == pytest.approx(9.0, abs=0.05)
+    assert "of" in best[5]  # rejected of its neighbours
 
 
 def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(studies):
@@ -126,7 +131,7 @@ def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(stu
     for section, point, line, trial in zip(sections, points, lines, best, strict=True):
         assert point.get("href") == f"#{section.get('id')}"
         assert f"{trial.score:.4g}" in point.get("aria-label")
-        assert f"{trial.score:.4g}" == line[1]
+        assert f"{trial.score:.4g}" == line[2]
         shown = {text(row[0]): text(row[1]) for row in section.iter("tr")}
         assert float(shown["compression_ratio"]) == pytest.approx(trial.design.compression_ratio, rel=1e-4)
         assert float(shown["energy in the springs"].removesuffix(" mJ")) == pytest.approx(
@@ -137,6 +142,33 @@ def test_every_design_of_a_front_has_a_point_a_line_of_the_table_and_a_robot(stu
     across = [float(point.find("circle").get("cx")) for point in points]
     assert heights == sorted(heights, reverse=True)
     assert across == sorted(across)
+
+
+def test_a_design_is_found_in_the_exported_table_by_the_trials_number(studies, tmp_path):
+    """Heading, point, line and command name the same trial; the page opens on the highest score."""
+    for method in ("nsga2", "bo"):
+        file = studies / f"{method}.db"
+        with StudyStore.read(file) as store:
+            write_table(store.trials(), tmp_path / f"{method}.csv")
+        heading, *lines = (tmp_path / f"{method}.csv").read_text().splitlines()
+        column = heading.split(",").index("compression_ratio")
+        page = known_page_of(file)
+        root = parsed(page)
+        points = list(next(root.iter("svg")).iter("a"))
+        rows = [row[:3] for row in tables(page)["design"][1:]]
+        sections = [one for one in root.iter("section") if one.get("class") == "design"]
+        for section, point, (design, trial, _) in zip(sections, points, rows, strict=True):
+            assert section.findtext("h3").startswith(f"Design {design} (trial {trial}):")
+            assert point.get("aria-label") == point.findtext("title")
+            assert point.get("aria-label").startswith(f"design {design} (trial {trial}):")
+            assert shlex.split(section.findtext("p/code")) == ["jumpcad", "studio", str(file), "--trial", trial]
+            shown = {text(row[0]): text(row[1]) for row in section.iter("tr")}
+            assert float(shown["compression_ratio"]) == pytest.approx(
+                float(lines[int(trial) - 1].split(",")[column]), rel=1e-4
+            )
+        design, trial, _ = max(rows, key=lambda row: float(row[2])) if method == "nsga2" else rows[0]
+        assert next(one for one in root.iter("div") if one.get("id") == "robots").get("data-first") == design
+        assert f"The page opens on design {design} (trial {trial}), the" in page
 
 
 def drawn_in(page, heading):
@@ -210,6 +242,16 @@ def test_a_parameter_without_effect_matters_least(tmp_path):
     assert names[2:] == ["carrying_link_mm"]
 
 
+def test_a_long_bar_within_its_error_is_not_what_matters_most(tmp_path, monkeypatch):
+    learned = Importance(("c_coef", "d_coef"), np.array([0.33, 0.19]), np.array([0.42, 0.13]), 0.9, 40)
+    monkeypatch.setattr(study_lessons, "importance", lambda *_: learned)
+    with studied(tmp_path / "s.db", SPACE, "ga", 40) as store:
+        root = ElementTree.fromstring(f"<body>{''.join(study_lessons.importances(store, known(store)))}</body>")
+    assert [[text(cell) for cell in row][::3] for row in root.iter("tr")][1:] == [["c_coef", "no"], ["d_coef", "yes"]]
+    assert "Of those beyond their error, d_coef matters most." in text(root)
+    assert "perhaps nothing: c_coef." in text(root)
+
+
 @pytest.mark.parametrize("model", [Never(), Below()], ids=["nothing jumps", "negative scores"])
 def test_studies_without_a_usual_best_have_a_page(tmp_path, model):
     with local_pool(0) as pool:
@@ -220,7 +262,7 @@ def test_studies_without_a_usual_best_have_a_page(tmp_path, model):
         assert "None of" in said
         assert "too_weak" in said
     else:
-        assert tables(page)["design"][1][1].startswith("-9")
+        assert tables(page)["design"][1][2].startswith("-9")
 
 
 def test_an_empty_study_and_strange_texts_have_a_page(tmp_path):

@@ -4,8 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support.machines import let_go
 
 from jumpcad.mechanism.model import BODY
+from jumpcad.mechanism.poses import release_pose
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.bullet import LINKS, BulletWorld
@@ -61,3 +63,18 @@ def test_slip_takes_the_contacts_force_times_the_foots_velocity_there() -> None:
             lost -= 0.5 * force @ (velocity + np.cross(spin, contact[5] - com)) * 0.01
     assert world._slip_work_j() == pytest.approx(lost)
     assert world._foot == tuple(after)
+
+
+def test_the_body_moves_as_the_roller_leaves_the_cam(kenan: Robot) -> None:
+    """Bullet is given the velocity of the centre of mass: that of the frame's origin, and the turn about y with it."""
+    bullet = pytest.importorskip("pybullet")
+    robot = let_go(kenan)
+    release = release_pose(robot)
+    assert release.body_rad_s != 0.0
+    with engine_named("pybullet").world(robot, Settings()) as world:
+        velocity, spin = bullet.getBaseVelocity(world.robot_id, physicsClientId=world._client)
+        place, _ = bullet.getBasePositionAndOrientation(world.robot_id, physicsClientId=world._client)
+    np.testing.assert_allclose(spin, [0.0, release.body_rad_s, 0.0], atol=1e-9)
+    arm = np.array(place) - release.body_position_m
+    expected = np.array(release.body_m_s) + release.body_rad_s * np.array([arm[2], 0.0, -arm[0]])
+    np.testing.assert_allclose(velocity, expected, atol=1e-6)

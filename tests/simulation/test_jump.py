@@ -50,3 +50,10 @@ def test_the_account_has_every_entry_of_the_budget_once() -> None:
         "contact": 256.0,
     }  # fmt: skip
     assert sum(account.values()) == 511.0
+
+
+def test_a_jump_has_the_account_of_its_budget_and_none_without() -> None:
+    budget = EnergyBudget(1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0)
+    jumped = Jump("jump", "planar", 0.1, 0.2, energy=budget)
+    assert jumped.energy_account_j == budget.account_j
+    assert Jump("no takeoff", "planar", 0.1, 0.2).energy_account_j is None

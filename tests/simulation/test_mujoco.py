@@ -1,10 +1,13 @@
-"""The MuJoCo back end: settings that it does not have are rejected."""
+"""The MuJoCo back end: settings that it does not have are rejected; it begins where the planar engine does."""
 
+import numpy as np
 import pytest
+from support.machines import let_go
 
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.engines import engine_named
 
 
 @pytest.mark.parametrize("key", ["restitution", "drag_per_s"])
@@ -12,3 +15,32 @@ def test_mujoco_refuses_what_it_does_not_have(kenan: Robot, key: str) -> None:
     pytest.importorskip("mujoco")
     with pytest.raises(JumpcadError, match=f"{key} = 0.5.*pybullet"):
         simulate(kenan, Settings(**{key: 0.5}), "mujoco")
+
+
+@pytest.mark.parametrize("turning", [False, True])
+def test_mujoco_begins_where_the_planar_engine_does(kenan: Robot, turning: bool) -> None:
+    """Places, turns and both velocities of all four bodies; standing loaded, and as the roller leaves the cam."""
+    pytest.importorskip("mujoco")
+    robot = let_go(kenan) if turning else kenan
+    states = []
+    for name in ("mujoco", "planar"):
+        with engine_named(name).world(robot, Settings()) as world:
+            states.append(world.state())
+    one, other = states
+    for key in ("com_m", "rotation", "velocity_m_s", "angular_rad_s"):
+        np.testing.assert_allclose(getattr(one, key), getattr(other, key), atol=1e-5, err_msg=key)
+    assert one.leg_rad == pytest.approx(other.leg_rad, abs=1e-9)
+    assert (np.abs(one.velocity_m_s).max() > 0.01) == turning
+
+
+def test_the_pad_stops_the_leg_in_mujoco_and_not_its_limit(kenan: Robot) -> None:
+    """A limit with critical damping would throw the leg back; every contact has a row for its normal, two to slide."""
+    pytest.importorskip("mujoco")
+    with engine_named("mujoco").world(kenan, Settings()) as world:
+        assert int(world.model.joint("leg").limited[0]) == 0
+        assert world.loaded()
+        world.advance(40)
+        assert world.loaded()
+        assert abs(world.slip_j) < 0.01 * kenan.spring.energy_j
+        contacts = world.data.nefc - world.data.ne - world.data.nf - world.data.nl
+        assert contacts == world._rows * world.data.ncon

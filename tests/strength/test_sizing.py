@@ -82,3 +82,18 @@ def test_the_stops_bar_is_a_beam_on_the_plates_under_the_pads_force() -> None:
     force = 2.0 * 0.82 * math.sqrt(2.0 * 0.12 * 1000.0 * design.spring_energy_j * rate)
     moment = force / 4.0 * (39.0 - width / 2.0)
     assert sizes.stop_mm == pytest.approx(STOP_SEAT_MM + math.sqrt(6.0 * moment / (8.0 * 45.0)), abs=0.03)
+
+
+def test_dogs_are_twisted_alike_whatever_their_torque() -> None:
+    """16·T/(pi·d³) is one stress for all designs whose dog is thicker than the least."""
+    shop = load_workshop()
+    least = sections(Linkage(load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 0.5})), shop).dog_mm
+    stresses = []
+    for stiffness in (20.0, 30.0, 40.0):
+        design = load_design("best-bo").model_copy(update={"stiffness_nmm_per_deg": stiffness})
+        dog = sections(Linkage(design), shop).dog_mm
+        assert dog >= least
+        if dog > least:
+            stresses.append(16.0 * 1000.0 * design.peak_spring_torque_nm / (math.pi * dog**3))
+    assert len(stresses) >= 2
+    assert stresses == pytest.approx([stresses[0]] * len(stresses), rel=0.01)

@@ -114,7 +114,7 @@ def test_a_part_says_what_the_bill_of_materials_says(studio: Studio) -> None:
     assert robot is not None
     studio._say_part("spring_left")
     (spring,) = [line for line in bill_of_materials(robot).items if "right hand" in line.name]
-    assert f"{1000.0 * spring.mass_kg:.2f} g, {spring.name}" in studio.part.content
+    assert f"{spring.name}; as bought {1000.0 * spring.mass_kg:.2f} g" in studio.part.content
     studio._say_part("main_leg")
     assert "stl/main_leg.stl" in studio.part.content
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from scipy.ndimage import uniform_filter
-from support.browsers import browser, needs_browser, require_quiet, wait, webdriver
+from support.browsers import PHONE, browser, needs_browser, require_quiet, wait, webdriver
 
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
@@ -104,6 +104,13 @@ def test_a_chosen_trial_is_another_robot(driver: Any, studio: Studio) -> None:
     assert studio.design == studio.points.trial(1).design
     type_into(driver, "trial", "2")
     wait(driver, lambda _: "cannot be built" in words(driver))
+
+
+def test_it_fits_a_phone(driver: Any) -> None:
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
+    wait(driver, lambda _: driver.execute_script("return window.innerWidth") == PHONE["width"])
+    wait(driver, lambda _: "carrying_link_mm" in words(driver))
+    assert driver.execute_script("return document.documentElement.scrollWidth") <= PHONE["width"]
 
 
 def test_nothing_leaves_the_machine_and_no_error_is_logged(driver: Any, studio: Studio) -> None:

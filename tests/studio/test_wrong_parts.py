@@ -1,8 +1,7 @@
 """The parts that are red are those that a violated limit is about."""
 
-from support.built import built
+from support.built import built, checked
 
-from jumpcad.checks import check
 from jumpcad.findings import bare
 from jumpcad.scene.visuals import visuals
 from jumpcad.studio.wrong_parts import LIMITS_OF, wrong_parts
@@ -15,9 +14,8 @@ ELSEWHERE = {
 
 
 def test_every_part_and_limit_exists() -> None:
-    robot = built("best-bo")
-    parts = {one.mesh_name for one in visuals(robot)}
-    limits = {one.name for one in check(robot)}
+    parts = {one.mesh_name for one in visuals(built("best-bo"))}
+    limits = {one.name for one in checked("best-bo")}
     assert {part for parts in LIMITS_OF for part in parts} <= parts
     named = [limit for limits in LIMITS_OF.values() for limit in limits]
     assert len(named) == len(set(named))
@@ -26,7 +24,7 @@ def test_every_part_and_limit_exists() -> None:
 
 def test_strengths_of_a_robot_have_a_part() -> None:
     named = {limit for limits in LIMITS_OF.values() for limit in limits}
-    strengths = {one.name for one in check(built("best-bo")) if one.unit == "MPa"}
+    strengths = {one.name for one in checked("best-bo") if one.unit == "MPa"}
     assert strengths <= named
 
 
