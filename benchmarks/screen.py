@@ -28,7 +28,7 @@ from jumpcad.search.trial import best_trial
 
 def climb(seed: int, candidates: int, screen: bool) -> dict[str, float]:
     """Return the best score, the robots that were built, and the CPU time of a candidate (ms)."""
-    model, space = replace(robot_model("printed"), screened=screen), Space.default()
+    model, space = replace(robot_model("printed"), stand_in=screen), Space.default()
     with StudyStore.write(None, {}) as store, local_pool(0) as pool:
         evaluator = Evaluator(space, find_objective(model.default_objective), model, store, pool)
         start = process_time()

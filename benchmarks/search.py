@@ -48,7 +48,14 @@ def genetic(evaluator: Evaluator, seed: int, evaluations: int, preset: str = "re
 
 def bayesian(evaluator: Evaluator, seed: int, evaluations: int) -> None:
     """Run GP-EI."""
-    run_bayesian(evaluator, Task(evaluations, seed, default_initial(SPACE, evaluations)))
+    run_bayesian(
+        evaluator,
+        Task(
+            evaluations,
+            seed,
+            default_initial(SPACE, evaluations, guessed=evaluator.model.describe()["name"] == "printed"),
+        ),
+    )
 
 
 class Spread(RobotModel):

@@ -69,7 +69,7 @@ def principal_axes(inertia_kg_m2: Array) -> tuple[Array, Array]:
     tensor is nearly diagonal (Golub and Van Loan, Matrix Computations, section 8.5).
     """
     a, axes = inertia_kg_m2.tolist(), np.eye(3).tolist()
-    nothing = 1e-17 * (a[0][0] + a[1][1] + a[2][2])
+    nothing = 1e-17 * (abs(a[0][0]) + abs(a[1][1]) + abs(a[2][2]))
     while max(abs(a[0][1]), abs(a[0][2]), abs(a[1][2])) > nothing:
         for i, j, k in ((0, 1, 2), (0, 2, 1), (1, 2, 0)):
             if (off := a[i][j]) == 0.0:

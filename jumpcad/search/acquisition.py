@@ -1,6 +1,6 @@
 """Where to evaluate next: the maximum of expected improvement times probability of feasibility over a space."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +20,10 @@ STARTS = 6
 """Points from which the acquisition is maximised locally."""
 REDRAWN = 0.3
 """Probability with which a name is drawn again near a good design."""
+DIGITS = 4
+"""Of the coordinates of a proposal."""
+REHEARSED = 0.2
+"""What another candidate must promise more, in logarithms, than one that was rehearsed; judgement."""
 _STEP = 1e-6
 """Of the numerical gradient."""
 _STEPS = 40
@@ -48,6 +52,7 @@ def propose(
     admits: Callable[[Variant], bool],
     generator: np.random.Generator,
     penalty: Callable[[Array], Array] | None = None,
+    rehearsed: Sequence[Array] = (),
 ) -> Proposal | None:
     """Return the variant with the largest acquisition found, or None if no candidate is admitted.
 
@@ -65,6 +70,8 @@ def propose(
         Random generator that draws the candidates.
     penalty
         Subtracted from the logarithm of the acquisition: points (m, d) to (m,), 0 where allowed.
+    rehearsed
+        Points (d,) that are candidates too, and worth `REHEARSED` more.
     """
 
     def log_acquisition(points: Array) -> Array:
@@ -84,7 +91,11 @@ def propose(
     starts = points[_apart(points, order, STARTS)]
     polished = [_climb(space, log_acquisition, start) for start in starts]
     points = np.vstack([*polished, points[order]])
+    points = space.snap(points.round(DIGITS))
     values = log_acquisition(points)
+    if rehearsed:
+        points = np.vstack([*rehearsed, points])
+        values = np.concatenate([log_acquisition(np.array(rehearsed)) + REHEARSED, values])
     for index in np.argsort(-values, kind="stable"):
         variant = space.to_variant(points[index])
         if admits(variant):

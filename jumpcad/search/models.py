@@ -56,8 +56,8 @@ class RobotModel:
     neighbours_of
         An objective by name: of a design that jumps, neighbours are evaluated too, and the figure `p10` is that score
         of the worst of them. The design is rejected with the first neighbour that is.
-    screened
-        Whether the evaluation of a printed robot has the figures that a `Screen` learns from.
+    stand_in
+        Whether the evaluation of a printed robot has the figures of which stand-ins of others are made.
     made
         What of a printed robot is made otherwise than designed, by the keys of `tolerances`.
     """
@@ -67,7 +67,7 @@ class RobotModel:
     settings: Settings | None = None
     engine: str = "pybullet"
     neighbours_of: str = ""
-    screened: bool = False
+    stand_in: bool = False
     made: Mapping[str, Value] = field(default_factory=dict)
 
     def __repr__(self) -> str:
@@ -183,6 +183,24 @@ class RobotModel:
 
         return not errors(statics_findings(capsule_robot(design)))
 
+    def refusal(self, variant: Variant) -> Evaluation | None:
+        """Return the outcome of a variant whose printed parts have no room; None of one that can be laid out.
+
+        A sixth of an evaluation. What is refused here would be refused by the evaluation too.
+        """
+        from jumpcad.building import layout_of
+
+        if self.name != "printed":
+            return None
+        try:
+            model = self.varied(variant.workshop) if variant.workshop else self
+            layout_of(variant.design, model.workshop or load_workshop())
+        except CannotBuildError as error:
+            return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
+        except JumpcadError as error:  # the values of the workshop do not go together
+            return Evaluation("workshop", detail=str(error))
+        return None
+
     def quick_score(self, design: Design, objective: Objective) -> float:
         """Return about what the capsule robot of a printed design scores; -inf where it does not jump, or is no guide.
 
@@ -214,7 +232,7 @@ class RobotModel:
             value = getattr(self, key)
             record[key] = None if value is None else value.model_dump(mode="json")
         record |= {"neighbours_of": self.neighbours_of} if self.neighbours_of else {}
-        return record | ({"screened": self.screen_engine} if self.screened else {})
+        return record | ({"stand_in": True} if self.stand_in else {})
 
     @cached_property
     def digest(self) -> str:
@@ -235,7 +253,7 @@ class RobotModel:
         findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
         if self.made:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
-        figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.screened else {})
+        figures = _figures(result.jump) | result.metrics | (figures_of(result.robot) if self.stand_in else {})
         return Evaluation(result.verdict, figures, findings)
 
     def _capsule(self, design: Design) -> Evaluation:

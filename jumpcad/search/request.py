@@ -104,8 +104,8 @@ class Request:
         if aim.neighbours_of:
             model = replace(model, neighbours_of=aim.neighbours_of)
         own = aim if aim.code else None
-        if others.get("screen") and model.name == "printed":
-            model = replace(model, screened=True)
+        if model.name == "printed" and (others.get("screen") or method not in ("ga", "nsga2")):
+            model = replace(model, stand_in=True)
         return cls(space, model, aim.name, method or DEFAULT, making=model.making, own=own, **others)
 
     def __post_init__(self) -> None:
@@ -169,6 +169,11 @@ class Request:
         return self.evaluations - self.pick
 
     @property
+    def guessed(self) -> bool:
+        """Whether proposals are tried on stand-ins: of printed robots, in one workshop."""
+        return self.model.describe()["name"] == "printed" and not self.space.of_workshop
+
+    @property
     def aim(self) -> Objective:
         """The objective itself."""
         return self.own or find_objective(self.objective)
@@ -190,7 +195,7 @@ class Request:
             "preset": self.preset,
             "batch": self.batch,
             **({"widen": True} if self.widen else {}),
-            **({"screen": True} if self.screen else {}),
+            **({"screen": self.model.screen_engine} if self.screen and isinstance(self.model, RobotModel) else {}),
             "making": asdict(self.making),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
@@ -234,5 +239,5 @@ def _plan(request: Request, total: int, prior: int) -> list[Stage]:
         first, second = SEQUENCES[request.method]
         share = min(total // 3, MOST_FIRST)
         return [Stage(first, share), Stage(second, total - share)]
-    learns = METHODS[request.method].learns
-    return [Stage(request.method, total, default_initial(request.space, total, prior) if learns else 0)]
+    initial = default_initial(request.space, total, prior, request.guessed) if METHODS[request.method].learns else 0
+    return [Stage(request.method, total, initial)]

@@ -15,14 +15,14 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere,
 
 
 def figures_of(robot: Mechanism) -> dict[str, float]:
-    """Return the figures that `stand_in` needs, but for the masses; x and z in the bodies' frames."""
+    """Return the figures that `stand_in` needs, to six digits, but for the masses; x and z in the bodies' frames."""
     assert robot.stop is not None
     assert robot.roller_off is not None
     found: dict[str, float] = {}
     for name, body in robot.bodies.items():
         found |= {f"{name}_com_x_m": float(body.com_m[0]), f"{name}_com_z_m": float(body.com_m[2])}
         found[f"{name}_inertia_kg_m2"] = float(body.inertia_kg_m2[1, 1])
-    return found | {
+    found |= {
         "foot_depth_m": robot.foot_depth_m,
         "toe_radius_m": robot.bodies[FOOT].contacts[-1].radius_m,
         "stop_rad": robot.stop.angle_rad,
@@ -31,6 +31,7 @@ def figures_of(robot: Mechanism) -> dict[str, float]:
         "release_rad_s": robot.roller_off.leg_rad_s,
         "release_ratio": robot.roller_off.energy_ratio,
     }
+    return {name: float(f"{value:.6g}") for name, value in found.items()}
 
 
 def stand_in(design: Design, figures: Mapping[str, float], like: Mechanism) -> Mechanism:

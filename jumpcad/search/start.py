@@ -4,11 +4,15 @@ Of evenly spread designs of the printed robot, three quarters are rejected. The 
 milliseconds, and designs with which it jumps far are probably good. The other half covers errors of the quick model.
 """
 
+import itertools
 import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.space import Space
+from jumpcad.search.variant import Variant
 from jumpcad.spread import sobol
 from jumpcad.transforms import Array
 
@@ -18,18 +22,36 @@ APART = 0.1
 """Least difference between two of its best designs along some axis of the unit cube."""
 
 
-def first_points(evaluator: Evaluator, count: int, generator: np.random.Generator) -> Array:
-    """Return `count` points (count, dimension) of the unit cube to start with, evenly spread ones first."""
-    spread = evaluator.space.spread(count, generator)
-    quick = getattr(evaluator.model, "quick_score", None)
-    if quick is None or count < 2:
-        return spread
-    points = evaluator.space.snap(sobol(evaluator.space.dimension, SCREENED, generator))
-    scores = np.array([quick(evaluator.space.to_design(point), evaluator.objective) for point in points])
+def first_points(
+    space: Space,
+    count: int,
+    generator: np.random.Generator,
+    ranked: Sequence[Array] = (),
+    admits: Callable[[Variant], bool] = lambda _variant: True,
+) -> Array:
+    """Return at most `count` points (count, dimension) of the unit cube to start with, evenly spread ones first.
+
+    Half of them are the first of the `ranked` points (dimension,) that are apart. What `admits` does not admit is
+    passed over, of twice as many evenly spread points too.
+    """
+    spread = space.spread(2 * count, generator)
     chosen: list[Array] = []
-    for index in np.argsort(-scores, kind="stable"):
-        if len(chosen) == count // 2 or not math.isfinite(scores[index]):
+    for point in ranked:
+        if len(chosen) == count // 2:
             break
-        if all(np.abs(points[index] - other).max() >= APART for other in chosen):
-            chosen.append(points[index])
-    return np.vstack([spread[: count - len(chosen)], *[point[None] for point in chosen]])
+        if all(np.abs(point - other).max() >= APART for other in chosen) and admits(space.to_variant(point)):
+            chosen.append(point)
+    admitted = (point for point in spread if admits(space.to_variant(point)))
+    even = list(itertools.islice(admitted, count - len(chosen)))
+    return np.array([*even, *chosen]).reshape(-1, space.dimension)
+
+
+def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[Array]:
+    """Return points (dimension,) with which the capsule robot jumps, the farthest first; none for other robots."""
+    quick = getattr(evaluator.model, "quick_score", None)
+    if quick is None:
+        return []
+    space = evaluator.space
+    points = space.snap(sobol(space.dimension, SCREENED, generator))
+    scores = np.array([quick(space.to_design(point), evaluator.objective) for point in points])
+    return [points[index] for index in np.argsort(-scores, kind="stable") if math.isfinite(scores[index])]

@@ -28,6 +28,7 @@ _NONE: dict[str, Any] = {}
 
 Count = Annotated[int, Field(ge=0)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0, le=1)]
 Logarithm = Annotated[float, Field(ge=-100, le=100)]
 
 
@@ -97,7 +98,7 @@ _REMEMBERED: dict[str, TypeAdapter[Any]] = {
     "stages": TypeAdapter(Annotated[list[_Stage], Field(min_length=1)]),
 }
 _WORKSHOP = TypeAdapter(dict[str, Finite | Text], config=STRICT)
-_PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]]], config=STRICT)
+_PROPOSAL = TypeAdapter(dict[str, Finite | dict[str, list[Logarithm]] | list[list[Share]]], config=STRICT)
 
 
 def require_remembered(key: str, value: Any) -> None:
@@ -137,6 +138,11 @@ def stored_proposal(record: Mapping[str, Any], free: int) -> dict[str, Any]:
     thetas = proposal.get("theta", {})
     if not isinstance(thetas, dict) or any(not 3 <= len(theta) <= free + 2 for theta in thetas.values()):
         raise JumpcadError(f"proposal.theta: must be lists of at most {free + 2} hyperparameters")
+    tried = proposal.get("tried", [])
+    if not isinstance(tried, list) or any(not 1 <= len(point) <= free for point in tried):
+        raise JumpcadError(f"proposal.tried: must be lists of at most {free} coordinates")
+    if any(not isinstance(value, float) for name, value in proposal.items() if name not in ("theta", "tried")):
+        raise JumpcadError("proposal: must be numbers, besides theta and tried")
     return proposal or _NONE
 
 

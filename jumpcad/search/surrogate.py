@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from types import MappingProxyType
 from typing import Any, Self
 
 import numpy as np
@@ -19,8 +20,14 @@ from scipy.special import erfcx, log_ndtr
 
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
+from jumpcad.search.variant import Key
 from jumpcad.transforms import Array
 
+GUESS, MORE = "guess", "more"
+"""Names of the processes of guessed scores, and of what true scores are more."""
+LEAST_GUESSED = 3
+"""Least trials whose score was guessed too, before guesses are learned from."""
+NO_GUESSES: Mapping[Key, tuple[Array, float]] = MappingProxyType({})
 VERDICT = "verdict"
 """A constraint for all rejections together, also those without a margin: +1 for a jump, else -1."""
 NO_TAKEOFF = "no_takeoff"
@@ -159,14 +166,24 @@ class Surrogate:
 
 @dataclass(frozen=True)
 class SearchPosterior:
-    """Processes fitted to trials: of the score, once two designs are feasible, and of each constraint's margin."""
+    """Processes fitted to trials: of the score, once two designs are feasible, and of each constraint's margin.
+
+    Where scores were guessed, `guess` is fitted to the guesses, and `score` to what the true scores are more (Kennedy
+    and O'Hagan, Biometrika 2000, with a factor of 1).
+    """
 
     score: Surrogate | None
     constraints: Mapping[str, Surrogate]
+    guess: Surrogate | None = None
 
     @classmethod
     def from_trials(
-        cls, space: Space, trials: Sequence[Trial], thetas: Mapping[str, Any], fit: Sequence[str] | None
+        cls,
+        space: Space,
+        trials: Sequence[Trial],
+        thetas: Mapping[str, Any],
+        fit: Sequence[str] | None,
+        guesses: Mapping[Key, tuple[Array, float]] = NO_GUESSES,
     ) -> Self:
         """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
 
@@ -178,30 +195,40 @@ class SearchPosterior:
             Hyperparameters by name, as `thetas` gives them.
         fit
             Names of the processes to fit; None for all. What has no hyperparameters yet is always fitted.
+        guesses
+            Points (d,) and guessed scores of variants, by their keys; of trials too.
         """
         x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension)
 
-        def learn(name: str, chosen: Array, values: Array) -> Surrogate:
+        def learn(name: str, points: Array, values: Array) -> Surrogate:
             known = thetas.get(name)
             fitted = known is None or fit is None or name in fit
-            return Surrogate(x[chosen], values, known, fitted, space.categories)
+            return Surrogate(points, values, known, fitted, space.categories)
 
-        feasible = np.array([trial.score is not None for trial in trials], dtype=bool)
-        score = None
-        if feasible.sum() >= 2:
-            scores = np.array([trial.score for trial in trials if trial.score is not None])
-            score = learn("score", feasible, warped(forwards(scores)))
         constraints = {}
         for name, margins in constraint_margins(trials).items():
             known = np.isfinite(margins)
-            constraints[name] = learn(name, known, _scaled(margins[known]))
-        return cls(score, constraints)
+            constraints[name] = learn(name, x[known], _scaled(margins[known]))
+        jumps = [(point, trial) for point, trial in zip(x, trials, strict=True) if trial.score is not None]
+        guessed = [(point, trial.score, guesses[trial.key][1]) for point, trial in jumps if trial.key in guesses]
+        if len(guessed) >= LEAST_GUESSED:
+            points, scores, their = (np.array(column) for column in zip(*guessed, strict=True))
+            more = warped(forwards(scores)) - warped(forwards(their))
+            of_guesses = np.array([value for _, value in guesses.values()])
+            guess = learn(GUESS, np.array([point for point, _ in guesses.values()]), warped(forwards(of_guesses)))
+            return cls(learn(MORE, points, more), constraints, guess)
+        if len(jumps) < 2:
+            return cls(None, constraints)
+        scores = np.array([trial.score for _, trial in jumps])
+        return cls(learn("score", np.array([point for point, _ in jumps]), warped(forwards(scores))), constraints)
 
     @property
     def thetas(self) -> dict[str, list[float]]:
         """Hyperparameters of every process, by name, rounded as a study keeps them; `score` for the score."""
         found = {name: surrogate.theta for name, surrogate in self.constraints.items()}
-        found = found if self.score is None else {"score": self.score.theta} | found
+        if self.score is not None:
+            of_score = {"score": self.score} if self.guess is None else {GUESS: self.guess, MORE: self.score}
+            found = {name: surrogate.theta for name, surrogate in of_score.items()} | found
         return {name: [round(value, THETA_DIGITS) for value in theta] for name, theta in found.items()}
 
     def log_feasible(self, points: Array, scatter: Array | None = None) -> Array:
@@ -223,12 +250,16 @@ class SearchPosterior:
         if self.score is None:
             return np.zeros(len(points))
         mean, deviation = self.score.predict(points)
+        if self.guess is not None:
+            guessed, unsure = self.guess.predict(points)
+            mean, deviation = mean + guessed, np.hypot(deviation, unsure)
         return np.log(deviation) + _log_h((mean - warped(best)) / deviation)
 
     def condition_on(self, point: Array) -> "SearchPosterior":
         """Return the posterior with its own means at a point (d,) added as measurements (kriging believer)."""
         constraints = {name: surrogate.condition_on(point) for name, surrogate in self.constraints.items()}
-        return SearchPosterior(None if self.score is None else self.score.condition_on(point), constraints)
+        score = None if self.score is None else self.score.condition_on(point)
+        return SearchPosterior(score, constraints, None if self.guess is None else self.guess.condition_on(point))
 
 
 def forwards(scores: Array) -> Array:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from support.hills import SMALL, Hill
 
+from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request, plan_stages
 
 
@@ -35,8 +36,6 @@ def test_only_what_was_asked_for_is_in_a_studys_identity():
     names = {plain.default_name(), wider.default_name(), replace(plain, seed=plain.seed + 1).default_name()}
     assert len(names) == 3
     assert replace(plain, evaluations=50).default_name() == plain.default_name()
-    screened = object.__new__(Request)
-    for name, value in vars(plain).items():
-        object.__setattr__(screened, name, value)
-    object.__setattr__(screened, "screen", True)
-    assert screened.identity([])["screen"] is True
+    printed = robot_model()
+    screened = Request(SMALL, printed, "body_lengths", "ga", 40, screen=True)
+    assert screened.identity([])["screen"] == printed.screen_engine  # another engine guesses otherwise

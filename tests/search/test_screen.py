@@ -6,50 +6,27 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support.quick import BEST, FIGURES, LIKE, SPACE, quick
 
-from jumpcad.building import build
-from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.guess import Guess
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.genetic import run_genetic
-from jumpcad.search.models import RobotModel, robot_model
-from jumpcad.search.objective import SCREENED, Evaluation, find_objective
+from jumpcad.search.models import robot_model
+from jumpcad.search.objective import SCREENED, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
-from jumpcad.search.screen import LEAST, Guess, Screen, features
-from jumpcad.search.space import Space
-from jumpcad.search.stand_in import figures_of, stand_in
+from jumpcad.search.screen import LEAST, Screen
+from jumpcad.search.stand_in import stand_in
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import best_trial
 from jumpcad.simulation import simulate
 
-BEST = load_design("best-printable")
-SPACE = Space.make(around=BEST, within_percent=15.0)
-LIKE = build(BEST)
-FIGURES = figures_of(LIKE) | {f"{name}_mass_kg": body.mass_kg for name, body in LIKE.bodies.items()}
-
-
-class Quick(RobotModel):
-    """Robots of which all is known: masses grow with the main leg and the springs, the rest is best-printable's."""
-
-    quick_score = None  # its first designs are spread
-
-    def __call__(self, design, workshop=None):
-        larger = design.carrying_link_mm / BEST.carrying_link_mm
-        heavier = larger * (1.0 + 0.002 * design.stiffness_nmm_per_deg * larger)
-        figures = {name: value * (heavier if "mass" in name else 1.0) for name, value in FIGURES.items()}
-        jump = simulate(stand_in(design, figures, LIKE), self.settings, "pybullet")
-        found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
-        size = max(0.1, design.l_max_mm / 1000.0)
-        metrics = figures | found | {"size_m": size, "body_lengths": (jump.ballistic_range_m or 0.0) / size}
-        return Evaluation(jump.verdict, metrics, jump.findings)
-
 
 @pytest.fixture(scope="module")
 def model():
-    plain = robot_model(settings="default")
-    return Quick("printed", plain.workshop, plain.settings, "pybullet", screened=True)
+    return quick()
 
 
 def search(model, path, evaluations=115, workers=0):
@@ -64,7 +41,7 @@ def search(model, path, evaluations=115, workers=0):
 def no_builds():
     """The robots of `Quick` are like best-printable also where that could not be built."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("jumpcad.search.screen.build", lambda *_: LIKE)
+        patch.setattr("jumpcad.search.guess.build", lambda *_: LIKE)
         yield
 
 
@@ -78,11 +55,6 @@ def test_a_robot_stands_in_for_itself():
     exact, found = simulate(LIKE), simulate(other)
     assert found.ballistic_range_m == pytest.approx(exact.ballistic_range_m, rel=2e-3)  # left and right alike
     assert [one.margin for one in found.findings[:4]] == pytest.approx([one.margin for one in exact.findings[:4]])
-
-
-def test_features_are_all_products():
-    row = features(np.array([[1.0, 0.75]]))[0]
-    assert row.tolist() == [1.0, 1.0, 0.5, 1.0, 0.5, 0.25]
 
 
 def test_a_guess_is_as_good_as_its_error_says_and_what_is_left_out_is_worse_than_the_best(model, trials):

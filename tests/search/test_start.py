@@ -8,7 +8,7 @@ from support.hills import SMALL, TOP, Hill
 from jumpcad.design import load_design
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import find_objective
-from jumpcad.search.start import APART, first_points
+from jumpcad.search.start import APART, first_points, ranked_points
 
 
 class Known(Hill):
@@ -21,15 +21,27 @@ class Known(Hill):
 
 def test_half_of_the_start_is_spread_and_half_the_best_of_the_quick_model(evaluator):
     plain, half = evaluator(), evaluator(model=Known())
-    spread = first_points(plain, 24, np.random.default_rng(1))
+    assert ranked_points(plain, np.random.default_rng(1)) == []
+    spread = first_points(SMALL, 24, np.random.default_rng(1))
     assert (spread == SMALL.spread(24, np.random.default_rng(1))).all()
-    points = first_points(half, 24, np.random.default_rng(1))
+    points = first_points(SMALL, 24, np.random.default_rng(1), ranked_points(half, np.random.default_rng(2)))
     assert (points[:12] == spread[:12]).all()
     scores = [Hill()(SMALL.to_design(point)).metrics.get("fitness", 0.0) for point in points]
     assert min(scores[12:]) > np.median(scores[:12])
     assert max(scores) > 9.8  # the top, to the distance of 512 points
     for number, point in enumerate(points[12:]):
         assert all(np.abs(point - other).max() >= APART for other in points[12 + number + 1 :])
+
+
+def test_what_is_not_admitted_is_passed_over():
+    def admits(variant):
+        return SMALL.to_unit(variant)[0] < 0.5
+
+    ranked = [np.array([0.9, 0.9, 0.5]), np.array([0.1, 0.9, 0.5]), np.array([0.15, 0.85, 0.5])]
+    points = first_points(SMALL, 8, np.random.default_rng(1), ranked, admits)
+    assert len(points) == 8
+    assert points[:, 0].max() < 0.5
+    assert points[-1].tolist() == [0.1, 0.9, 0.5]  # the first is not admitted, the third too near
 
 
 def test_the_printed_robot_s_quick_model_is_the_capsule_robot():

@@ -204,3 +204,40 @@ def test_improvement_near_the_mean_is_the_integral_of_the_distribution():
     for z in (-0.5, 0.0, 1.5):
         grid = np.linspace(-12.0, z, 400001)
         assert float(_log_h(np.array([z]))[0]) == pytest.approx(math.log(np.trapezoid(ndtr(grid), grid)), abs=1e-6)
+
+
+def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
+    """Four measured scores and forty guesses, each a quarter of a root too low, know the hill; four alone do not."""
+    trials = [trial for trial in rows_of(64) if trial.score is not None]
+    guesses = {
+        one.key: (SMALL.to_unit(one.variant), (np.sqrt(one.score) - 0.25) ** 2) for one in trials if one.score > 1
+    }
+    known = [one for one in trials if one.key in guesses]
+    measured, others = known[:4], known[4:]
+    points = np.array([SMALL.to_unit(one.variant) for one in others])
+    exact = np.sqrt([one.score for one in others])
+
+    def error(posterior):
+        mean, _ = posterior.score.predict(points)
+        more = 0.0 if posterior.guess is None else posterior.guess.predict(points)[0]
+        return np.abs(mean + more - exact).max()
+
+    alone = SearchPosterior.from_trials(SMALL, measured, {}, None)
+    guided = SearchPosterior.from_trials(SMALL, measured, {}, None, guesses)
+    assert error(guided) < 0.05 < 0.5 < error(alone)
+    assert set(guided.thetas) == {"guess", "more"}
+    best = float(max(exact) ** 2)
+    top = points[exact.argmax()][None]
+    assert guided.log_improvement(top, 0.5 * best) > guided.log_improvement(top, best)
+    fewer = dict(list(guesses.items())[4:])  # of no trial that was measured
+    assert SearchPosterior.from_trials(SMALL, measured, {}, None, fewer).guess is None
+
+
+def test_a_believed_proposal_is_believed_of_the_guess_too():
+    trials = [trial for trial in rows_of(32) if trial.score is not None]
+    guesses = {one.key: (SMALL.to_unit(one.variant), one.score + 0.1) for one in trials}
+    posterior = SearchPosterior.from_trials(SMALL, trials[:6], {}, None, guesses)
+    point = np.array([0.31, 0.42, 0.53])
+    after = posterior.condition_on(point)
+    for before, then in ((posterior.score, after.score), (posterior.guess, after.guess)):
+        assert then.predict(point[None])[1] < before.predict(point[None])[1]

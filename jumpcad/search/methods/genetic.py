@@ -20,7 +20,7 @@ from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.search.own_objective import LARGEST
 from jumpcad.search.space import Space
-from jumpcad.search.start import first_points
+from jumpcad.search.start import first_points, ranked_points
 from jumpcad.search.trial import Trial, best_trial, feasible_trials
 from jumpcad.search.variant import Key, Variant
 from jumpcad.transforms import Array
@@ -191,7 +191,8 @@ def _gene_space(space: Space) -> list[Any]:
 
 def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
     space = evaluator.space
-    spread = first_points(evaluator, count, np.random.default_rng([seed, 0]))
+    generator = np.random.default_rng([seed, 0])
+    spread = first_points(evaluator.space, count, generator, ranked_points(evaluator, generator))
     best = feasible_trials(evaluator.prior)
     known = np.array([space.to_unit(trial.variant) for trial in best[: count // 2]]).reshape(-1, space.dimension)
     return np.vstack([known, spread])[:count]

@@ -7,6 +7,7 @@ the energy, the expected improvement over the best design below that cap propose
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -14,11 +15,11 @@ from jumpcad.design import PARAMETERS
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.fronts import energies_j, energy_j
+from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import incumbent, run_steps, unproposed
 from jumpcad.search.methods.genetic import Fitness, evolve
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import SearchPosterior
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
@@ -42,16 +43,18 @@ def run_pareto(evaluator: Evaluator, task: Task) -> None:
     caps = energy_caps_j(space)
 
     def proposer(
-        posterior: SearchPosterior, trials: Sequence[Trial], count: int, generator: np.random.Generator
+        learner: Learner, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
         proposals: list[Proposal] = []
         for cap in caps[:count]:
             best, elite = incumbent(space, [trial for trial in trials if energy_j(trial.design) <= cap])
-            admits, penalty = unproposed(evaluator, proposals), _excess(space, float(cap))
-            proposal = propose(space, posterior, best, elite, admits, generator, penalty)
+            ask = partial(
+                propose, space, best=best, elite=elite, admits=unproposed(evaluator, proposals), generator=generator,
+                penalty=_excess(space, float(cap)),
+            )  # fmt: skip
+            proposal = learner.propose(ask)
             if proposal is not None:
                 proposals.append(proposal)
-                posterior = posterior.condition_on(proposal.unit)
         return proposals
 
     run_steps(evaluator, "pareto", replace(task, batch=CAPS), proposer)

@@ -1,0 +1,74 @@
+"""Guesses of printed robots from those that were built."""
+
+import numpy as np
+import pytest
+from support.quick import BEST, LIKE, SPACE, quick
+
+from jumpcad.search.guess import MARK, Fit, Guesser, Table, features, learned_rows
+from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.trial import Trial
+from jumpcad.search.variant import Variant
+
+
+def trials_of(points, model):
+    objective = find_objective("body_lengths")
+    for place, point in enumerate(points):
+        design = SPACE.to_design(point)
+        evaluation = model(design)
+        yield Trial("bo", 0, place, design, evaluation, objective.score(evaluation), "m", 0.0)
+
+
+def test_features_are_all_products():
+    row = features(np.array([[1.0, 0.75]]))[0]
+    assert row.tolist() == [1.0, 1.0, 0.5, 1.0, 0.5, 0.25]
+
+
+def test_a_mass_is_fitted_by_its_logarithm_and_stays_positive():
+    def robot(design):
+        x = 2.0 * SPACE.to_unit(design) - 1.0
+        mass = np.exp(0.3 * x[0] - 0.2 * x[1] * x[2] - 3.0)
+        return Evaluation(
+            "jump", {MARK: 1.0, "mass_kg": float(mass), "com_x_m": float(x[0] - 0.5), "body_lengths": 1.0}
+        )
+
+    points = SPACE.spread(128, np.random.default_rng(1))
+    fit = Fit(0, Table(SPACE, list(trials_of(points[:100], robot)), points[0]).coefficients(), {})
+    for point in points[100:]:
+        exact, found = robot(SPACE.to_design(point)).metrics, fit.predict(point)
+        assert found["mass_kg"] == pytest.approx(exact["mass_kg"], rel=0.01)
+        assert found["com_x_m"] == pytest.approx(exact["com_x_m"], abs=0.01)
+    far = fit.predict(np.full(SPACE.dimension, -9.0))
+    assert far["mass_kg"] > 0.0 > far["com_x_m"]
+
+
+def test_a_dozen_robots_guess_the_others(monkeypatch):
+    monkeypatch.setattr("jumpcad.search.guess.build", lambda *_: LIKE)
+    model, points = quick(), SPACE.spread(32, np.random.default_rng(3))
+    built = list(trials_of(points[:14], model))
+    first = next(trial for trial in built if MARK in trial.evaluation.metrics)
+    guesser = Guesser(SPACE, model, find_objective("p10-body_lengths"), "pybullet", first)  # guesses the plain one
+    fit = Fit(0, Table(SPACE, built, SPACE.to_unit(BEST)).coefficients(), {})
+    others = list(trials_of(points[14:], model))
+    pairs = [(guesser(one.variant, fit), one.score) for one in others]
+    scores = np.array([(guess.score, score) for guess, score in pairs if guess.score and score])
+    assert len(scores) > 8
+    assert np.median(np.abs(scores[:, 0] / scores[:, 1] - 1.0)) < 0.1
+    assert np.corrcoef(scores.T)[0, 1] > 0.9
+    assert all(guess.score is None for guess, score in pairs if score is None)
+
+
+def test_what_the_gate_refuses_does_not_jump(monkeypatch):
+    monkeypatch.setattr("jumpcad.search.guess.build", lambda *_: LIKE)
+    guesser = Guesser(SPACE, quick(), find_objective("body_lengths"), "pybullet", first_trial())
+    apart = BEST.model_copy(update={"c_coef": 0.1, "d_coef": 0.1, "e_coef": 3.0})  # its loop does not close
+    assert guesser(Variant(apart), Fit(0, {"mass_kg": np.zeros(45)}, {})).score is None
+
+
+def first_trial():
+    return Trial("bo", 0, 0, BEST, Evaluation("jump"), 1.0, "m", 0.0)
+
+
+@pytest.mark.parametrize(("known", "rows"), [(7, 0), (8, 8), (9, 8), (10, 8), (11, 10), (15, 14), (100, 85)])
+def test_rows_are_learned_in_steps(known, rows):
+    """8 times 1.3, 1.3², 1.3³, …: 10.4, 13.5, …, 84.8, rounded."""
+    assert learned_rows(known, 8, 1.3) == rows

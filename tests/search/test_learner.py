@@ -1,0 +1,97 @@
+"""What a step learns, with rehearsals that are known."""
+
+import numpy as np
+from support.hills import SMALL, Hill
+
+from jumpcad.search.acquisition import Proposal
+from jumpcad.search.learner import HELD, ROUNDS, Learner
+from jumpcad.search.objective import Evaluation
+from jumpcad.search.trial import Trial
+
+
+def trial_of(unit):
+    variant = SMALL.to_variant(unit)
+    evaluation = Hill()(variant.design)
+    score = evaluation.metrics.get("fitness") if evaluation.feasible else None
+    return Trial("bo", 0, 0, variant.design, evaluation, score, "m", 0.0)
+
+
+TRIALS = [trial_of(point) for point in SMALL.spread(16, np.random.default_rng(0))]
+
+
+class Rehearsal:
+    """Only what is left of a half holds; of what was tried, nothing else is known."""
+
+    def __init__(self, half=0.5):
+        self.half, self.learned = half, 0
+
+    def learn(self, trials):
+        self.learned += len(trials)
+
+    def holds(self, variant):
+        return SMALL.to_unit(variant)[0] < self.half
+
+    def failures(self, trials, tried):
+        for unit in tried:
+            if unit[0] >= self.half:
+                yield Trial("", 0, 0, SMALL.to_design(unit), Evaluation("no_room"), None, "", 0.0)
+
+    def guesses(self, trials, tried):
+        return {}
+
+
+class Asked:
+    """Proposes given points one after the other, then the last that was rehearsed."""
+
+    def __init__(self, *points):
+        self.points, self.posteriors, self.rehearsed = list(points), [], []
+
+    def __call__(self, posterior, rehearsed):
+        self.posteriors.append(posterior)
+        self.rehearsed.append(list(rehearsed))
+        unit = np.array(self.points.pop(0)) if self.points else rehearsed[-1]
+        return Proposal(SMALL.to_variant(unit), unit, 0.0, 0.0)
+
+
+def test_without_rehearsals_the_first_proposal_is_taken():
+    ask = Asked([0.9, 0.1, 0.1])
+    learner = Learner(SMALL, TRIALS, None, {}, refit=True)
+    assert learner.propose(ask).unit.tolist() == [0.9, 0.1, 0.1]
+    assert (len(ask.posteriors), learner.tried) == (1, [])
+    assert "score" in learner.thetas
+
+
+def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
+    rehearsal, ask = Rehearsal(), Asked([0.9, 0.1, 0.1], [0.2, 0.2, 0.2])
+    learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=True)
+    assert learner.propose(ask).unit.tolist() == [0.2, 0.2, 0.2]
+    assert rehearsal.learned == len(TRIALS)
+    assert [point.tolist() for point in learner.tried] == [[0.9, 0.1, 0.1], [0.2, 0.2, 0.2]]
+    assert [len(held) for held in ask.rehearsed] == [0, 0, 1]
+    before, after = ask.posteriors[:2]
+    unit = np.array([[0.9, 0.1, 0.1]])
+    assert after.log_feasible(unit) < before.log_feasible(unit)
+
+
+def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
+    many = [[0.01 * number, 0.5, 0.5] for number in range(40)]
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
+    learner.propose(Asked(*many))
+    assert len(learner.tried) == HELD
+    hopeless = Learner(SMALL, TRIALS, Rehearsal(half=-1.0), {}, refit=False)
+    assert hopeless.propose(Asked(*many)).unit.tolist() == many[ROUNDS]
+    assert len(hopeless.tried) == ROUNDS
+
+
+def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
+    ask = Asked([0.3, 0.3, 0.3], [0.6, 0.6, 0.6])
+    learner = Learner(SMALL, TRIALS, None, {}, refit=True)
+    learner.propose(ask)
+    learner.propose(ask)
+    unit = np.array([[0.3, 0.3, 0.3]])
+    (_, before), (_, after) = (posterior.score.predict(unit) for posterior in ask.posteriors)
+    assert after < 0.5 * before
+
+
+def test_none_is_passed_on():
+    assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).propose(lambda *_, **__: None) is None

@@ -1,0 +1,134 @@
+"""Rehearsals: what they refuse, what they teach, and that a search with them is the same however it is run."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.quick import LIKE, SPACE, quick
+
+from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.methods import Task
+from jumpcad.search.methods.bayesian import run_bayesian
+from jumpcad.search.models import robot_model
+from jumpcad.search.pool import local_pool
+from jumpcad.search.rehearsal import FAILED, TRIED, Rehearsal
+from jumpcad.search.request import Request
+from jumpcad.search.space import Space
+from jumpcad.search.store import StudyStore
+from jumpcad.search.variant import Variant
+
+TASK = Task(17, 0, initial=10)
+WHOLE = Space.default()
+HARD = [
+    [0.0, 0.57, 0.12, 0.58, 0.9, 1.0, 1.0, 0.08],
+    [0.0, 0.53, 0.65, 1.0, 1.0, 1.0, 0.94, 0.0],
+    [0.0, 0.57, 0.19, 1.0, 1.0, 0.98, 1.0, 0.35],
+    [0.0, 0.51, 0.2, 1.0, 1.0, 1.0, 0.96, 0.36],
+    [0.0, 0.51, 0.21, 1.0, 1.0, 1.0, 1.0, 0.39],
+]
+"""Points with no room for the stop, the legs, the springs or their pin."""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def no_builds():
+    """The robots of `Quick` are like best-printable also where that could not be built."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("jumpcad.search.guess.build", lambda *_: LIKE)
+        patch.setattr("jumpcad.search.acquisition.CANDIDATES", 128)
+        patch.setattr("jumpcad.search.start.SCREENED", 64)
+        yield
+
+
+def search(path, task=TASK, workers=0):
+    model = quick()
+    request = Request(SPACE, model, "body_lengths", "bo", task.evaluations)
+    with StudyStore.write(path, request.identity([])) as store, local_pool(workers) as pool:
+        evaluator = Evaluator(SPACE, request.aim, model, store, pool)
+        run_bayesian(evaluator, task)
+        return [replace(trial, duration_s=0.0) for trial in evaluator.trials]
+
+
+@pytest.fixture(scope="module")
+def trials(tmp_path_factory):
+    return search(tmp_path_factory.mktemp("rehearsal") / "whole.db")
+
+
+def test_a_search_that_ended_early_and_a_worker_give_the_same_rows(trials, tmp_path):
+    path = tmp_path / "again.db"
+    search(path, replace(TASK, evaluations=12))
+    assert search(path, workers=1) == trials
+
+
+def test_what_was_tried_is_kept_and_the_proposals_have_short_numbers(trials):
+    tried = [point for trial in trials for point in trial.proposal.get(TRIED, ())]
+    assert tried
+    assert all(number == round(number, 4) for point in tried for number in point)
+    for trial in trials[TASK.initial :]:
+        unit = SPACE.to_unit(trial.variant)
+        assert unit == pytest.approx(np.round(unit, 4), abs=1e-9)
+
+
+def test_a_design_is_refused_as_its_evaluation_refuses_it():
+    model, refused = robot_model(), 0
+    for point in HARD:
+        variant = WHOLE.to_variant(point)
+        outcome = model.refusal(variant) if model.admits(variant.design) else None
+        if outcome is not None:
+            exact = model(variant.design)
+            assert (outcome.verdict, outcome.reasons) == (exact.verdict, exact.reasons)
+            assert [one.margin for one in outcome.findings] == [one.margin for one in exact.findings]
+            refused += 1
+    assert refused >= 4
+    assert robot_model("capsule").refusal(WHOLE.to_variant(np.full(8, 0.5))) is None
+
+
+def test_the_room_is_that_of_the_variants_workshop():
+    model, design = robot_model(), LIKE.design
+    assert model.refusal(Variant(design, {"bought.axle_mm": 3.0})) is None
+    assert model.refusal(Variant(design, {"body.plate_mm": -1.0})).verdict == "workshop"
+
+
+def rehearsal_of(model=None, space=SPACE, phase="bo", task=TASK):
+    model = model or quick()
+    request = Request(space, model, "body_lengths", "bo", 20)
+    return Rehearsal.of(Evaluator(space, request.aim, model, StudyStore.write(None, {}), local_pool(0)), phase, task)
+
+
+def test_only_printed_robots_are_rehearsed():
+    model = robot_model("capsule")
+    request = Request(SPACE, model, "fitness", "bo", 20)
+    with StudyStore.write(None, {}) as store, local_pool(0) as pool:
+        assert Rehearsal.of(Evaluator(SPACE, request.aim, model, store, pool), "bo", TASK) is None
+
+
+def test_what_fails_is_learned_as_a_trial_and_guesses_follow_the_robots_that_were_built(trials):
+    rehearsal = rehearsal_of()
+    assert rehearsal.guesses(trials, []) == {}  # nothing was fitted yet
+    rehearsal.learn(trials)
+    tried = [np.array(point) for trial in trials for point in trial.proposal.get(TRIED, ())]
+    known = rehearsal.guesses(trials, [])
+    jumped = [trial for trial in trials if trial.score is not None]
+    errors = [known[trial.key][1] / trial.score - 1.0 for trial in jumped if trial.key in known]
+    assert len(errors) > len(jumped) / 2
+    assert np.median(np.abs(errors)) < 0.1
+    failures = list(rehearsal.failures(trials, []))
+    held = [rehearsal.holds(SPACE.to_variant(point)) for point in tried]
+    assert len(failures) == min(held.count(False), FAILED)
+    assert all(trial.score is None and not trial.evaluation.feasible for trial in failures)
+
+
+def test_what_other_searches_tried_is_not_looked_at(trials):
+    for other in (rehearsal_of(phase="pareto"), rehearsal_of(task=replace(TASK, first_step=1000))):
+        other.learn(trials)
+        ours = rehearsal_of()
+        ours.learn(trials)
+        assert len(other.guesses(trials, [])) < len(ours.guesses(trials, []))
+
+
+def test_a_start_that_has_no_room_is_passed_over_and_learned():
+    model = robot_model()
+    rehearsal = rehearsal_of(model, WHOLE)
+    variants = [WHOLE.to_variant(point) for point in HARD]
+    refused = [one for one in variants if model.admits(one.design) and not rehearsal.starts_with(one)]
+    assert [trial.key for trial in rehearsal.failures([], [])] == [one.key for one in refused]
+    assert len(refused) >= 4
