@@ -1,7 +1,10 @@
 """What one step of a search learns from its trials, and again from each rehearsal of a proposal."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 from jumpcad.search.acquisition import Proposal
 from jumpcad.search.rehearsal import Rehearsal
@@ -10,10 +13,12 @@ from jumpcad.search.surrogate import NO_GUESSES, SearchPosterior
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
-ROUNDS = 16
+ROUNDS = 20
 """Most rehearsals of a proposal."""
 HELD = 6
 """Of which so many hold; the best of them is evaluated."""
+WORTH = 0.001
+"""Least gain, as a share of the best score, that a further rehearsal must promise once one holds; judgement."""
 
 
 class Learner:
@@ -47,21 +52,27 @@ class Learner:
         if rehearsal is not None:
             rehearsal.learn(trials)
 
-    def propose(self, ask: Callable[..., Proposal | None]) -> Proposal | None:
+    def propose(self, ask: Callable[..., Proposal | None], best: float) -> Proposal | None:
         """Return a proposal of `ask`, which is called with a posterior and the points that were rehearsed for it.
 
-        Its own mean is then believed, as if it had been measured, until the step is over.
+        Its own mean is then believed, as if it had been measured, until the step is over. `best` is the score to be
+        improved.
         """
-        held: list[Array] = []
-        proposal = ask(self._learned(), rehearsed=held)
+        held: list[Proposal] = []
+        posterior = self._learned()
+        proposal = ask(posterior, rehearsed=[])
         for _ in range(ROUNDS if self._rehearsal else 0):
             assert self._rehearsal is not None
-            if proposal is None or len(held) == HELD or any((proposal.unit == point).all() for point in held):
+            if proposal is None or any((proposal.unit == one.unit).all() for one in held):
+                break
+            if len(held) == HELD or (held and proposal.promised_gain(best) < WORTH):
+                proposal = _best_of(held, posterior, best)
                 break
             self.tried.append(proposal.unit)
             if self._rehearsal.holds(proposal.variant):
-                held.append(proposal.unit)
-            proposal = ask(self._learned(), rehearsed=held)
+                held.append(proposal)
+            posterior = self._learned()
+            proposal = ask(posterior, rehearsed=[one.unit for one in held])
         if proposal is not None:
             self._proposed.append(proposal.unit)
         return proposal
@@ -77,3 +88,11 @@ class Learner:
         for point in self._proposed:
             posterior = posterior.condition_on(point)
         return posterior
+
+
+def _best_of(proposals: Sequence[Proposal], posterior: SearchPosterior, best: float) -> Proposal:
+    """Return the proposal with the largest acquisition, as the posterior sees it now."""
+    units = np.array([one.unit for one in proposals])
+    improvement, feasible = posterior.log_improvement(units, best), posterior.log_feasible(units)
+    chosen = int((improvement + feasible).argmax())
+    return replace(proposals[chosen], log_improvement=float(improvement[chosen]), log_feasible=float(feasible[chosen]))

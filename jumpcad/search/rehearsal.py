@@ -8,7 +8,6 @@ All of it follows from the trials and from the points that are kept with them, s
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -28,7 +27,7 @@ TRIED = "tried"
 """What the note of a trial calls the points that were rehearsed for its step."""
 SPREAD = 64
 """Designs that are guessed first: the best by the capsule robot."""
-GUESSED, FAILED = 128, 64
+GUESSED, FAILED = 160, 160
 """Most guesses that are learned from besides those of trials, and most failures: the last ones. Guesses are made anew
 with every fit, and the time of a step grows with both."""
 LEAST, GROWTH = 8, 1.3
@@ -63,11 +62,6 @@ class Rehearsal:
         model = evaluator.model
         return cls(evaluator, phase, task) if isinstance(model, RobotModel) and model.name == "printed" else None
 
-    @cached_property
-    def ranked(self) -> list[Array]:
-        """Points (dimension,) of the unit cube, those with which the capsule robot jumps farthest first."""
-        return ranked_points(self._evaluator, np.random.default_rng([self._task.seed, 5]))
-
     def starts_with(self, variant: Variant) -> bool:
         """Whether a search may start with a variant: its parts have room. If not, that is learned."""
         refusal = self._refusal(variant)
@@ -86,7 +80,8 @@ class Rehearsal:
             return
         if self._guesser is None:
             self._guesser = Guesser(self._space, self._model, self._evaluator.objective, self._model.engine, first)
-            self._first = [self._space.to_variant(point) for point in self.ranked[:SPREAD]]
+            points = ranked_points(self._evaluator, np.random.default_rng([self._task.seed, 5]))
+            self._first = [self._space.to_variant(point) for point in points[:SPREAD]]
         centre = self._space.to_unit((best_trial(known) or first).variant)
         self._fit = Fit(rows, Table(self._space, known, centre).coefficients(), {})
         self._guesses.clear()

@@ -1,6 +1,10 @@
 """What a step learns, with rehearsals that are known."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
+import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.search.acquisition import Proposal
@@ -56,7 +60,7 @@ class Asked:
 def test_without_rehearsals_the_first_proposal_is_taken():
     ask = Asked([0.9, 0.1, 0.1])
     learner = Learner(SMALL, TRIALS, None, {}, refit=True)
-    assert learner.propose(ask).unit.tolist() == [0.9, 0.1, 0.1]
+    assert learner.propose(ask, 1.0).unit.tolist() == [0.9, 0.1, 0.1]
     assert (len(ask.posteriors), learner.tried) == (1, [])
     assert "score" in learner.thetas
 
@@ -64,7 +68,7 @@ def test_without_rehearsals_the_first_proposal_is_taken():
 def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
     rehearsal, ask = Rehearsal(), Asked([0.9, 0.1, 0.1], [0.2, 0.2, 0.2])
     learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=True)
-    assert learner.propose(ask).unit.tolist() == [0.2, 0.2, 0.2]
+    assert learner.propose(ask, 1.0).unit.tolist() == [0.2, 0.2, 0.2]
     assert rehearsal.learned == len(TRIALS)
     assert [point.tolist() for point in learner.tried] == [[0.9, 0.1, 0.1], [0.2, 0.2, 0.2]]
     assert [len(held) for held in ask.rehearsed] == [0, 0, 1]
@@ -76,22 +80,45 @@ def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
 def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
     many = [[0.01 * number, 0.5, 0.5] for number in range(40)]
     learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
-    learner.propose(Asked(*many))
+    learner.propose(Asked(*many), 1.0)
     assert len(learner.tried) == HELD
     hopeless = Learner(SMALL, TRIALS, Rehearsal(half=-1.0), {}, refit=False)
-    assert hopeless.propose(Asked(*many)).unit.tolist() == many[ROUNDS]
+    assert hopeless.propose(Asked(*many), 1.0).unit.tolist() == many[ROUNDS]
     assert len(hopeless.tried) == ROUNDS
 
 
 def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
     ask = Asked([0.3, 0.3, 0.3], [0.6, 0.6, 0.6])
     learner = Learner(SMALL, TRIALS, None, {}, refit=True)
-    learner.propose(ask)
-    learner.propose(ask)
+    learner.propose(ask, 1.0)
+    learner.propose(ask, 1.0)
     unit = np.array([[0.3, 0.3, 0.3]])
     (_, before), (_, after) = (posterior.score.predict(unit) for posterior in ask.posteriors)
     assert after < 0.5 * before
 
 
 def test_none_is_passed_on():
-    assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).propose(lambda *_, **__: None) is None
+    assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).propose(lambda *_, **__: None, 1.0) is None
+
+
+def test_what_promises_little_is_not_rehearsed_once_one_holds():
+    """Gains of 2·e^0/√1, then of 0.08 %: the second is not tried."""
+
+    class Little(Asked):
+        def __call__(self, posterior, rehearsed):
+            found = super().__call__(posterior, rehearsed)
+            return replace(found, log_improvement=math.log(0.0004)) if rehearsed else found
+
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
+    found = learner.propose(Little([0.1, 0.5, 0.5], [0.9, 0.5, 0.5], [0.3, 0.5, 0.5]), 1.0)
+    assert found.unit.tolist() == [0.1, 0.5, 0.5]  # not the second, of which nobody knows whether it holds
+    assert len(learner.tried) == 1
+
+
+def test_the_promised_gain_is_a_share_of_the_score():
+    """√s grows by 0.002 of 1: s by 0.4 %; of 4, by 0.002/2·2 = 0.2 %."""
+    unit = np.array([0.1, 0.5, 0.5])
+    proposal = Proposal(SMALL.to_variant(unit), unit, math.log(0.004), math.log(0.5))
+    assert proposal.promised_gain(1.0) == pytest.approx(0.004)
+    assert proposal.promised_gain(4.0) == pytest.approx(0.002)
+    assert proposal.promised_gain(0.0) == math.inf

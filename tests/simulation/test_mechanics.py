@@ -121,6 +121,13 @@ def test_principal_axes_are_proper_and_give_the_tensor_back(lopsided: Robot) -> 
         np.testing.assert_allclose(axes * moments @ axes.T, tensor, rtol=1e-12, atol=1e-15 * np.trace(tensor))
 
 
+def test_principal_axes_of_a_tensor_that_no_body_has_are_found_too() -> None:
+    """Symmetric, with negative moments: a guess may be one."""
+    tensor = np.array([[-2.0, 0.3, 0.0], [0.3, -1.0, 0.1], [0.0, 0.1, 0.5]])
+    moments, axes = principal_axes(tensor)
+    np.testing.assert_allclose(axes * moments @ axes.T, tensor, rtol=1e-12, atol=1e-14)
+
+
 def test_loop_gap_is_the_distance_of_its_ends(kenan: Robot) -> None:
     with engine_named("pybullet").world(kenan, Settings()) as world:
         state = world.state()

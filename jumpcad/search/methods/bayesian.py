@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from jumpcad.search.acquisition import Proposal, propose
+from jumpcad.search.acquisition import Proposal, promised_gain, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.objective import SCREENED
 from jumpcad.search.rehearsal import TRIED, Rehearsal
 from jumpcad.search.space import Space
-from jumpcad.search.start import first_points
+from jumpcad.search.start import first_points, ranked_points
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
@@ -70,7 +70,7 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
                 propose, evaluator.space, best=best, elite=elite, admits=unproposed(evaluator, proposals),
                 generator=generator,
             )  # fmt: skip
-            proposal = learner.propose(ask)
+            proposal = learner.propose(ask, best)
             if proposal is None:
                 break
             proposals.append(proposal)
@@ -88,16 +88,12 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
 
 
 def promised_gains(trials: Sequence[Trial]) -> list[float]:
-    """Return what each proposal of `bo` promised to gain, as a share of the best score that was known by then.
-
-    Expected improvement times probability of feasibility, to first order: the process predicts the square root of the
-    score, so a share of it is worth twice as much. Infinite where no score above 0 was known.
-    """
+    """Return what each proposal of `bo` promised to gain, as a share of the best score that was known by then."""
     best, gains = 0.0, []
     for trial in trials:
         if trial.phase == "bo" and "theta" in trial.proposal:
             logarithm = float(trial.proposal["log_improvement"]) + float(trial.proposal["log_feasible"])
-            gains.append(2.0 * math.exp(min(logarithm, 100.0)) / math.sqrt(best) if best > 0.0 else math.inf)
+            gains.append(promised_gain(logarithm, best))
         best = max(best, trial.score or 0.0)
     return gains
 
@@ -111,7 +107,8 @@ def run_steps(
     if task.initial:
         generator = np.random.default_rng([task.seed, 1])
         if rehearsal:
-            points = first_points(space, task.initial, generator, rehearsal.ranked, rehearsal.starts_with)
+            ranked = ranked_points(evaluator, generator)
+            points = first_points(space, task.initial, generator, ranked, rehearsal.starts_with)
         else:
             points = first_points(space, task.initial, generator)
         evaluator.evaluate(

@@ -52,7 +52,7 @@ def run_pareto(evaluator: Evaluator, task: Task) -> None:
                 propose, space, best=best, elite=elite, admits=unproposed(evaluator, proposals), generator=generator,
                 penalty=_excess(space, float(cap)),
             )  # fmt: skip
-            proposal = learner.propose(ask)
+            proposal = learner.propose(ask, best)
             if proposal is not None:
                 proposals.append(proposal)
         return proposals
