@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.proposals import with_less_work
 from support.quick import LIKE, SPACE, quick
 
 from jumpcad.search.evaluator import Evaluator
@@ -34,7 +35,8 @@ def no_builds():
     """The robots of `Quick` are like best-printable also where that could not be built."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("jumpcad.search.guess.build", lambda *_: LIKE)
-        patch.setattr("jumpcad.search.acquisition.CANDIDATES", 128)
+        with_less_work(patch)
+        patch.setattr("jumpcad.search.learner.HELD", 2)
         patch.setattr("jumpcad.search.start.SCREENED", 64)
         yield
 
