@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
-from support.quick import BEST, LIKE, SPACE, quick
+from support.quick import BEST, FIGURES, LIKE, SPACE, quick
 
 from jumpcad.search.guess import MARK, Fit, Guesser, Table, features, learned_rows
 from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.stand_in import stand_in
 from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
+from jumpcad.simulation import simulate
 
 
 def trials_of(points, model):
@@ -55,6 +57,21 @@ def test_a_dozen_robots_guess_the_others(monkeypatch):
     assert np.median(np.abs(scores[:, 0] / scores[:, 1] - 1.0)) < 0.1
     assert np.corrcoef(scores.T)[0, 1] > 0.9
     assert all(guess.score is None for guess, score in pairs if score is None)
+
+
+def test_a_guess_is_the_jump_of_the_robot_with_the_fitted_figures(monkeypatch):
+    """All figures constant, but a body whose mass is e^(x - 3), with x from -1 to 1 along the first axis."""
+    monkeypatch.setattr("jumpcad.search.guess.build", lambda *_: LIKE)
+    guesser = Guesser(SPACE, quick(), find_objective("range"), "pybullet", first_trial())
+    one = np.eye(45)[0]
+    constant = {name: value * one for name, value in FIGURES.items() if name != "body_mass_kg"}
+    fit = Fit(0, constant | {"size_m": 0.1 * one, "log body_mass_kg": np.eye(45)[1] - 3.0 * one}, {}, bias=2.0)
+    for share in (0.3, 0.8):
+        point = SPACE.to_unit(BEST)
+        point[0] = share
+        variant = SPACE.to_variant(point)
+        robot = stand_in(variant.design, FIGURES | {"body_mass_kg": np.exp(2.0 * share - 4.0)}, LIKE)
+        assert guesser(variant, fit).score == pytest.approx(2.0 * simulate(robot).ballistic_range_m, rel=1e-6)
 
 
 def test_what_the_gate_refuses_does_not_jump(monkeypatch):

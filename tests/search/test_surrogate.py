@@ -226,9 +226,11 @@ def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
     guided = SearchPosterior.from_trials(SMALL, measured, {}, None, guesses)
     assert error(guided) < 0.05 < 0.5 < error(alone)
     assert set(guided.thetas) == {"guess", "more"}
-    best = float(max(exact) ** 2)
-    top = points[exact.argmax()][None]
-    assert guided.log_improvement(top, 0.5 * best) > guided.log_improvement(top, best)
+    parts = [one.predict(points) for one in (guided.score, guided.guess)]
+    mean, deviation = parts[0][0] + parts[1][0], np.hypot(parts[0][1], parts[1][1])
+    z = (mean - 2.0) / deviation
+    promised = deviation * (norm.pdf(z) + z * norm.cdf(z))  # over a score of 4
+    assert np.exp(guided.log_improvement(points, 4.0)) == pytest.approx(promised, rel=1e-6, abs=1e-12)
     fewer = dict(list(guesses.items())[4:])  # of no trial that was measured
     assert SearchPosterior.from_trials(SMALL, measured, {}, None, fewer).guess is None
 
