@@ -9,6 +9,7 @@ from jumpcad.design import Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.loads import (
+    POSITIONS,
     MovingMass,
     landing_force_n,
     push_off,
@@ -72,13 +73,27 @@ def test_feet_never_bear_more_than_the_ground_gives() -> None:
         assert np.all(forces.toes_n >= 0)
 
 
-@pytest.mark.parametrize("name", ["best-ga", "best-bo", "best-printable"])
-def test_the_foot_balances_on_nose_and_toes(name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "positions", "within"),
+    [
+        ("best-ga", POSITIONS, 1e-2),
+        ("best-bo", POSITIONS, 1e-2),
+        ("best-ga", 129, 1e-3),
+        ("best-bo", 129, 1e-3),
+        ("best-printable", 129, 1e-3),
+    ],
+)
+def test_the_foot_balances_on_nose_and_toes(
+    monkeypatch: pytest.MonkeyPatch, name: str, positions: int, within: float
+) -> None:
     """A foot without mass: the ground's force, at its two ends, against leg and front link; moments about the ankle.
+
+    Speeds are differences between positions: with half the step the error is a third to a quarter.
 
     The front link's part is what the leg does not carry; the ground's friction has the foot's depth as its arm. In
     other templates the nose bears nothing.
     """
+    monkeypatch.setattr("jumpcad.strength.loads.POSITIONS", positions)
     design, depth_mm = load_design(name), 10.0
     forces = push_off(Linkage(design), BODY, depth_mm)
     back_mm = design.l5_mm * math.cos(math.radians(design.ground_link_angle_deg))
@@ -87,7 +102,7 @@ def test_the_foot_balances_on_nose_and_toes(name: str) -> None:
     on_both = (forces.toes_n > 1e-6) & (nose > 1e-6)
     moment = nose * design.l4_mm - forces.toes_n * back_mm + along * depth_mm - eye_up * design.l4_mm
     assert on_both.any()
-    assert moment[on_both] == pytest.approx(0.0, abs=1.2e-2 * np.abs(up * design.l4_mm).max())
+    assert moment[on_both] == pytest.approx(0.0, abs=within * np.abs(up * design.l4_mm).max())
 
 
 def test_landing_takes_up_the_energy_of_the_fall() -> None:
