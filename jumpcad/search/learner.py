@@ -73,6 +73,8 @@ class Learner:
                 held.append(proposal)
             posterior = self._learned()
             proposal = ask(posterior, rehearsed=[one.unit for one in held])
+        else:
+            proposal = _best_of(held, posterior, best) if held else proposal
         if proposal is not None:
             self._proposed.append(proposal.unit)
         return proposal

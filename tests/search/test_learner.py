@@ -87,6 +87,13 @@ def test_a_proposal_is_rehearsed_until_enough_hold_or_it_is_hopeless():
     assert len(hopeless.tried) == ROUNDS
 
 
+def test_of_many_rounds_the_one_that_held_is_taken_not_the_last_which_nobody_tried():
+    many = [[0.2, 0.5, 0.5], *([0.6 + 0.01 * number, 0.5, 0.5] for number in range(ROUNDS + 1))]
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False)
+    assert learner.propose(Asked(*many), 1.0).unit.tolist() == many[0]
+    assert len(learner.tried) == ROUNDS
+
+
 def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
     ask = Asked([0.3, 0.3, 0.3], [0.6, 0.6, 0.6])
     learner = Learner(SMALL, TRIALS, None, {}, refit=True)
