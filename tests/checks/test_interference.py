@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.built import checked
+from support.built import body_in_plane, checked
 
-from jumpcad.checks.interference import Component, interference_findings, shared_volume_mm3
+from jumpcad.checks.interference import Component, Moment, interference_findings, moments, pose_of, shared_volume_mm3
 from jumpcad.findings import errors
-from jumpcad.mechanism.model import BODY
+from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
@@ -45,3 +45,68 @@ def test_volume_of_two_boxes(turned: bool) -> None:
         assert shared_volume_mm3(piece, np.eye(4), piece, pose) == pytest.approx(2.0 * 4.0 * 4.0, rel=1e-5)
     else:
         assert shared_volume_mm3(piece, np.eye(4), piece, pose) == pytest.approx(2.0 * 5.0 * 2.5, rel=1e-5)
+
+
+def in_plane(pose: np.ndarray) -> np.ndarray:
+    """The motion (3, 3) of the x-z plane that a pose (4, 4) is; nothing moves along y."""
+    np.testing.assert_allclose(pose[1], [0.0, 1.0, 0.0, 0.0], atol=1e-12)
+    return pose[np.ix_([0, 2, 3], [0, 2, 3])]
+
+
+@pytest.mark.parametrize("body", BODY_NAMES)
+@pytest.mark.parametrize("wind_deg", [0.0, 20.0])
+def test_a_piece_moves_with_its_body(kenan: Robot, body: str, wind_deg: float) -> None:
+    box = Component("box", body, Stack.of([(0.0, 4.0, rectangle((10.0, 6.0)))]), np.eye(4))
+    pose = pose_of(box, kenan.layout, kenan.linkage, Moment("", -np.radians(wind_deg), 0.0))
+    np.testing.assert_allclose(in_plane(pose), body_in_plane(kenan, body, np.radians(wind_deg)), atol=1e-6)
+
+
+@pytest.mark.parametrize("pairs", [1, 2])
+def test_teeth_that_mesh_go_the_same_way_equally_far(kenan: Robot, pairs: int) -> None:
+    """Where two pitch circles touch, both wheels have the same velocity; the cam alone runs ahead of its gear."""
+    layout = kenan.layout
+    (stage,) = layout.drive.train.stages
+    axes = {"cam_gear": layout.cam_axis_mm, "motor_pinion": layout.motor_mm}
+    stages = [stage]
+    if pairs == 2:
+        stages = [replace(stage, wheel=replace(stage.wheel, teeth=stage.wheel.teeth + 9)), stage]
+        axes = {"cam_gear": layout.cam_axis_mm, "idler": np.array([30.0, 20.0]), "motor_pinion": layout.motor_mm}
+        train = replace(layout.drive.train, stages=tuple(stages))
+        layout = replace(layout, drive=replace(layout.drive, train=train), idler_mm=axes["idler"])
+
+    def turn(name: str, moment: Moment) -> float:
+        pose = pose_of(Component(name, BODY, stage, np.eye(4)), layout, kenan.linkage, moment)
+        centre = np.array([*axes[name], 1.0])
+        plane = in_plane(pose)
+        np.testing.assert_allclose(plane @ centre, centre, atol=1e-9)  # it turns about its own axis
+        return float(np.arctan2(plane[0, 1], plane[0, 0]))  # about +y, which carries z to x
+
+    moment = Moment("", 0.0, 0.01, 0.2)
+    turns = [turn(name, moment) for name in axes]
+    axes |= {"cam": layout.cam_axis_mm, "motor_shaft": layout.motor_mm}
+    assert turns[0] == pytest.approx(0.01)
+    for (driven, driver), pair in zip(zip(turns, turns[1:], strict=False), reversed(stages), strict=True):
+        assert driver * pair.pinion.teeth == pytest.approx(-driven * pair.wheel.teeth)
+    assert turn("motor_shaft", moment) == turns[-1]
+    assert turn("cam", moment) == pytest.approx(0.21)
+
+
+def test_the_positions_are_those_of_a_jump(kenan: Robot) -> None:
+    """Wound from rest with the roller on the cam, fallen with the cam at its end, and past rest into the pad."""
+    cam, stop, wound = kenan.layout.drive.cam, kenan.layout.stop, kenan.design.compression_rad
+    found = moments(kenan)
+    rising = [one for one in found if one.cam_rad < cam.law.lift_rad]
+    assert [len(rising), rising[0].leg_rad] == [12, 0.0]
+    assert all(-one.leg_rad == pytest.approx(float(cam.wind_rad(one.cam_rad))) for one in rising)
+    play = kenan.layout.drive.dog.play_rad
+    at_end = [(one.leg_rad, one.ahead_rad) for one in found if one.cam_rad == cam.law.lift_rad]
+    assert at_end == [(pytest.approx(-wound), 0.0), (-wound, play), (0.0, play)]
+    free = [one for one in found if one.cam_rad == cam.free_rad]
+    assert len(rising) + len(at_end) + len(free) == len(found)
+    legs = sorted({one.leg_rad for one in free})
+    assert legs[-1] == pytest.approx(stop.angle_rad + kenan.stop_blow.give_rad)
+    assert stop.angle_rad in legs
+    assert 0.0 in legs
+    beyond = {one.ahead_rad for one in free if one.leg_rad == legs[-1]}
+    assert beyond == {0.0, play / 2.0, play}
+    assert {one.ahead_rad for one in free if one.leg_rad <= 0.0} == {0.0}

@@ -115,6 +115,19 @@ def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg
     assert found["cam_overshoot"] == pytest.approx(min(behind, lead - limits.overshoot_rad), abs=1e-6)
 
 
+def test_shapes_measured_together_are_measured_as_each_alone() -> None:
+    law = CamLaw(math.radians(45), 1.0, CAM_LIMITS.lift_rad, CAM_LIMITS.ramp_rad)
+    shapes = np.array([[14.0, 15.0, 0.3], [16.1, 17.25, 0.2], [12.0, 20.0, 0.5]])
+    outer, rows, numbers = measure(law, CAM_LIMITS, shapes, 400)
+    for index in range(len(shapes)):
+        alone_outer, alone_rows, alone = measure(law, CAM_LIMITS, shapes[index : index + 1], 400)
+        assert outer[index] == pytest.approx(alone_outer[0])
+        np.testing.assert_allclose(rows[:, index], alone_rows[:, 0], rtol=1e-12)
+        assert {name: values[index] for name, values in numbers.items()} == pytest.approx(
+            {name: values[0] for name, values in alone.items()}
+        )
+
+
 def test_a_cam_has_room_between_the_limits_of_its_direction() -> None:
     """The axis no lower than the cam's radius, no farther back than lever, limit and body allow."""
     law = CamLaw(math.radians(45), 1.0, CAM_LIMITS.lift_rad, CAM_LIMITS.ramp_rad)
