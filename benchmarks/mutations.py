@@ -4,7 +4,7 @@
 
 A mutant is the package with one expression changed: a number × 1.3, ÷ 4 or ± 1, an operator, a function or a truth for
 its opposite, a sign or a `not` dropped, one side of a returned sum or product gone. It is made in a copy of the
-checkout, and the tests nearest to its module run there: the module's namesake, then those that import it most often.
+checkout, and the tests nearest to its module run there: its namesakes, and those that import it most often.
 Left out is what says nothing of the machine: words for people, types, and the modules that draw (`DRAWING`).
 
 A survivor is one of three: equivalent (no result changes), a judgement (another number would do as well), or a hole in
@@ -178,7 +178,7 @@ def chosen(root: Path, seed: int, count: int, only: str) -> list[Mutant]:
 
 
 def nearest(root: Path, module: str, files: int) -> list[str]:
-    """Return the test files nearest to a module: its namesake, then those that import it most, of its folder first."""
+    """Return the test files nearest to a module: its namesake, then importers and namesakes, its folder's first."""
     inner = Path(module).relative_to(PACKAGE)
     stem, folder = inner.parent.name if inner.stem == "__init__" else inner.stem, Path("tests") / inner.parent
     dotted = ".".join(inner.with_suffix("").parts).removesuffix(".__init__")
@@ -188,9 +188,9 @@ def nearest(root: Path, module: str, files: int) -> list[str]:
     for path in sorted((root / "tests").rglob("test_*.py")):
         file = path.relative_to(root)
         imports = len(named.findall(path.read_text(encoding="utf-8")))
-        namesake = file == folder / f"test_{stem}.py"
+        namesake, beside = file.name == f"test_{stem}.py", file.parent == folder
         if imports or namesake:
-            ranks[file.as_posix()] = (not namesake, file.parent != folder, -imports)
+            ranks[file.as_posix()] = (not (namesake and beside), not beside, -imports)
     return sorted(ranks, key=lambda file: ranks[file])[:files] or [folder.as_posix()]
 
 

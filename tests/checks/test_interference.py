@@ -1,5 +1,6 @@
 """Interference: none in the templates, and exact for parts that are pushed into one another."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -85,7 +86,7 @@ def test_teeth_that_mesh_go_the_same_way_equally_far(kenan: Robot, pairs: int) -
     turns = [turn(name, moment) for name in axes]
     axes |= {"cam": layout.cam_axis_mm, "motor_shaft": layout.motor_mm}
     assert turns[0] == pytest.approx(0.01)
-    for (driven, driver), pair in zip(zip(turns, turns[1:], strict=False), reversed(stages), strict=True):
+    for (driven, driver), pair in zip(itertools.pairwise(turns), reversed(stages), strict=True):
         assert driver * pair.pinion.teeth == pytest.approx(-driven * pair.wheel.teeth)
     assert turn("motor_shaft", moment) == turns[-1]
     assert turn("cam", moment) == pytest.approx(0.21)

@@ -11,7 +11,8 @@ import shapely
 from jumpcad.catalogue import load_catalogue
 from jumpcad.dimensions import STRAP_EDGE_MM, TRAY_LENGTH_MIN_MM
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.electronics import Electronics, electronics_obstacle, standoff_places, tray_place
+from jumpcad.layout import electronics
+from jumpcad.layout.electronics import Electronics, Seat, electronics_obstacle, standoff_places, tray_place
 from jumpcad.layout.room import EVERYWHERE, disc
 
 CATALOGUE = load_catalogue()
@@ -103,3 +104,13 @@ def test_the_obstacle_of_trays_and_boards_is_an_upright_box_around_all() -> None
     np.testing.assert_allclose(low, [30.0 - CARRIED.length_mm / 2.0, 5.0], atol=1e-6)
     np.testing.assert_allclose(high, [30.0 + CARRIED.length_mm / 2.0, 5.0 + CARRIED.height_mm], atol=1e-6)
     assert found.y_mm == INSIDE
+
+
+@pytest.mark.parametrize(("along", "across"), [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
+def test_two_resistors_side_by_side_keep_off_what_lies_beside_them(along: float, across: float) -> None:
+    """They take 2.3 mm to either side of their middle line, and a length of 7 mm across."""
+    seat = Seat(3.0, -2.0, 0.0, (10.0, 8.0, 2.0))
+    for gap, apart in ((0.001, True), (-0.001, False)):
+        x = 3.0 + along * (5.0 + 2.3 + gap)
+        y = -2.0 + across * (4.0 + 3.5 + gap)
+        assert electronics._apart(seat, x, y - 3.5, 7.0) == apart

@@ -9,7 +9,7 @@ from support.built import built
 
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
-from jumpcad.layout.room import disc
+from jumpcad.layout.room import Obstacle, bar, disc
 from jumpcad.layout.stop import stop_angle_rad, stop_obstacles, stop_place, stop_tab_obstacle
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import Robot
@@ -80,6 +80,46 @@ def test_the_stop_gives_way_to_what_is_there_and_says_what_misses(robot: Robot) 
     thin = stop.pad.model_copy(update={"thickness_mm": 0.5})
     with pytest.raises(CannotBuildError, match="choose a thicker pad"):
         stop_place([], *given[:3], thin, *given[4:])
+
+
+def test_the_stop_keeps_its_place_until_something_touches_the_room_for_it(robot: Robot) -> None:
+    """Pad and bar together inside; in the plate a slot for tabs of 5 x 4 mm, with 2.5 mm of material around it."""
+    layout, stop, (along, behind) = robot.layout, robot.layout.stop, frame(robot)
+    inside, plate = layout.lateral.inside, layout.lateral.left_plate
+    given = (robot.linkage, layout.sections, stop.angle_rad, stop.pad, inside, plate)
+    free = stop_place([], *given)
+    middle = free.face_mm + (free.pad.thickness_mm - 0.6 + free.depth_mm) / 2.0 * behind
+    half = (free.pad.thickness_mm - 0.6 + free.depth_mm) / 2.0
+    ends = [(middle, 4.0 * side * along, inside) for side in (-1.0, 1.0)]
+    ends += [(middle, half * side * behind, inside) for side in (-1.0, 1.0)]
+    ends += [(free.tab_mm, (2.5 + 2.5) * side * along, plate) for side in (-1.0, 1.0)]
+    ends += [(free.tab_mm, (2.0 + 2.5) * side * behind, plate) for side in (-1.0, 1.0)]
+    for place, way, y in ends:
+        outwards = way / np.hypot(*way)
+        for gap, stays in ((0.01, True), (-0.01, False)):
+            post = disc("post", place + way + (1.0 + gap) * outwards, 1.0, y)
+            assert (stop_place([post], *given).radius_mm == 18.0) == stays
+        post = disc("post", place + way + 3.01 * outwards, 1.0, y)
+        assert stop_place([post], *given, 2.0).radius_mm == 18.0
+        assert stop_place([post], *given, 2.02).radius_mm != 18.0
+
+
+@pytest.mark.parametrize(("blocked", "radius"), [((0.0, 19.9), 24.0), ((13.1, 60.0), 9.0)])
+def test_the_pad_lies_between_9_and_24_mm_from_the_hub(
+    robot: Robot, blocked: tuple[float, float], radius: float
+) -> None:
+    layout, stop, (along, behind) = robot.layout, robot.layout.stop, frame(robot)
+    given = (robot.linkage, layout.sections, stop.angle_rad, stop.pad, layout.lateral.inside, layout.lateral.left_plate)
+    line = layout.hub_mm + (stop.heel_mm + 3.0) * behind
+
+    def wall(*ends: float) -> Obstacle:
+        points = bar(*(line + end * along for end in ends), spacing_mm=0.05)
+        return Obstacle("wall", points, 0.05, layout.lateral.inside)
+
+    assert stop_place([wall(*blocked)], *given).radius_mm == radius
+    farther = (blocked[0] - 0.3, blocked[1] + 0.3)
+    with pytest.raises(CannotBuildError, match="no room for the rest stop"):
+        stop_place([wall(*farther)], *given)
 
 
 def test_the_stop_is_as_far_past_rest_as_asked_for_or_as_the_loop_closes() -> None:

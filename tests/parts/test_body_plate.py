@@ -89,6 +89,25 @@ def test_plates(kenan: Robot, name: str) -> None:
         assert measured(kenan, name, y, place) == pytest.approx(diameter, abs=TOLERANCE_MM)
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_ears_as_wide_as_the_axles_seat_lead_from_the_leg_to_the_stop(name: str, side: str) -> None:
+    """Material of 3 mm around a 3 mm axle, from the leg's 16 mm forwards, and all of what lies between it and stop."""
+    robot = built(name)
+    layout = robot.layout
+    plate = layout.lateral.left_plate if side == "left" else layout.lateral.right_plate
+    section = region(cut(placed(robot, f"body_plate_{side}"), sum(plate) / 2.0))
+    filled = shapely.union_all([shapely.Polygon(one.exterior) for one in getattr(section, "geoms", [section])])
+    seat = layout.axle_mm / 2.0 + 3.0 - 0.02
+    base = [
+        shapely.Point(*layout.hub_mm).buffer(seat),
+        shapely.Point(*(layout.hub_mm + np.array([16.0 - 0.02, -seat]))),
+    ]
+    stop = shapely.Point(*layout.stop.tab_mm).buffer(2.0 + 2.5 - 0.05)
+    ear = shapely.union_all([*base, stop]).convex_hull
+    assert ear.difference(filled).area < 1e-3
+
+
 def test_the_springs_pin_stands_in_a_boss_of_the_right_plate(kenan: Robot) -> None:
     """Up to 0.5 mm beside the spring, at most 4 mm: then, with the plate's bore, nearly two diameters deep."""
     layout = kenan.layout

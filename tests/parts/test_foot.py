@@ -12,6 +12,7 @@ from support.robots import FOLDED
 from jumpcad.building import build
 from jumpcad.mechanism.model import FOOT
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.parts import foot as foot_part
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -33,6 +34,18 @@ def test_pins_are_one_link_apart(name: str) -> None:
     # the roof above a lying hole makes its box higher than wide, but leaves its middle where it is along x
     assert sorted(x for x, _ in holes)[0] == pytest.approx(0.0, abs=2e-3)
     assert sorted(x for x, _ in holes)[-1] == pytest.approx(robot.design.l4_mm, abs=2e-3)
+
+
+@pytest.mark.parametrize("name", [*ONE_PIECE, "best-printable"])
+def test_the_size_that_is_laid_on_the_bed_beforehand_is_the_finished_foots(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    robot, laid = built(name), []
+    fit = foot_part.fit_to_bed
+    monkeypatch.setattr(foot_part, "fit_to_bed", lambda *given: laid.append(given[0]) or fit(*given))
+    assert foot_part.in_one_piece(robot.design, robot.layout.sections, robot.workshop.printer.bed_mm)
+    bounds = placed(robot, "foot").bounds - [0.0, 0.0, -robot.layout.sections.foot_depth_mm]
+    np.testing.assert_allclose(laid[0], bounds, atol=0.02)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

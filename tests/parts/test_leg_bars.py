@@ -163,6 +163,13 @@ def test_glue_bears_the_pull_along_a_bar_and_the_twist_of_a_landing_on_one_toe(l
     stress = math.hypot(max(pulls) / area, twist / (area * min(bar.width_mm, bar.height_mm) / 2.0))
     found = {finding.name: finding for finding in leg_bar_findings(case)}
     assert found["leg_bar_bond"].value == pytest.approx(stress, rel=1e-6)
+    factor = case.workshop.safety.printed_factor
+    limits = {"leg_bar_bond": bar.bond_mpa, "leg_bar_strength": bar.strength_mpa,
+              "front_bar_buckling": buckling_n(bar, design.l3_mm)}  # fmt: skip
+    assert {name: found[name].limit for name in limits} == pytest.approx(
+        {name: strength / factor for name, strength in limits.items()}
+    )
+    assert found["front_bar_buckling"].value == case.landing_n
     place = leg_bar_place(case.layout, case.holes)
     assert place is not None
     mouth = case.torque_nmm * (1.0 - place.mouth_mm / design.l2_mm)

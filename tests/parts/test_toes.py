@@ -80,6 +80,8 @@ def test_toe_and_stub_lie_face_to_face_along_the_joint() -> None:
         )
         assert of_toe[1, 2] == pytest.approx(of_stub[1, 2], abs=1e-3)
         assert of_stub[0, 1] - of_toe[1, 1] == pytest.approx(0.2, abs=5e-3)
+    assert toe.mesh.bounds[0, 0] == pytest.approx(12.0, abs=2e-3)
+    assert stub.bounds[1, 0] == pytest.approx(34.0, abs=2e-3)
 
 
 def test_cross_screws_are_16_and_30_mm_from_the_toes_root() -> None:

@@ -1,12 +1,14 @@
 """Forces of the push-off against mechanics that can be written down, and against momentum."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.loads import (
     POSITIONS,
@@ -58,6 +60,19 @@ def test_leg_carries_the_springs_torque_to_the_ankle() -> None:
     shear = 1000.0 * design.peak_spring_torque_nm / design.l2_mm
     squared = np.sum(forces.ankle_n[0] ** 2) - forces.leg_axial_n[0] ** 2
     assert math.sqrt(squared) == pytest.approx(shear)
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_forces_grow_with_mass_and_springs_together(name: str) -> None:
+    """With springs and body both a thousandth, the same motion, by a thousandth of the forces."""
+    linkage, depth = Linkage(load_design(name)), 5.2
+    springs = springs_on_leg(linkage.design)
+    weak = replace(springs, stiffness_nm_per_rad=springs.stiffness_nm_per_rad / 1000.0)
+    whole, small = push_off(linkage, BODY, depth, springs), push_off(linkage, replace(BODY, mass_kg=1e-4), depth, weak)
+    for one in ("ground_n", "ankle_n", "leg_axial_n", "front_n", "toes_n"):
+        forces = getattr(whole, one)
+        assert np.abs(forces).max() > 0.0
+        np.testing.assert_allclose(1000.0 * getattr(small, one), forces, rtol=1e-9, atol=1e-9)
 
 
 def test_heavier_robots_leave_the_ground_later() -> None:

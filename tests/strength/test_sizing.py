@@ -42,6 +42,21 @@ def test_no_section_exceeds_the_design_stress_even_as_a_solid_bar(name: str) -> 
     assert 6.0 * torque / (sizes.thickness_mm * sizes.lever_root_mm**2) < 15.0
 
 
+@pytest.mark.parametrize("name", ["carbon-tube-4x2", "carbon-tube-6x4", "carbon-strip-3x6"])
+def test_legs_with_a_bar_have_walls_around_its_socket(name: str) -> None:
+    """Above and below it a wall, beside it a thin one, and the play of a lying hole on every side."""
+    workshop = load_workshop()
+    bought = workshop.bought.model_copy(update={"leg": name})
+    sizes = sections(Linkage(load_design("kenan-2.0")), workshop.model_copy(update={"bought": bought}))
+    bar, fits = workshop.catalogue.bars[name], workshop.fits
+    high = bar.height_mm + 2.0 * (fits.lying_mm + fits.wall_mm)
+    assert sizes.front_mm == pytest.approx(max(6.0, high), abs=0.011)
+    assert sizes.leg_tip_mm >= high - 1e-9
+    assert sizes.leg_root_mm >= high - 1e-9
+    assert sizes.eye_radius_mm >= high / 2.0 - 1e-9
+    assert sizes.thickness_mm == pytest.approx(max(6.0, bar.width_mm + 2.0 * (fits.lying_mm + fits.wall_min_mm)))
+
+
 def test_weaker_or_softer_links_grow() -> None:
     design, workshop = load_design("best-bo"), load_workshop()
     usual = sections(Linkage(design), workshop)
