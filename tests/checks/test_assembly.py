@@ -1,6 +1,7 @@
 """Assembly: in the guide's order all paths are free and tools reach their fasteners; in another they do not."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -9,12 +10,16 @@ from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, checked, placed
 
 from jumpcad.building import assembly, build
-from jumpcad.checks.assembly import assembly_findings, assembly_ways, paths, tools
+from jumpcad.checks.assembly import Way, _covered, _in_the_way, _tool, assembly_findings, assembly_ways, paths, tools
+from jumpcad.checks.interference import Component
 from jumpcad.design import load_design
 from jumpcad.findings import errors
+from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.scene import assembly_order, assembly_steps
 from jumpcad.scene.assembly_order.plan import Tool
+from jumpcad.solids.outline import rectangle
+from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
 FOUND = {
@@ -106,3 +111,56 @@ def test_the_left_plate_meets_nothing_on_its_way_down() -> None:
         assert min(plate.volume(), other.volume()) > 100.0
         for away in np.linspace(0.5, 40.0, 12):
             assert (plate.translate([0.0, float(away), 0.0]) ^ other).volume() < 0.05, (name, away)
+
+
+def block(name: str, size: tuple[float, float, float], low: tuple[float, float, float]) -> Component:
+    """A box with its lowest corner at a place."""
+    stack = Stack.of([(0.0, size[2], rectangle(size[:2], (size[0] / 2.0, size[1] / 2.0)))])
+    pose = np.eye(4)
+    pose[:3, 3] = low
+    return Component(name, BODY, stack, pose)
+
+
+def way_past(*there: Component) -> Way:
+    return Way(None, SimpleNamespace(move=SimpleNamespace(past="")), [], [], list(there))
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_what_stands_in_the_way_covers_its_section(axis: int, sign: float) -> None:
+    """A cube of 2 mm comes from 20 mm away, past a block 4 mm long that reaches 0.5 mm into its way: 1 mm²."""
+    path = sign * 20.0 * np.eye(3)[axis]
+    size, low = np.full(3, 3.0), np.full(3, 1.5)
+    size[axis], low[axis] = 4.0, -sign * 10.0 - 2.0
+    low[(axis + 1) % 3] = 0.0
+    cube = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0))
+    found = _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path)
+    assert found is not None
+    assert (found.name, found.by) == ("cube", "beside")
+    assert found.share_mm2 == pytest.approx(1.0)
+    low[axis] = sign * 10.0  # ahead of it, where it does not come by
+    assert _in_the_way(way_past(block("ahead", tuple(size), tuple(low))), cube, path) is None
+    low[axis], low[(axis + 2) % 3] = -sign * 10.0 - 2.0, 2.0  # beside it
+    assert _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path) is None
+
+
+def test_an_oblique_way_is_sampled_from_its_beginning_to_its_end() -> None:
+    """What is shared at the worst position counts over the whole way: never less than what is swept."""
+    cube, path = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), np.array([12.0, 0.0, 16.0])
+    for share in (0.0, 0.5, 1.0):
+        post = block("post", (4.0, 4.0, 4.0), tuple(-1.0 - share * path))
+        assert _covered(cube, None, post, path) == pytest.approx(8.0 * 20.0)
+    for away in (-0.3, 1.3):
+        assert _covered(cube, None, block("post", (4.0, 4.0, 4.0), tuple(-1.0 - away * path)), path) == 0.0
+
+
+@pytest.mark.parametrize("side", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, -0.8)])
+def test_a_tool_stands_on_the_middle_of_its_fasteners_face(side: tuple[float, float, float]) -> None:
+    """It touches the farthest of the corners of a cube of 6 mm, and is as long and wide as it is said to be."""
+    shaft = _tool(Tool("key", 4.0, 50.0), block("head", (6.0, 6.0, 6.0), (7.0, -3.0, 1.0)), np.array(side))
+    middle, low = np.array([10.0, 0.0, 4.0]), shaft.T_body_part[:3, 3]
+    reach = 3.0 * np.abs(side).sum()
+    np.testing.assert_allclose(low, middle + reach * np.array(side), atol=1e-9)
+    np.testing.assert_allclose(shaft.T_body_part[:3, 2], side, atol=1e-9)
+    np.testing.assert_allclose(shaft.T_body_part[:3, :3].T @ shaft.T_body_part[:3, :3], np.eye(3), atol=1e-9)
+    assert shaft.shape.volume_mm3 == pytest.approx(50.0 * np.pi * 4.0, rel=0.01)

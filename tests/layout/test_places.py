@@ -78,3 +78,17 @@ def test_no_place_is_refused_with_what_is_missing_beside_what() -> None:
         CannotBuildError, match=r"^no room for the box: 1\.0 mm too little beside the wheel: make room$"
     ):
         chosen([wheel, post], np.array([[6.0, 0.0], [-10.0, 0.0]]), (3.0, 3.0))
+
+
+def test_what_is_in_the_way_is_found_beside_the_box_as_it_is_turned() -> None:
+    """Upright the box is 2 mm wide: the post is 0.5 mm inside it, and the wheel beside it is only met by a flat one."""
+    obstacles = [
+        disc("hub", (0.0, 0.0), 3.0, EVERYWHERE),
+        disc("wheel", (23.5, 0.0), 1.6, EVERYWHERE),
+        disc("post", (21.5, 0.0), 1.0, EVERYWHERE),
+    ]
+    places, turns = np.array([[0.0, 0.0], [20.0, 0.0]]), np.array([0.0, math.pi / 2.0])
+    with pytest.raises(CannotBuildError, match=r"0\.5 mm too little beside the post") as refused:
+        best_place("small box", obstacles, places, (4.0, 1.0), turns, (0.0, 1.0), to_origin, "make room")
+    assert refused.value.limit == "room_small_box"
+    assert refused.value.margin == pytest.approx(-0.5)

@@ -159,3 +159,19 @@ def test_toes_spread_by_twice_their_angle_behind_the_ankle() -> None:
     """With 60° from the foot's centre line a toe of 93.4 mm reaches 46.7 mm back and 80.9 mm to its side."""
     design = load_design("kenan-2.0").model_copy(update={"ground_link_angle_deg": 60.0})
     np.testing.assert_allclose(toe_tip_mm(design), [-46.7, 80.887], atol=1e-3)
+
+
+def test_rates_of_the_closed_loop_equal_central_differences() -> None:
+    """Foot and front joint per leg angle, and the ankle's way as a complex number with z as its imaginary part."""
+    for linkage in LINKAGES:
+        step = 1e-6
+        for leg in travel(linkage, 5)[1:-1]:
+            ahead, behind = linkage.pose(leg + step), linkage.pose(leg - step)
+            foot, front, ankle = linkage.rates(leg)
+            by_leg = [
+                float((getattr(ahead, name) - getattr(behind, name))[0]) / (2 * step)
+                for name in ("foot_rad", "front_rad")
+            ]
+            assert [foot, front] == pytest.approx(by_leg, rel=1e-5, abs=1e-5)
+            x, z = (ahead.ankle_mm - behind.ankle_mm)[0] / (2 * step)
+            assert ankle == pytest.approx(complex(x, z), rel=1e-5)

@@ -57,6 +57,19 @@ def test_what_is_pushed_along_y_is_stopped(robot: Robot) -> None:
             assert any((solid ^ other).volume() > 1.0 for solid in moved for other in beside), (name, way)
 
 
+def test_what_is_of_steel_has_the_density_of_steel(robot: Robot) -> None:
+    """7.85 g/cm³ of its drawing, less sockets, threads and rounded corners, or more for a split pin's bent legs."""
+    kinds = {"screw": (6.4, 7.9), "lock": (6.0, 7.9), "washer": (7.6, 8.1), "clevis": (7.8, 8.1), "split": (7.0, 9.5)}
+    counted = 0
+    for item in robot.hardware:
+        kind = item.article.split()[0]
+        low, high = kinds.get(kind, (7.8, 7.9) if "steel" in item.article else (0.0, 0.0))
+        if high > 0.0:
+            assert low < 1e6 * item.mass_kg / item.shape.volume_mm3 < high, item.article
+            counted += 1
+    assert counted > 15
+
+
 def test_an_axle_weighs_its_rod() -> None:
     """Aluminium, 2.81 g/cm³, less two grooves of 2.3 mm in 3 mm, 0.64 mm wide (DIN 6799)."""
     robot = build(load_design("kenan-2.0"), workshop(retention="clips", axle="aluminium-7075"))

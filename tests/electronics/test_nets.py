@@ -1,0 +1,157 @@
+"""The net list traced as a circuit: where current flows, what a pin sees, and one wire less than terminals."""
+
+from dataclasses import replace
+
+import pytest
+
+from jumpcad.catalogue import load_catalogue
+from jumpcad.electronics.chosen import Chosen, chosen_of
+from jumpcad.electronics.nets import LOWER_OHM, UPPER_OHMS, Wiring, gpio, logic_range, wiring_of
+
+CATALOGUE = load_catalogue()
+KITS = ("light-1s", "strong-2s")
+E12 = {10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82}
+
+
+def parts(kit: str) -> Chosen:
+    return chosen_of(CATALOGUE, CATALOGUE.kits[kit])
+
+
+Edges = set[tuple[str, str]]
+
+
+def wires(wiring: Wiring) -> Edges:
+    """Both ends of all wires."""
+    return {(str(one), str(other)) for net in wiring.nets for one, other in net.wires}
+
+
+def reached(start: str, edges: Edges) -> set[str]:
+    """Every terminal that is connected to one."""
+    found, grown = set(), {start}
+    while grown != found:
+        found = grown
+        grown = found | {end for edge in edges if found & set(edge) for end in edge}
+    return found
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_wires_join_each_net_and_no_two(kit: str) -> None:
+    """A tree: connected, with one wire less than terminals."""
+    wiring = wiring_of(parts(kit), {})
+    for net in wiring.nets:
+        assert reached(str(net.terminals[0]), wires(wiring)) == set(map(str, net.terminals))
+        assert len(list(net.wires)) == len(net.terminals) - 1
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_current_flows_from_the_battery_through_plug_and_switch_and_back(kit: str) -> None:
+    """With the switch open, only the plug is live; with it closed, what needs power has it, and never on ground."""
+    chosen = parts(kit)
+    edges = wires(wiring_of(chosen, {}))
+
+    def live() -> set[str]:
+        return reached("battery +", edges)
+
+    assert live() == {"battery +", "plug +", "switch 1"}
+    edges.add(("switch 1", "switch 2"))
+    driver = next(iter(chosen.driver.supply_v))
+    assert {f"driver {driver}", "capacitor +", "upper resistor 1"} <= live()
+    if chosen.regulator is None:
+        assert any(terminal.startswith("controller ") for terminal in live())
+    else:
+        assert not any(terminal.startswith("controller ") for terminal in live())
+        (before,) = (terminal for terminal in live() if terminal.startswith("regulator "))
+        assert before.removeprefix("regulator ") in chosen.regulator.supply_v
+        edges.add((before, f"regulator {chosen.regulator.with_function('out')[0]}"))
+        edges.add(("diode A", "diode K"))
+        takes_5_v = next(pin for pin, (_, high) in chosen.controller.supply_v.items() if high >= 5.0)
+        assert f"controller {takes_5_v}" in live()
+    ground = reached("battery -", edges)
+    assert {"plug -", "capacitor -", "sensor COM", "lower resistor 2"} <= ground
+    for role, board in chosen.boards.items():
+        assert any(f"{role} {pin}" in ground for pin in board.with_function("ground"))
+    assert {f"driver {pin}" for pin in chosen.driver.with_function("reverse")} <= ground
+    assert not live() & ground
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_the_converter_sees_as_much_of_a_full_battery_as_it_bears(kit: str) -> None:
+    """Of dividers with a lower resistor of 200 kOhm: the next smaller one of those listed would be too much."""
+    chosen = parts(kit)
+    wiring = wiring_of(chosen, {})
+    full, most = chosen.battery.range_v[1], chosen.controller.adc_max_v
+    assert wiring.upper_ohm is not None
+    assert most is not None
+    assert full / wiring.divider == pytest.approx(full * LOWER_OHM / (LOWER_OHM + wiring.upper_ohm))
+    assert full / wiring.divider <= most
+    smaller = [ohm for ohm in UPPER_OHMS if ohm < wiring.upper_ohm]
+    assert not smaller or full * LOWER_OHM / (LOWER_OHM + max(smaller)) > most
+    assert wiring.resistors["upper resistor"] == wiring.upper_ohm
+    assert wiring.resistors["lower resistor"] == LOWER_OHM
+
+
+def test_resistors_can_be_bought() -> None:
+    """E12, of which E6 is every other one: two digits, and zeros."""
+    wiring = wiring_of(parts("strong-2s"), {})
+    for ohm in (*UPPER_OHMS, *wiring.resistors.values()):
+        digits = str(ohm).rstrip("0").ljust(2, "0")
+        assert int(digits) in E12 | {20}  # 200 kOhm: E24
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_a_closed_contact_carries_its_least_current_even_with_five_per_cent_off(kit: str) -> None:
+    chosen = parts(kit)
+    wiring, sensor = wiring_of(chosen, {}), chosen.components["sensor"]
+    assert wiring.pull_up_ohm is not None
+    assert sensor.least_a is not None
+    volts = chosen.controller.logic_v or 0.0
+    assert 0.95 * volts / (1.05 * wiring.pull_up_ohm) >= 0.995 * sensor.least_a
+    assert volts / (10.0**0.2 * wiring.pull_up_ohm) < 1.1 * sensor.least_a  # the next of the series is too large
+    assert wiring.resistors["pull-up resistor"] == wiring.pull_up_ohm
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_each_signal_has_its_own_pin_that_can_do_it(kit: str) -> None:
+    chosen = parts(kit)
+    wiring = wiring_of(chosen, {})
+    assert list(wiring.pins) == ["battery", "motor", "sleep", "ready"]
+    numbers = [gpio(chosen.controller, pin) for pin in wiring.pins.values()]
+    assert len(set(numbers)) == 4
+    functions = {signal: chosen.controller.pins[pin] for signal, pin in wiring.pins.items()}
+    assert "adc" in functions["battery"]
+    assert "pwm" in functions["motor"]
+    for has in functions.values():
+        assert not {"strapping", "boot_log"} & set(has)
+    named = wiring_of(chosen, {"ready": wiring.pins["battery"]})
+    assert named.pins["ready"] == wiring.pins["battery"]
+    assert len(set(named.pins.values())) == len(named.pins)
+
+
+def test_behind_the_diode_there_is_its_drop_less() -> None:
+    """5 V of the regulator less the drop of a Schottky diode; without a regulator what the battery has."""
+    chosen = parts("strong-2s")
+    assert chosen.regulator is not None
+    assert chosen.diode is not None
+    assert logic_range(chosen) == (pytest.approx(5.0 - chosen.diode.drop_v),) * 2
+    bare = replace(chosen, components={k: v for k, v in chosen.components.items() if k != "diode"})
+    assert logic_range(bare) == (5.0, 5.0)
+    assert logic_range(parts("light-1s")) == (3.3, 4.2)
+
+
+@pytest.mark.parametrize("gone", ["switch", "plug", "capacitor", "diode", "sensor"])
+def test_a_part_that_is_left_out_leaves_the_others_connected(gone: str) -> None:
+    chosen = parts("strong-2s")
+    less = replace(chosen, components={role: one for role, one in chosen.components.items() if role != gone})
+    whole, wiring = wiring_of(chosen, {}), wiring_of(less, {})
+
+    def terminals(of: Wiring) -> set[str]:
+        return {str(terminal) for net in of.nets for terminal in net.terminals}
+
+    lost = {terminal for terminal in terminals(whole) if terminal.startswith(f"{gone} ")}
+    assert lost
+    if gone == "sensor":
+        lost |= {f"controller {whole.pins['ready']}", "pull-up resistor 1", "pull-up resistor 2", "controller 3V3"}
+    assert terminals(wiring) == terminals(whole) - lost
+    if gone == "switch":
+        assert f"driver {next(iter(chosen.driver.supply_v))}" in reached("battery +", wires(wiring))
+    assert {"controller GND", "driver GND"} <= reached("battery -", wires(wiring))
