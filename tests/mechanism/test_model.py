@@ -63,3 +63,22 @@ def test_a_joint_that_turns_back_keeps_its_furthest_angle() -> None:
     _, front, _ = five_bar(linkage, (-design.compression_rad, 0.0))[0]
     assert front.upper_rad == pytest.approx(turn.max(), abs=1e-3)
     assert front.lower_rad == pytest.approx(turn.min(), abs=1e-3)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+def test_links_turned_by_their_joints_meet_in_the_loop(mechanism: Mechanism, share: float) -> None:
+    """From the body, each joint turns its link about y, by its angle in the drawing and then by its coordinate."""
+    pose = mechanism.linkage.pose(-share * mechanism.design.compression_rad)
+    turns = {"leg": pose.leg_rad[0], "front": pose.front_rad[0], "ankle": pose.ankle_rad[0]}
+    placed = {BODY: (np.zeros(2), 0.0)}
+    for joint in mechanism.joints:
+        (origin, angle), (x, _, z) = placed[joint.parent], joint.origin_m
+        cos, sin = math.cos(angle), math.sin(angle)
+        assert z == 0.0
+        placed[joint.child] = origin + x * np.array([cos, -sin]), angle + joint.rest_angle_rad + turns[joint.name]
+    loop, ends = mechanism.loop, []
+    for body, point in ((loop.body_a, loop.point_a_m), (loop.body_b, loop.point_b_m)):
+        origin, angle = placed[body]
+        ends.append(origin + point[0] * np.array([math.cos(angle), -math.sin(angle)]))
+    np.testing.assert_allclose(ends[0], ends[1], atol=1e-12)
+    np.testing.assert_allclose(1000.0 * placed[FOOT][0], pose.ankle_mm[0], atol=1e-9)

@@ -198,3 +198,15 @@ def test_the_strut_between_the_axles_has_3_mm_beside_their_bores(side: str) -> N
     large = shapely.union_all([one for one in pockets if one.area > 60.0 and not one.contains(strut.centroid)])
     assert filled.buffer(0.05).contains(shapely.LineString([robot.layout.hub_mm, robot.layout.front_mm]))
     assert strut.intersection(large).area < 0.05
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_ribs_of_3_mm_hold_a_plate_together(name: str) -> None:
+    """With all edges 1.5 mm farther in, it is still one piece; holes that its pads surround are not counted."""
+    robot = built(name)
+    section = region(cut(placed(robot, "body_plate_left"), sum(robot.layout.lateral.left_plate) / 2.0))
+    assert section.geom_type == "Polygon"
+    pockets = [pocket for ring in section.interiors if (pocket := shapely.Polygon(ring)).area > 30.0]
+    web = shapely.Polygon(section.exterior).difference(shapely.union_all(pockets))
+    assert len(pockets) > 4
+    assert web.buffer(-1.49).geom_type == "Polygon"
