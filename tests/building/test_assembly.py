@@ -257,3 +257,30 @@ def test_a_robot_with_two_pairs_of_gears_has_their_axle() -> None:
     names = {item.name for item in robot.hardware}
     assert "idler_axle" in names
     assert "idler_axle" not in {item.name for item in built("kenan-2.0").hardware}
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
+def test_what_touches_the_ground_is_where_the_design_says(name: str) -> None:
+    """Foot: nose at the front eye, tips at the toes' length and angle; body: both ends of its strut."""
+    robot = built(name)
+    design = robot.design
+    angle = math.radians(design.ground_link_angle_deg)
+    x, y = -design.l5_mm * math.cos(angle), design.l5_mm * math.sin(angle)
+    feet = {one.name: 1000.0 * one.centre_m for one in robot.bodies[FOOT].contacts}
+    assert feet["front_eye"] == pytest.approx([design.l4_mm, 0.0, 0.0])
+    assert feet["left_toe"][:2] == pytest.approx([x, y])
+    assert feet["right_toe"][:2] == pytest.approx([x, -y])
+    for one in robot.bodies[FOOT].contacts:
+        assert one.centre_m[2] - one.radius_m == pytest.approx(-robot.foot_depth_m)
+    ends = {one.name: (1000.0 * one.centre_m, 1000.0 * one.radius_m) for one in robot.bodies[BODY].contacts}
+    for end, sign in (("back", -1.0), ("front", 1.0)):
+        assert ends[end][0] == pytest.approx([sign * design.l1_mm / 2.0, 0.0, 0.0])
+        assert ends[end][1] == pytest.approx(1.5 + 3.0)  # a seat of 3 mm around an axle of 3 mm
+
+
+def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
+    robot, plain = built("kenan-2.0"), load_workshop()
+    plain = plain.model_copy(update={"bought": plain.bought.model_copy(update={"leg_bearing": ""})})
+    assert robot.layout.hub_bearing is not None
+    assert robot.friction.pin_radius_m == (0.0, 0.0015, 0.0015, 0.0015)
+    assert build(load_design("kenan-2.0"), plain).friction.pin_radius_m == (0.0015,) * 4

@@ -51,3 +51,15 @@ def test_a_lead_is_not_shorter_than_the_straight_line() -> None:
     for _, start, end, _, length in wires(robot):
         if length and start.part in places and end.part in places:
             assert length >= math.dist(places[start.part], places[end.part])
+
+
+@pytest.mark.parametrize("part", ["sensor", "motor"])
+def test_leads_from_outside_pass_their_plate_square_to_it(part: str) -> None:
+    layout = built("kenan-2.0").layout
+    _, outside, inside = way_in(layout, part)
+    low, high = layout.lateral.left_plate if part == "sensor" else layout.lateral.right_plate
+    assert outside[[0, 2]].tolist() == inside[[0, 2]].tolist()
+    hole = layout.fittings.left_mm if part == "sensor" else layout.fittings.right_mm
+    assert outside[[0, 2]] == pytest.approx(hole)
+    assert min(outside[1], inside[1]) < low < high < max(outside[1], inside[1])
+    assert abs(inside[1]) < abs(outside[1])

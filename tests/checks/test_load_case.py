@@ -111,3 +111,21 @@ def test_the_thread_of_a_screw_that_is_an_axle_bears_less_than_its_shank() -> No
     shank = case.bars["cam_axle"].stress_mpa(moment)
     thread_mpa = share * 32.0 * moment / (math.pi * SCREW_CORE_MM**3)
     assert case.steel_stresses_mpa["cam_axle"] == pytest.approx(max(shank, thread_mpa), rel=0.06)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_springs_torque_is_rate_times_turn(name: str) -> None:
+    """In the units of a spring maker's list: N·mm per degree, from rest to loaded."""
+    design = load_design(name)
+    torque = design.stiffness_nmm_per_deg * math.degrees(design.compression_rad)
+    assert LoadCase(built(name)).torque_nmm == pytest.approx(torque)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_a_blow_on_one_toe_meets_less_than_the_whole_mass(name: str) -> None:
+    """A body struck at x, y: 1/(1 + x²/k_y² + y²/k_x²) of it, with radii of gyration from its tensor."""
+    case = LoadCase(built(name))
+    body = case.robot.bodies["body"]
+    x, y = toe_tip_mm(case.robot.design) / 1000.0
+    turned = 1.0 + body.mass_kg * (x**2 / body.inertia_kg_m2[1, 1] + y**2 / body.inertia_kg_m2[0, 0])
+    assert case.toe_blow_n == pytest.approx(case.landing_n / turned)

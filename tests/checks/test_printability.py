@@ -20,6 +20,7 @@ from jumpcad.workshop import load_workshop
 Slabs = list[tuple[float, float, Region]]
 
 BLOCK = rectangle((30.0, 20.0))
+HOLE, TONGUE = rectangle((14.0, 14.0)), rectangle((5.0, 4.0), (-4.5, 0.0))
 KINDS = ("walls", "holes", "pins", "overhangs", "bridges", "solid", "bed_fit")
 
 
@@ -50,6 +51,12 @@ def test_silent_on_kenan_and_on_the_strongest(name: str) -> None:
         ("overhangs", [(0.0, 4.0, rectangle((10.0, 20.0))), (4.0, 6.0, rectangle((20.0, 20.0)))], 0.9 - 5.0),
         # a mushroom is held in its middle alone
         ("overhangs", [(0.0, 4.0, disc(20.0)), (4.0, 6.0, disc(30.0))], 0.9 - 5.0),
+        # a tongue into a hole is held at its root alone
+        (
+            "overhangs",
+            [(0.0, 4.0, BLOCK - HOLE), (4.0, 6.0, BLOCK - HOLE + rectangle((5.0, 4.0), (-4.5, 0.0)))],
+            0.9 - 5.0,
+        ),
         ("bridges", [(0.0, 5.0, BLOCK - rectangle((14.0, 30.0))), (5.0, 6.0, BLOCK)], 10.0 - 14.0),
         ("bridges", [(0.0, 5.0, BLOCK - hole(13.0)), (5.0, 6.0, BLOCK)], 10.0 - 13.0),
     ],

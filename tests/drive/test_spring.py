@@ -67,6 +67,26 @@ def test_the_wound_coil_keeps_its_wire_and_clears_its_bushing(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("preload_deg", [0.0, 15.0])
+def test_a_preloaded_coil_winds_up_by_preload_and_travel_together(name, preload_deg):
+    """Wire's length kept: D·n is the same relaxed and loaded. Body, bushing and stress keep their limits loaded."""
+    design, preload = load_design(name), math.radians(preload_deg)
+    on_leg = springs_on_leg(design, None, preload)
+    limits = replace(LIMITS, outer_max_mm=40.0, body_lengths_max_mm=(15.0,))
+    spring = synthesise_spring(on_leg, -math.radians(design.rest_angle_deg), WIRE, limits)
+    loaded = spring.turns + (design.compression_rad + preload) / (2 * math.pi)
+    mean = spring.outer_diameter_mm - spring.wire_mm
+    assert mean * spring.turns / loaded - spring.wire_mm - limits.mandrel_clearance_mm == pytest.approx(
+        spring.mandrel_mm
+    )
+    assert spring.mandrel_mm >= limits.mandrel_min_mm - 1e-9
+    assert spring.body_length_mm == pytest.approx((loaded + 1) * spring.wire_mm)
+    assert spring.body_length_mm <= 15.0 + 1e-9
+    assert spring.torque_nmm == pytest.approx(500 * design.stiffness_nm_per_rad * (design.compression_rad + preload))
+    assert spring.stress_mpa <= spring.allowable_mpa + 1e-6
+
+
+@pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("plate_pin_deg", [20.0, 40.0, 75.0])
 @pytest.mark.parametrize("preload_deg", [0.0, 4.0])
 def test_relaxed_arms_are_tangents_that_touch_the_sides_of_their_pins(name, plate_pin_deg, preload_deg):

@@ -52,12 +52,14 @@ def test_the_obstacles_are_the_bar_and_its_tabs(robot: Robot) -> None:
     stop, (along, behind) = robot.layout.stop, frame(robot)
     (bar,) = stop_obstacles(stop, robot.layout.lateral.inside)
     tab = stop_tab_obstacle(stop, robot.layout.lateral.left_plate)
-    for found, middle, size in ((bar, stop.middle_mm, (4.8, stop.depth_mm / 2.0 + 0.8)), (tab, stop.tab_mm, None)):
-        for axis, half in zip((along, behind), size or (None, None), strict=True):
+    for found, middle, size in (
+        (bar, stop.middle_mm, (4.8, stop.depth_mm / 2.0 + 0.8)),
+        (tab, stop.tab_mm, (2.5, 2.0)),
+    ):
+        for axis, half in zip((along, behind), size, strict=True):
             reach = (found.points_mm - middle) @ axis
             assert reach.max() == pytest.approx(-reach.min(), abs=1e-6)
-            if half is not None:
-                assert reach.max() + found.radius_mm == pytest.approx(half, abs=1e-6)
+            assert reach.max() + found.radius_mm == pytest.approx(half, abs=1e-6)
     assert bar.y_mm == robot.layout.lateral.inside
     assert tab.y_mm == robot.layout.lateral.left_plate
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from jumpcad.mechanism.mass import MassProperties, combined
+from jumpcad.mechanism.mass import MassProperties, combined, principal_axes
 
 
 def turned(axis: int, angle_rad: float, offset: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> np.ndarray:
@@ -88,3 +88,23 @@ def test_tensor_is_symmetric_and_keeps_the_triangle_rule() -> None:
     np.testing.assert_allclose(tensor, tensor.T, atol=1e-18)
     low, middle, high = np.linalg.eigvalsh(tensor)
     assert low + middle > high
+
+
+def test_principal_axes_turn_the_tensor_diagonal() -> None:
+    """Against numpy's eigenvalues, for tensors of random clouds; the rotation keeps lengths and hands."""
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        points = rng.normal(size=(5, 3)) * rng.uniform(0.1, 3.0, 3)
+        tensor = (points**2).sum() * np.eye(3) - points.T @ points
+        moments, axes = principal_axes(tensor)
+        np.testing.assert_allclose(np.sort(moments), np.linalg.eigvalsh(tensor), rtol=1e-12)
+        np.testing.assert_allclose(axes @ np.diag(moments) @ axes.T, tensor, atol=1e-12 * moments.max())
+        np.testing.assert_allclose(axes.T @ axes, np.eye(3), atol=1e-14)
+        assert np.linalg.det(axes) > 0.0
+
+
+def test_of_a_nearly_diagonal_tensor_the_axes_hardly_turn() -> None:
+    tensor = np.diag([3.0, 1.0, 2.0]) + 1e-4 * (np.ones((3, 3)) - np.eye(3))
+    moments, axes = principal_axes(tensor)
+    np.testing.assert_allclose(axes, np.eye(3), atol=2e-4)
+    np.testing.assert_allclose(moments, [3.0, 1.0, 2.0], atol=1e-7)

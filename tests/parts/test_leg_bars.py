@@ -14,6 +14,7 @@ from jumpcad.checks.leg_bar import leg_bar_findings
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
+from jumpcad.layout.leg_bars import BarPlace
 from jumpcad.parts.links import leg_bar_place
 from jumpcad.robot import Robot
 from jumpcad.strength.leg_bar import Socket, bar_bending_mpa, bar_shear_mpa, bent_energy_nmm, buckling_n
@@ -81,6 +82,12 @@ def test_the_mass_of_a_bar_is_its_section_times_its_length() -> None:
     length = np.ptp(bar.shape.bounds_mm[:, 0])
     assert bar.mass_kg == pytest.approx(14.1e-6 * length, rel=0.01)
     assert f"cut {length:.1f} mm" in bar.article
+
+
+def place_of(case: LoadCase) -> BarPlace:
+    place = leg_bar_place(case.layout, case.holes)
+    assert place is not None
+    return place
 
 
 def test_the_socket_is_bent_by_what_is_left_of_the_torque_at_its_floor() -> None:
@@ -170,6 +177,11 @@ def test_glue_bears_the_pull_along_a_bar_and_the_twist_of_a_landing_on_one_toe(l
         {name: strength / factor for name, strength in limits.items()}
     )
     assert found["front_bar_buckling"].value == case.landing_n
+    flex = found["leg_bar_flex"]
+    assert flex.limit == pytest.approx(100.0 * case.workshop.safety.leg_flex_share)
+    bent = leg_bar._bent_nmm(case, place_of(case)) / (1000.0 * case.robot.spring.energy_j)
+    assert flex.value == pytest.approx(100.0 * bent)
+    assert flex.margin == pytest.approx(flex.limit - flex.value)
     place = leg_bar_place(case.layout, case.holes)
     assert place is not None
     mouth = case.torque_nmm * (1.0 - place.mouth_mm / design.l2_mm)

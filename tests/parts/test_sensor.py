@@ -64,7 +64,9 @@ def test_the_plate_leaves_the_case_a_gap_and_has_material_around_it(robot: Robot
     for side in (-1.0, 1.0):
         ray = shapely.LineString([(0.0, 0.0), (0.0, side * (width / 2.0 + 3.0))])
         gap = section.intersection(ray).distance(case)
-        assert 0.1 < gap < 0.6
+        assert gap == pytest.approx(0.4, abs=0.02)
+        ray = shapely.LineString([(0.0, 0.0), (side * (length / 2.0 + 1.5), 0.0)])
+        assert section.intersection(ray).distance(case) == pytest.approx(0.4, abs=0.02)
         begin, end = sorted(side * (width / 2.0 + gap + more) for more in (1e-3, 1.9))
         assert shapely.box(2.0 - length / 2.0, begin, length / 2.0 - 2.0, end).difference(section).area < 0.05
 

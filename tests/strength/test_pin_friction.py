@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.machines import PINS_M, rubbing
 
@@ -9,7 +10,8 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation.planar import PlanarWorld
-from jumpcad.strength.pin_friction import pin_torque_nm
+from jumpcad.strength.loads import MovingMass, push_off
+from jumpcad.strength.pin_friction import TILTING, pin_torque_nm
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
@@ -38,3 +40,23 @@ def test_capsules_have_no_pins() -> None:
     robot = capsule_robot(load_design("best-bo"))
     assert pin_torque_nm(robot, 0.25) == 0.0
     assert pin_torque_nm(replace(rubbing(robot)), 0.0) == 0.0
+
+
+def test_each_pin_rubs_by_its_force_along_its_own_turn() -> None:
+    """Turns of the pins between neighbouring positions, from poses alone; both links meet in the eye."""
+    robot = rubbing(capsule_robot(load_design("best-ga")), pin=0.25)
+    body = robot.bodies["body"]
+    gyration = 1000.0 * (body.inertia_kg_m2[1, 1] / body.mass_kg) ** 0.5
+    mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
+    loads = push_off(robot.linkage, mass, 1000.0 * robot.foot_depth_m, robot.spring)
+    pose = robot.linkage.pose(loads.leg_rad)
+    leg, front, foot = robot.linkage.rest_rad + pose.leg_rad, robot.linkage.rest_rad + pose.front_rad, pose.foot_rad
+    on_leg, on_front = np.hypot(*loads.ankle_n.T), np.abs(loads.front_n)
+    turns = {0: (leg, on_leg), 1: (front, on_front), 2: (foot - leg, on_leg), 3: (foot - front, on_front)}
+    for pin, (turn, force) in turns.items():
+        radii = tuple(radius if index == pin else 0.0 for index, radius in enumerate(PINS_M))
+        way = np.abs(np.diff(turn)) * (force[1:] + force[:-1]) / 2.0
+        expected = TILTING * 0.25 * PINS_M[pin] * way.sum() / robot.spring.wind_rad
+        assert pin_torque_nm(rubbing(robot, pin=0.25, pin_radius_m=radii), 0.25) == pytest.approx(
+            expected, rel=0.03, abs=1e-6
+        )

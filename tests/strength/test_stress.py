@@ -18,6 +18,7 @@ from jumpcad.strength.stress import (
     pin_stress_mpa,
     tapered_energy_nmm,
     tapered_stress_mpa,
+    tip_stiffness_n_per_mm,
     tube_shear_mpa,
 )
 from jumpcad.workshop import load_workshop
@@ -131,3 +132,9 @@ def test_a_bar_in_torsion_by_the_handbook() -> None:
     """Shigley 3-40: T/(b·c²)·(3 + 1.8·c/b), whichever side is the longer."""
     assert bar_shear_mpa(100.0, 4.0, 8.0) == pytest.approx(100.0 / (8.0 * 16.0) * 3.9)
     assert bar_shear_mpa(100.0, 8.0, 4.0) == pytest.approx(100.0 / (8.0 * 16.0) * 3.9)
+
+
+def test_the_tip_of_a_uniform_cantilever_gives_way_by_the_handbook() -> None:
+    """F/f = 3·E·I/l³."""
+    stiffness = tip_stiffness_n_per_mm(Beam(6.0, np.full(201, 10.0)), 80.0, 2000.0)
+    assert stiffness == pytest.approx(3.0 * 2000.0 * 500.0 / 80.0**3, rel=1e-3)
