@@ -96,3 +96,12 @@ def test_an_axle_of_3_mm_leaves_room_for_its_spacer_and_its_lever() -> None:
     usual = limits(load_workshop())
     assert thick.spring.mandrel_min_mm == pytest.approx(usual.spring.mandrel_min_mm + 1.0)
     assert thick.train.pinion_root_min_mm == pytest.approx(usual.train.pinion_root_min_mm + 0.5)
+
+
+def test_a_cam_gear_without_a_track_has_a_wall_around_its_pockets() -> None:
+    """Half of the dog, a sliding fit and three lines; a sensor's track needs more."""
+    workshop = load_workshop()
+    none = limits(changed("bought", sensor=""))
+    fits = workshop.fits
+    assert none.train.cam_gear_root_min_mm == pytest.approx(SECTIONS.dog_mm / 2.0 + fits.sliding_mm + fits.wall_mm)
+    assert limits(workshop).train.cam_gear_root_min_mm > none.train.cam_gear_root_min_mm

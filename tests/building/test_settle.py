@@ -3,10 +3,12 @@
 import math
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from jumpcad.building import settle as settling
 from jumpcad.building.limits import drive_limits
 from jumpcad.building.settle import Settled, _require_hub_room, fall_s, settle
 from jumpcad.design import load_design
@@ -14,6 +16,7 @@ from jumpcad.dimensions import GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import synthesise
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
+from jumpcad.mechanism.linkage import Linkage
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
 from jumpcad.strength.sizing import Growth, sections
 from jumpcad.workshop import Workshop, load_workshop
@@ -95,3 +98,18 @@ def test_the_hub_keeps_a_wall_and_a_gap_off_the_spacer_on_the_cams_axle() -> Non
         else:
             with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit"):
                 _require_hub_room(tried)
+
+
+def test_the_leg_falls_by_springs_with_the_preload_of_the_workshop(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen, workshop = [], load_workshop()
+    monkeypatch.setattr(settling, "fall_s", lambda *given: seen.append(given) or fall_s(*given))
+    settle(load_design("kenan-2.0"), workshop.model_copy(update={"spring": preloaded(workshop, 4.0)}), Growth())
+    (_, springs, past_rad), *_ = seen
+    assert math.degrees(springs.preload_rad) == pytest.approx(4.0)
+    assert math.degrees(past_rad) == pytest.approx(workshop.body.stop_deg + 3.0)  # and what the pad gives
+    linkage = Linkage(load_design("kenan-2.0"))
+    assert fall_s(linkage, springs, past_rad) < fall_s(linkage, replace(springs, preload_rad=0.0), past_rad)
+
+
+def preloaded(workshop: Workshop, degrees: float) -> Any:
+    return workshop.spring.model_copy(update={"preload_deg": degrees})

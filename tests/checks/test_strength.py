@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.fits import LOADS
 from support.strengths import changed, margins
@@ -155,3 +156,27 @@ def test_the_springs_pin_is_a_beam_with_two_loads(kenan: Robot) -> None:
     support = sum(lateral.left_plate) / 2.0 - sum(lateral.right_plate) / 2.0
     stress = 32.0 * force * (support / 2.0 - lateral.spring_left[1]) / (math.pi * layout.axle_mm**3)
     assert LoadCase(kenan).steel_stresses_mpa["spring_pin"] == pytest.approx(stress, rel=1e-6)
+
+
+@pytest.mark.parametrize("robot", ["kenan", "strongest"])
+def test_a_margin_is_what_is_left_to_the_limit(robot: str, request: pytest.FixtureRequest) -> None:
+    """In the finding's own unit: of a stress, a force or a share of energy."""
+    findings = [one for one in strength_findings(request.getfixturevalue(robot)) if one.value is not None]
+    assert {"leg_strength", "leg_flex"} <= {one.name for one in findings}
+    for one in findings:
+        assert abs(one.margin) == pytest.approx(abs(one.limit - one.value), rel=1e-9, abs=1e-9), one.name
+
+
+def test_the_leg_takes_its_share_of_the_springs_energy(kenan: Robot) -> None:
+    """A cantilever of the leg's heights, M²/(2·E·I) along it, in per cent of the springs' energy."""
+    case, sections = LoadCase(kenan), kenan.layout.sections
+    (flex,) = (one for one in strength_findings(kenan) if one.name == "leg_flex")
+    x = np.linspace(0.0, kenan.design.l2_mm, 20001)
+    height = sections.leg_root_mm + x / x[-1] * (sections.leg_tip_mm - sections.leg_root_mm)
+    shell, width = case.shell, sections.thickness_mm
+    hollow = (width - 2.0 * shell.layers_mm) * (height - 2.0 * shell.walls_mm) ** 3
+    second = (width * height**3 - (1.0 - shell.core_share) * hollow) / 12.0
+    moment = case.torque_nmm * (1.0 - x / x[-1])
+    bent = np.trapezoid(moment**2 / (2.0 * case.workshop.material("links").modulus_mpa * second), x)
+    assert flex.value == pytest.approx(100.0 * bent / (1000.0 * kenan.spring.energy_j), rel=2e-3)
+    assert flex.limit == pytest.approx(100.0 * kenan.workshop.safety.leg_flex_share)

@@ -10,8 +10,9 @@ from support.limits import default_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.gear_choice import by_cost, least_tip_mm
+from jumpcad.drive.gear_choice import _printable, by_cost, least_tip_mm
 from jumpcad.drive.gear_pair import gear_pair
+from jumpcad.drive.gears import Gear, least_shift
 from jumpcad.drive.motor import winding_s
 from jumpcad.drive.train import NoTrainError, synthesise_train
 
@@ -104,3 +105,18 @@ def test_of_two_pairs_every_pinion_bears_the_torque_with_the_losses_behind_it():
             assert max(of_last, of_first) <= stress * (1.0 + 1e-9)
             nearest = max(nearest, of_first / stress)
     assert nearest > 0.85  # some are near the limit
+
+
+def test_the_table_of_pairs_has_the_circles_of_their_gears():
+    table = _printable((1.0, 1.25), 0.15, 0.45, 2.9)
+    rows = getattr(table, "table", table)
+    for row in rows[:: len(rows) // 60]:
+        module, teeth = float(row["module"]), int(row["wheel"])
+        wheel = Gear(teeth, module, max(0.0, least_shift(teeth)), 1.0, 0.075)
+        assert row["tip_mm"] == pytest.approx(wheel.tip_radius_mm)
+        assert row["root_mm"] == pytest.approx(wheel.root_radius_mm)
+        pinion = Gear(int(row["pinion"]), module, max(0.0, least_shift(int(row["pinion"]))), 1.0, 0.075)
+        assert row["lewis"] == pytest.approx(pinion.lewis_factor)
+        assert row["pinion"] >= row["least_teeth"]
+        pair = gear_pair(pinion.teeth, teeth, module, 1.0, 0.15)
+        assert row["distance_mm"] == pytest.approx(pair.centre_distance_mm)

@@ -105,3 +105,17 @@ def test_undercut_begins_at_17_teeth():
     assert least_shift(18) < 0
     with pytest.raises(JumpcadError, match="12 teeth and shift 0 would be undercut"):
         Gear(12, 1.0, 0.0, 5)
+
+
+@pytest.mark.parametrize("gear", named(GEARS))
+def test_the_top_land_is_the_textbooks(gear):
+    """s_a = d_a·(s/d + inv(a) - inv(a_a)), cos(a_a) = d_b/d_a; s = m·(pi/2 + 2·x·tan(a)) less thinning (ISO 21771)."""
+    alpha, d = math.radians(20), gear.module_mm * gear.teeth
+    tip = d + 2 * gear.module_mm * (1 + gear.shift)
+    at_tip = math.acos(d * math.cos(alpha) / tip)
+    s = gear.module_mm * (math.pi / 2 + 2 * gear.shift * math.tan(alpha)) - gear.thinning_mm
+    inv = [math.tan(angle) - angle for angle in (alpha, at_tip)]
+    assert gear.tip_thickness_mm == pytest.approx(tip * (s / d + inv[0] - inv[1]), abs=1e-6)
+    angles, radii = np.arctan2(gear.profile_mm[:, 1], gear.profile_mm[:, 0]), np.hypot(*gear.profile_mm.T)
+    land = angles[(radii > tip / 2 - 1e-6) & (np.abs(angles) < math.pi / gear.teeth)]
+    assert np.ptp(land) * tip / 2 == pytest.approx(gear.tip_thickness_mm, abs=1e-6)

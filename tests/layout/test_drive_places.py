@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.built import built, geared
 
+from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
@@ -14,12 +15,14 @@ from jumpcad.layout import drive_places
 from jumpcad.layout.drive_places import (
     NoPinRoomError,
     arm_line,
+    idler_obstacles,
     require_gear_room,
     spring_obstacles,
     spring_pin_place,
     train_obstacles,
     train_places,
 )
+from jumpcad.layout.layout import _cam_obstacles as cam_obstacles
 from jumpcad.layout.room import EVERYWHERE, disc
 
 HUB, INSIDE = np.array([-40.0, 0.0]), (-20.0, 20.0)
@@ -142,3 +145,34 @@ def test_an_idler_stands_where_its_wheel_and_its_axle_are_free() -> None:
         np.testing.assert_allclose(found, ring[free], atol=2e-6)
     gear = disc("cam gear", axis, 5.0, lateral.inside)
     assert len(drive_places._idler_places([gear], drive, lateral, axis)) in (0, 72)
+
+
+def test_room_is_kept_around_all_that_turns() -> None:
+    """Wheels by their tips, axles by their spacers, and the usual clearance; each where it lies across the robot."""
+    layout = geared().layout
+    drive, lateral, place = layout.drive, layout.lateral, np.array([7.0, 9.0])
+    first, last = drive.train.stages
+    kept = {one.name: one for one in (*idler_obstacles(place, drive, lateral), *cam_obstacles(place, drive, lateral))}
+    kept |= {one.name: one for one in train_obstacles(place, 0.3, None, drive, lateral)}
+    between = (lateral.cam[1], lateral.gears[0][0])
+    sizes = {
+        "idler wheel": (first.wheel.tip_radius_mm, lateral.gears[1]),
+        "idler pinion": (last.pinion.tip_radius_mm, lateral.gears[0]),
+        "idler axle": (SPACER_RADIUS_MM, lateral.inside),
+        "cam": (drive.cam.outer_radius_mm, lateral.cam),
+        "cam's dog": (drive.dog.outer_mm / 2.0, between),
+        "cam gear": (last.wheel.tip_radius_mm, lateral.gears[0]),
+        "cam axle": (SPACER_RADIUS_MM, lateral.inside),
+        "pinion": (first.pinion.tip_radius_mm, lateral.gears[-1]),
+    }
+    for name, (radius, y) in sizes.items():
+        assert kept[name].points_mm.tolist() == [[7.0, 9.0]]
+        assert kept[name].radius_mm == pytest.approx(radius + CLEAR_MM), name
+        assert kept[name].y_mm == y, name
+
+
+def test_what_is_inside_the_coils_fits_a_narrow_spring_and_is_a_spacer_in_a_wide_one() -> None:
+    layout = built("kenan-2.0").layout
+    for mandrel, room in ((4.0, 4.0), (20.0, 2.0 * SPACER_RADIUS_MM)):
+        spring = replace(layout.drive.spring, mandrel_mm=mandrel)
+        assert replace(layout, drive=replace(layout.drive, spring=spring)).spring_bore_room_mm == room

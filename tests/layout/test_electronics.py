@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.dimensions import STRAP_EDGE_MM, TRAY_LENGTH_MIN_MM
+from jumpcad.dimensions import STRAP_EDGE_MM, STRAP_SLOT_MM, TRAY_LENGTH_MIN_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout import electronics
 from jumpcad.layout.electronics import Electronics, Seat, electronics_obstacle, standoff_places, tray_place
@@ -114,3 +114,11 @@ def test_two_resistors_side_by_side_keep_off_what_lies_beside_them(along: float,
         x = 3.0 + along * (5.0 + 2.3 + gap)
         y = -2.0 + across * (4.0 + 3.5 + gap)
         assert electronics._apart(seat, x, y - 3.5, 7.0) == apart
+
+
+def test_a_strap_has_its_slots_and_a_wall_between_battery_and_plate() -> None:
+    """Beside the plate a battery keeps off by 1.5 slots and an edge; with room it lies in the legs' plane."""
+    off = 1.5 * STRAP_SLOT_MM[0] + STRAP_EDGE_MM
+    half = CARRIED.battery.width_mm / 2.0
+    for inside, place in (((-40.0, 40.0), 0.0), ((-half - 1.0, 40.0), off - 1.0), ((-40.0, half + 2.0), 2.0 - off)):
+        assert CARRIED.seats(inside)["battery"].y_mm == pytest.approx(place)

@@ -247,3 +247,15 @@ def test_wire_is_bought_in_tenths_of_a_metre_rounded_up() -> None:
             ordered = float(re.findall(rf"{colour}, ([\d.]+) m$", item.article)[0])
             assert -1e-6 <= ordered - metres < 0.1 - 1e-9, colour
             assert ordered * 10.0 == pytest.approx(round(ordered * 10.0))
+
+
+def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
+    """15 mm apart to either side of the switch, from the plate's outside inwards."""
+    robot = built("kenan-2.0")
+    x, z = robot.layout.fittings.switch_mm
+    low, _ = robot.layout.lateral.outside
+    for number, side in ((1, -1.0), (2, 1.0)):
+        (item,) = (one for one in robot.hardware if one.name == f"switch_screw_{number}")
+        bounds = item.look.copy().apply_transform(item.T_body_part).bounds
+        assert bounds.mean(axis=0)[[0, 2]] == pytest.approx([x + side * 7.5, z], abs=1e-3)
+        assert bounds[0, 1] < low < bounds[1, 1]

@@ -56,3 +56,8 @@ def test_three_lines_of_different_heights_have_their_plastic_half_a_line_lower()
     found = mass_of(read_gcode(text + "; filament_diameter = 1.75\n").moments(), 1.0)
     assert found.com_m[2] == pytest.approx((0.35 * 1.0 + 0.4 * 2.0 + 0.45 * 3.0) / 6.0 / 1000.0)
     assert found.com_m[0] == pytest.approx(0.005)
+
+
+def test_absolute_feed_begins_at_zero():
+    path = read_gcode("M82\nG1 X0 Y0 Z.2\n;HEIGHT:0.2\nG1 X10 E1.5\nG1 X0 E2\n; filament_diameter = 1.75\n")
+    assert path.filament_mm == pytest.approx([1.5, 0.5])
