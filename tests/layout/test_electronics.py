@@ -122,3 +122,34 @@ def test_a_strap_has_its_slots_and_a_wall_between_battery_and_plate() -> None:
     half = CARRIED.battery.width_mm / 2.0
     for inside, place in (((-40.0, 40.0), 0.0), ((-half - 1.0, 40.0), off - 1.0), ((-40.0, half + 2.0), 2.0 - off)):
         assert CARRIED.seats(inside)["battery"].y_mm == pytest.approx(place)
+
+
+@pytest.mark.parametrize("half_mm", [18.0, 21.0])
+def test_resistors_lie_two_by_two_apart_from_each_other_and_from_ties_and_boards(half_mm: float) -> None:
+    """Each takes 2.3 x 6.3 mm on the upper tray, between controller and driver; nearest to the controller first."""
+    parts = CATALOGUE.components
+    full = replace(CARRIED, plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"])
+    inside = (-half_mm, half_mm)
+    small, seats = full.small_seats(inside), full.seats(inside)
+    assert len(small) >= 4
+
+    def box(seat: Seat) -> shapely.Polygon:
+        x, y = seat.size_mm[0] / 2.0 - 1e-6, seat.size_mm[1] / 2.0 - 1e-6
+        return shapely.box(seat.x_mm - x, seat.y_mm - y, seat.x_mm + x, seat.y_mm + y)
+
+    slots = [
+        shapely.box(x - w / 2, y - h / 2, x + w / 2, y + h / 2)
+        for role in ("controller", "driver")
+        for x, y, (w, h) in full.tie_slots(inside)[role]
+    ]
+    taken = [box(seats[role]) for role in ("controller", "driver", "plug", "capacitor")]
+    for seat in small:
+        assert seat.size_mm == (2.3, 6.3, 2.3)
+        assert abs(seat.y_mm) + 6.3 / 2.0 <= half_mm - 1.0
+        assert seat.bottom_mm == pytest.approx(full.upper_tray_mm + 1.6)
+    for one, other in itertools.combinations(map(box, small), 2):
+        assert not one.intersects(other)
+    for seat in small:
+        assert not any(box(seat).intersects(other) for other in (*slots, *taken))
+    away = [abs(seat.y_mm - seats["controller"].y_mm) for seat in small]
+    assert away == sorted(away)

@@ -53,3 +53,23 @@ def test_nose_pads_follow_the_round_nose_of_both_lugs(name: str) -> None:
     assert lug == pytest.approx(sections.lug_thickness_mm, abs=0.051)
     volume = foot_pad.look.volume
     assert length == pytest.approx(volume / lug / thick, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_toe_pads_are_glued_under_the_tips_from_8_mm_behind_their_middle_to_1_5_mm_before(name: str) -> None:
+    """As wide as the tip, 5 mm; seen along each toe, whose direction and length are the design's."""
+    robot = built(name)
+    design, depth = robot.design, robot.layout.sections.foot_depth_mm
+    angle = np.radians(design.ground_link_angle_deg)
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        (pad,) = (item for item in robot.hardware if item.name == f"toe_{side}_pad")
+        corners = points(robot, pad.name)
+        tip = design.l5_mm * np.array([-np.cos(angle), sign * np.sin(angle)])
+        root = np.array([0.0, sign * (robot.layout.sections.thickness_mm / 2.0 + 0.5 + 3.5)])
+        along = (tip - root) / np.hypot(*(tip - root))
+        ahead = (corners[:, :2] - tip) @ along
+        beside = (corners[:, :2] - tip) @ np.array([-along[1], along[0]])
+        assert (ahead.min(), ahead.max()) == pytest.approx((-8.0, 1.5), abs=0.05)
+        assert (beside.min(), beside.max()) == pytest.approx((-2.5, 2.5), abs=0.05)
+        pad_mm = robot.workshop.foot_pad.thickness_mm
+        assert (corners[:, 2].min(), corners[:, 2].max()) == pytest.approx((-depth - pad_mm, -depth), abs=1e-3)

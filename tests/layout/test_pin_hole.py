@@ -1,0 +1,69 @@
+"""The hole for the leg's pin: where the pin is at rest and at the stop, and what may not stand in its way."""
+
+import math
+
+import numpy as np
+import pytest
+from support.built import built, in_body
+
+from jumpcad.errors import CannotBuildError
+from jumpcad.layout.pin_hole import PinHole, pin_hole
+from jumpcad.layout.room import EVERYWHERE, Obstacle, disc
+from jumpcad.mechanism.model import MAIN_LEG
+from jumpcad.robot import Robot
+
+HOLE_MM, AXLE_MM = 5.2, 3.0
+
+
+@pytest.fixture(scope="module", params=["kenan-2.0", "best-bo"])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return built(request.param)
+
+
+def hole(robot: Robot, *around: Obstacle) -> PinHole:
+    layout = robot.layout
+    return pin_hole(
+        robot.linkage, list(around), layout.stop, layout.lateral, layout.leg_pin_mm, HOLE_MM, AXLE_MM
+    )  # fmt: skip
+
+
+def test_the_pin_is_free_from_rest_to_the_stop(robot: Robot) -> None:
+    found, pin = hole(robot), np.array([robot.layout.leg_pin_mm, 0.0])
+    assert found.rest_mm == pytest.approx(in_body(robot, MAIN_LEG, 0.0, pin), abs=2e-6)
+    assert found.stop_mm == pytest.approx(in_body(robot, MAIN_LEG, -robot.layout.stop.angle_rad, pin), abs=2e-6)
+    kept = found.obstacle((1.0, 2.0))
+    assert found.pad_mm == HOLE_MM + 2.0 * 2.0
+    assert kept.points_mm.tolist() == [found.rest_mm.tolist(), found.stop_mm.tolist()]
+    assert (kept.radius_mm, kept.y_mm) == (found.pad_mm / 2.0, (1.0, 2.0))
+
+
+@pytest.mark.parametrize("end", ["rest_mm", "stop_mm"])
+@pytest.mark.parametrize(("plate", "reach_mm"), [(True, HOLE_MM / 2.0 + 2.0), (False, HOLE_MM / 2.0)])
+def test_what_stands_in_its_way_or_in_the_material_around_it_is_named(
+    robot: Robot, end: str, plate: bool, reach_mm: float
+) -> None:
+    """Beside the leg the hole's width is kept free, in the plate 2 mm more, at both ends."""
+    lateral, found = robot.layout.lateral, hole(robot)
+    y = lateral.left_plate if plate else (lateral.leg[1], lateral.left_plate[0])
+    outwards = getattr(found, end) - (found.rest_mm + found.stop_mm) / 2.0
+    outwards /= math.hypot(*outwards)
+
+    def post(gap_mm: float, name: str = "post") -> Obstacle:
+        return disc(name, getattr(found, end) + (reach_mm + 1.0 + gap_mm) * outwards, 1.0, y)
+
+    assert hole(robot, post(0.01)).diameter_mm == HOLE_MM
+    with pytest.raises(CannotBuildError, match=r"0\.3 mm too little beside the post") as refused:
+        hole(robot, post(-0.3), disc("far", (500.0, 0.0), 1.0, EVERYWHERE))
+    assert refused.value.margin == pytest.approx(-0.3, abs=1e-6)
+    for moving in ("lever", "front link"):  # these move with the leg, beside its pin
+        hole(robot, post(-0.3, moving))
+
+
+def test_the_hole_keeps_off_the_bores_of_the_axles() -> None:
+    robot = built("kenan-2.0")
+    layout = robot.layout
+    near = AXLE_MM / 2.0 + 0.8 + HOLE_MM / 2.0 + 2.0  # the bore, a clearance, and half of the hole with its edge
+    given = (robot.linkage, [], layout.stop, layout.lateral)
+    assert pin_hole(*given, near + 0.01, HOLE_MM, AXLE_MM).diameter_mm == HOLE_MM
+    with pytest.raises(CannotBuildError, match=r"0\.1 mm too little beside the bore of the leg axle"):
+        pin_hole(*given, near - 0.1, HOLE_MM, AXLE_MM)
