@@ -14,7 +14,7 @@ from jumpcad.cli.searching import (
     require_study,
     with_search_options,
 )
-from jumpcad.search.methods import METHODS
+from jumpcad.search.methods import EVALUATIONS, METHODS, UNTIL_PERCENT
 
 if TYPE_CHECKING:
     from jumpcad.search.evaluator import Watch
@@ -29,7 +29,7 @@ MethodArgument = Annotated[
     str | None,
     typer.Argument(help=f"{_MEANINGS}. Without one: ga, then bo on its results.", metavar=f"[{'|'.join(METHODS)}]"),
 ]
-EvaluationsOption = Annotated[int, typer.Option(help="Designs to evaluate, those of the robust pick included.")]
+EvaluationsOption = Annotated[int, typer.Option(help="Most designs to evaluate, those of the robust pick included.")]
 AroundOption = Annotated[
     str | None, typer.Option(help="The design from which --only and --within start.", metavar="DESIGN")
 ]
@@ -47,7 +47,8 @@ FromOption = Annotated[
 UntilOption = Annotated[
     float,
     typer.Option(
-        help="End when BO proposals promise to gain less than this share of the best score.", metavar="PERCENT"
+        help="End when five BO proposals in a row promise to gain less than this share of the best score; 0: never.",
+        metavar="PERCENT",
     ),
 ]
 HoursOption = Annotated[float, typer.Option(help="End the search after this time; the same command goes on.")]
@@ -69,7 +70,7 @@ def register(app: typer.Typer) -> None:
 def optimize(
     *,
     method: MethodArgument = None,
-    evaluations: EvaluationsOption = 250,
+    evaluations: EvaluationsOption = EVALUATIONS,
     options: SearchOptions,
     around: AroundOption = None,
     only: OnlyOption = None,
@@ -77,7 +78,7 @@ def optimize(
     preset: PresetOption = "recommended",
     batch: BatchOption = 1,
     from_study: FromOption = None,
-    until: UntilOption = 0.0,
+    until: UntilOption = UNTIL_PERCENT,
     hours: HoursOption = 0.0,
     widen: WidenFlag = False,
     screen: ScreenFlag = False,
@@ -174,6 +175,11 @@ def _print_result(result: "Result", design_file: Path) -> None:
     if request.aim.neighbours_of:
         around = f", in {result.evaluations} evaluations with their neighbours"
     print(f"{len(result.trials)} designs evaluated{around}; rejected: {_counted(result.rejected)}")
+    if result.converged:
+        print(
+            f"ended before {request.searched}: the last proposals promise to gain less than {request.until_percent:g} %"
+            " of the best score; --until 0 goes on"
+        )
     for note in result.notes:
         print(f"note: {note}")
     if result.best is None or result.winner is None:

@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import minimize
 
+from jumpcad.search.posterior import SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import SearchPosterior
 from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
 

@@ -11,7 +11,8 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.surrogate import Surrogate, warped
+from jumpcad.search.posterior import warped
+from jumpcad.search.surrogate import Surrogate
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array

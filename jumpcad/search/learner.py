@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from jumpcad.search.acquisition import Proposal
+from jumpcad.search.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.rehearsal import Rehearsal
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import NO_GUESSES, SearchPosterior
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 

@@ -13,8 +13,8 @@ from threadpoolctl import threadpool_limits
 from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.methods.bayesian import incumbent, learned_trials, unproposed
+from jumpcad.search.posterior import SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import SearchPosterior
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from jumpcad.arguments import typed
 from jumpcad.design import Design, load_design
-from jumpcad.search.methods import DEFAULT
+from jumpcad.search.methods import DEFAULT, EVALUATIONS, UNTIL_PERCENT
 from jumpcad.search.models import robot_model
 from jumpcad.search.pool import open_pool
 from jumpcad.search.request import Request
@@ -22,7 +22,7 @@ from jumpcad.workshop.varied import Value
 @typed
 def optimize(
     method: str = DEFAULT,
-    evaluations: int = 250,
+    evaluations: int = EVALUATIONS,
     seed: int = 0,
     objective: str | Callable[..., Any] | None = None,
     model: str = "printed",
@@ -42,7 +42,7 @@ def optimize(
     preset: str = "recommended",
     batch: int = 1,
     prior: str | Path | None = None,
-    until_percent: float | int = 0.0,
+    until_percent: float | int = UNTIL_PERCENT,
     hours: float | int = 0.0,
     widen: bool = False,
     screen: bool = False,
@@ -57,7 +57,7 @@ def optimize(
         `ga`, `bo`, `ga+bo` (first `ga`, then `bo` on all that it saw), `paper` (the published study's stages), or
         `pareto` and `nsga2` for a front.
     evaluations
-        How many designs are evaluated, those of the robust pick included: a quarter of them, at most 200.
+        How many designs are evaluated at most, those of the robust pick included: a quarter of them, at most 200.
     seed
         Random seed: the same call gives the same result.
     objective
@@ -84,7 +84,7 @@ def optimize(
         Settings of the genetic algorithm, Bayesian proposals evaluated together, an earlier study to learn from.
     until_percent, hours
         End earlier: when Bayesian proposals promise to gain less than this share of the best score, or after this time
-        (h); see `Request`. 0 for neither.
+        (h); see `Request`. 0 for neither: all evaluations are spent.
     widen
         Move bounds on which the best design lies, as far as a design or workshop can be, and go on; `Result.widened`
         has what each bound costs.

@@ -21,6 +21,8 @@ from jumpcad.workshop import Workshop, varied, workshop_value
 from jumpcad.workshop.varied import Value
 
 Kind = Literal["fix", "bound", "choose"]
+DECIMALS = 10
+"""Of the values that a search tries: what is written is then what a person would write."""
 FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
 """Form of a change on the command line after `NAME=`, and the separator of its values."""
 
@@ -64,7 +66,8 @@ class SearchParameter:
         """Return the values (n,) at positions (n,) in the unit interval; with choices, the nearest ones."""
         values = np.clip(self.lower + np.asarray(units) * self.width, self.lower, self.upper)
         if not self.choices:
-            return values
+            rounded: Array = values.round(DECIMALS)
+            return rounded
         choices = np.array(self.choices)
         nearest: Array = choices[np.abs(values[:, None] - choices).argmin(axis=1)]
         return nearest

@@ -11,7 +11,7 @@ from jumpcad.arguments import require_fields
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
-from jumpcad.search.methods import DEFAULT, FRONTS, METHODS, NAMES, SEQUENCES
+from jumpcad.search.methods import DEFAULT, EVALUATIONS, FRONTS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 from jumpcad.search.methods.bayesian import default_initial
 from jumpcad.search.methods.genetic import find_preset
 from jumpcad.search.models import RobotModel, versions
@@ -42,7 +42,7 @@ class Request:
     method
         One of `jumpcad.search.methods.NAMES`.
     evaluations
-        How many designs are evaluated, those of the robust pick included.
+        How many designs are evaluated at most, those of the robust pick included.
     seed
         Random seed.
     preset
@@ -71,14 +71,14 @@ class Request:
     model: Model
     objective: str = "fitness"
     method: str = DEFAULT
-    evaluations: int = 250
+    evaluations: int = EVALUATIONS
     seed: int = 0
     preset: str = "recommended"
     batch: int = 1
     prior: Path | None = None
     making: Making = LENGTHS_ALONE
     own: Objective | None = None
-    until_percent: float = 0.0
+    until_percent: float = UNTIL_PERCENT
     hours: float = 0.0
     widen: bool = False
     screen: bool = False

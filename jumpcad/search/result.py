@@ -10,6 +10,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_atomically
 from jumpcad.search.fronts import energy_j, front, hypervolume
+from jumpcad.search.methods.bayesian import converged
 from jumpcad.search.models import RobotModel
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
@@ -102,6 +103,12 @@ class Result:
         return hypervolume(self.trials)
 
     @property
+    def converged(self) -> bool:
+        """Whether the search ended before all of its evaluations, because proposals promised too little."""
+        early = len(self.trials) < self.request.searched
+        return early and converged(self.trials, self.request.until_percent / 100.0)
+
+    @property
     def rejected(self) -> dict[str, int]:
         """How many designs each reason rejected, most frequent first."""
         return count_rejections(self.trials)
@@ -151,6 +158,7 @@ class Result:
             "objective": self.request.objective,
             "evaluations": self.evaluations,
             "searched": len(self.trials),
+            "converged": self.converged,
             "refused": self.rejected,
             "best": None if self.best is None else self.best.to_dict(),
             "winner": None if self.winner is None else self.winner.to_dict(),

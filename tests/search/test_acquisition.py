@@ -4,8 +4,9 @@ import numpy as np
 from support.hills import FIXED, SMALL
 
 from jumpcad.search.acquisition import propose
+from jumpcad.search.posterior import SearchPosterior
 from jumpcad.search.space import Space
-from jumpcad.search.surrogate import SearchPosterior, Surrogate
+from jumpcad.search.surrogate import Surrogate
 
 STIFFNESS = "stiffness_nmm_per_deg"
 

@@ -20,7 +20,7 @@ from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
 
-REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4)
+REQUEST = Request(SMALL, Hill(), evaluations=40, seed=4, until_percent=0.0)
 SCRIPT = TESTS / "support" / "study_script.py"
 
 pytestmark = pytest.mark.usefixtures("quick_proposals")
@@ -149,10 +149,13 @@ def test_it_ends_where_proposals_promise_too_little_and_goes_on_where_less_is_as
     assert 9 + 5 <= len(first.trials) < 40
     assert max(promised_gains(first.trials)[-5:]) < 0.01 <= max(promised_gains(first.trials)[-6:])
     assert first.best.score > 9.9  # of 10: what was promised, it had
+    assert first.converged
+    assert first.to_dict()["converged"]
     again = run(replace(request, until_percent=1.0), tmp_path / "s.db")
     assert again.trials == first.trials
     longer = run(request, tmp_path / "s.db")
     assert len(longer.trials) > len(first.trials)
+    assert not longer.converged
     assert longer.trials[: len(first.trials)] == first.trials
 
 

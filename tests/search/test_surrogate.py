@@ -1,29 +1,10 @@
-"""Gaussian processes against scikit-learn's own predictions, improvement against numerical integration."""
-
-import math
+"""A Gaussian process against scikit-learn's own predictions, and its slope against differences."""
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-from scipy.special import ndtr
-from scipy.stats import norm
 from sklearn.gaussian_process import GaussianProcessRegressor
-from support.hills import SMALL, Hill
 
-from jumpcad.findings import Finding
-from jumpcad.search.objective import Evaluation
-from jumpcad.search.surrogate import (
-    VERDICT,
-    SearchPosterior,
-    Surrogate,
-    _kernel,
-    _log_h,
-    constraint_margins,
-    forwards,
-    unwarped,
-    warped,
-)
-from jumpcad.search.trial import Trial
+from jumpcad.search.surrogate import JITTER, Surrogate, _kernel
 
 
 @pytest.fixture
@@ -36,7 +17,7 @@ def data():
 def test_predictions_are_those_of_scikit_learn(data):
     x, y = data
     ours = Surrogate(x, y)
-    theirs = GaussianProcessRegressor(_kernel(3, ours.theta), alpha=1e-8, normalize_y=True, optimizer=None).fit(x, y)
+    theirs = GaussianProcessRegressor(_kernel(3, ours.theta), alpha=JITTER, normalize_y=True, optimizer=None).fit(x, y)
     points = np.random.default_rng(1).random((50, 3))
     mean, deviation = theirs.predict(points, return_std=True)
     our_mean, our_deviation = ours.predict(points)
@@ -65,181 +46,3 @@ def test_the_slope_is_the_difference_of_the_mean(data):
         shift = step * np.eye(3)[axis]
         rise = surrogate.predict(points + shift)[0] - surrogate.predict(points - shift)[0]
         assert surrogate.slope(points)[:, axis] == pytest.approx(rise / (2 * step), abs=1e-5)
-
-
-def rows_of(count, model=None):
-    points = SMALL.spread(count, np.random.default_rng(0))
-    found = []
-    for place, point in enumerate(points):
-        design = SMALL.to_design(point)
-        evaluation = (model or Hill())(design)
-        score = evaluation.metrics.get("fitness") if evaluation.feasible else None
-        found.append(Trial("bo", 0, place, design, evaluation, score, "m", 0.0))
-    return found
-
-
-def test_scatter_counts_the_neighbours_that_are_refused():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(60), {}, None)
-    posterior = SearchPosterior(None, {"loop": posterior.constraints["loop"]})
-    edge = (0.7 - 0.1) / 0.7  # of the compression ratio, the first axis
-    for inside in (0.02, 0.05):
-        point, scatter = np.array([[edge - inside, 0.4, 0.6]]), np.array([[0.03, 0.1, 0.1]])
-        neighbours = point + scatter * np.random.default_rng(0).standard_normal((4000, 3))
-        share = np.mean(neighbours[:, 0] <= edge)
-        assert np.exp(posterior.log_feasible(point, scatter)) == pytest.approx(share, abs=0.03)
-        assert posterior.log_feasible(point) > posterior.log_feasible(point, scatter)
-
-
-def test_expected_improvement_is_the_integral_over_the_posterior():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
-    points = SMALL.spread(8, np.random.default_rng(5))
-    mean, deviation = posterior.score.predict(points)
-    for best in (1.0, 8.0, 12.0):
-        found = np.exp(posterior.log_improvement(points, best))
-        for value, m, s in zip(found, mean, deviation, strict=True):
-            target = float(warped(best))
-            integral = quad(
-                lambda y, m=m, s=s, target=target: (y - target) * norm.pdf(y, m, s), target, max(target, m) + 12 * s
-            )[0]
-            assert value == pytest.approx(integral, rel=1e-4, abs=1e-14)
-
-
-def test_improvement_keeps_its_slope_far_below_the_best():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(24), {}, None)
-    points = SMALL.spread(8, np.random.default_rng(5))
-    far = [posterior.log_improvement(points, best) for best in (1e2, 1e4, 1e6, 1e8)]
-    assert np.isfinite(far).all()
-    assert (np.diff(far, axis=0) < 0).all()
-
-
-def test_probability_of_feasibility_learns_the_border():
-    posterior = SearchPosterior.from_trials(SMALL, rows_of(64), {}, None)
-    border = [parameter.name for parameter in SMALL.free].index("compression_ratio")
-    points = SMALL.spread(256, np.random.default_rng(7))
-    ratio = 0.1 + 0.7 * points[:, border]
-    probability = np.exp(posterior.log_feasible(points))
-    assert probability[ratio < 0.65].min() > 0.9
-    assert probability[ratio > 0.75].max() < 0.1
-
-
-def test_margins_of_constraints_that_refuse():
-    trials = rows_of(40)
-    margins = constraint_margins(trials)
-    assert set(margins) == {"loop", VERDICT}
-    assert margins["loop"] == pytest.approx([0.7 - trial.design.compression_ratio for trial in trials])
-    assert set(margins[VERDICT]) == {1.0, -1.0}
-    assert constraint_margins([trial for trial in trials if trial.score is not None]) == {}
-
-
-def test_a_margin_that_an_early_refusal_leaves_unknown_is_left_out():
-    def two_gates(design):
-        if design.rest_angle_deg < 40.0:
-            return Evaluation("below_ground", {}, (Finding("below_ground", "error", -1.0, "mm", "", ""),))
-        return Hill()(design)
-
-    trials = rows_of(40, two_gates)
-    margins = constraint_margins(trials)
-    flat = np.array([trial.design.rest_angle_deg < 40.0 for trial in trials])
-    assert (np.isnan(margins["loop"]) == flat).all()
-    SearchPosterior.from_trials(SMALL, trials, {}, None)
-
-
-def test_nothing_feasible_yet_leaves_feasibility_to_decide():
-    trials = [trial for trial in rows_of(64) if trial.score is None]
-    posterior = SearchPosterior.from_trials(SMALL, trials, {}, None)
-    assert posterior.score is None
-    assert (posterior.log_improvement(np.full((2, 3), 0.5), 0.0) == 0.0).all()
-
-
-def test_warping_is_undone():
-    scores = np.array([-4.0, 0.0, 2.25, 11.8])
-    assert warped(scores) == pytest.approx([-2.0, 0.0, 1.5, 11.8**0.5])
-    assert unwarped(warped(scores)) == pytest.approx(scores)
-
-
-def test_a_jump_backwards_counts_as_none_once_something_jumps_forwards():
-    assert forwards(np.array([2.0, -3.0, 0.5])).tolist() == [2.0, 0.0, 0.5]
-    assert forwards(np.array([-2.0, -3.0])).tolist() == [-2.0, -3.0]  # as for energies, of which less is better
-
-
-class Plane:
-    """A margin that is known as a plane with the same doubt everywhere."""
-
-    slope_of = np.array([2.0, -1.0])
-
-    def predict(self, points):
-        return 0.3 + points @ self.slope_of, np.full(len(points), 0.2)
-
-    def slope(self, points):
-        return np.tile(self.slope_of, (len(points), 1))
-
-
-def test_a_neighbour_is_as_probably_feasible_as_by_drawing_neighbours():
-    """Normal neighbours of two designs, and a normal doubt of the margin at each, drawn independently."""
-    generator, plane, scatter = np.random.default_rng(0), Plane(), np.array([0.1, 0.15])
-    points = np.array([[0.0, 0.0], [0.1, 0.4]])
-    found = np.exp(SearchPosterior(None, {"one": plane}).log_feasible(points, np.tile(scatter, (2, 1))))
-    for point, chance in zip(points, found, strict=True):
-        margins = plane.predict(point + scatter * generator.standard_normal((400_000, 2)))[0]
-        drawn = margins + 0.2 * generator.standard_normal(400_000) > 0.0
-        assert chance == pytest.approx(drawn.mean(), abs=0.004)
-
-
-@pytest.mark.parametrize("z", [-5.0, -50.0, -900.0, -1100.0, -1e5])
-def test_improvement_far_below_the_mean_keeps_its_logarithm(z):
-    """φ(z) + z·Φ(z) is φ(z)/z²·(1 - 3/z² + 15/z⁴ - …) for large -z (Abramowitz and Stegun, 26.2.12)."""
-    series = math.log1p(-3.0 / z**2 + 15.0 / z**4 - 105.0 / z**6) if z < -20.0 else None
-    found = float(_log_h(np.array([z]))[0])
-    if series is None:
-        grid = np.linspace(z - 12.0, z, 400001)
-        integral = np.trapezoid(ndtr(grid), grid)  # its derivative is Φ
-        assert found == pytest.approx(math.log(integral), abs=1e-6)
-    else:
-        assert found == pytest.approx(
-            series - 0.5 * z**2 - 0.5 * math.log(2.0 * math.pi) - 2.0 * math.log(-z), abs=1e-5
-        )
-
-
-def test_improvement_near_the_mean_is_the_integral_of_the_distribution():
-    for z in (-0.5, 0.0, 1.5):
-        grid = np.linspace(-12.0, z, 400001)
-        assert float(_log_h(np.array([z]))[0]) == pytest.approx(math.log(np.trapezoid(ndtr(grid), grid)), abs=1e-6)
-
-
-def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
-    """Four measured scores and forty guesses, each a quarter of a root too low, know the hill; four alone do not."""
-    trials = [trial for trial in rows_of(64) if trial.score is not None]
-    guesses = {
-        one.key: (SMALL.to_unit(one.variant), (np.sqrt(one.score) - 0.25) ** 2) for one in trials if one.score > 1
-    }
-    known = [one for one in trials if one.key in guesses]
-    measured, others = known[:4], known[4:]
-    points = np.array([SMALL.to_unit(one.variant) for one in others])
-    exact = np.sqrt([one.score for one in others])
-
-    def error(posterior):
-        mean, _ = posterior.score.predict(points)
-        more = 0.0 if posterior.guess is None else posterior.guess.predict(points)[0]
-        return np.abs(mean + more - exact).max()
-
-    alone = SearchPosterior.from_trials(SMALL, measured, {}, None)
-    guided = SearchPosterior.from_trials(SMALL, measured, {}, None, guesses)
-    assert error(guided) < 0.05 < 0.5 < error(alone)
-    assert set(guided.thetas) == {"guess", "more"}
-    parts = [one.predict(points) for one in (guided.score, guided.guess)]
-    mean, deviation = parts[0][0] + parts[1][0], np.hypot(parts[0][1], parts[1][1])
-    z = (mean - 2.0) / deviation
-    promised = deviation * (norm.pdf(z) + z * norm.cdf(z))  # over a score of 4
-    assert np.exp(guided.log_improvement(points, 4.0)) == pytest.approx(promised, rel=1e-6, abs=1e-12)
-    fewer = dict(list(guesses.items())[4:])  # of no trial that was measured
-    assert SearchPosterior.from_trials(SMALL, measured, {}, None, fewer).guess is None
-
-
-def test_a_believed_proposal_is_believed_of_the_guess_too():
-    trials = [trial for trial in rows_of(32) if trial.score is not None]
-    guesses = {one.key: (SMALL.to_unit(one.variant), one.score + 0.1) for one in trials}
-    posterior = SearchPosterior.from_trials(SMALL, trials[:6], {}, None, guesses)
-    point = np.array([0.31, 0.42, 0.53])
-    after = posterior.condition_on(point)
-    for before, then in ((posterior.score, after.score), (posterior.guess, after.guess)):
-        assert then.predict(point[None])[1] < before.predict(point[None])[1]

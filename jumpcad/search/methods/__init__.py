@@ -94,5 +94,7 @@ METHODS = {
 SEQUENCES = {"ga+bo": ("ga", "bo")}
 """Two methods, one after the other; the second learns from the first."""
 DEFAULT = "ga+bo"
+EVALUATIONS, UNTIL_PERCENT = 250, 0.05
+"""What a search may cost at most unless the user says something else, and the promised gain at which it ends."""
 NAMES = (*SEQUENCES, *METHODS)
 FRONTS = tuple(name for name, method in METHODS.items() if method.front)

@@ -78,13 +78,18 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
 
     start = len(evaluator.trials)
 
-    def converged() -> bool:
+    def ended() -> bool:
         if sum("theta" in trial.proposal for trial in evaluator.trials[start:]) < PATIENCE:
             return False  # what earlier searches in another space promised says nothing
-        gains = promised_gains([*evaluator.prior, *evaluator.trials])[-PATIENCE:]
-        return max(gains) < task.least_gain
+        return converged([*evaluator.prior, *evaluator.trials], task.least_gain)
 
-    run_steps(evaluator, "bo", task, proposer, converged)
+    run_steps(evaluator, "bo", task, proposer, ended)
+
+
+def converged(trials: Sequence[Trial], least_gain: float) -> bool:
+    """Whether each of the last `PATIENCE` proposals promised to gain less than this share of the best score."""
+    gains = promised_gains(trials)[-PATIENCE:]
+    return len(gains) == PATIENCE and max(gains) < least_gain
 
 
 def promised_gains(trials: Sequence[Trial]) -> list[float]:
