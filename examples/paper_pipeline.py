@@ -40,7 +40,7 @@ def main() -> None:
 
     # GA, then BO on the designs of the GA. Run it again after an interruption: it continues.
     study = arguments.folder / "study.db"
-    result = jumpcad.optimize(evaluations=arguments.evaluations, model=arguments.model, study=study)
+    result = jumpcad.optimize("ga+bo", evaluations=arguments.evaluations, model=arguments.model, study=study)
     with StudyStore.read(study) as store:
         plot_study(store, arguments.folder)
 

@@ -14,7 +14,7 @@ from jumpcad.cli.searching import (
     require_study,
     with_search_options,
 )
-from jumpcad.search.methods import EVALUATIONS, METHODS, UNTIL_PERCENT
+from jumpcad.search.methods import DEFAULT, EVALUATIONS, METHODS, NAMES, SEQUENCES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
     from jumpcad.search.evaluator import Watch
@@ -24,10 +24,11 @@ if TYPE_CHECKING:
 SHOWN = 10
 """Candidates that are printed; --json has all of them."""
 _MEANINGS = "; ".join(f"{name}: {method.meaning}" for name, method in METHODS.items())
+_SEQUENCES = "; ".join(f"{name}: {first}, then {second} on its results" for name, (first, second) in SEQUENCES.items())
 
 MethodArgument = Annotated[
     str | None,
-    typer.Argument(help=f"{_MEANINGS}. Without one: ga, then bo on its results.", metavar=f"[{'|'.join(METHODS)}]"),
+    typer.Argument(help=f"{_MEANINGS}; {_SEQUENCES}. Without one: {DEFAULT}.", metavar=f"[{'|'.join(NAMES)}]"),
 ]
 EvaluationsOption = Annotated[int, typer.Option(help="Most designs to evaluate, those of the robust pick included.")]
 AroundOption = Annotated[

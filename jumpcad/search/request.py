@@ -94,7 +94,7 @@ class Request:
     ) -> Self:
         """Return a request with defaults that follow from method and model.
 
-        The default method is `ga+bo`, the objective the model's (`range` of a front), the tolerances those of the
+        The default method is `bo`, the objective the model's (`range` of a front), the tolerances those of the
         workshop. An own objective is a function, or `FILE.py:FUNCTION`.
         """
         default = "range" if method in FRONTS else model.default_objective

@@ -134,7 +134,7 @@ def test_a_study_of_another_version_is_refused(tmp_path):
 
 
 def test_genetic_then_bayesian_ends_on_the_top():
-    result = run(replace(REQUEST, evaluations=60))
+    result = run(replace(REQUEST, method="ga+bo", evaluations=60))
     assert [trial.phase for trial in result.trials] == ["ga"] * 15 + ["bo"] * 30
     assert result.best.score > 9.99
     assert 45 < result.evaluations <= 60
