@@ -45,7 +45,7 @@ RANGES = {
     ("spring", "preload_deg"): (0.0, 15.0),
     ("bought", "axle_mm"): (2.0, 4.0),
 }
-"""Least and greatest values in a workshop, by table and key; other numbers in `TABLES`: half and twice the default's."""
+"""Least and greatest values in a workshop, by table and key; other numbers of `TABLES`: half, twice the default's."""
 TABLES = ("process", "fits", "body", "seats", "safety", "spring")
 MATERIALS = {"density_g_cm3": (0.9, 1.5), "strength_in_plane_mpa": (25.0, 100.0), "modulus_mpa": (1000.0, 8000.0)}
 CARRIED_G = {"battery": (3.0, 30.0), "boards": (2.0, 20.0), "motors": (5.0, 20.0)}
