@@ -48,7 +48,7 @@ RANGES = {
 """Least and greatest values in a workshop, by table and key; other numbers of `TABLES`: half, twice the default's."""
 TABLES = ("process", "fits", "body", "seats", "safety", "spring")
 MATERIALS = {"density_g_cm3": (0.9, 1.5), "strength_in_plane_mpa": (25.0, 100.0), "modulus_mpa": (1000.0, 8000.0)}
-CARRIED_G = {"battery": (3.0, 30.0), "boards": (2.0, 20.0), "motors": (5.0, 20.0)}
+CARRIED_G = {"battery": (3.0, 30.0), "boards": (3.0, 7.0), "motors": (8.0, 12.0)}
 """Masses of batteries, of all boards together, and of each motor, which may be the user's own."""
 WALL_MM = {BODY: (6.0, 2.4), MAIN_LEG: (8.0, 6.0), FRONT_LINK: (8.0, 6.0), FOOT: (6.0, 4.0)}
 """Width and height of a usual section of a body's parts, which decide how much of it is infill; judgement."""

@@ -1,7 +1,7 @@
 """Robots that fall over or are too weak by an estimate of their masses, whatever its error: nothing of them is built.
 
-The error is the worst that `benchmarks/refuse.py` found, with a reserve. Only one direction can refuse wrongly, for
-each limit: a robot is lighter than estimated, or its centre of mass is farther ahead of where it falls over.
+Only one direction of each error can refuse wrongly: less energy is needed than estimated, or the centre of mass is
+farther ahead. `benchmarks/refuse.py` found at most 13 % less and 12.1 mm in 2,301 robots; a reserve is added.
 """
 
 from dataclasses import replace
@@ -15,7 +15,7 @@ from jumpcad.settings import Settings
 from jumpcad.workshop import Workshop
 
 LIGHTER, AHEAD_MM = 0.18, 16.0
-"""Share by which the energy to stand up may be less than estimated; how far ahead the centre of mass may be."""
+"""Largest errors: by which share less energy may be needed, and how far ahead the centre of mass may be."""
 
 
 def quick_refusal(design: Design, workshop: Workshop, settings: Settings) -> tuple[Finding, ...]:
