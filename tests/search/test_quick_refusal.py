@@ -145,5 +145,8 @@ def test_what_the_estimate_was_never_compared_with_is_built(shop):
     assert quick_refusal(weak, shop, Settings()) == ()
 
 
-def test_a_design_beyond_twice_the_default_bounds_is_built():
-    assert quick_refusal(load_design("kenan-2.0").model_copy(update=WEAK), DEFAULT, Settings()) == ()
+def test_a_design_far_beyond_the_default_bounds_is_built():
+    weak = load_design("best-printable").model_copy(update=WEAK)
+    lengths = (250.0, 300.0)
+    refused = [quick_refusal(weak.model_copy(update={"carrying_link_mm": mm}), DEFAULT, Settings()) for mm in lengths]
+    assert [bool(one) for one in refused] == [True, False]
