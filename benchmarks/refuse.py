@@ -132,6 +132,8 @@ def report(rows: Sequence[Row]) -> None:
     for box in ("default box", "wider box"):
         for kind in (*KINDS, "all"):
             chosen = [row for row in rows if row.box == box and kind in (row.kind, "all")]
+            if not chosen:
+                continue
             pairs = [(statics(row, row.bodies), statics(row, quick_bodies(row))) for row in chosen]
             energy = [quick[1].limit / exact[1].limit for exact, quick in pairs]
             edge = [exact[0].margin - quick[0].margin for exact, quick in pairs]
