@@ -125,10 +125,21 @@ class RobotModel:
         rejecting = errors(findings)
         if rejecting:
             return Evaluation(rejecting[0].name, findings=findings)
+        refused = self._refused_first(design)
+        if refused:
+            return Evaluation(refused[0].name, findings=(*findings, *refused))
         try:
             return {"printed": self._printed, "capsule": self._capsule, "published": self._published}[self.name](design)
         except CannotBuildError as error:
             return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
+
+    def _refused_first(self, design: Design) -> tuple[Finding, ...]:
+        """Return why a printed robot need not be built; nothing where others learn from every robot that is."""
+        if self.name != "printed" or self.stand_in or self.made:
+            return ()
+        from jumpcad.search.quick_refusal import quick_refusal
+
+        return quick_refusal(design, self.workshop or load_workshop(), self.settings or Settings())
 
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
         """Return the model of the robot in the workshop with other values, or made otherwise than designed."""

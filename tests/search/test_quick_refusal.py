@@ -1,0 +1,152 @@
+"""Robots refused by an estimate of their masses: never one that would have passed, and nothing of them is built."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from jumpcad import evaluation
+from jumpcad.building import build
+from jumpcad.design import SEARCH_BOUNDS, Design, load_design
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import errors
+from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
+from jumpcad.search import quick_refusal as quick
+from jumpcad.search.models import robot_model
+from jumpcad.search.quick_mass import known, quick_robot
+from jumpcad.search.quick_refusal import quick_refusal
+from jumpcad.settings import Settings
+from jumpcad.workshop import Workshop, load_workshop, varied
+
+DEFAULT = load_workshop("default")
+WEAK = {"stiffness_nmm_per_deg": 5.0, "compression_ratio": 0.2}
+ENOUGH = 1.02
+"""Energy of the springs over what statics need, for robots near the limit."""
+
+
+def near_limit(design: Design, workshop: Workshop) -> Design:
+    """Return a design with springs that are hardly strong enough, by the masses of the built robot."""
+    weak = statics_findings(build(design, workshop))[1]
+    stiffness = design.stiffness_nmm_per_deg * ENOUGH * weak.limit / weak.value
+    return design.model_copy(update={"stiffness_nmm_per_deg": stiffness})
+
+
+@pytest.fixture(scope="module")
+def standing():
+    """Return designs with workshops whose robots pass: templates, and random ones near the limit of their energy."""
+    found = [(load_design(name), load_workshop(shop)) for name, shop in
+             (("best-printable", "default"), ("best-printable", "light"), ("best-bo", "fine"))]  # fmt: skip
+    heavy = varied(DEFAULT, {"body.plate_mm": 4.0, "bought.kit": "strong-2s", "process.infill": 1.0})
+    light = varied(load_workshop("light"), {"body.plate_mm": 1.2, "bought.axle": "steel-tube", "process.infill": 0.0})
+    generator = np.random.default_rng(5)
+    shops = [DEFAULT, load_workshop("fine"), load_workshop("light"), heavy, light] * 2
+    while shops:
+        drawn = {name: generator.uniform(one.lower, one.upper) for name, one in SEARCH_BOUNDS.items()}
+        design = Design(**drawn | {"e_coef": 1.4, "ground_link_angle_deg": 20.0})  # on long toes it does not fall over
+        try:
+            if errors(geometry_findings(design)):
+                continue
+            weakened = near_limit(design, shops[-1])
+            exact = statics_findings(build(weakened, shops[-1]))
+        except CannotBuildError:
+            continue
+        if not errors(exact) and known(weakened, shops[-1]):
+            found.append((weakened, shops.pop()))
+    return found
+
+
+def wrongly_refused(robots):
+    return [design for design, workshop in robots if quick_refusal(design, workshop, Settings())]
+
+
+def test_a_robot_that_stands_is_not_refused(standing):
+    assert sum(known(*one) for one in standing) >= 12
+    assert wrongly_refused(standing) == []
+
+
+def test_robots_near_their_limit_would_notice_an_error_that_is_too_small(standing, monkeypatch):
+    monkeypatch.setattr(quick, "LIGHTER", 0.0)
+    assert wrongly_refused(standing)
+
+
+@pytest.mark.parametrize("shop", ["default", "light"])
+def test_an_absurdly_weak_robot_is_refused_before_anything_is_built(shop, monkeypatch):
+    weak = load_design("best-printable").model_copy(update=WEAK)
+    exact = replace(robot_model(workshop=shop), stand_in=True)(weak)
+    assert exact.reasons[0] == "too_weak"
+    assert exact.metrics["mass_kg"] > 0.0  # others learn from it: it was built
+    monkeypatch.setattr(evaluation, "evaluate_made", None)
+    found = robot_model(workshop=shop)(weak)
+    assert (found.verdict, found.reasons, dict(found.metrics)) == ("too_weak", ("too_weak",), {})
+    assert [one.name for one in found.findings] == ["loop", "below_ground", "too_weak"]
+    estimate = found.findings[-1]
+    true = next(one for one in exact.findings if one.name == "too_weak")
+    assert estimate.value == pytest.approx(true.value, rel=1e-12)  # the springs are known
+    assert estimate.limit == pytest.approx(true.limit, rel=quick.LIGHTER)
+    assert estimate.margin == estimate.value - estimate.limit < 0.0
+    assert f"{1000.0 * estimate.limit:.1f} mJ" in estimate.message
+    assert "by an estimate of the masses" in estimate.message
+
+
+def test_a_robot_whose_toes_are_far_too_short_falls_over():
+    short = load_design("best-printable").model_copy(update={"e_coef": 0.5, "ground_link_angle_deg": 80.0})
+    (tips,) = quick_refusal(short, DEFAULT, Settings())
+    true = statics_findings(build(short, DEFAULT))[0]
+    assert tips.name == true.name == "tips"
+    assert true.margin < 0.0
+    assert tips.margin == pytest.approx(true.margin, abs=quick.AHEAD_MM)
+
+
+def test_efficiency_and_gravity_are_those_of_the_simulation():
+    """On the Moon, springs of the same energy suffice for a sixth of the weight."""
+    weak = load_design("best-printable").model_copy(update=WEAK)
+    (earth,) = quick_refusal(weak, DEFAULT, Settings())
+    assert quick_refusal(weak, DEFAULT, Settings(gravity_m_s2=9.81 / 6.0)) == ()
+    (half,) = quick_refusal(weak, DEFAULT, Settings(spring_efficiency=0.5))
+    assert half.value == pytest.approx(0.5 * earth.value)
+
+
+def with_battery(mass_g: float) -> Workshop:
+    data = DEFAULT.model_dump(exclude_none=True)
+    battery = DEFAULT.catalogue.batteries[DEFAULT.bought.battery].model_dump(exclude_none=True)
+    data["batteries"] = {"own": battery | {"mass_g": mass_g}}
+    return Workshop(**data | {"bought": data["bought"] | {"battery": "own"}})
+
+
+def test_a_heavier_battery_of_one_s_own_weighs_as_much_more():
+    design = load_design("best-printable")
+    light, heavy = (quick_robot(design, with_battery(mass)) for mass in (8.0, 28.0))
+    assert heavy.mass_kg - light.mass_kg == pytest.approx(0.02)
+
+
+def test_values_that_a_search_varies_decide():
+    """With thin plates the springs may be strong enough, which only the built robot tells; with thick ones never."""
+    design = load_design("best-printable").model_copy(update=WEAK | {"compression_ratio": 0.3})
+    model = robot_model()
+    assert model(design, {"body.plate_mm": 1.2}).metrics["mass_kg"] > 0.0
+    assert (model(design, {"body.plate_mm": 4.8}).verdict, model(design, {"body.plate_mm": 4.8}).metrics) == (
+        "too_weak",
+        {},
+    )
+
+
+@pytest.mark.parametrize(
+    "shop",
+    [
+        varied(DEFAULT, {"safety.strength_factor": 20.0}),
+        varied(DEFAULT, {"fits.wall_mm": 8.0}),
+        with_battery(300.0),
+        DEFAULT.model_copy(update={"mass": DEFAULT.mass.model_copy(update={"weighed_g": {"main_leg": 9.0}})}),
+    ],
+)
+def test_what_the_estimate_was_never_compared_with_is_built(shop):
+    weak = load_design("best-printable").model_copy(update=WEAK)
+    assert quick_refusal(weak, DEFAULT, Settings())
+    assert quick_refusal(weak, shop, Settings()) == ()
+
+
+def test_a_design_far_beyond_the_default_bounds_is_built():
+    weak = load_design("best-printable").model_copy(update=WEAK)
+    lengths = (250.0, 300.0)
+    refused = [quick_refusal(weak.model_copy(update={"carrying_link_mm": mm}), DEFAULT, Settings()) for mm in lengths]
+    assert [bool(one) for one in refused] == [True, False]
