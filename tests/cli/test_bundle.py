@@ -11,6 +11,7 @@ import pytest
 from support.commands import Run
 from support.pictures import with_few_pictures
 
+from jumpcad.cli.bundle import _print_facts
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import BODY_NAMES
 
@@ -26,7 +27,9 @@ def test_a_bundle_has_what_the_contract_says(bundle: Path) -> None:
     assert any(file.startswith("print/") and file.endswith(".3mf") for file in files)
 
 
-def test_build_says_how_far_it_jumps_and_what_it_weighs(run: Run, tmp_path: Path) -> None:
+def test_build_says_how_far_it_jumps_and_what_it_weighs(
+    run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     code, out, _ = run("build", "kenan-2.0", "-o", tmp_path / "b", "--no-pictures", "--json")
     facts = json.loads(out)
     assert code == 0
@@ -34,6 +37,16 @@ def test_build_says_how_far_it_jumps_and_what_it_weighs(run: Run, tmp_path: Path
     assert sum(line["quantity"] * line["mass_kg"] for line in facts["masses"]) == pytest.approx(facts["mass_kg"])
     assert facts["winding"]["efficiency"] == pytest.approx(facts["spring_energy_j"] / facts["winding"]["electrical_j"])
     assert facts["violated"] == []
+    _print_facts(facts)
+    table = {row[0]: row[1:] for row in map(str.split, capsys.readouterr().out.splitlines()) if row}
+    for line in facts["masses"]:
+        quantity, grams = line["quantity"], 1000.0 * line["mass_kg"]
+        if " " not in line["name"]:
+            row = table[line["name"]]
+            assert row[0] == str(quantity)
+            assert {f"{grams:.2f}", f"{quantity * grams:.2f}"} <= set(row[1:])
+    assert table["all"] == [f"{1000.0 * facts['mass_kg']:.2f}"]
+    assert table["springs"] == [f"{facts['spring_energy_j']:.4f}", "J"]
 
 
 def test_build_of_a_robot_with_violated_limits_names_them_and_says_not_to_build_it(run: Run, tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Torsion springs against beam theory, Winkler's curved bar, EN 13906-3, the wire's length, and a search by force."""
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -177,3 +178,18 @@ def test_coils_are_neither_narrower_nor_wider_than_makers_wind_them():
             assert 4.0 - 1e-9 <= (spring.outer_diameter_mm - spring.wire_mm) / spring.wire_mm <= 16.0
             assert spring.turns >= 3.0
     assert found > 5
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_a_preloaded_spring_keeps_to_room_and_bushing_whatever_they_are(name):
+    design = load_design(name)
+    on_leg, leg, found = springs_on_leg(design, None, math.radians(40.0)), -math.radians(design.rest_angle_deg), 0
+    for length in np.linspace(8.0, 16.0, 17):
+        for mandrel in (4.0, 5.5, 7.0):
+            limits = replace(LIMITS, body_lengths_max_mm=(length,), mandrel_min_mm=mandrel, outer_max_mm=40.0)
+            with suppress(CannotBuildError):
+                spring = synthesise_spring(on_leg, leg, WIRE, limits)
+                assert spring.body_length_mm <= length + 1e-6
+                assert spring.mandrel_mm >= mandrel - 1e-6
+                found += 1
+    assert found > 20

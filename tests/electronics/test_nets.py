@@ -6,7 +6,7 @@ import pytest
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.electronics.chosen import Chosen, chosen_of
-from jumpcad.electronics.nets import LOWER_OHM, UPPER_OHMS, Wiring, gpio, logic_range, wiring_of
+from jumpcad.electronics.nets import LOWER_OHM, PULL_UP_OHMS, UPPER_OHMS, Wiring, gpio, logic_range, wiring_of
 
 CATALOGUE = load_catalogue()
 KITS = ("light-1s", "strong-2s")
@@ -90,10 +90,31 @@ def test_the_converter_sees_as_much_of_a_full_battery_as_it_bears(kit: str) -> N
     assert wiring.resistors["lower resistor"] == LOWER_OHM
 
 
+@pytest.mark.parametrize("kit", KITS)
+def test_the_driver_turns_the_motor_and_the_controller_the_driver(kit: str) -> None:
+    chosen = parts(kit)
+    wiring = wiring_of(chosen, {})
+    for pole in ("motor+", "motor-"):
+        (out, *_) = chosen.driver.with_function(pole)
+        assert reached(f"motor {pole[-1]}", wires(wiring)) == {f"motor {pole[-1]}", f"driver {out}"}
+    for signal, function in (("motor", "forward"), ("sleep", "sleep")):
+        inputs = {f"driver {pin}" for pin in chosen.driver.with_function(function)}
+        pin = f"controller {wiring.pins[signal]}"
+        assert reached(pin, wires(wiring)) == inputs | {pin}
+
+
+def test_without_a_divider_a_volt_is_a_volt() -> None:
+    chosen = parts("light-1s")
+    bare = replace(chosen, controller=chosen.controller.model_copy(update={"adc_max_v": None}))
+    wiring = wiring_of(bare, {})
+    assert (wiring.divider, wiring.upper_ohm) == (1.0, None)
+    assert "battery" not in wiring.pins
+
+
 def test_resistors_can_be_bought() -> None:
     """E12, of which E6 is every other one: two digits, and zeros."""
     wiring = wiring_of(parts("strong-2s"), {})
-    for ohm in (*UPPER_OHMS, *wiring.resistors.values()):
+    for ohm in (*UPPER_OHMS, *PULL_UP_OHMS, *wiring.resistors.values()):
         digits = str(ohm).rstrip("0").ljust(2, "0")
         assert int(digits) in E12 | {20}  # 200 kOhm: E24
 

@@ -11,7 +11,7 @@ from jumpcad.building import build
 from jumpcad.checks.interference import components, interference_findings
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.parts.axles import require_retention
+from jumpcad.parts.axles import _clip, require_retention
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -125,3 +125,14 @@ def test_clips_are_needed_only_where_clevis_pins_are_not_made_so_thin() -> None:
     require_retention(shop.catalogue, screws)
     with pytest.raises(JumpcadError, match="screws of 3 mm as axles"):
         require_retention(shop.catalogue, screws.model_copy(update={"axle_mm": 4.0}))
+
+
+def test_a_clip_is_open_to_one_side_and_as_much_above_as_below() -> None:
+    """It grips the groove all around but for the opening (DIN 6799), and is its own mirror image."""
+    for clip in load_workshop().catalogue.clips.values():
+        region = _clip(clip)
+        low_x, low_y, high_x, high_y = region.bounds()
+        assert (low_x, low_y, high_y) == pytest.approx((-clip.outer_mm / 2, -clip.outer_mm / 2, clip.outer_mm / 2))
+        assert (region ^ region.mirror((0.0, 1.0))).area() == pytest.approx(region.area())
+        assert high_x < clip.outer_mm / 2.0 - 1e-6
+        assert region.area() < math.pi / 4.0 * (clip.outer_mm**2 - clip.groove_mm**2)

@@ -89,8 +89,7 @@ def test_plates(kenan: Robot, name: str) -> None:
         assert measured(kenan, name, y, place) == pytest.approx(diameter, abs=TOLERANCE_MM)
 
 
-@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
-@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize(("name", "side"), [("kenan-2.0", "right"), ("best-bo", "left")])
 def test_ears_as_wide_as_the_axles_seat_lead_from_the_leg_to_the_stop(name: str, side: str) -> None:
     """Material of 3 mm around a 3 mm axle, from the leg's 16 mm forwards, and all of what lies between it and stop."""
     robot = built(name)

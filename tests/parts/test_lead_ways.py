@@ -12,7 +12,7 @@ from jumpcad.bundle.lead_lines import leads_of
 from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
-from jumpcad.parts.lead_ways import battery_way, corners, gap_mm, lead_way, outer_way, plate_of, way_words
+from jumpcad.parts.lead_ways import _beside, battery_way, corners, gap_mm, lead_way, outer_way, plate_of, way_words
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import contained
 from jumpcad.workshop import load_workshop
@@ -181,3 +181,28 @@ def test_inside_a_lead_runs_along_the_plate_at_the_height_of_its_hole(robot: Rob
     expected = [[60.0, 15.0, 40.0], [60.0, 15.0, 20.0]]
     assert there.tolist() == expected
     assert back.tolist() == expected[::-1]
+
+
+@pytest.mark.parametrize(("above_mm", "passes_mm"), [(20.0, []), (5.1, []), (4.9, [-5.0]), (-4.9, [-5.0]), (-5.1, [])])
+def test_only_leads_near_a_screw_go_round_it_and_below(above_mm: float, passes_mm: list[float]) -> None:
+    """Within 5 mm of a standoff's hole they pass 5 mm under it; farther up or down they stay straight."""
+    layout = built("kenan-2.0").layout
+    aside = np.array([2.0, 0.0, 0.0])
+    for x, z in layout.standoffs_mm:
+        start, end = (np.array([x + ahead, 30.0, z + above_mm]) for ahead in (-1.0, 1.0))
+        for one, other in ((start, end), (end, start)):
+            assert [point.tolist() for point in _beside(layout, "sensor", one, other)] == [
+                pytest.approx([x, 30.0, z + under]) for under in passes_mm
+            ]
+        assert _beside(layout, "sensor", start + aside, end + aside) == []
+
+
+@pytest.mark.parametrize(("above_mm", "side"), [(3.0, 1.0), (-3.0, -1.0)])
+def test_leads_go_round_the_opening_for_usb_on_the_nearer_side(above_mm: float, side: float) -> None:
+    layout = built("kenan-2.0").layout
+    assert layout.fittings.usb_mm is not None
+    (x, z), half = layout.fittings.usb_mm, layout.fittings.usb_size_mm[1] / 2.0 + 2.0
+    start, end = (np.array([x + ahead, -30.0, z + above_mm]) for ahead in (-1.0, 1.0))
+    (point,) = _beside(layout, "motor", start, end)
+    assert point == pytest.approx([x, -30.0, z + side * half])
+    assert _beside(layout, "sensor", start, end) == []  # the left plate has none

@@ -308,3 +308,22 @@ def test_a_motors_shaft_is_held_by_five_ribs() -> None:
     for x, y in ((-1.5, 0.0), (0.0, 1.5), (0.0, -1.5)):
         assert min(math.dist((x, y), at) for at in others) < fits.rib_mm
     assert bore.difference(shaft.buffer(fits.press_mm + 2e-3)).area < 1e-2
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_cam_gear_has_a_groove_with_one_land_in_its_left_face(name: str) -> None:
+    """Above the groove's floor the track is free but for the land; below it there is material all around."""
+    layout = built(name).layout
+    sensor, (_, face) = layout.sensor, layout.lateral.gears[0]
+    assert sensor is not None
+    half = sensor.half_width_mm - 0.05
+    track = shapely.Point(*layout.cam_axis_mm).buffer(sensor.radius_mm, 128).exterior.buffer(half)
+    mesh = placed(built(name), "cam_gear")
+    floor, land = (region(cut(mesh, face - depth)).intersection(track) for depth in (sensor.depth_mm + 0.05, 0.05))
+    assert floor.area == pytest.approx(track.area, rel=1e-3)
+    assert land.geom_type == "Polygon"
+    begin, end = sensor.land_rad(sensor.depth_mm - 0.1, layout.drive.cam.law.lift_rad)
+    assert land.area == pytest.approx((end - begin) * sensor.radius_mm * 2.0 * half, rel=0.1)
+    away = np.array(land.centroid.coords[0]) - layout.cam_axis_mm
+    middle = math.atan2(away[1], away[0]) - (begin + end) / 2.0
+    assert math.remainder(middle, 2.0 * math.pi) == pytest.approx(0.0, abs=0.02)

@@ -1,6 +1,7 @@
 """The trays measured on their meshes: what carries battery and boards, and what holds them."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,11 @@ import shapely
 import trimesh
 from support.built import built, geared, placed
 
+from jumpcad.dimensions import TIE_SLOT_MM
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.trays import trays
 from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
 
 
 def level(mesh: trimesh.Trimesh, z_mm: float) -> shapely.Geometry:
@@ -109,3 +114,20 @@ def test_every_board_lies_under_its_tie_before_its_rim(robot: Robot) -> None:
             assert one.bounds[2] - one.bounds[0] == pytest.approx(1.8, abs=2e-3)
             assert one.bounds[3] - one.bounds[1] == pytest.approx(4.0, abs=2e-3)
             assert one.distance(board) == pytest.approx(0.2, abs=2e-3)
+
+
+def test_two_slots_hold_the_balance_lead_of_two_cells_between_them() -> None:
+    """10 mm apart, for three wires beside their plug, about the battery's middle line and ahead of its strap."""
+    layout, shop = built("kenan-2.0").layout, load_workshop()
+    battery = shop.catalogue.batteries["lipo-2s-180"]
+    electronics = replace(layout.electronics, battery=battery)
+    holes = HoleSizes.of(shop, None)
+    lower = next(one for one in trays(replace(layout, electronics=electronics), holes) if "lower" in one.name)
+    floor = lower.shape.regions_at(np.array([0.8]))[0]
+    boxes = [np.array([ring.min(axis=0), ring.max(axis=0)]) for ring in floor.to_polygons()]
+    slots = [box for box in boxes if np.ptp(box, axis=0) == pytest.approx(TIE_SLOT_MM[::-1], abs=0.01)]
+    low, high = sorted(slots, key=lambda box: float(box[0, 1]))
+    assert high[0, 1] - low[1, 1] == pytest.approx(10.0, abs=0.01)
+    seat, middle = electronics.seats(layout.lateral.inside)["battery"], sum(layout.lateral.inside) / 2.0
+    assert (high[0, 1] + low[1, 1]) / 2.0 == pytest.approx(seat.y_mm - middle, abs=0.01)
+    assert low[0, 0] - seat.x_mm > battery.length_mm / 2.0

@@ -5,7 +5,15 @@ import math
 import pytest
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.parameter import SearchParameter, narrowed, physical_limits, read_change
+from jumpcad.search.parameter import (
+    Change,
+    SearchParameter,
+    changed_parameters,
+    narrowed,
+    physical_limits,
+    read_change,
+)
+from jumpcad.workshop import load_workshop
 
 
 def test_physical_limits_are_those_of_a_design():
@@ -64,3 +72,11 @@ def test_names_are_numbered_and_unknown_ones_are_no_number() -> None:
     plain = SearchParameter("c_coef", 0.8, 1.2)
     assert (plain.number(0.9), plain.value(0.9)) == (0.9, 0.9)
     assert math.isnan(plain.number("one"))
+
+
+def test_names_are_chosen_and_have_no_bounds() -> None:
+    names = ("lipo-1s-300", "lipo-2s-180")
+    with pytest.raises(JumpcadError, match="choose among names, or give a range"):
+        changed_parameters([Change("bound", "bought.battery", names)], load_workshop())
+    named = changed_parameters([Change("choose", "bought.battery", names)], load_workshop())["bought.battery"]
+    assert [named.value(number) for number in (0.0, 1.0)] == list(names)

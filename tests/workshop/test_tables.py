@@ -1,6 +1,7 @@
 """Limits of every value of a workshop, of its names and of its free text."""
 
 import json
+import math
 import re
 
 import pytest
@@ -65,3 +66,10 @@ def test_a_link_is_as_far_off_as_the_play_of_both_its_ends():
     """Sliding fits of 0.2 mm a diameter."""
     assert load_workshop().fits.sliding_mm == 0.2
     assert load_workshop().fits.link_tolerance_mm == pytest.approx(0.4)
+
+
+@pytest.mark.parametrize(("play_deg", "play_rad"), [("auto", None), (0.0, 0.0), (30.0, math.pi / 6.0)])
+def test_a_dogs_play_is_given_in_degrees_or_follows_from_the_cam(play_deg, play_rad):
+    assert load_workshop().release.model_copy(update={"play_deg": play_deg}).play_rad == (
+        None if play_rad is None else pytest.approx(play_rad)
+    )
