@@ -23,10 +23,11 @@ def row(seed: int, at_40: float, at_60: float, cpu_s: float = 10.0) -> str:
 
 def test_the_table_has_medians_and_of_equal_rows_the_last(tmp_path: Path) -> None:
     log = tmp_path / "log.jsonl"
-    log.write_text(row(0, 9.0, 9.0) + row(0, 1.0, 4.0) + row(1, 2.0, 5.0, 40.0) + row(2, 3.0, 9.0), encoding="utf-8")
+    rows = (row(0, 9.0, 9.0), row(0, 1.0, 4.0), row(1, 2.0, 5.0, 40.0), row(2, 3.0, 9.0))
+    log.write_text("".join(rows), encoding="utf-8")
     lines = peers("--table", str(log)).splitlines()
     assert len(lines) == 3
-    assert lines[-1] == "| light | PyGAD, recommended settings | 3 | 2.00 [1.00, 3.00] | 5.00 [4.00, 9.00] | 25 % | 10 |"
+    assert lines[-1].endswith("| 3 | 2.00 [1.00, 3.00] | 5.00 [4.00, 9.00] | 25 % | 10 |")
 
 
 def test_a_search_that_the_log_holds_is_not_run_again(tmp_path: Path) -> None:
