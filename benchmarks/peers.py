@@ -51,11 +51,11 @@ from jumpcad.search.models import robot_model, versions
 from jumpcad.search.objective import find_objective
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.pool import local_pool
+from jumpcad.search.posterior import VERDICT, constraint_margins, forwards, warped
 from jumpcad.search.rehearsal import Rehearsal
 from jumpcad.search.space import Space
 from jumpcad.search.start import first_points, ranked_points
 from jumpcad.search.store import StudyStore
-from jumpcad.search.surrogate import VERDICT, constraint_margins, forwards, warped
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
 
