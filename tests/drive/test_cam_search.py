@@ -8,7 +8,7 @@ import pytest
 from support.limits import default_limits
 
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.cam_search import synthesise_cam
+from jumpcad.drive.cam_search import _Shapes, synthesise_cam
 from jumpcad.errors import CannotBuildError
 
 LIMITS = default_limits().cam
@@ -52,3 +52,14 @@ def test_rounding_the_smallest_cam_refuses_none():
     for torque in np.linspace(1.45, 1.75, 160):
         cam = synthesised(52.0, torque / math.radians(52.0), limits)
         assert cam.contact_pressure_mpa <= limits.pressure_mpa + 1e-6
+
+
+def test_a_found_cam_fits_its_limits_and_a_much_smaller_one_does_not():
+    law = CamLaw(math.radians(50), 0.6, LIMITS.lift_rad, LIMITS.ramp_rad)
+    cam = synthesise_cam(law, LIMITS)
+    gap = cam.geometry.axis_distance_mm - cam.lever_length_mm
+    shape = np.array([cam.lever_length_mm, gap, cam.geometry.lead_rad])
+    shapes = _Shapes(law, LIMITS)
+    shapes.reserve = 0.0 * shapes.reserve
+    assert shapes._fits(np.log(1.05 * shape))
+    assert not shapes._fits(np.log(0.8 * shape))

@@ -114,3 +114,18 @@ def solid_of(mesh: trimesh.Trimesh, pose: np.ndarray) -> Manifold:
     matrix = pose.copy()
     matrix[:3, 3] *= 1000.0
     return made.transform(matrix[:3])
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_ankles_pin_fits_its_lugs_and_its_ends_have_room_outside(name: str, side: float) -> None:
+    """In the lugs a hole as wide as a lying pin needs; beyond the faces that keep the pin, room for head and clip."""
+    robot = built(name)
+    fits, (inner, _) = robot.workshop.fits, robot.layout.lateral.lug_left
+    mesh = placed(robot, "foot")
+    in_lug = hole_centres(cut(mesh, side * (inner + 1.0)))
+    widths = [width for (x, _), width in in_lug.items() if abs(x) < 0.01]
+    assert widths == [pytest.approx(robot.layout.axle_mm + 2.0 * fits.lying_mm, abs=0.05)]
+    face = robot.layout.ankle_face_mm
+    assert not mesh.contains([[2.2, side * (face + 0.3), 0.0]])[0]
+    assert mesh.contains([[2.2, side * (face - 0.3), 0.0]])[0]

@@ -73,3 +73,9 @@ def test_a_dogs_play_is_given_in_degrees_or_follows_from_the_cam(play_deg, play_
     assert load_workshop().release.model_copy(update={"play_deg": play_deg}).play_rad == (
         None if play_rad is None else pytest.approx(play_rad)
     )
+
+
+def test_a_motors_share_has_its_reserve_and_the_stiffest_springs():
+    """5 % in reserve, springs up to 10 % stiffer than ordered: 0.95/1.1."""
+    safety = load_workshop().safety.model_copy(update={"motor_torque_reserve": 0.05, "spring_rate_scatter": 0.1})
+    assert safety.motor_share == pytest.approx(0.95 / 1.1)
