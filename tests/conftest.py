@@ -16,13 +16,14 @@ import support.threads  # noqa: F401  # before numpy
 from support.built import built
 from support.costs import Costs
 from support.kept import once as once_of
-from support.kept import robot_key
+from support.kept import plate_key, robot_key
 from support.robots import make_small_robot
 
 from jumpcad import checks
 from jumpcad.bundle import export as bundle_export
 from jumpcad.bundle.export import export
 from jumpcad.checks import Check, printability
+from jumpcad.exporters import threemf
 from jumpcad.findings import Finding
 from jumpcad.parts.part import Drawing, Shape
 from jumpcad.robot import Robot
@@ -40,7 +41,7 @@ sys.dont_write_bytecode = False
 def shapes() -> Iterator[None]:
     """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before.
 
-    So are a report's hundred jumps and its pictures: of equal robots they are the same.
+    So are a report's hundred jumps and its pictures: of equal robots they are the same. So are thumbnails of plates.
     """
     known: dict[Shape, dict[str, Any]] = {}
 
@@ -70,6 +71,7 @@ def shapes() -> Iterator[None]:
         for module in (finish, printability):
             patch.setattr(module, "faults", faults)
         patch.setattr(printability, "_undersides", undersides)
+        patch.setattr(threemf, "thumbnail", once_of(seen, threemf.thumbnail, plate_key))
         for name in ("uncertainty_of", "renders"):
             patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
         patch.setattr(Stack, "solid", once("solid", Stack.solid, lambda stack: stack))

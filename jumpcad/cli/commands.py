@@ -8,7 +8,6 @@ from functools import cache
 from typing import Annotated, Any
 
 import typer
-from pydantic import ValidationError
 from typer.exceptions import TyperException
 
 from jumpcad.cli import (
@@ -91,6 +90,8 @@ def run(arguments: Sequence[str]) -> int:
 
 def _usage(error: TyperException) -> str:
     """Return the error in the arguments, with the wrong value; empty if there were none and the help was printed."""
+    from pydantic import ValidationError  # takes 0.05 s
+
     usage = error.format_message().rstrip(".")
     if isinstance(error.__cause__, ValidationError):
         return f"{usage}, not {error.__cause__.errors()[0]['input']!r}"

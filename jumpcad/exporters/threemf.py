@@ -9,7 +9,7 @@ import io
 import zipfile
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from xml.sax.saxutils import escape, quoteattr
+from html import escape  # xml.sax.saxutils imports all of HTTP and TLS
 
 import numpy as np
 import numpy.typing as npt
@@ -91,7 +91,7 @@ def _model(plate: PrintPlate) -> str:
         items.append(_item(numbers[name], placed))
     return (
         f'{XML}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}">\n'
-        f'<metadata name="Title">{escape(allowed(plate.name))}</metadata>\n'
+        f'<metadata name="Title">{escape(allowed(plate.name), quote=False)}</metadata>\n'
         '<metadata name="Application">jumpcad</metadata>\n'
         f"<resources>\n{''.join(objects)}</resources>\n<build>\n{''.join(items)}</build>\n</model>\n"
     )
@@ -102,7 +102,7 @@ def _object(number: int, part: Printable) -> str:
     vertices = _lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.mesh.vertices.astype(np.float32))
     triangles = _lines('<triangle v1="%d" v2="%d" v3="%d"/>\n', part.mesh.faces)
     return (
-        f'<object id="{number}" type="model" name={quoteattr(allowed(part.name))}>\n<mesh>\n'
+        f'<object id="{number}" type="model" name="{escape(allowed(part.name))}">\n<mesh>\n'
         f"<vertices>\n{vertices}</vertices>\n<triangles>\n{triangles}</triangles>\n</mesh>\n</object>\n"
     )
 
@@ -113,7 +113,7 @@ def _objects(plate: PrintPlate) -> str:
     parts = {placed.part.name: placed.part for placed in plate.items}
     rows = []
     for number, (name, part) in enumerate(parts.items(), start=1):
-        named = f'key="name" value={quoteattr(allowed(name))}/>'
+        named = f'key="name" value="{escape(allowed(name))}"/>'
         rows.append(
             f'<object id="{number}" instances_count="{copies[name]}">\n<metadata type="object" {named}\n'
             f'<volume firstid="0" lastid="{len(part.mesh.faces) - 1}">\n<metadata type="volume" {named}\n'

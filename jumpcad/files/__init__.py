@@ -1,22 +1,42 @@
-"""Files of users: read with errors that name file, line, key, value and limit; written whole or not at all."""
+"""Files of users: read with errors that name file, line, key, value and limit; written whole or not at all.
 
-from jumpcad.files.complaints import did_you_mean
-from jumpcad.files.reading import read_bytes, read_json, read_text, read_toml, real_path, to_toml
-from jumpcad.files.records import Contradiction, Record, TomlTable
-from jumpcad.files.templates import find_template, template_names, templates_folder
+The public names load when they are first used: the command line's help needs no validated records.
+"""
 
-__all__ = [
-    "Contradiction",
-    "Record",
-    "TomlTable",
-    "did_you_mean",
-    "find_template",
-    "read_bytes",
-    "read_json",
-    "read_text",
-    "read_toml",
-    "real_path",
-    "template_names",
-    "templates_folder",
-    "to_toml",
-]
+from typing import TYPE_CHECKING
+
+from jumpcad.faces import face
+
+if TYPE_CHECKING:
+    from jumpcad.files.complaints import did_you_mean as did_you_mean
+    from jumpcad.files.reading import read_bytes as read_bytes
+    from jumpcad.files.reading import read_json as read_json
+    from jumpcad.files.reading import read_text as read_text
+    from jumpcad.files.reading import read_toml as read_toml
+    from jumpcad.files.reading import real_path as real_path
+    from jumpcad.files.reading import to_toml as to_toml
+    from jumpcad.files.records import Contradiction as Contradiction
+    from jumpcad.files.records import Record as Record
+    from jumpcad.files.records import TomlTable as TomlTable
+    from jumpcad.files.templates import find_template as find_template
+    from jumpcad.files.templates import template_names as template_names
+    from jumpcad.files.templates import templates_folder as templates_folder
+
+_HOMES = {
+    "Contradiction": "records",
+    "Record": "records",
+    "TomlTable": "records",
+    "did_you_mean": "complaints",
+    "find_template": "templates",
+    "read_bytes": "reading",
+    "read_json": "reading",
+    "read_text": "reading",
+    "read_toml": "reading",
+    "real_path": "reading",
+    "template_names": "templates",
+    "templates_folder": "templates",
+    "to_toml": "reading",
+}
+
+__all__ = list(_HOMES)
+__getattr__, __dir__ = face(__name__, _HOMES)

@@ -3,9 +3,10 @@
 import difflib
 import re
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ValidationError
+if TYPE_CHECKING:  # for did_you_mean alone, pydantic takes too long
+    from pydantic import BaseModel, ValidationError
 
 MOST_NAMED = 10
 """Largest number of keys that are named; the others are counted."""
@@ -21,7 +22,7 @@ OF_A_TABLE = ("model_type", "model_attributes_type", "dict_type")
 OF_A_LIST = ("tuple_type", "list_type")
 
 
-def complaints(error: ValidationError, model: type[BaseModel], source: str = "", text: str = "") -> list[str]:
+def complaints(error: "ValidationError", model: "type[BaseModel]", source: str = "", text: str = "") -> list[str]:
     """Return one clause per wrong key, `file:line: key = value: what is wrong`, for the first ten of them.
 
     Parameters
@@ -80,7 +81,7 @@ MISSING = {"source": ": say where the figures come from", "mass_g": ": weigh it,
 """What to do about keys that own parts need most."""
 
 
-def _clause(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:
+def _clause(item: Any, location: tuple[str, ...], model: "type[BaseModel]") -> str:
     key = ".".join(_step(step) for step in location) or model.__name__
     if item["type"] == "extra_forbidden":
         return f"{key}: unknown key{did_you_mean(location[-1], _known_keys(model, location[:-1]))}"
@@ -98,7 +99,7 @@ def _step(name: str) -> str:
     return name if name and name.isprintable() and len(name) <= LONGEST else shown(name)
 
 
-def _reason(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str:
+def _reason(item: Any, location: tuple[str, ...], model: "type[BaseModel]") -> str:
     kind, context = item["type"], item.get("ctx", {})
     if kind in LIMITS:
         words, bound = LIMITS[kind]
@@ -118,7 +119,7 @@ def _reason(item: Any, location: tuple[str, ...], model: type[BaseModel]) -> str
     return reason if kind == "value_error" else f"must be {reason}"
 
 
-def _known_keys(model: type[BaseModel], location: tuple[str, ...]) -> list[str]:
+def _known_keys(model: "type[BaseModel]", location: tuple[str, ...]) -> list[str]:
     """Return the keys known at a nested location of a model."""
     annotation: Any = model
     for step in location:
@@ -132,6 +133,8 @@ def _known_keys(model: type[BaseModel], location: tuple[str, ...]) -> list[str]:
 
 
 def _is_model(annotation: Any) -> bool:
+    from pydantic import BaseModel
+
     return isinstance(annotation, type) and issubclass(annotation, BaseModel)
 
 

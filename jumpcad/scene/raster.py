@@ -62,12 +62,11 @@ def rasterized(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Arra
 def _spans(corners: Array, height: int) -> tuple[Ints, Array, Array]:
     """Return the spans of triangles (n, 3, 4) on the rows that they cover: triangle (m,), left and right end (m, 4)."""
     order = np.argsort(corners[:, :, Y], axis=1, kind="stable")
-    top, middle, bottom = np.moveaxis(np.take_along_axis(corners, order[:, :, None], axis=1), 1, 0)
-    number, row = _centres(top[:, Y], bottom[:, Y], height)
-    top, middle, bottom = top[number], middle[number], bottom[number]
-    above = (row + 0.5 < middle[:, Y])[:, None]
-    one = _at(row, top, bottom)
-    other = _at(row, np.where(above, top, middle), np.where(above, middle, bottom))
+    ends = np.take_along_axis(corners, order[:, :, None], axis=1).reshape(-1, 4)  # top, middle and bottom of each
+    number, row = _centres(ends[0::3, Y], ends[2::3, Y], height)
+    top = 3 * number
+    below = top + (row + 0.5 >= ends[top + 1, Y])
+    one, other = _at(row, ends[top], ends[top + 2]), _at(row, ends[below], ends[below + 1])
     swapped = (one[:, X] > other[:, X])[:, None]
     return number, np.where(swapped, other, one), np.where(swapped, one, other)
 

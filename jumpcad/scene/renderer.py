@@ -4,6 +4,7 @@ Pictures are drawn at twice their size and scaled down. An edge is a visible cre
 meshes.
 """
 
+import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,6 +23,7 @@ from jumpcad.transforms import Array
 if TYPE_CHECKING:
     import trimesh
 
+Ints = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
 
 SUPERSAMPLING = 2
@@ -87,17 +89,20 @@ class Renderer:
         number, nearness, shade = rasterized(
             np.concatenate([_corners(thing, pose, camera, large) for thing, pose, _ in there]), large
         )
-        owners = np.repeat(np.arange(len(there)), [len(thing.faces) for thing, _, _ in there])
-        covered = number >= 0
-        owner = np.where(covered, owners[number], -1)
-        colours = 255.0 * np.array([colour for *_, colour in there])
-        image = np.full((*owner.shape, 3), BACKGROUND, dtype=np.uint8)
-        image[covered] = np.minimum(colours[owner[covered]] * shade[covered, None], 255.0)
+        covered = np.flatnonzero(number >= 0)
+        seen = np.repeat(np.arange(len(there)), [len(thing.faces) for thing, *_ in there])[number.ravel()[covered]]
+        owner = np.full(number.shape, -1)
+        owner.ravel()[covered] = seen
+        image = np.full((number.size, 3), BACKGROUND, dtype=np.uint8)
+        brightness = shade.ravel()[covered]
+        for channel, strength in enumerate(255.0 * np.array([colour for *_, colour in there]).T):
+            image[covered, channel] = np.minimum(strength[seen] * brightness, 255.0)
         ink = borders(owner)
-        seen_m = 1.0 / np.maximum(_least_beside(nearness), np.finfo(float).tiny)
         ends = np.concatenate([_placed(thing.creases_m, pose) for thing, pose, _ in there])
-        _draw(ink, *camera.seen(ends, large), seen_m)
-        image[ink] = image[ink] + EDGE_STRENGTH * (EDGE_COLOUR - image[ink])
+        _draw(ink, *camera.seen(ends, large), nearness)
+        inked = np.flatnonzero(ink)
+        image[inked] = image[inked] + EDGE_STRENGTH * (EDGE_COLOUR - image[inked])
+        image = image.reshape(*ink.shape, 3)
         return Image.fromarray(image).resize(size, Image.Resampling.BOX)
 
 
@@ -131,21 +136,19 @@ def _corners(thing: ShadedMesh, pose: Array, camera: Camera, size: tuple[int, in
     return np.column_stack([pixels, 1.0 / distance, AMBIENT + DIFFUSE * lit])[thing.faces]
 
 
-def _least_beside(values: Array) -> Array:
-    """Return for every pixel the least value among it and its eight neighbours."""
-    for _ in range(2):
-        wide = values.copy()
-        np.minimum(wide[1:], values[:-1], out=wide[1:])
-        np.minimum(wide[:-1], values[1:], out=wide[:-1])
-        values = wide.T
-    return values
+def _least_beside(values: Array, y: Ints, x: Ints) -> Array:
+    """Return the least value (n,) among each of some pixels and its eight neighbours; `values` (height, width)."""
+    low_y, high_y = np.maximum(y - 1, 0), np.minimum(y + 1, values.shape[0] - 1)
+    low_x, high_x = np.maximum(x - 1, 0), np.minimum(x + 1, values.shape[1] - 1)
+    rows = (values[row, column] for row in (low_y, y, high_y) for column in (low_x, x, high_x))
+    return functools.reduce(np.minimum, rows)
 
 
-def _draw(ink: Mask, pixel: Array, distance_m: Array, seen_m: Array) -> None:
+def _draw(ink: Mask, pixel: Array, distance_m: Array, nearness: Array) -> None:
     """Set the pixels of visible edges in `ink` (height, width).
 
-    Edges have their ends at pixels (n, 2, 2) and distances (n, 2); `seen_m` (height, width) is the distance of what is
-    seen there.
+    Edges have their ends at pixels (n, 2, 2) and distances (n, 2); `nearness` (height, width) is one over the distance
+    of what is seen there (1/m).
     """
     height, width = ink.shape
     before = (distance_m > 0.0).all(axis=1)
@@ -158,5 +161,5 @@ def _draw(ink: Mask, pixel: Array, distance_m: Array, seen_m: Array) -> None:
     near = 1.0 / (1.0 / distance_m[which, 0] + share * (1.0 / distance_m[which, 1] - 1.0 / distance_m[which, 0]))
     inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
     x, y, near = x[inside], y[inside], near[inside]
-    seen = near <= seen_m[y, x] + EDGE_DEPTH_M
+    seen = near <= 1.0 / np.maximum(_least_beside(nearness, y, x), np.finfo(float).tiny) + EDGE_DEPTH_M
     ink[y[seen], x[seen]] = True

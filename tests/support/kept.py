@@ -1,8 +1,10 @@
 """Functions that are called once for each of their cases: for tests of what becomes of the results."""
 
-from collections.abc import Callable, Iterator
+import hashlib
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from jumpcad.printing.plates import PrintPlate
 from jumpcad.robot import Robot
 
 
@@ -23,3 +25,14 @@ def robot_key(robot: Robot, *more: Any) -> object:
     """Return what tells robots apart: design, workshop, name, and the names of their parts."""
     parts = tuple(part.name for part in robot.parts)
     return robot.design.to_toml(), robot.workshop and robot.workshop.to_toml(), robot.name, parts, str(more)
+
+
+def plate_key(plate: PrintPlate, bed_mm: Sequence[float]) -> object:
+    """Return what a picture of a plate on a bed shows: the meshes of its parts, where each lies, and the bed."""
+    seen = hashlib.sha256(repr(tuple(bed_mm)).encode())
+    for placed in plate.items:
+        look = placed.part.look
+        seen.update(repr((look.vertices.shape, look.faces.shape)).encode())
+        for numbers in (look.vertices, look.faces, placed.T_bed_part):
+            seen.update(numbers.tobytes())
+    return seen.digest()

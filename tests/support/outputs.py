@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
+from xml.parsers import expat
 
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
 """Characters that no text may hold: all control characters but tab and line feed, line separators, surrogates."""
@@ -91,7 +91,7 @@ def _file_faults(suffix: str, content: bytes) -> Iterator[str]:
             with zipfile.ZipFile(io.BytesIO(content)) as package:
                 for name in package.namelist():
                     if name.endswith((".model", ".rels", ".xml")):
-                        ElementTree.fromstring(package.read(name))
+                        _read_xml(package.read(name))
         if suffix not in TEXTS:
             return
         text = content.decode("utf-8")
@@ -104,9 +104,14 @@ def _file_faults(suffix: str, content: bytes) -> Iterator[str]:
         elif suffix == ".py":
             ast.parse(text)
         elif suffix in XMLS:
-            ElementTree.fromstring(text)
-    except (ValueError, SyntaxError, zipfile.BadZipFile, csv.Error) as error:
+            _read_xml(text)
+    except (ValueError, SyntaxError, expat.ExpatError, zipfile.BadZipFile, csv.Error) as error:
         yield f"{type(error).__name__}: {str(error)[:200]}"
+
+
+def _read_xml(content: str | bytes) -> None:
+    """Raise ExpatError where a document is not well-formed XML with known name spaces; no tree is made of it."""
+    expat.ParserCreate(namespace_separator="}").Parse(content, True)
 
 
 def formulas(text: str) -> Iterator[str]:
