@@ -97,22 +97,22 @@ def components(robot: Robot) -> list[Component]:
 
 
 def moments(robot: Robot) -> list[Moment]:
-    """Return the positions that are checked: the cam's lift, the roller's drop, the cam run ahead, and past rest."""
+    """Return the positions that are checked: the cam's lift, the roller's drop, rest, and past it.
+
+    While the roller drops, the corner that it leaves has pushed the cam ahead of its gear by the dog's play.
+    """
     cam, loaded = robot.layout.drive.cam, robot.design.compression_rad
     lift = np.linspace(0.0, cam.law.lift_rad, WINDING_POSITIONS)
     winding = [
         Moment(f"loaded by {math.degrees(wind):.1f}°", -float(wind), float(turn))
         for turn, wind in zip(lift, cam.wind_rad(lift), strict=True)
     ]
-    falls = np.linspace(loaded, 0.0, DROP_POSITIONS)
-    free = float(cam.wind_rad(cam.free_rad - 1e-6))
-    drop = [Moment(f"dropping, at {math.degrees(w):.1f}°", -float(w), cam.free_rad) for w in falls if w <= free]
     play = robot.layout.drive.dog.play_rad
-    ahead = [
-        Moment(f"dropping, the cam ahead, at {math.degrees(w):.1f}°", -float(w), cam.law.lift_rad, play)
-        for w in falls[:: len(falls) - 1]
-        if play > 0.0
+    drop = [
+        Moment(f"dropping, at {math.degrees(wind):.1f}°", -float(wind), cam.law.lift_rad, play)
+        for wind in np.linspace(loaded, 0.0, DROP_POSITIONS)
     ]
+    at_rest = Moment("at rest", 0.0, cam.free_rad)
     stop = robot.layout.stop
     past = [
         Moment(f"{math.degrees(leg):.1f}° past rest", float(leg), cam.free_rad, share * play)
@@ -120,7 +120,7 @@ def moments(robot: Robot) -> list[Moment]:
         for share in AHEAD_SHARES
     ]
     at_stop = Moment("at the stop", stop.angle_rad, cam.free_rad)
-    return [*winding, *drop, *ahead, *past, at_stop]
+    return [*winding, *drop, at_rest, *past, at_stop]
 
 
 def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
