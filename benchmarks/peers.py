@@ -176,7 +176,7 @@ class Search:
         scores = np.array([math.nan if trial.score is None else trial.score for trial in trials])
         jumps = np.isfinite(scores)
         if jumps.any():
-            scores[jumps] = warped(forwards(scores[jumps]))
+            scores[jumps] = warped(forwards(scores[jumps], scores[jumps]))
         margins = constraint_margins(trials) or {VERDICT: np.ones(len(trials))}
         sizes = {name: float(np.nanmedian(np.abs(values))) or 1.0 for name, values in margins.items()}
         points = np.array([self.space.to_unit(trial.variant) for trial in trials])

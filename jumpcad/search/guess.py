@@ -15,10 +15,10 @@ from typing import Any, Self
 import numpy as np
 
 from jumpcad.building import build
+from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
-from jumpcad.mechanism.model import Mechanism
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Evaluation, Objective, find_objective
 from jumpcad.search.space import Space
@@ -118,25 +118,26 @@ class Guesser:
     def __init__(self, space: Space, model: RobotModel, objective: Objective, engine: str, first: Trial) -> None:
         self.space, self.model, self.engine = space, model, engine
         self.objective = find_objective(objective.neighbours_of) if objective.neighbours_of else objective
-        self.like: Mechanism = build(first.design, model.workshop)
+        self.like = build(first.design, model.varied(first.workshop).workshop)
 
     def __call__(self, one: Variant, fit: Fit) -> Guess | None:
         """Return what a variant would do; None where its jump cannot be guessed."""
-        figures = fit.predict(self.space.to_unit(one))
+        try:
+            return self._guessed(one.design, fit.predict(self.space.to_unit(one)), fit.bias)
+        except (JumpcadError, OverflowError):  # a dead point, or figures far from all that was built
+            return None
+
+    def _guessed(self, design: Design, figures: Mapping[str, float], bias: float) -> Guess:
         margins = {name.removeprefix(MARGIN): value for name, value in figures.items() if name.startswith(MARGIN)}
-        design = one.design
         if errors(geometry_findings(design)):
             return Guess(None, margins)
-        try:
-            jump = simulate(stand_in(design, figures, self.like), self.model.settings, self.engine)
-        except JumpcadError:  # a dead point, or figures far from all that was built
-            return None
+        jump = simulate(stand_in(design, figures, self.like), self.model.settings, self.engine)
         margins |= {finding.name: finding.margin for finding in jump.findings if finding.name in STATICS}
         if jump.verdict != "jump":
             return Guess(None, margins)
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
-        found = figures | found | {"body_lengths": found["ballistic_range_m"] / figures["size_m"]}
-        return Guess(fit.bias * (self.objective.score(Evaluation("jump", found)) or 0.0), margins)
+        found = {**figures, **found} | {"body_lengths": found["ballistic_range_m"] / figures["size_m"]}
+        return Guess(bias * (self.objective.score(Evaluation("jump", found)) or 0.0), margins)
 
 
 class Table:

@@ -11,6 +11,7 @@ from jumpcad.search.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.rehearsal import Rehearsal
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
+from jumpcad.search.variant import Key, Variant
 from jumpcad.transforms import Array
 
 ROUNDS = 20
@@ -49,8 +50,7 @@ class Learner:
         self._fit: Sequence[str] | None = None if refit else ()
         self.tried: list[Array] = []
         self._proposed: list[Array] = []
-        if rehearsal is not None:
-            rehearsal.learn(trials)
+        self._failed: set[Key] = set()
 
     def propose(self, ask: Callable[..., Proposal | None], best: float) -> Proposal | None:
         """Return a proposal of `ask`, which is called with a posterior and the points that were rehearsed for it.
@@ -63,7 +63,10 @@ class Learner:
         proposal = ask(posterior, rehearsed=[])
         for _ in range(ROUNDS if self._rehearsal else 0):
             assert self._rehearsal is not None
-            if proposal is None or any((proposal.unit == one.unit).all() for one in held):
+            if proposal is None:
+                proposal = _best_of(held, posterior, best) if held else None
+                break
+            if any((proposal.unit == one.unit).all() for one in held):
                 break
             if len(held) == HELD or (held and proposal.promised_gain(best) < WORTH):
                 proposal = _best_of(held, posterior, best)
@@ -71,6 +74,8 @@ class Learner:
             self.tried.append(proposal.unit)
             if self._rehearsal.holds(proposal.variant):
                 held.append(proposal)
+            else:
+                self._failed.add(proposal.variant.key)
             posterior = self._learned()
             proposal = ask(posterior, rehearsed=[one.unit for one in held])
         else:
@@ -78,6 +83,10 @@ class Learner:
         if proposal is not None:
             self._proposed.append(proposal.unit)
         return proposal
+
+    def may_hold(self, variant: Variant) -> bool:
+        """Whether a variant may be proposed: it has not failed in a rehearsal of this step, nor was refused in any."""
+        return variant.key not in self._failed and not (self._rehearsal and self._rehearsal.is_refused(variant))
 
     def _learned(self) -> SearchPosterior:
         """Return the posterior of the trials and all rehearsals, with what was proposed believed."""

@@ -79,17 +79,19 @@ class SearchPosterior:
             known = np.isfinite(margins)
             constraints[name] = learn(name, x[known], _scaled(margins[known]))
         jumps = [(point, trial) for point, trial in zip(x, trials, strict=True) if trial.score is not None]
-        guessed = [(point, trial.score, guesses[trial.key][1]) for point, trial in jumps if trial.key in guesses]
-        if len(guessed) >= LEAST_GUESSED:
-            points, scores, their = (np.array(column) for column in zip(*guessed, strict=True))
-            more = warped(forwards(scores)) - warped(forwards(their))
-            of_guesses = np.array([value for _, value in guesses.values()])
-            guess = learn(GUESS, np.array([point for point, _ in guesses.values()]), warped(forwards(of_guesses)))
-            return cls(learn(MORE, points, more), constraints, guess)
+        points = np.array([point for point, _ in jumps]).reshape(-1, space.dimension)
+        scores = np.array([trial.score for _, trial in jumps])
+        if sum(trial.key in guesses for _, trial in jumps) >= LEAST_GUESSED:
+            places = np.array([place for place, _ in guesses.values()])
+            values = warped(forwards(np.array([value for _, value in guesses.values()]), scores))
+            guess = learn(GUESS, places, values)
+            of_keys = dict(zip(guesses, values.tolist(), strict=True))
+            pairs = zip(jumps, guess.predict(points)[0].tolist(), strict=True)
+            their = np.array([of_keys.get(trial.key, mean) for (_, trial), mean in pairs])
+            return cls(learn(MORE, points, warped(forwards(scores, scores)) - their), constraints, guess)
         if len(jumps) < 2:
             return cls(None, constraints)
-        scores = np.array([trial.score for _, trial in jumps])
-        return cls(learn("score", np.array([point for point, _ in jumps]), warped(forwards(scores))), constraints)
+        return cls(learn("score", points, warped(forwards(scores, scores))), constraints)
 
     @property
     def thetas(self) -> dict[str, list[float]]:
@@ -131,13 +133,13 @@ class SearchPosterior:
         return SearchPosterior(score, constraints, None if self.guess is None else self.guess.condition_on(point))
 
 
-def forwards(scores: Array) -> Array:
-    """Return scores (n,) in which a jump backwards counts as no jump, if any goes forwards.
+def forwards(scores: Array, measured: Array) -> Array:
+    """Return scores (n,) in which a jump backwards counts as no jump, if any of those that were measured goes forwards.
 
     Large negative scores would shorten the lengths of the process and say nothing of the best designs: with them, one
     seed in eight had not converged at 100 evaluations.
     """
-    return np.maximum(scores, 0.0) if scores.max() > 0.0 else scores
+    return np.maximum(scores, 0.0) if measured.max() > 0.0 else scores
 
 
 def warped(score: npt.ArrayLike) -> Array:

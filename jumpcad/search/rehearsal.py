@@ -54,6 +54,7 @@ class Rehearsal:
         self._guesser: Guesser | None = None
         self._guesses: dict[Key, Guess | None] = {}
         self._first: list[Variant] = []
+        self._prior = {trial.key for trial in evaluator.prior}
         self._passed_over: dict[Key, Trial] = {}
 
     @classmethod
@@ -72,7 +73,7 @@ class Rehearsal:
     def learn(self, trials: Sequence[Trial]) -> None:
         """Fit the figures of the robots that were built, if there are enough new ones."""
         rows = learned_rows(len(trials), LEAST, GROWTH)
-        if rows == 0 or self._space.of_workshop or (self._fit is not None and self._fit.rows == rows):
+        if rows == 0 or self._space.varies_workshop or (self._fit is not None and self._fit.rows == rows):
             return
         known = trials[:rows]
         first = next((trial for trial in known if MARK in trial.evaluation.metrics), None)
@@ -85,6 +86,10 @@ class Rehearsal:
         centre = self._space.to_unit((best_trial(known) or first).variant)
         self._fit = Fit(rows, Table(self._space, known, centre).coefficients(), {})
         self._guesses.clear()
+
+    def is_refused(self, variant: Variant) -> bool:
+        """Whether a variant was tried and has no room."""
+        return self._refusals.get(variant.key) is not None
 
     def holds(self, variant: Variant) -> bool:
         """Whether a variant has room, and as far as can be guessed jumps."""
@@ -118,7 +123,11 @@ class Rehearsal:
         return found
 
     def _tried(self, trials: Sequence[Trial], tried: Sequence[Array]) -> Iterator[Variant]:
-        ours = (trial for trial in trials if trial.phase == self._phase and trial.step > self._task.first_step)
+        ours = (
+            trial
+            for trial in trials
+            if trial.phase == self._phase and trial.step > self._task.first_step and trial.key not in self._prior
+        )
         kept = (point for trial in ours for point in trial.proposal.get(TRIED, ()))
         points = (point for point in (*kept, *tried) if len(point) == self._space.dimension)
         yield from (self._space.to_variant(point) for point in points)

@@ -10,7 +10,6 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_atomically
 from jumpcad.search.fronts import energy_j, front, hypervolume
-from jumpcad.search.methods.bayesian import converged
 from jumpcad.search.models import RobotModel
 from jumpcad.search.request import Request
 from jumpcad.search.robust import ActiveBound, Candidate
@@ -49,6 +48,8 @@ class Result:
         How many robots were built and simulated in all, those of the robust pick included.
     widened
         Bounds that the search moved, with what they cost.
+    converged
+        Whether the search ended before all of its evaluations, because its proposals promised too little.
     """
 
     request: Request
@@ -59,6 +60,7 @@ class Result:
     notes: list[str]
     evaluations: int
     widened: Sequence[Widened] = ()
+    converged: bool = False
 
     @property
     def winner(self) -> Trial | None:
@@ -101,12 +103,6 @@ class Result:
     def hypervolume(self) -> float:
         """The area that the front dominates (score units times J)."""
         return hypervolume(self.trials)
-
-    @property
-    def converged(self) -> bool:
-        """Whether the search ended before all of its evaluations, because proposals promised too little."""
-        early = len(self.trials) < self.request.searched
-        return early and converged(self.trials, self.request.until_percent / 100.0)
 
     @property
     def rejected(self) -> dict[str, int]:

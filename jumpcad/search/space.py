@@ -132,7 +132,9 @@ class Space:
     ) -> Self:
         only = [known_name(name) for name in only]
         if around is None and (only or within_percent is not None):
-            raise JumpcadError("to free only some parameters, or to search near a design, say around which design")
+            raise JumpcadError(
+                "to free only some parameters, or to search near a design, say around which (around, or --around DESIGN)"
+            )
         changed = changed_parameters(changes, workshop)
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters = []
@@ -154,6 +156,11 @@ class Space:
     def of_workshop(self) -> tuple[SearchParameter, ...]:
         """The parameters that are values of the workshop, free or fixed."""
         return self.parameters[len(PARAMETERS) :]
+
+    @property
+    def varies_workshop(self) -> bool:
+        """Whether a value of the workshop is free."""
+        return any(parameter.free for parameter in self.of_workshop)
 
     @property
     def categories(self) -> tuple[int, ...]:

@@ -10,8 +10,10 @@ from dataclasses import replace
 import numpy as np
 
 from jumpcad.design import Design
+from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
+from jumpcad.robot import Robot
 
 
 def figures_of(robot: Mechanism) -> dict[str, float]:
@@ -34,11 +36,11 @@ def figures_of(robot: Mechanism) -> dict[str, float]:
     return {name: float(f"{value:.6g}") for name, value in found.items()}
 
 
-def stand_in(design: Design, figures: Mapping[str, float], like: Mechanism) -> Mechanism:
+def stand_in(design: Design, figures: Mapping[str, float], like: Robot) -> Mechanism:
     """Return the robot of a design with these figures, in all else like another one of its workshop."""
     plain = capsule_robot(design)
     bodies = {name: _body(plain.bodies[name], figures, like.bodies[name]) for name in BODY_NAMES}
-    spring = replace(plain.spring, preload_rad=like.spring.preload_rad, one_sided=like.spring.one_sided)
+    spring = springs_on_leg(design, like.workshop.stock_spring, like.spring.preload_rad)
     release = RollerOff(
         figures["release_turn_rad"] - spring.wind_rad, figures["release_rad_s"], min(figures["release_ratio"], 1.0)
     )

@@ -99,17 +99,20 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             lambda: clock.is_over() or evaluator.spent >= allowance,
         )
         for number, stage in enumerate(stages):
+            converged = False
             allowance += stage.evaluations
             if not evaluator.trials or not evaluator.expired():
                 before, first_step = len(evaluator.trials), 0
                 if stage.widen:
                     first_step = number * STEPS
                     widened += widen(evaluator, first_step)
+                # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
+                least_gain = request.until_percent / 100.0 if number == len(stages) - 1 else 0.0
                 task = Task(
                     stage.evaluations - (len(evaluator.trials) - before), request.seed, stage.initial, request.batch,
-                    request.preset, request.until_percent / 100.0, first_step, request.screen,
+                    request.preset, least_gain, first_step, request.screen,
                 )  # fmt: skip
-                METHODS[stage.method].run(evaluator, task)
+                converged = METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
         best = best_trial(trials)
         candidates, bounds = [], []
@@ -119,7 +122,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if candidates:
             left = request.pick - (len(evaluator.trials) - len(trials))
             bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
-        return Result(request, trials, best, candidates, bounds, store.notes(), evaluator.spent, widened)
+        return Result(request, trials, best, candidates, bounds, store.notes(), evaluator.spent, widened, converged)
 
 
 def _bounds_step(request: Request, trials: list[Trial]) -> int:
@@ -151,7 +154,10 @@ def _read_prior(request: Request) -> tuple[list[Trial], str]:
     if request.prior is None:
         return [], ""
     with StudyStore.read(request.prior) as store:
-        theirs, ours = store.identity["model"], json.loads(json.dumps(request.model.describe()))
+        theirs, ours = (
+            {key: value for key, value in model.items() if key != "stand_in"}  # rows without its figures serve too
+            for model in (store.identity["model"], json.loads(json.dumps(request.model.describe())))
+        )
         if theirs != ours:
             program = store.identity.get("versions") != request.model.versions() | versions(*LEARNING_VERSIONS)
             by = " by another program" if program else ""

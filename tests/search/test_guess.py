@@ -1,5 +1,8 @@
 """Guesses of printed robots from those that were built."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from support.quick import BEST, FIGURES, LIKE, SPACE, quick
@@ -10,6 +13,7 @@ from jumpcad.search.stand_in import stand_in
 from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
 from jumpcad.simulation import simulate
+from jumpcad.workshop import load_workshop, varied
 
 
 def trials_of(points, model):
@@ -79,6 +83,34 @@ def test_what_the_gate_refuses_does_not_jump(monkeypatch):
     guesser = Guesser(SPACE, quick(), find_objective("body_lengths"), "pybullet", first_trial())
     apart = BEST.model_copy(update={"c_coef": 0.1, "d_coef": 0.1, "e_coef": 3.0})  # its loop does not close
     assert guesser(Variant(apart), Fit(0, {"mass_kg": np.zeros(45)}, {})).score is None
+
+
+def test_what_an_objective_cannot_take_is_not_guessed(monkeypatch):
+    """A figure of a built robot keeps an identity; a fitted one need not."""
+    monkeypatch.setattr("jumpcad.search.guess.build", lambda *_: LIKE)
+
+    def careful(figures):
+        return 1.0 / figures["size_m"] if figures["size_m"] > 1.0 else math.log(-1.0)
+
+    guesser = Guesser(SPACE, quick(), find_objective(careful), "pybullet", first_trial())
+    fit = Fit(0, {name: value * np.eye(45)[0] for name, value in (FIGURES | {"size_m": 0.1}).items()}, {})
+    assert guesser(Variant(BEST), fit) is None
+    known = {**fit.coefficients, "size_m": 2.0 * np.eye(45)[0]}
+    assert guesser(Variant(BEST), Fit(0, known, {})).score == pytest.approx(0.5)
+    far = {**fit.coefficients, "log body_mass_kg": 1e4 * np.eye(45)[0]}
+    assert guesser(Variant(BEST), Fit(0, far, {})) is None
+
+
+@pytest.mark.parametrize("chosen", ["", "9271K589"])
+def test_a_stand_in_has_the_springs_of_its_robot(chosen):
+    shop = varied(load_workshop(), {"bought.spring": chosen})
+    design = BEST.model_copy(update={"stiffness_nmm_per_deg": 20.0})
+    like = replace(LIKE, workshop=shop)
+    spring = stand_in(design, FIGURES, like).spring
+    rate = 20.0 if not chosen else 2.0 * shop.stock_spring.rate_nmm_per_deg
+    assert spring.stiffness_nm_per_rad == pytest.approx(rate / 1000.0 * 180.0 / math.pi)
+    assert (spring.wind_rad, spring.one_sided) == (design.compression_rad, True)
+    assert spring.preload_rad == LIKE.spring.preload_rad
 
 
 def first_trial():

@@ -27,10 +27,10 @@ class Rehearsal:
     """Only what is left of a half holds; of what was tried, nothing else is known."""
 
     def __init__(self, half=0.5):
-        self.half, self.learned = half, 0
+        self.half = half
 
-    def learn(self, trials):
-        self.learned += len(trials)
+    def is_refused(self, variant):
+        return False
 
     def holds(self, variant):
         return SMALL.to_unit(variant)[0] < self.half
@@ -66,10 +66,9 @@ def test_without_rehearsals_the_first_proposal_is_taken():
 
 
 def test_what_does_not_hold_is_learned_and_the_next_is_asked_for():
-    rehearsal, ask = Rehearsal(), Asked([0.9, 0.1, 0.1], [0.2, 0.2, 0.2])
-    learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=True)
+    ask = Asked([0.9, 0.1, 0.1], [0.2, 0.2, 0.2])
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
     assert learner.propose(ask, 1.0).unit.tolist() == [0.2, 0.2, 0.2]
-    assert rehearsal.learned == len(TRIALS)
     assert [point.tolist() for point in learner.tried] == [[0.9, 0.1, 0.1], [0.2, 0.2, 0.2]]
     assert [len(held) for held in ask.rehearsed] == [0, 0, 1]
     before, after = ask.posteriors[:2]
@@ -129,3 +128,23 @@ def test_the_promised_gain_is_a_share_of_the_score():
     assert proposal.promised_gain(1.0) == pytest.approx(0.004)
     assert proposal.promised_gain(4.0) == pytest.approx(0.002)
     assert proposal.promised_gain(0.0) == math.inf
+
+
+def test_what_failed_is_not_asked_for_again_and_what_held_is_taken_where_nothing_else_is_left():
+    few = [SMALL.to_variant(np.array(unit)) for unit in ([0.9, 0.1, 0.1], [0.2, 0.2, 0.2], [0.8, 0.3, 0.3])]
+    learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
+
+    def ask(posterior, rehearsed):
+        known = [unit.tolist() for unit in rehearsed]
+        for variant in few:
+            unit = SMALL.to_unit(variant)
+            if learner.may_hold(variant) and unit.tolist() not in known:
+                return Proposal(variant, unit, 0.0, 0.0)
+        return None
+
+    assert learner.propose(ask, 1.0).variant == few[1]
+    assert len(learner.tried) == 3
+    assert [learner.may_hold(variant) for variant in few] == [False, True, False]
+    nothing = Learner(SMALL, TRIALS, Rehearsal(half=-1.0), {}, refit=True)
+    learner = nothing  # of which `ask` asks
+    assert nothing.propose(ask, 1.0) is None

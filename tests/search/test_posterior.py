@@ -114,8 +114,11 @@ def test_warping_is_undone():
 
 
 def test_a_jump_backwards_counts_as_none_once_something_jumps_forwards():
-    assert forwards(np.array([2.0, -3.0, 0.5])).tolist() == [2.0, 0.0, 0.5]
-    assert forwards(np.array([-2.0, -3.0])).tolist() == [-2.0, -3.0]  # as for energies, of which less is better
+    some, none = np.array([2.0, -3.0, 0.5]), np.array([-2.0, -3.0])
+    assert forwards(some, some).tolist() == [2.0, 0.0, 0.5]
+    assert forwards(none, none).tolist() == [-2.0, -3.0]  # as for energies, of which less is better
+    assert forwards(none, some).tolist() == [0.0, 0.0]  # guesses are treated as what they are compared with
+    assert forwards(some, none).tolist() == some.tolist()
 
 
 class Plane:

@@ -194,6 +194,39 @@ def test_a_prior_study_of_the_same_model_is_learned_from(tmp_path):
         run(replace(REQUEST, model=Hill(name="other"), prior=tmp_path / "old.db"))
 
 
+class Marked(Hill):
+    """A hill whose rows have figures for stand-ins too, or not."""
+
+    marks = False
+
+    def describe(self):
+        return super().describe() | ({"stand_in": True} if self.marks else {})
+
+
+class Marking(Marked):
+    marks = True
+
+
+def test_a_prior_study_may_lack_the_figures_of_stand_ins(tmp_path):
+    run(replace(REQUEST, model=Marked(), method="ga", evaluations=20), tmp_path / "old.db")
+    learned = run(replace(REQUEST, model=Marking(), method="bo", evaluations=12, prior=tmp_path / "old.db"))
+    assert len(learned.trials) == 12
+
+
+def test_a_step_promises_the_most_that_one_of_its_proposals_does():
+    """log gain 0 of the root of a best score of 4 is 2·1/2 = 1 of the score; what its own step found counts not."""
+    note = {"theta": {}, "log_feasible": 0.0}
+    first, second, third = (trial for trial in run(replace(REQUEST, method="ga", evaluations=3)).trials)
+    trials = [
+        replace(first, phase="ga", step=1, score=4.0, proposal={}),
+        replace(second, phase="bo", step=1, score=100.0, proposal=note | {"log_improvement": -3.0}),
+        replace(third, phase="bo", step=1, score=1.0, proposal=note | {"log_improvement": 0.0}),
+        replace(first, phase="bo", step=2, score=1.0, proposal=note | {"log_improvement": 0.0}),
+    ]
+    assert promised_gains(trials) == pytest.approx([1.0, 0.2])
+    assert promised_gains(trials[1:], best=4.0) == pytest.approx([1.0, 0.2])
+
+
 def test_a_prior_study_of_another_program_is_said_to_be_one(tmp_path):
     class Newer(Hill):
         digest = "newer"

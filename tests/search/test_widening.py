@@ -1,6 +1,7 @@
 """Active bounds are moved, and the search goes on."""
 
 import math
+from dataclasses import replace
 
 import pytest
 from support.hills import FIXED, TOP, Hill
@@ -102,6 +103,18 @@ def test_it_ends_with_the_rows_of_an_uninterrupted_search(tmp_path):
         run_study(Request(BELOW, Hill(), method="bo", evaluations=45, widen=True), tmp_path / "cut.db", pool, stop)
     searched(tmp_path / "cut.db", 45)
     assert rows(tmp_path / "cut.db") == rows(tmp_path / "whole.db")
+
+
+def test_a_search_that_ended_early_goes_on_alike(tmp_path):
+    """Only its last stage ends early: one before would lead the others elsewhere if it went on."""
+    request = Request(BELOW, Hill(), method="bo", evaluations=60, widen=True, until_percent=50.0)
+    with local_pool(0) as pool:
+        early = run_study(request, tmp_path / "s.db", pool)
+        longer = run_study(replace(request, until_percent=0.0), tmp_path / "s.db", pool)
+    assert early.converged
+    assert not longer.converged
+    assert len(early.trials) < len(longer.trials)
+    assert longer.trials[: len(early.trials)] == early.trials
 
 
 def test_its_share_is_planned_within_the_evaluations():

@@ -75,10 +75,10 @@ class Method:
     front: bool = False
     learns: bool = False
 
-    def run(self, evaluator: "Evaluator", task: Task) -> None:
-        """Search; the trials are the evaluator's."""
+    def run(self, evaluator: "Evaluator", task: Task) -> bool:
+        """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
         module, name = self.function.split(".")
-        getattr(importlib.import_module(f"{__name__}.{module}"), name)(evaluator, task)
+        return bool(getattr(importlib.import_module(f"{__name__}.{module}"), name)(evaluator, task))
 
 
 METHODS = {

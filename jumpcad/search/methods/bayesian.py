@@ -48,8 +48,8 @@ def default_initial(space: Space, evaluations: int, prior: int = 0, guessed: boo
     return max(0, min(math.ceil(each * space.dimension), evaluations // 2) - prior)
 
 
-def run_bayesian(evaluator: Evaluator, task: Task) -> None:
-    """Search for the highest score.
+def run_bayesian(evaluator: Evaluator, task: Task) -> bool:
+    """Search for the highest score; return whether the search ended because its proposals promised too little.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
         Its trials so far, and those of its prior study, are learned from.
     task
         `initial` designs are evaluated before the first fit; the proposals of a batch are made without each other's
-        results. With a `least_gain`, the search ends when `PATIENCE` proposals in a row promised less.
+        results. With a `least_gain`, the search ends when each proposal of `PATIENCE` steps in a row promised less.
     """
 
     def proposer(
@@ -67,8 +67,8 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
         proposals: list[Proposal] = []
         while len(proposals) < count:
             ask = partial(
-                propose, evaluator.space, best=best, elite=elite, admits=unproposed(evaluator, proposals),
-                generator=generator,
+                propose, evaluator.space, best=best, elite=elite, generator=generator,
+                admits=unproposed(evaluator, proposals, learner.may_hold),
             )  # fmt: skip
             proposal = learner.propose(ask, best)
             if proposal is None:
@@ -79,34 +79,37 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> None:
     start = len(evaluator.trials)
 
     def ended() -> bool:
-        if sum("theta" in trial.proposal for trial in evaluator.trials[start:]) < PATIENCE:
-            return False  # what earlier searches in another space promised says nothing
-        return converged([*evaluator.prior, *evaluator.trials], task.least_gain)
+        # what earlier searches in another space promised says nothing
+        known = max((trial.score or 0.0 for trial in [*evaluator.prior, *evaluator.trials[:start]]), default=0.0)
+        gains = promised_gains(evaluator.trials[start:], known)
+        return len(gains) >= PATIENCE and max(gains[-PATIENCE:]) < task.least_gain
 
-    run_steps(evaluator, "bo", task, proposer, ended)
-
-
-def converged(trials: Sequence[Trial], least_gain: float) -> bool:
-    """Whether each of the last `PATIENCE` proposals promised to gain less than this share of the best score."""
-    gains = promised_gains(trials)[-PATIENCE:]
-    return len(gains) == PATIENCE and max(gains) < least_gain
+    return run_steps(evaluator, "bo", task, proposer, ended)
 
 
-def promised_gains(trials: Sequence[Trial]) -> list[float]:
-    """Return what each proposal of `bo` promised to gain, as a share of the best score that was known by then."""
-    best, gains = 0.0, []
-    for trial in trials:
-        if trial.phase == "bo" and "theta" in trial.proposal:
-            logarithm = float(trial.proposal["log_improvement"]) + float(trial.proposal["log_feasible"])
-            gains.append(promised_gain(logarithm, best))
-        best = max(best, trial.score or 0.0)
+def promised_gains(trials: Sequence[Trial], best: float = 0.0) -> list[float]:
+    """Return the most that a proposal of each step of `bo` promised to gain, as a share of the best score before it.
+
+    `best` is the best score before the first of the trials.
+    """
+    gains = []
+    for (phase, _), step in itertools.groupby(trials, key=lambda trial: (trial.phase, trial.step)):
+        together = list(step)
+        notes = [trial.proposal for trial in together if phase == "bo" and "theta" in trial.proposal]
+        logarithms = [float(note["log_improvement"]) + float(note["log_feasible"]) for note in notes]
+        if logarithms:
+            gains.append(promised_gain(max(logarithms), best))
+        best = max(best, *(trial.score or 0.0 for trial in together))
     return gains
 
 
 def run_steps(
     evaluator: Evaluator, phase: str, task: Task, proposer: Proposer, ended: Callable[[], bool] = lambda: False
-) -> None:
-    """Evaluate the initial designs, then what `proposer` proposes, one batch per step, until the search has `ended`."""
+) -> bool:
+    """Evaluate the initial designs, then what `proposer` proposes, one batch per step.
+
+    Return whether the search has `ended` before its evaluations, time or proposals were spent.
+    """
     space, start = evaluator.space, len(evaluator.trials)
     rehearsal = Rehearsal.of(evaluator, phase, task)
     if task.initial:
@@ -122,8 +125,10 @@ def run_steps(
     left = task.evaluations - (len(evaluator.trials) - start)
     thetas: Mapping[str, Any] = {}
     for step in itertools.count(task.first_step + 1):
-        if left <= 0 or ended() or evaluator.expired():
-            return
+        if left <= 0 or evaluator.expired():
+            return False
+        if ended():
+            return True
         count = min(task.batch, left)
         finished = evaluator.finished(phase, step, count)
         if finished is not None:
@@ -134,6 +139,8 @@ def run_steps(
             with threadpool_limits(1):
                 always = len(known) <= REFIT_AFTER and rehearsal is None
                 refit = always or step % REFIT_EVERY == 1
+                if rehearsal:
+                    rehearsal.learn(known)
                 learner = Learner(space, learned_trials(space, known), rehearsal, thetas, refit)
                 proposals = proposer(learner, known, count, np.random.default_rng([task.seed, 2, step]))
             thetas = learner.thetas
@@ -143,16 +150,21 @@ def run_steps(
             evaluator.evaluate([proposal.variant for proposal in proposals], phase, step, proposals=notes)
             count = len(proposals)
         if count == 0:
-            return
+            return False
         left -= count
+    raise AssertionError  # steps have no end
 
 
-def unproposed(evaluator: Evaluator, proposals: Sequence[Proposal]) -> Callable[[Variant], bool]:
+def unproposed(
+    evaluator: Evaluator,
+    proposals: Sequence[Proposal],
+    may_hold: Callable[[Variant], bool] = lambda _variant: True,
+) -> Callable[[Variant], bool]:
     """Return a function that tells whether a variant may be proposed together with these."""
     taken = {proposal.variant.key for proposal in proposals}
 
     def admits(variant: Variant) -> bool:
-        return variant.key not in taken and evaluator.admits(variant)
+        return variant.key not in taken and may_hold(variant) and evaluator.admits(variant)
 
     return admits
 

@@ -49,8 +49,8 @@ def run_pareto(evaluator: Evaluator, task: Task) -> None:
         for cap in caps[:count]:
             best, elite = incumbent(space, [trial for trial in trials if energy_j(trial.design) <= cap])
             ask = partial(
-                propose, space, best=best, elite=elite, admits=unproposed(evaluator, proposals), generator=generator,
-                penalty=_excess(space, float(cap)),
+                propose, space, best=best, elite=elite, generator=generator, penalty=_excess(space, float(cap)),
+                admits=unproposed(evaluator, proposals, learner.may_hold),
             )  # fmt: skip
             proposal = learner.propose(ask, best)
             if proposal is not None:
