@@ -133,7 +133,7 @@ class Space:
         only = [known_name(name) for name in only]
         if around is None and (only or within_percent is not None):
             raise JumpcadError(
-                "to free only some parameters, or to search near a design, say around which (around, or --around DESIGN)"
+                "to free only some parameters, or search near a design, say around which (around, or --around DESIGN)"
             )
         changed = changed_parameters(changes, workshop)
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
