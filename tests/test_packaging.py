@@ -15,7 +15,7 @@ import pytest
 from support.places import ROOT
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
-PARSING = {"typer", "rich", "pydantic", "tomli_w"}
+PARSING = {"typer", "rich"}
 """Dependencies that the command line itself needs."""
 
 

@@ -181,6 +181,8 @@ def _print_result(result: "Result", design_file: Path) -> None:
             f"ended before {request.searched}: the last proposals promise to gain less than {request.until_percent:g} %"
             " of the best score; --until 0 goes on"
         )
+    if len(result.trials) >= request.space.size:
+        print("these are all designs of the space")
     for note in result.notes:
         print(f"note: {note}")
     if result.best is None or result.winner is None:
@@ -209,7 +211,9 @@ def _print_result(result: "Result", design_file: Path) -> None:
         )
         print(f"widened: {moved}: {change}")
     for bound in result.bounds:
-        change = "is rejected: " + bound.reason if bound.worth is None else f"changes the score by {bound.worth:+.4f}"
+        change = f"is {bound.reason}" if bound.unknown else f"is rejected: {bound.reason}"
+        if bound.worth is not None:
+            change = f"changes the score by {bound.worth:+.4f}"
         print(f"at its {bound.side} bound: {bound.name} = {bound.value:g}; {bound.beyond:g} {change}")
     workshop = f" --workshop {escaped(str(workshop_file(design_file)))}" if result.winner.workshop else ""
     print(f"\nnext: jumpcad build {escaped(str(design_file))}{workshop}")

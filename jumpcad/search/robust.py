@@ -34,6 +34,7 @@ ROUNDS = 8
 """Numbers of steps in the study file that one pick takes."""
 APART = 0.02
 WIDENING = 0.05
+NOT_EXAMINED = "not examined: the robust pick has no evaluations left"
 
 
 @dataclass(frozen=True, repr=False)
@@ -83,7 +84,7 @@ class ActiveBound:
     """A bound of the search on which a design lies.
 
     ``worth`` is the change of the score if the parameter goes ``beyond`` it, the others unchanged; None where that
-    design is rejected, for ``reason``.
+    design is rejected, for ``reason``, or `unknown`.
     """
 
     name: str
@@ -92,6 +93,11 @@ class ActiveBound:
     beyond: float
     worth: float | None
     reason: str = ""
+
+    @property
+    def unknown(self) -> bool:
+        """Whether the design beyond it was not evaluated; the reason says why."""
+        return self.reason == NOT_EXAMINED
 
 
 def pick_share(evaluations: int) -> int:
@@ -249,7 +255,7 @@ def active_bounds(
 
 def _worth(bound: ActiveBound, trial: Trial, beyond: Trial | None) -> ActiveBound:
     if beyond is None:
-        return replace(bound, reason="not examined: no evaluations left")
+        return replace(bound, reason=NOT_EXAMINED)
     if beyond.score is None:
         return replace(bound, reason=", ".join(beyond.evaluation.reasons))
     return replace(bound, worth=beyond.score - (trial.score or 0.0))

@@ -127,7 +127,7 @@ def _cost(bound: ActiveBound, unit: str, score: float) -> str:
     if bound.worth is not None:
         share = f" ({100.0 * bound.worth / abs(score):+.1f} %)" if score else ""
         return f"{bound.worth:+.4g} {unit}{share}"
-    if bound.reason.startswith("not examined"):
+    if bound.unknown:
         return "not examined in this study"
     means = "; ".join(filter(None, map(reason_words, bound.reason.split(", "))))
     return f"rejected, {bound.reason}{f': {means}' if means else ''}"

@@ -61,6 +61,24 @@ def test_nothing_jumps_is_exit_code_1(folder):
     assert "no design jumps" in run("optimize", "ga", *QUICK, *weak, "--evaluations", 20, code=1)
 
 
+def test_says_that_all_designs_of_a_small_space_were_tried(folder):
+    fixed = {"c_coef": 1, "d_coef": 0.7, "e_coef": 1, "compression_ratio": 0.5, "rest_angle_deg": 45}
+    fixed |= {"stiffness_nmm_per_deg": 20, "ground_link_angle_deg": 30}
+    few = [part for name, value in fixed.items() for part in ("--fix", f"{name}={value}")]
+    said = run("optimize", *QUICK, *few, "--choose", "carrying_link_mm=100,120,140", "--evaluations", 20)
+    assert "3 designs evaluated" in said
+    assert "these are all designs of the space" in said
+
+
+def test_says_that_it_ended_early_and_how_it_goes_on(folder):
+    asked = ("optimize", *QUICK, *NARROW, "--evaluations", 60, "--study", "s.db", "-o", "best.toml")
+    said = run(*asked, "--until", 20)
+    assert "ended before 45: the last proposals promise to gain less than 20 % of the best score" in said
+    longer = run(*asked, "--until", 0, "--force")
+    assert "45 designs evaluated" in longer
+    assert "ended before" not in longer
+
+
 def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(folder):
     command = [*JUMPCAD, "optimize", "ga", "--model", "capsule", "--evaluations", "400", "--study", "s.db", "--json",
                "--settings", "fine", "--workers", "1"]  # fmt: skip

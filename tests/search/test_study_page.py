@@ -19,7 +19,7 @@ from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
 from jumpcad.search.replay import known
 from jumpcad.search.request import Request
-from jumpcad.search.robust import ActiveBound
+from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.study import run_study
@@ -213,7 +213,7 @@ def test_bounds_say_what_they_cost(studies):
     assert "it falls over" in rows["rest_angle_deg"][2]
     assert "tips over sideways" in rows["rest_angle_deg"][2]
     assert "Here it rises beyond that of carrying_link_mm." in text(root)  # 0.01 % more is not told
-    unknown = replace(found, bounds=[replace(bounds[0], worth=None, reason="not examined: no evaluations left")])
+    unknown = replace(found, bounds=[replace(bounds[0], worth=None, reason=NOT_EXAMINED)])
     assert "This search did not examine them" in "".join(active(unknown))
 
 
