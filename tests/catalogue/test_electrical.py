@@ -16,6 +16,14 @@ def test_a_pack_has_the_voltage_of_its_cells(voltage_v: float, cells: int, empty
     assert pack.bears_ma == 300.0  # 1 C
 
 
+def test_a_motor_without_a_stated_range_runs_from_a_quarter_of_its_rated_voltage_to_all_of_it() -> None:
+    motor = next(iter(load_catalogue().motors.values()))
+    for volts in (3.0, 6.0, 12.0):
+        rated = motor.model_copy(update={"voltage_v": volts, "bears_v": None})
+        assert rated.range_v == pytest.approx((volts / 4.0, volts))
+    assert motor.model_copy(update={"bears_v": (4.0, 7.5)}).range_v == (4.0, 7.5)
+
+
 def test_a_motor_gives_no_more_power_than_it_draws() -> None:
     for motor in load_catalogue().motors.values():
         in_nmm = motor.model_copy(update={"stall_torque_nm": 1000.0 * motor.stall_torque_nm})

@@ -57,6 +57,18 @@ def test_what_is_pushed_along_y_is_stopped(robot: Robot) -> None:
             assert any((solid ^ other).volume() > 1.0 for solid in moved for other in beside), (name, way)
 
 
+def test_a_nut_is_full_of_its_screw(robot: Robot) -> None:
+    """A lock nut holds by its ring of plastic, which is its last turn: the screw reaches through all of it."""
+    pieces = {item.name: item for item in robot.hardware}
+    nuts = [name for name in pieces if name.endswith(("_axle_nut", "_pin_nut"))]
+    assert bool(nuts) == (robot.workshop.bought.retention == "nuts")
+    for name in nuts:
+        nut, screw = pieces[name], pieces[name.removesuffix("_nut")]
+        ends = [(one.T_body_part[:3, :3] @ one.shape.bounds_mm.T)[1] + one.T_body_part[1, 3] for one in (screw, nut)]
+        assert ends[0].min() <= ends[1].min() + 1e-6
+        assert ends[1].max() < ends[0].max()
+
+
 def test_what_is_of_steel_has_the_density_of_steel(robot: Robot) -> None:
     """7.85 g/cm³ of its drawing, less sockets, threads and rounded corners, or more for a split pin's bent legs."""
     kinds = {"screw": (6.4, 7.9), "lock": (6.0, 7.9), "washer": (7.6, 8.1), "clevis": (7.8, 8.1), "split": (7.0, 9.5)}
