@@ -80,6 +80,18 @@ def test_the_springs_arm_is_a_tangent_that_ends_a_little_beyond_its_pin() -> Non
     assert pin.radius_mm > 1.5
 
 
+@pytest.mark.parametrize(("pin", "direction", "turned"), [("plate", (0.0, 1.0), -1.0), ("leg", (1.0, 0.0), 1.0)])
+def test_each_arm_pushes_its_pin_outwards(pin: str, direction: tuple[float, float], turned: float) -> None:
+    """The axis of the pin is half of wire and pin, 2.1 mm, outside the arm's line; the leg is turned about +y."""
+    start, end = arm_line(HUB, spring_with(14.0, 90.0), pin)
+    along, outwards = (end - start) / math.dist(start, end), (start - HUB) / 3.0
+    from_start = HUB + 14.0 * np.array(direction) - start
+    assert from_start @ outwards == pytest.approx(2.1, abs=1e-4)
+    assert from_start @ along == pytest.approx(math.dist(start, end) - 2.0, abs=1e-4)
+    about_y = direction[1] * outwards[0] - direction[0] * outwards[1]  # z·Fx - x·Fz
+    assert math.copysign(1.0, about_y) == turned
+
+
 def test_a_cam_gear_must_clear_the_hub() -> None:
     axle = disc("leg axle", HUB, 4.0, EVERYWHERE)
     require_gear_room([axle], HUB + np.array([0.0, 30.0]), 26.0, (0.0, 5.0))
