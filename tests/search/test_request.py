@@ -7,6 +7,7 @@ from support.hills import SMALL, Hill
 
 from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request, plan_stages
+from jumpcad.search.space import Space
 
 
 @pytest.mark.parametrize(
@@ -39,3 +40,11 @@ def test_only_what_was_asked_for_is_in_a_studys_identity():
     printed = robot_model()
     screened = Request(SMALL, printed, "body_lengths", "ga", 40, screen=True)
     assert screened.identity([])["screen"] == printed.screen_engine  # another engine guesses otherwise
+
+
+def test_a_fixed_value_of_the_workshop_leaves_one_workshop_to_guess_in():
+    model = robot_model()
+    spaces = [Space.parse(**asked, workshop=model.workshop) for asked in (
+        {}, {"fix": ["body.plate_mm=2.4"]}, {"bound": ["body.plate_mm=1.6:2.4"]},
+    )]  # fmt: skip
+    assert [Request.make(space, model, "bo").guessed for space in spaces] == [True, True, False]
