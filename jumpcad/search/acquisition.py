@@ -27,8 +27,9 @@ REHEARSED = 0.2
 """What another candidate must promise more, in logarithms, than one that was rehearsed; judgement."""
 _STEP = 1e-6
 """Of the numerical gradient."""
-_STEPS = 40
-"""Most iterations of a local maximisation."""
+_FIRST_STEPS, _STEPS = 8, 40
+"""Most iterations of each local maximisation, and of the best one when it goes on. If all six went on, a proposal took
+twice the time, and of 46 proposals few were better."""
 
 
 @dataclass(frozen=True)
@@ -103,8 +104,9 @@ def propose(
     values = log_acquisition(points)
     order = np.argsort(-values, kind="stable")
     starts = points[_apart(points, order, STARTS)]
-    polished = [_climb(space, log_acquisition, start) for start in starts]
-    points = np.vstack([*polished, points[order]])
+    climbed = np.array([_climb(space, log_acquisition, start, _FIRST_STEPS) for start in starts])
+    highest = climbed[log_acquisition(climbed).argmax()]
+    points = np.vstack([_climb(space, log_acquisition, highest, _STEPS), climbed, points[order]])
     points = space.snap(points.round(DIGITS))
     values = log_acquisition(points)
     if rehearsed:
@@ -130,8 +132,8 @@ def _apart(points: Array, order: npt.NDArray[np.intp], count: int) -> list[int]:
     return chosen
 
 
-def _climb(space: Space, function: Callable[[Array], Array], start: Array) -> Array:
-    """Return the local maximum (d,) from a starting point within the unit cube; choices keep their values."""
+def _climb(space: Space, function: Callable[[Array], Array], start: Array, steps: int) -> Array:
+    """Return a point (d,) nearer to a local maximum than a start in the unit cube; choices keep their values."""
     moving = [index for index, parameter in enumerate(space.free) if not parameter.choices]
     if not moving:
         return start
@@ -148,7 +150,7 @@ def _climb(space: Space, function: Callable[[Array], Array], start: Array) -> Ar
 
     found = minimize(
         negative, start[moving], method="L-BFGS-B", jac=True, bounds=[(0.0, 1.0)] * len(moving),
-        options={"maxiter": _STEPS},
+        options={"maxiter": steps},
     )  # fmt: skip
     end = start.copy()
     end[moving] = np.clip(found.x, 0.0, 1.0)

@@ -8,6 +8,7 @@ All of it follows from the trials and from the points that are kept with them, s
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -54,6 +55,7 @@ class Rehearsal:
         self._guesser: Guesser | None = None
         self._guesses: dict[Key, Guess | None] = {}
         self._first: list[Variant] = []
+        self._variants: dict[tuple[float, ...], Variant] = {}
         self._prior = {trial.key for trial in evaluator.prior}
         self._passed_over: dict[Key, Trial] = {}
 
@@ -62,6 +64,11 @@ class Rehearsal:
         """Return the rehearsal of a search of printed robots; None of others, which are simulated as quickly."""
         model = evaluator.model
         return cls(evaluator, phase, task) if isinstance(model, RobotModel) and model.name == "printed" else None
+
+    @cached_property
+    def ranked(self) -> list[Array]:
+        """Points (d,) with which the capsule robot jumps, the farthest first."""
+        return ranked_points(self._evaluator, np.random.default_rng([self._task.seed, 5]))
 
     def starts_with(self, variant: Variant) -> bool:
         """Whether a search may start with a variant: its parts have room. If not, that is learned."""
@@ -81,8 +88,7 @@ class Rehearsal:
             return
         if self._guesser is None:
             self._guesser = Guesser(self._space, self._model, self._evaluator.objective, self._model.engine, first)
-            points = ranked_points(self._evaluator, np.random.default_rng([self._task.seed, 5]))
-            self._first = [self._space.to_variant(point) for point in points[:SPREAD]]
+            self._first = [self._variant(point) for point in self.ranked[:SPREAD]]
         centre = self._space.to_unit((best_trial(known) or first).variant)
         self._fit = Fit(rows, Table(self._space, known, centre).coefficients(), {})
         self._guesses.clear()
@@ -130,7 +136,13 @@ class Rehearsal:
         )
         kept = (point for trial in ours for point in trial.proposal.get(TRIED, ()))
         points = (point for point in (*kept, *tried) if len(point) == self._space.dimension)
-        yield from (self._space.to_variant(point) for point in points)
+        yield from (self._variant(point) for point in points)
+
+    def _variant(self, point: Sequence[float] | Array) -> Variant:
+        key = tuple(point)
+        if key not in self._variants:
+            self._variants[key] = self._space.to_variant(point)
+        return self._variants[key]
 
     def _refusal(self, variant: Variant) -> Trial | None:
         if variant.key not in self._refusals:

@@ -14,8 +14,6 @@ from scipy.spatial.distance import pdist, squareform
 
 from jumpcad.transforms import Array
 
-AT_ONCE = 100_000
-"""Most differences of coordinates that are held at once."""
 JITTER = 1e-8
 """Added to the variance of every measurement, besides its noise, in units of that of the values."""
 ALL_EQUAL = 10.0 * float(np.finfo(float).eps)
@@ -101,7 +99,9 @@ class Surrogate:
         self.theta: list[float] = self._axes.folded(logarithms).tolist()
         self._variance, *lengths, noise = np.exp(logarithms).tolist()
         self._lengths = np.array(lengths)
-        self._scaled = np.ascontiguousarray((seen / self._lengths).T)
+        self._middle = seen.mean(axis=0)
+        self._scaled = np.ascontiguousarray(((seen - self._middle) / self._lengths).T)
+        self._squares = np.einsum("ij,ij->j", self._scaled, self._scaled)
         covariance = self._variance * squareform(_matern(math.sqrt(5.0) * pdist(seen / self._lengths)))
         np.fill_diagonal(covariance, self._variance + noise + JITTER)
         self._chol = cholesky(covariance, lower=True, check_finite=False)
@@ -136,16 +136,16 @@ class Surrogate:
         return covariance
 
     def _distance(self, points: Array) -> Array:
-        """Return the distances (m, n) of points (m, k) from the data: √5·r, in length scales of the kernel."""
-        columns = np.ascontiguousarray((points / self._lengths).T)
-        if columns.size * len(self._seen) < AT_ONCE:
-            differences = columns[:, :, None] - self._scaled[:, None, :]
-            squares = np.add.reduce(differences * differences, axis=0)
-        else:  # one axis at a time: all at once would take 40 MB
-            squares = np.zeros((len(points), len(self._seen)))
-            for column, seen in zip(columns, self._scaled, strict=True):
-                squares += (column[:, None] - seen) ** 2
-        distance: Array = np.sqrt(5.0 * squares)
+        """Return the distances (m, n) of points (m, k) from the data: √5·r, in length scales of the kernel.
+
+        By |a − b|² = |a|² − 2·a·b + |b|², with the middle of the data as origin: one product of matrices. What rounding
+        leaves of a distance, 1e-7, is far below a length scale.
+        """
+        scaled = (points - self._middle) / self._lengths
+        squares = scaled @ self._scaled
+        squares *= -2.0
+        squares += np.einsum("ij,ij->i", scaled, scaled)[:, None] + self._squares
+        distance: Array = np.sqrt(5.0 * np.maximum(squares, 0.0))
         return distance
 
 

@@ -20,7 +20,7 @@ from jumpcad.search.methods import Task
 from jumpcad.search.objective import SCREENED
 from jumpcad.search.rehearsal import TRIED, Rehearsal
 from jumpcad.search.space import Space
-from jumpcad.search.start import first_points, ranked_points
+from jumpcad.search.start import first_points
 from jumpcad.search.trial import Trial, feasible_trials
 from jumpcad.search.variant import Variant
 from jumpcad.transforms import Array
@@ -115,8 +115,7 @@ def run_steps(
     if task.initial:
         generator = np.random.default_rng([task.seed, 1])
         if rehearsal:
-            ranked = ranked_points(evaluator, generator)
-            points = first_points(space, task.initial, generator, ranked, rehearsal.starts_with)
+            points = first_points(space, task.initial, generator, rehearsal.ranked, rehearsal.starts_with)
         else:
             points = first_points(space, task.initial, generator)
         evaluator.evaluate(
