@@ -134,7 +134,12 @@ class Request:
             raise JumpcadError(f"widen: does not apply to {self.method}, which has no best design")
         if self.is_front and any(one.name == "bought.spring" for one in self.space.of_workshop):
             raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
-        if self.batch > 1 and not any(METHODS[name].learns for name in SEQUENCES.get(self.method, (self.method,))):
+        stages = SEQUENCES.get(self.method, (self.method,))
+        if self.until_percent not in (0.0, UNTIL_PERCENT) and not METHODS[stages[-1]].ends:
+            ending = ", ".join(name for name in NAMES if METHODS[SEQUENCES.get(name, (name,))[-1]].ends)
+            percent = shown(self.until_percent)
+            raise JumpcadError(f"until_percent = {percent}: does not apply to {self.method}, only to {ending}")
+        if self.batch > 1 and not any(METHODS[name].learns for name in stages):
             learning = ", ".join(name for name, method in METHODS.items() if method.learns)
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
 

@@ -194,6 +194,17 @@ def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
     assert SearchPosterior.from_trials(SMALL, measured, {}, None, fewer).guess is None
 
 
+def test_a_measured_score_without_a_guess_is_learned_too():
+    trials = [trial for trial in rows_of(48) if trial.score is not None]
+    guesses = {one.key: (SMALL.to_unit(one.variant), one.score) for one in trials[:12]}
+    best = max(trials[12:], key=lambda trial: trial.score)
+    point = SMALL.to_unit(best.variant)[None]
+    posterior = SearchPosterior.from_trials(SMALL, [*trials[:6], best], {}, None, guesses)
+    assert len(posterior.score.x) == 7
+    mean = posterior.score.predict(point)[0] + posterior.guess.predict(point)[0]
+    assert mean == pytest.approx(np.sqrt(best.score), abs=0.02)
+
+
 def test_a_believed_proposal_is_believed_of_the_guess_too():
     trials = [trial for trial in rows_of(32) if trial.score is not None]
     guesses = {one.key: (SMALL.to_unit(one.variant), one.score + 0.1) for one in trials}

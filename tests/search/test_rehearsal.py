@@ -8,6 +8,7 @@ from support.proposals import with_less_work
 from support.quick import LIKE, SPACE, quick
 
 from jumpcad.search.evaluator import Evaluator
+from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import run_bayesian
 from jumpcad.search.models import robot_model
@@ -125,6 +126,34 @@ def test_what_other_searches_tried_is_not_looked_at(trials):
         ours = rehearsal_of()
         ours.learn(trials)
         assert len(other.guesses(trials, [])) < len(ours.guesses(trials, []))
+
+
+def test_what_a_prior_study_tried_is_not_tried_again(trials):
+    model = quick()
+    request = Request(SPACE, model, "body_lengths", "bo", 20)
+    later = Rehearsal.of(
+        Evaluator(SPACE, request.aim, model, StudyStore.write(None, {}), local_pool(0), trials), "bo", TASK
+    )
+    assert rehearsal_of().failures(trials, [])
+    assert later.failures(trials, []) == []
+
+
+def test_figures_follow_all_robots_also_where_the_processes_learn_from_few(monkeypatch, tmp_path):
+    counts = {"figures": [], "processes": []}
+    learn, init = Rehearsal.learn, Learner.__init__
+
+    def counted(kind, count, function):
+        def call(self, *arguments):
+            counts[kind].append(count(arguments))
+            return function(self, *arguments)
+
+        return call
+
+    monkeypatch.setattr(Rehearsal, "learn", counted("figures", lambda given: len(given[0]), learn))
+    monkeypatch.setattr(Learner, "__init__", counted("processes", lambda given: len(given[1]), init))
+    monkeypatch.setattr("jumpcad.search.methods.bayesian.learned_trials", lambda _space, trials: trials[:11])
+    search(tmp_path / "few.db", replace(TASK, evaluations=13))
+    assert counts == {"figures": [10, 11, 12], "processes": [10, 11, 11]}
 
 
 def test_a_start_that_has_no_room_is_passed_over_and_learned():

@@ -262,6 +262,7 @@ def test_a_prior_study_whose_model_had_other_values_in_another_program_is_said_t
         ({"seed": -1}, "seed = -1"),
         ({"seed": 2**32}, "must be at most 4294967295"),
         ({"until_percent": -1.0}, "until_percent = -1.0 must be at least 0"),
+        ({"method": "ga", "until_percent": 1.0}, r"until_percent = 1.0: does not apply to ga, only to ga\+bo, bo$"),
         ({"hours": float("nan")}, "hours = nan must be at least 0"),
         ({"method": "gaa"}, "did you mean ga"),
         ({"objective": "height"}, "not one of the objectives"),

@@ -67,6 +67,8 @@ class Method:
     learns
         Whether it fits a surrogate: it then starts with evenly spread designs, and each proposal carries the
         hyperparameters (`theta`) with which the next step starts.
+    ends
+        Whether it ends where its proposals promise less than a task's `least_gain`.
     """
 
     name: str
@@ -74,6 +76,7 @@ class Method:
     meaning: str
     front: bool = False
     learns: bool = False
+    ends: bool = False
 
     def run(self, evaluator: "Evaluator", task: Task) -> bool:
         """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
@@ -85,7 +88,7 @@ METHODS = {
     method.name: method
     for method in (
         Method("ga", "genetic.run_genetic", "genetic algorithm"),
-        Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True),
+        Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True, ends=True),
         Method("pareto", "pareto.run_pareto", "front of range against spring energy", front=True, learns=True),
         Method("paper", "paper.run_paper", "the published study's stages"),
         Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),

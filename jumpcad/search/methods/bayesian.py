@@ -149,6 +149,9 @@ def run_steps(
             evaluator.evaluate([proposal.variant for proposal in proposals], phase, step, proposals=notes)
             count = len(proposals)
         if count == 0:
+            found = len(evaluator.trials) - start
+            if found < space.size:
+                evaluator.store.note_once(f"ended after {found} designs: no other was found that is new and has room")
             return False
         left -= count
     raise AssertionError  # steps have no end

@@ -77,6 +77,20 @@ def test_an_exhausted_space_ends_the_search(evaluator):
     one = evaluator(space=space)
     run_bayesian(one, Task(20, 0, initial=2))
     assert len(one.trials) == 3
+    assert one.store.notes() == []  # as many as the space has
+
+
+def test_a_search_that_finds_nothing_more_to_try_says_so(evaluator):
+    class Picky(Hill):
+        def admits(self, design):
+            return design.stiffness_nmm_per_deg < 15.0
+
+    space = Space.parse(fix=[*FIXED, "rest_angle_deg=50", "compression_ratio=0.6"],
+                        choose=["stiffness_nmm_per_deg=8,10,19,20,21,22,23,30"])  # fmt: skip
+    one = evaluator(model=Picky(), space=space)
+    run_bayesian(one, Task(20, 0, initial=2))
+    assert len(one.trials) < 8
+    assert one.store.notes() == [f"ended after {len(one.trials)} designs: no other was found that is new and has room"]
 
 
 def test_incumbent():
