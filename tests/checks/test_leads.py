@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from support.built import built
 
@@ -30,6 +31,20 @@ def test_what_moves_across_a_lead_or_close_beside_it_is_found(
     monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("fan", middle, 2.0, (y - 0.1, y + 0.1))])
     (finding,) = lead_findings(robot)
     assert finding.severity == severity
+
+
+@pytest.mark.parametrize("part", ["sensor", "motor"])
+@pytest.mark.parametrize("stretch", [0, 1, 2])
+def test_what_moves_anywhere_along_a_lead_is_found(monkeypatch: pytest.MonkeyPatch, part: str, stretch: int) -> None:
+    """A ball in the middle of each stretch: beside the plate, through its hole, and from there to the trays."""
+    robot = built("kenan-2.0")
+    layout, way = robot.layout, way_in(robot.layout, part)
+    tray = layout.electronics.middle_mm(layout.tray_mm)
+    way.append(np.array([tray[0], way[-1][1], tray[1]]))
+    x, y, z = (way[stretch] + way[stretch + 1]) / 2.0
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.1, y + 0.1))])
+    (finding,) = lead_findings(robot)
+    assert (finding.severity, finding.message.split("'")[0]) == ("error", f"the {part}")
 
 
 def test_the_bill_has_the_wire_that_is_cut() -> None:

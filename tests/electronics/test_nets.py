@@ -75,6 +75,17 @@ def test_current_flows_from_the_battery_through_plug_and_switch_and_back(kit: st
 
 
 @pytest.mark.parametrize("kit", KITS)
+def test_each_board_has_one_ground_wire_and_behind_a_regulator_none_at_its_charger(kit: str) -> None:
+    """A XIAO takes one cell at its battery pads, and 5 V at the pins beside them; a board grounded twice is a loop."""
+    chosen = parts(kit)
+    (net,) = (net for net in wiring_of(chosen, {}).nets if net.kind == "ground")
+    at = {role: [end.pin for end in net.terminals if end.part == role] for role in chosen.boards}
+    at["driver"] = [pin for pin in at["driver"] if pin not in chosen.driver.with_function("reverse")]
+    assert at.pop("controller") == ["BAT-" if chosen.regulator is None else "GND"]
+    assert all(pins == ["GND"] for pins in at.values())
+
+
+@pytest.mark.parametrize("kit", KITS)
 def test_the_converter_sees_as_much_of_a_full_battery_as_it_bears(kit: str) -> None:
     """Of dividers with a lower resistor of 200 kOhm: the next smaller one of those listed would be too much."""
     chosen = parts(kit)
