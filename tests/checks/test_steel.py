@@ -106,5 +106,12 @@ def test_a_pin_that_is_too_weak_is_answered_with_what_is_strong_enough() -> None
     for rod in robot.workshop.catalogue.rods.values():
         strong = rod.yield_mpa >= 1.1 * bar.yield_mpa and not rod.bore_share
         assert (f"{rod.name}" in just.split(")")[0]) == strong
+    tube = LoadCase(changed(robot, "bought", axle="steel-tube"))
+    for times, rods in (
+        (1.1, "spring-steel or silver-steel or aluminium-7075"),
+        (2.1, "spring-steel or aluminium-7075"),
+    ):
+        words = steel._stronger(tube, "leg_axle", times * 140.0, 140.0)
+        assert f"bought.axle of {rods} with" in words, "solid rods of 1370, 400 and 480 MPa for a tube of 210 MPa"
     assert steel._stronger(case, "leg_axle", 200.0, 300.0).startswith("a stronger bought.axle")
     assert "no stronger pins" in steel._stronger(case, "foot_pin", 600.0, 300.0)

@@ -130,10 +130,11 @@ def test_an_own_one_may_be_chosen() -> None:
     assert wrong(robot) == []
 
 
-def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits() -> None:
-    """Arms further apart by what is named plus a degree bring the pin into the range, from its smallest to largest."""
+@pytest.mark.parametrize("off_deg", [60.0, 150.0, 210.0, 300.0])
+def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits(off_deg: float) -> None:
+    """Arms turned by what is named plus a degree bring the pin just into the range, on the side that is nearer."""
     limits = replace(LIMITS, plate_pins_rad=tuple(map(math.radians, (70.0, 50.0, 60.0))))
-    askew = STOCK.model_copy(update={"arm_angle_deg": (STOCK.arm_angle_deg + 150.0) % 360.0})
+    askew = STOCK.model_copy(update={"arm_angle_deg": (STOCK.arm_angle_deg + off_deg) % 360.0})
     with pytest.raises(CannotBuildError, match="there is room from 50° to 70°") as refused:
         fitted(askew, limits=limits)
     about = float(str(refused.value).partition("arms about ")[2].partition("°")[0])
@@ -141,3 +142,6 @@ def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits() -> None
     turned = abs((about - askew.arm_angle_deg + 180.0) % 360.0 - 180.0)
     assert turned == pytest.approx(away + 1.0, abs=1.01)
     fitted(askew.model_copy(update={"arm_angle_deg": about}), limits=limits)
+    back = math.copysign(2.5, (askew.arm_angle_deg - about + 180.0) % 360.0 - 180.0)
+    with pytest.raises(CannotBuildError, match="there is room from"):
+        fitted(askew.model_copy(update={"arm_angle_deg": (about + back) % 360.0}), limits=limits)

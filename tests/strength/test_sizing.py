@@ -112,3 +112,13 @@ def test_dogs_are_twisted_alike_whatever_their_torque() -> None:
             stresses.append(16.0 * 1000.0 * design.peak_spring_torque_nm / (math.pi * dog**3))
     assert len(stresses) >= 2
     assert stresses == pytest.approx([stresses[0]] * len(stresses), rel=0.01)
+
+
+def test_the_least_dog_has_jaws_that_print_around_the_gears_hub() -> None:
+    """Axle, play, the hub's wall, play, and a jaw as thick as the thinnest column even between its drawn corners."""
+    shop = load_workshop()
+    fits = shop.fits
+    weak = load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 0.1})
+    jaw = fits.pin_min_mm + 0.05
+    radius = 1.5 + fits.sliding_mm + fits.wall_min_mm + fits.sliding_mm + jaw
+    assert sections(Linkage(weak), shop).dog_mm == pytest.approx(2.0 * radius, abs=0.011)
