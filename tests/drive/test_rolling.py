@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy import integrate
 from support.built import built
 
 from jumpcad.drive.corner import Corner
@@ -55,6 +56,50 @@ def test_the_corner_turns_the_levers_torque_by_its_slope() -> None:
     assert release.wind == pytest.approx(begin, abs=1e-6)
     assert release.at == 300
     assert 0.5 * (given.cam_kg_m2 + given.roller_kg_m2 * 0.2**2) * release.speed**2 == pytest.approx(bent, rel=0.03)
+
+
+@pytest.mark.parametrize("speed", [10.0, 50.0, 90.0])
+def test_the_roller_leaves_a_corner_that_falls_away_too_fast(speed: float) -> None:
+    """Cam and roller as one mass whose ratio grows, in Lagrange's equation, until the contact's force is nothing."""
+    given = parts(cam_rad_s=speed, roller_kg_m2=5e-7, cam_kg_m2=2e-7)
+    cam = np.linspace(0.0, 0.01, 801)
+    falls = 100.0
+    corner = Corner(cam, WIND_RAD - falls * cam**2 / 2.0, -falls * cam, -falls + 0.0 * cam, 20.0 + 0.0 * cam)
+    release = _Release(corner, given)
+    release.leg_inertia = 1e9 * release.leg_inertia
+    begin = release.wind
+    release._push_to(800)
+
+    def moving(_: float, state: np.ndarray) -> tuple[float, float]:
+        angle, rate = state
+        torque = given.held_nm_per_rad * (WIND_RAD - falls * angle**2 / 2.0 - begin)
+        inertia = given.cam_kg_m2 + given.roller_kg_m2 * (falls * angle) ** 2
+        return rate, (falls * angle * torque - given.roller_kg_m2 * falls**2 * angle * rate**2) / inertia
+
+    def pressed(_: float, state: np.ndarray) -> float:
+        angle, rate = state
+        torque = given.held_nm_per_rad * (WIND_RAD - falls * angle**2 / 2.0 - begin)
+        return torque - given.roller_kg_m2 * falls * (rate**2 + angle * moving(_, state)[1])
+
+    pressed.terminal = True  # type: ignore[attr-defined]
+    exact = integrate.solve_ivp(moving, (0.0, 1.0), (0.0, speed), events=pressed, rtol=1e-9, atol=1e-12)
+    assert not release.touches
+    assert cam[release.at] == pytest.approx(exact.y[0, -1], abs=2.0 * release.step)
+    assert release.speed == pytest.approx(exact.y[1, -1], rel=0.02)
+
+
+def test_what_the_corner_pushes_turns_the_rotor_too() -> None:
+    """The lever's torque at the corner's slope turns cam, gear and rotor alike; each has its share of it."""
+    given = parts(cam_rad_s=0.5)
+    release = _Release(arc(0.2, 0.001), given)
+    release.leg_inertia = 1e9 * release.leg_inertia
+    release.inertia = given.cam_kg_m2 + given.gear_kg_m2 + given.rotor_kg_m2
+    torque = given.held_nm_per_rad * (WIND_RAD - release.wind)
+    release._push_to(10)
+    assert release.kick_nm == pytest.approx(0.2 * torque * given.rotor_kg_m2 / release.inertia, rel=1e-3)
+    alone = _Release(arc(0.2, 0.001), given)
+    alone._push_to(10)
+    assert alone.kick_nm == 0.0
 
 
 def test_masses_that_join_keep_their_momentum_and_wind_up_what_is_between_them() -> None:
