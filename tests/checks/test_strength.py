@@ -121,6 +121,10 @@ def test_the_plates_bear_the_push_of_the_cam_between_them(strongest: Robot) -> N
     push = layout.drive.cam.peak_contact_n
     assert max(push, arm) <= borne[1] + 1e-9
     assert borne[0] <= push + arm + 1e-9
+    (_, on_pin), on_lever = LoadCase(strongest).wound_forces_n
+    springs_pin, leg_axle = (float(np.hypot(*force)) for force in (on_pin, on_lever - on_pin))
+    worst = max(push / seats[0], springs_pin / seats[0], leg_axle / seats[1])
+    assert seat.value == pytest.approx(worst / (2.0 * layout.axle_mm))
 
 
 def test_pins_for_a_few_jumps_may_bear_their_yield_and_no_more(kenan: Robot) -> None:

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from jumpcad.drive import blows
-from jumpcad.drive.blows import damping_share, largest_torques_nm
+from jumpcad.drive.blows import _flight_s, damping_share, largest_torques_nm
 
 CAM, GEAR, ROTOR = 6e-7, 2e-6, 3e-3
 """Moments of inertia at the cam (kg·m²) of a usual drive."""
@@ -84,3 +84,20 @@ def test_a_cam_that_flies_off_ends_the_run(monkeypatch: pytest.MonkeyPatch) -> N
     largest_torques_nm((8.3e-8, 1.67e-6, 0.0693), 1.99, 0.322, 0.014, 150.0, 0.5)
     assert flights[1] < 0.0  # after the first impact the cam falls back
     assert len(flights) < 10
+
+
+@pytest.mark.parametrize(
+    ("dog", "closing", "head", "ahead", "time_s"),
+    [
+        (-0.02, 4.0, -0.01, 0.0, 0.005),  # the cam behind the gear, which keeps its place before the rotor
+        (-0.02, 4.0, -0.01, 5.0, 0.002),  # the gear meets the rotor before
+        (-0.02, 4.0, -0.01, -5.0, 0.004),  # it falls back to the other end of a backlash of 0.03 rad before
+        (-0.02, -4.0, -0.01, -2.0, 0.01),
+        (-0.02, -4.0, -0.01, 0.0, math.inf),
+        (-0.02, 0.0, -0.01, 0.0, math.inf),
+    ],
+)
+def test_a_flight_ends_at_the_first_of_three_contacts(
+    dog: float, closing: float, head: float, ahead: float, time_s: float
+) -> None:
+    assert _flight_s(dog, closing, head, ahead, 0.03) == pytest.approx(time_s)
