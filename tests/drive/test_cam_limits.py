@@ -144,3 +144,9 @@ def test_a_cam_has_room_between_the_limits_of_its_direction() -> None:
     assert ends(10.0, axis_min_rad=0.1, lowest_mm=6.0) == pytest.approx((115.0, math.degrees(math.asin(0.7))))
     assert ends(0.0, axis_max_rad=3.0) == pytest.approx((135.0, 60.0))
     assert ends(0.0, axis_max_rad=3.0, lever_loaded_max_rad=9.0) == pytest.approx((150.0, 60.0))
+
+
+def test_the_cams_material_is_petg() -> None:
+    """Poisson's ratio 0.37 to 0.40; rolling shakes down up to 4·k, k = 45 MPa/√3 (Johnson, Contact Mechanics, 9.2)."""
+    assert 0.37 <= CAM_LIMITS.poisson <= 0.40
+    assert CAM_LIMITS.pressure_mpa * math.sqrt(1.1 * 1.05) <= 4.0 * 45.0 / math.sqrt(3.0)
