@@ -113,6 +113,12 @@ def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg
     corner = shape.in_body(shape.tip_mm, shape.free_rad)
     behind = math.atan2(corner[1], corner[0]) - (shape.lever_start_rad - limits.overshoot_rad)
     assert found["cam_overshoot"] == pytest.approx(min(behind, lead - limits.overshoot_rad), abs=1e-6)
+    fallen = 2.0 * math.pi - found["cam_drop"]
+    edge = shape.in_body(shape.contact_mm(np.array([0.0])), fallen)[0]
+    places = shape.roller_mm(-limits.overshoot_rad * np.array([1.0, 0.5, 0.0]))  # from past rest to rest
+    gaps = np.hypot(*(places - edge).T) - limits.roller_radius_mm - limits.clearance_mm
+    next_lift = [float(row[0]) for row, of in zip(rows, ROWS, strict=True) if LIMITS[of].name == "cam_next_lift"]
+    assert next_lift == pytest.approx(gaps, abs=1e-6)
 
 
 def test_shapes_measured_together_are_measured_as_each_alone() -> None:

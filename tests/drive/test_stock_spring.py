@@ -13,6 +13,7 @@ from jumpcad.checks import constraint_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import TorsionSpring
+from jumpcad.drive.spring_arms import ARM_BEYOND_MM
 from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
@@ -82,6 +83,12 @@ def test_its_stress_is_that_of_its_torque() -> None:
 def test_arms_that_are_too_short_are_refused() -> None:
     with pytest.raises(CannotBuildError, match=r"arms of 12 mm do not reach the pins; 1\d\.\d mm are needed: "):
         fitted(STOCK.model_copy(update={"arm_length_mm": 12.0}))
+    outer, pin = STOCK.inside_diameter_mm + 2.0 * STOCK.wire_mm, LIMITS.pin_mm
+    beside = (outer + pin) / 2.0  # from the axle, square to the arm, to the middle of the pin at the arm's side
+    needed = math.sqrt(LIMITS.pin_radius_mm(outer) ** 2 - beside**2) + ARM_BEYOND_MM
+    for more, words in ((-0.01, f"do not reach the pins; {needed:.1f} mm are needed"), (0.01, "there is room from")):
+        with pytest.raises(CannotBuildError, match=words):
+            fitted(STOCK.model_copy(update={"arm_length_mm": needed + more}))
 
 
 def test_an_arm_angle_that_no_pin_fits_is_refused() -> None:

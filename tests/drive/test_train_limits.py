@@ -22,3 +22,8 @@ def test_a_motor_asks_for_the_room_of_its_shaft_and_of_its_sockets_flat_side() -
     assert beside.pinion_root_min_mm == pytest.approx(1.5 + 1.5)
     roomy = replace(limits, motor_distance_min_mm=20.0, pinion_root_min_mm=4.0).beside(motor)
     assert (roomy.motor_distance_min_mm, roomy.pinion_root_min_mm) == (20.0, 4.0)
+
+
+def test_modules_are_those_of_iso_54() -> None:
+    """Its first series: 1, 1.25, 1.5, 2, 2.5, 3."""
+    assert set(default_limits().train.modules_mm) <= {1.0, 1.25, 1.5, 2.0, 2.5, 3.0}

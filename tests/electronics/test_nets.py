@@ -142,6 +142,14 @@ def test_a_closed_contact_carries_its_least_current_even_with_five_per_cent_off(
     assert wiring.resistors["pull-up resistor"] == wiring.pull_up_ohm
 
 
+def test_a_contact_without_a_least_current_has_the_largest_pull_up() -> None:
+    """10 kOhm: 0.3 mA at 3.3 V."""
+    chosen = parts("light-1s")
+    dry = chosen.components["sensor"].model_copy(update={"least_a": None})
+    wiring = wiring_of(replace(chosen, components={**chosen.components, "sensor": dry}), {})
+    assert wiring.pull_up_ohm == 10_000
+
+
 @pytest.mark.parametrize("kit", KITS)
 def test_each_signal_has_its_own_pin_that_can_do_it(kit: str) -> None:
     chosen = parts(kit)

@@ -8,7 +8,7 @@ import pytest
 from support.built import built
 
 from jumpcad.mechanism import flight
-from jumpcad.mechanism.flight import leg_blow
+from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.settings import load_settings
 from jumpcad.simulation.planar import PlanarEngine
@@ -93,3 +93,7 @@ def test_a_foot_that_comes_down_flat_keeps_the_momentum_of_the_leg() -> None:
     assert before[3] != 0.0
     assert after[3] == 0.0
     assert 2.0 * after[2] == pytest.approx(2.0 * before[2] + 0.6 * before[3], rel=1e-9)
+
+
+def test_the_energy_of_a_blow_is_that_of_a_turning_body() -> None:
+    assert Blow(takeoff_rad=0.0, stop_rad_s=20.0, inertia_kg_m2=1e-4).energy_j == pytest.approx(0.02)
