@@ -133,6 +133,7 @@ def test_a_rigid_key_and_too_little_play_lose_what_the_dog_keeps(name: str) -> N
     for play_deg in (0.0, 3.0, 5.0):
         rolled, _ = released(robot, play_rad=math.radians(play_deg), cam_rad_s=0.2)
         assert rolled.kept_j < 0.95 * rolled.held_j
+        assert rolled.wind_rad_s < 0.0, "towards rest, although the roller bounced"
 
 
 def test_a_rigid_key_fails_its_checks() -> None:

@@ -125,3 +125,16 @@ def test_a_play_is_counted_from_where_the_corner_first_drives_the_cam() -> None:
     assert release._index(3.0) == 400
     lagging = _Release(corner, replace(parts(), friction_mm=0.3 * 20.0))
     assert lagging.first == lagging.last == 400, "with friction above its slope no corner drives"
+
+
+@pytest.mark.parametrize(("rate", "left"), [(0.7, 0.0), (-0.7, -0.7)])
+def test_what_a_rebound_gives_the_leg_is_lost(monkeypatch: pytest.MonkeyPatch, rate: float, left: float) -> None:
+    """The roller leaves the corner with the leg on its way up, or down."""
+    release = _Release(arc(0.2), parts())
+
+    def thrown(stop: int) -> None:
+        release.at, release.touches, release.rate = stop, False, rate
+
+    monkeypatch.setattr(release, "_push_to", thrown)
+    release._push_off(0)
+    assert release.rate == left
