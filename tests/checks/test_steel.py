@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import pytest
 from support.built import built
@@ -115,3 +116,18 @@ def test_a_pin_that_is_too_weak_is_answered_with_what_is_strong_enough() -> None
         assert f"bought.axle of {rods} with" in words, "solid rods of 1370, 400 and 480 MPa for a tube of 210 MPa"
     assert steel._stronger(case, "leg_axle", 200.0, 300.0).startswith("a stronger bought.axle")
     assert "no stronger pins" in steel._stronger(case, "foot_pin", 600.0, 300.0)
+
+
+@pytest.mark.parametrize("robot", ["kenan", "strongest"])
+def test_the_axle_or_pin_nearest_to_its_yield_stress_tires_first(robot: str, request: pytest.FixtureRequest) -> None:
+    """Not the one with the largest stress: pins of 400 MPa beside axles of 1370 MPa, here a tenth as strong."""
+    strong = request.getfixturevalue(robot)
+    for pins_mpa in (1370.0, 137.0):
+        case = LoadCase(strong)
+        weak = {name: replace(case.bars[name], yield_mpa=pins_mpa) for name in ("foot_pin", "leg_pin")}
+        case.__dict__["bars"] = case.bars | weak
+        used = {name: stress / case.bars[name].yield_mpa for name, stress in case.steel_stresses_mpa.items()}
+        worst = max(used, key=used.__getitem__)
+        (axle,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
+        assert axle.message.startswith(f"the {worst.replace('_', ' ')}: ")
+        assert axle.value == case.steel_stresses_mpa[worst]
