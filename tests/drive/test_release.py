@@ -180,3 +180,13 @@ def test_jumps_start_where_the_roller_leaves(name: str) -> None:
     assert robot.roller_off == robot.release.off
     assert -robot.spring.wind_rad < robot.release.off.leg_rad < -0.95 * robot.spring.wind_rad
     assert np.isfinite(robot.release.off.leg_rad_s)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
+def test_the_contact_is_as_stiff_about_the_pivot_as_its_lever_arm_says(name: str) -> None:
+    """Stiffness times the arm's square; the arm is the springs' torque at the lift's end over the contact force."""
+    robot = built(name)
+    arm_m = robot.spring.peak_torque_nm / robot.layout.drive.cam.peak_contact_n
+    expected = 1000.0 * robot.workshop.release.contact_n_per_mm * arm_m**2
+    for parts in robot.release.parts:
+        assert parts.contact_nm_per_rad == pytest.approx(expected, rel=0.05)

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.strength.leg_bar import bar_shear_mpa
+from jumpcad.strength.leg_bar import bar_shear_mpa, bar_sideways_mpa
 
 STRIP = load_catalogue().bars["carbon-strip-3x6"]
 
@@ -21,3 +21,8 @@ def test_a_twisted_strip_is_sheared_as_saint_venant_says(times: float) -> None:
     for width, height in ((short, times * short), (times * short, short)):
         strip = STRIP.model_copy(update={"width_mm": width, "height_mm": height})
         assert bar_shear_mpa(strip, 0.0, 500.0) == pytest.approx(stress, rel=0.05)
+
+
+def test_a_strip_is_bent_sideways_by_its_section_modulus() -> None:
+    """6·M/(h·b²) of 3 x 6 mm, b across the robot."""
+    assert bar_sideways_mpa(STRIP, 450.0) == pytest.approx(6.0 * 450.0 / (6.0 * 9.0))
