@@ -74,3 +74,17 @@ def test_a_landing_on_one_toe_bends_and_twists_the_inclined_leg(solid: LoadCase)
     bent = 6.0 * moment * math.sin(angle) / (height * thick**2)
     twisted = math.sqrt(3.0) * moment * math.cos(angle) / (long * short**2) * (3.0 + 1.8 * short / long)
     assert found(solid)["leg_sideways"] == pytest.approx(math.hypot(bent, twisted))
+
+
+def test_a_hollow_leg_is_bent_sideways_between_its_layers(kenan: Robot) -> None:
+    """It prints lying: its layers bear most, farthest from the middle of its thickness, its walls are at its edges."""
+    case = LoadCase(kenan)
+    shell, thick, angle = case.shell, case.layout.sections.thickness_mm, math.radians(case.robot.design.rest_angle_deg)
+    height = case.layout.sections.leg_tip_mm
+    moment = case.toe_blow_n * case.layout.toe_half_width_mm
+    core = (height - 2.0 * shell.walls_mm) * (thick - 2.0 * shell.layers_mm) ** 3
+    second = (height * thick**3 - (1.0 - shell.core_share) * core) / 12.0
+    short, long = sorted((thick, height))
+    twisted = math.sqrt(3.0) * moment * math.cos(angle) / (long * short**2) * (3.0 + 1.8 * short / long)
+    bent = moment * math.sin(angle) * thick / 2.0 / second
+    assert found(case)["leg_sideways"] == pytest.approx(math.hypot(bent, twisted))

@@ -8,8 +8,8 @@ import pytest
 from scipy import integrate
 from support.built import built
 
-from jumpcad.drive.corner import Corner
-from jumpcad.drive.rolling import ReleaseParts, _Release
+from jumpcad.drive.corner import Corner, roll_over
+from jumpcad.drive.rolling import ReleaseParts, _Release, roll
 
 WIND_RAD = 0.6
 
@@ -138,3 +138,14 @@ def test_what_a_rebound_gives_the_leg_is_lost(monkeypatch: pytest.MonkeyPatch, r
     monkeypatch.setattr(release, "_push_to", thrown)
     release._push_off(0)
     assert release.rate == left
+
+
+def test_what_is_kept_is_the_springs_energy_and_the_legs_own() -> None:
+    """With the leg's moment of inertia where the roller leaves."""
+    robot = built("best-ga")
+    given = robot.release.parts[1]
+    corner = roll_over(robot.layout.drive.cam.geometry)
+    rolled = roll(corner, given, float(corner.wind_rad.max()))
+    inertia = float(given.leg.at(np.array(rolled.wind_rad))[0])
+    swing = 0.5 * inertia * rolled.wind_rad_s**2
+    assert rolled.kept_j == pytest.approx(given.spring.stored_j(-rolled.wind_rad) + swing)
