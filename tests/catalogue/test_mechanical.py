@@ -24,7 +24,11 @@ def test_turns_follow_from_the_angle_between_tangent_arms(angle_deg: float, turn
     assert spring.wound_turns == turns
     assert not [place for place, *_ in spring.contradictions() if place == ("arm_angle_deg",)]
     wrong = spring.model_copy(update={"turns": turns + 0.25})
-    assert [place for place, *_ in wrong.contradictions()] == [("arm_angle_deg",)]
+    ((place, _, reason),) = wrong.contradictions()
+    assert place == ("arm_angle_deg",)
+    advised = float(reason.partition("have ")[2].partition("°")[0])
+    assert advised == (angle_deg - 90.0) % 360.0
+    assert not list(wrong.model_copy(update={"arm_angle_deg": advised}).contradictions())
 
 
 def test_a_bearing_has_room_for_its_balls() -> None:

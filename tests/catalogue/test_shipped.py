@@ -62,6 +62,13 @@ def test_stronger_wire_is_thinner_and_follows_the_standards_logarithm():
         assert strength == pytest.approx(1980 - 740 * math.log10(diameter), abs=15)
 
 
+def test_strength_is_linear_between_the_wires_of_the_list_and_beyond_them():
+    rows = {1.0: 2000.0, 2.0: 1900.0, 4.0: 1500.0}
+    listed = CATALOGUE.wire.model_copy(update={"diameters_mm": list(rows), "tensile_strength_mpa": list(rows.values())})
+    for diameter, strength in (rows | {0.5: 2050.0, 1.5: 1950.0, 3.0: 1700.0, 5.0: 1300.0}).items():
+        assert listed.tensile_mpa(diameter) == pytest.approx(strength)
+
+
 def test_a_rod_weighs_its_volume_of_steel():
     assert CATALOGUE.rod_mass_g(3.0, 100.0) == pytest.approx(5.55, abs=0.01)
 

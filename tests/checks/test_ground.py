@@ -1,10 +1,12 @@
 """Clearances against solids that are placed and measured; both checks fail where they must."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from manifold3d import Manifold
+from support.built import geared
 
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import Moment, components, pose_of
@@ -78,11 +80,14 @@ def test_foot_clearance_fires_on_a_battery_that_sinks(kenan: Robot) -> None:
     assert "battery" in finding.message
 
 
-def test_the_motor_counts_with_its_corners(strongest: Robot) -> None:
+@pytest.mark.parametrize(("width_mm", "height_mm"), [(10.0, 12.0), (5.0, 12.0), (16.0, 8.0)])
+def test_the_motor_counts_with_its_corners(strongest: Robot, width_mm: float, height_mm: float) -> None:
     """A motor 80 mm further down is the lowest thing on the body: the box of its catalogue sizes, however it turns."""
     layout, lower = strongest.layout, np.array([0.0, -80.0])
-    motor = layout.drive.train.motor
-    sunk = replace(strongest, layout=replace(layout, motor_mm=layout.motor_mm + lower))
+    drive = layout.drive
+    motor = drive.train.motor.model_copy(update={"width_mm": width_mm, "height_mm": height_mm})
+    flat = replace(drive, train=replace(drive.train, motor=motor))
+    sunk = replace(strongest, layout=replace(layout, drive=flat, motor_mm=layout.motor_mm + lower))
     (finding,) = ground_findings(sunk)
     assert "the body" in finding.message
     leg = np.linspace(-strongest.design.compression_rad, 0.0, 91)
@@ -125,3 +130,51 @@ def test_the_trays_count_with_their_ends(strongest: Robot) -> None:
     half = layout.electronics.length_mm / 2.0
     ends = [((tray + np.array([x, 0.0]) - pose.ankle_mm) * up).sum(axis=1).min() for x in (-half, half)]
     assert finding.margin + 0.6 == pytest.approx(min(ends) + 1000.0 * strongest.foot_depth_m, abs=0.02)
+
+
+def lowest_mm(robot: Robot, middle: np.ndarray, reach: Callable[[np.ndarray], float]) -> float:
+    """Return the least height above the ground of what `reach`es so far down from a middle, the foot flat."""
+    found = np.inf
+    for leg in np.linspace(-robot.design.compression_rad, 0.0, 9):
+        pose = robot.linkage.pose([leg])
+        up = np.array([np.sin(pose.foot_rad[0]), np.cos(pose.foot_rad[0])])
+        found = min(found, float((middle - pose.ankle_mm[0]) @ up) - reach(up))
+    return found + 1000.0 * robot.foot_depth_m
+
+
+@pytest.mark.parametrize("depth_mm", [1.0, 9.0])
+def test_the_stops_ears_count_with_their_corners(strongest: Robot, depth_mm: float) -> None:
+    """A stop 80 mm further down: 2.5 mm of plate around a tab of 5 x 4 mm, or the bar of the pad's 8 mm between."""
+    layout, stop = strongest.layout, strongest.layout.stop
+    sunk = replace(stop, depth_mm=depth_mm, face_mm=stop.face_mm - np.array([0.0, 80.0]))
+    (finding,) = ground_findings(replace(strongest, layout=replace(layout, stop=sunk)))
+    assert "the body" in finding.message
+
+    def box(along_mm: float, behind_mm: float) -> Callable[[np.ndarray], float]:
+        return lambda up: abs(along_mm / 2.0 * stop.along @ up) + abs(behind_mm / 2.0 * stop.behind @ up)
+
+    ear = lowest_mm(strongest, sunk.tab_mm, box(5.0 + 5.0, 4.0 + 5.0))
+    bar = lowest_mm(strongest, sunk.middle_mm, box(8.0, depth_mm))
+    assert finding.margin + 0.6 == pytest.approx(min(ear, bar), abs=1e-6)
+
+
+@pytest.mark.parametrize("what", ["axle", "standoff", "cam", "wheel", "idler"])
+def test_round_things_count_with_their_radius(what: str) -> None:
+    """Each of them 100 mm further down, in a robot with two pairs of gears; a cam of 60 mm is larger than its gear."""
+    robot = geared()
+    layout, lower = robot.layout, np.array([0.0, -100.0])
+    drive, axis = layout.drive, layout.cam_axis_mm + lower
+    first, last = (stage.wheel.tip_radius_mm for stage in drive.train.stages)
+    large = replace(drive, cam=replace(drive.cam, outer_radius_mm=60.0))
+    idler, standoff = layout.idler_mm + lower, layout.standoffs_mm[0] + lower
+    front = layout.front_mm + lower
+    sunk, middle, radius = {
+        "axle": (replace(layout, front_mm=front), front, layout.axle_mm / 2.0 + 3.0),
+        "standoff": (replace(layout, standoffs_mm=(standoff, *layout.standoffs_mm[1:])), standoff, 4.5),
+        "cam": (replace(layout, cam_axis_mm=axis, drive=large), axis, 60.0),
+        "wheel": (replace(layout, cam_axis_mm=axis), axis, max(last, drive.cam.outer_radius_mm)),
+        "idler": (replace(layout, idler_mm=idler), idler, first),
+    }[what]
+    (finding,) = ground_findings(replace(robot, layout=sunk))
+    assert "the body" in finding.message
+    assert finding.margin + 0.6 == pytest.approx(lowest_mm(robot, middle, lambda up: radius), abs=1e-6)

@@ -2,7 +2,9 @@
 
 import math
 
+import numpy as np
 import pytest
+import shapely
 from support.built import built
 
 from jumpcad.bundle.wiring import wires
@@ -30,6 +32,34 @@ def test_what_moves_across_a_lead_or_close_beside_it_is_found(
     monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("fan", middle, 2.0, (y - 0.1, y + 0.1))])
     (finding,) = lead_findings(robot)
     assert finding.severity == severity
+
+
+@pytest.mark.parametrize("aside", [(0.0, 1.5), (0.0, -1.5), (1.5, 0.0), (-1.5, 0.0)])
+def test_the_gap_is_from_a_leads_middle_to_what_moves(
+    monkeypatch: pytest.MonkeyPatch, aside: tuple[float, float]
+) -> None:
+    """A disc of 2 mm across the leads outside the plate, its middle 1.5 mm beside the middle of their way."""
+    robot = built("kenan-2.0")
+    start, end = way_in(robot.layout, "motor")[:2]
+    place, y = (start + end)[[0, 2]] / 2.0 + aside, start[1]
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("fan", place, 2.0, (y - 0.1, y + 0.1))])
+    (finding,) = lead_findings(robot)
+    line = shapely.LineString([start[[0, 2]], end[[0, 2]]])
+    assert finding.value == pytest.approx(line.distance(shapely.Point(place)) - 2.0, abs=0.1)
+
+
+@pytest.mark.parametrize("part", ["sensor", "motor"])
+@pytest.mark.parametrize("stretch", [0, 1, 2])
+def test_what_moves_anywhere_along_a_lead_is_found(monkeypatch: pytest.MonkeyPatch, part: str, stretch: int) -> None:
+    """A ball in the middle of each stretch: beside the plate, through its hole, and from there to the trays."""
+    robot = built("kenan-2.0")
+    layout, way = robot.layout, way_in(robot.layout, part)
+    tray = layout.electronics.middle_mm(layout.tray_mm)
+    way.append(np.array([tray[0], way[-1][1], tray[1]]))
+    x, y, z = (way[stretch] + way[stretch + 1]) / 2.0
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.1, y + 0.1))])
+    (finding,) = lead_findings(robot)
+    assert (finding.severity, finding.message.split("'")[0]) == ("error", f"the {part}")
 
 
 def test_the_bill_has_the_wire_that_is_cut() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.built import checked
 
-from jumpcad.checks.printability import bed_findings, printability_findings
+from jumpcad.checks.printability import _longest_mm, bed_findings, printability_findings
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY
@@ -124,3 +124,9 @@ def test_bed_either_way_round(kenan: Robot) -> None:
     # MK4: 250 x 210 mm; 240 mm fit along x alone
     (finding,) = bed_findings(robot_of(kenan, Stack.of([(0.0, 5.0, rectangle((100.0, 240.0)))])))
     assert finding.margin == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("middle", [(0.0, 0.0), (20.0, -7.0)])
+def test_a_region_is_at_most_as_long_as_its_diagonal(middle: tuple[float, float]) -> None:
+    """3, 4, 5; wherever it lies."""
+    assert _longest_mm(rectangle((3.0, 4.0), middle)) == pytest.approx(5.0)

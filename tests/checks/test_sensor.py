@@ -91,3 +91,13 @@ def test_a_robot_without_a_sensor_has_no_track() -> None:
     assert robot.layout.sensor is None
     assert not list(sensor_findings(robot))
     assert "sensor_mount" not in [part.name for part in robot.parts]
+
+
+def test_limits_are_those_that_the_messages_say() -> None:
+    """Of every finding but the press itself: 0 of what is left."""
+    for finding in sensor_findings(built("kenan-2.0")):
+        if "of 0 mm at least" in finding.message or "of 0° at least" in finding.message:
+            assert finding.limit == 0.0, finding.name
+            assert finding.value == pytest.approx(finding.margin)
+        else:
+            assert f"{finding.limit:.2f}" in finding.message

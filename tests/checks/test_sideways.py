@@ -51,6 +51,30 @@ def test_play_adds_up_along_the_leg(kenan: Robot) -> None:
     assert play_rad(kenan.layout, fine) < play_rad(kenan.layout, holes)
 
 
+@pytest.mark.parametrize(
+    ("fit", "bearing", "eye_mm", "lengths_mm"),
+    [
+        ("eye_mm", True, 0.1, [6.0]),  # the ankle's eye; both eyes of the front link have more play
+        ("lying_mm", True, 0.1, [21.0]),  # the ankle's pin in the foot
+        ("sliding_mm", True, 0.1, [36.1]),  # the axle in both plates
+        ("sliding_mm", False, 0.3, [6.0, 36.1]),  # the hub without a bearing too
+        ("eye_mm", False, 0.0, [6.0, 6.0]),  # with tight eyes the front link counts: its two eyes
+        ("lying_mm", False, 0.0, [15.0]),  # its pin in the nose's lugs
+        ("sliding_mm", False, 0.0, [36.1]),
+    ],
+)
+def test_each_joint_tilts_by_its_clearance_over_its_length(
+    kenan: Robot, fit: str, bearing: bool, eye_mm: float, lengths_mm: list[float]
+) -> None:
+    """A hole that is wider by c lets a pin tilt by c/l more; the bores of the plates are 37.7 - 2·0.8 mm apart."""
+    layout = kenan.layout if bearing else replace(kenan.layout, hub_bearing=None)
+    holes = HoleSizes.of(kenan.workshop, layout.hub_bearing)
+    fits = holes.fits.model_copy(update={"eye_mm": eye_mm})
+    wider = fits.model_copy(update={fit: getattr(fits, fit) + 0.01})
+    before, after = (play_rad(layout, replace(holes, fits=one)) for one in (fits, wider))
+    assert after - before == pytest.approx(sum(0.02 / length for length in lengths_mm), rel=1e-3)
+
+
 @pytest.mark.parametrize(("state", "share"), [("at rest", 0.0), ("springs loaded", 1.0)])
 def test_rolling_by_the_stance_brings_the_centre_of_mass_over_the_edge(
     strongest: Robot, state: str, share: float

@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import pytest
 from support.built import built
@@ -106,5 +107,27 @@ def test_a_pin_that_is_too_weak_is_answered_with_what_is_strong_enough() -> None
     for rod in robot.workshop.catalogue.rods.values():
         strong = rod.yield_mpa >= 1.1 * bar.yield_mpa and not rod.bore_share
         assert (f"{rod.name}" in just.split(")")[0]) == strong
+    tube = LoadCase(changed(robot, "bought", axle="steel-tube"))
+    for times, rods in (
+        (1.1, "spring-steel or silver-steel or aluminium-7075"),
+        (2.1, "spring-steel or aluminium-7075"),
+    ):
+        words = steel._stronger(tube, "leg_axle", times * 140.0, 140.0)
+        assert f"bought.axle of {rods} with" in words, "solid rods of 1370, 400 and 480 MPa for a tube of 210 MPa"
     assert steel._stronger(case, "leg_axle", 200.0, 300.0).startswith("a stronger bought.axle")
     assert "no stronger pins" in steel._stronger(case, "foot_pin", 600.0, 300.0)
+
+
+@pytest.mark.parametrize("robot", ["kenan", "strongest"])
+def test_the_axle_or_pin_nearest_to_its_yield_stress_tires_first(robot: str, request: pytest.FixtureRequest) -> None:
+    """Not the one with the largest stress: pins of 400 MPa beside axles of 1370 MPa, here a tenth as strong."""
+    strong = request.getfixturevalue(robot)
+    for pins_mpa in (1370.0, 137.0):
+        case = LoadCase(strong)
+        weak = {name: replace(case.bars[name], yield_mpa=pins_mpa) for name in ("foot_pin", "leg_pin")}
+        case.__dict__["bars"] = case.bars | weak
+        used = {name: stress / case.bars[name].yield_mpa for name, stress in case.steel_stresses_mpa.items()}
+        worst = max(used, key=used.__getitem__)
+        (axle,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
+        assert axle.message.startswith(f"the {worst.replace('_', ' ')}: ")
+        assert axle.value == case.steel_stresses_mpa[worst]

@@ -80,6 +80,19 @@ def test_ears_are_bent_like_a_cantilever() -> None:
     assert found(robot)["stop_plates"].value == pytest.approx(6.0 * moment / (2.4 * 16.0**2))
 
 
+def test_ears_with_a_hole_near_the_hub_are_weakest_beside_it() -> None:
+    """Second moment of the 2 mm above and below the hole, t·(w³ - d³)/12; the arm ends at the hole's nearer end."""
+    robot = built("best-bo")
+    layout = robot.layout
+    nearer = replace(robot, layout=replace(layout, leg_pin_mm=layout.leg_pin_mm - 6.0))
+    hole = layout.pin_hole.diameter_mm
+    width = hole + 2.0 * 2.0
+    (outer, inner), pad = (width / 2.0, hole / 2.0), layout.stop.radius_mm
+    second_moment = 2.4 * 2.0 * (outer**3 - inner**3) / 3.0
+    moment = robot.stop_blow.force_n * (pad - (layout.leg_pin_mm - 6.0 - inner))  # of each ear, at twice the force
+    assert found(nearer)["stop_plates"].value == pytest.approx(moment * outer / second_moment)
+
+
 def test_the_leg_is_a_beam_on_hub_and_pad() -> None:
     """A load F at the pad, held at the hub and, by inertia, at the ankle: M = F·r·(1 - r/l) (any handbook)."""
     robot = solid_kenan()

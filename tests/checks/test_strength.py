@@ -110,6 +110,23 @@ def test_twice_the_spring_torque_bends_twice_as_much(kenan: Robot) -> None:
     assert math.isfinite(after)
 
 
+@pytest.mark.parametrize("robot", ["kenan", "strongest"])
+def test_the_plates_bear_what_axles_and_the_springs_pin_push(robot: str, request: pytest.FixtureRequest) -> None:
+    """The force over the projected area of two seats, of the axle or pin that presses most.
+
+    Of Kenan the leg's axle, between cam and springs, in a longer seat; of the strongest the springs' pin.
+    """
+    strong = request.getfixturevalue(robot)
+    (seat,) = (finding for finding in strength_findings(strong) if finding.name == "plate_seat")
+    (_, on_pin), on_lever = LoadCase(strong).wound_forces_n
+    plate = strong.layout.lateral.left_plate[1] - strong.layout.lateral.left_plate[0]
+    seats = {"cam": plate - 0.8, "pin": plate - 0.8, "leg": plate - 0.8 + 1.2}
+    forces = {"cam": on_lever, "pin": on_pin, "leg": on_lever - on_pin}
+    pressed = {name: float(np.hypot(*force)) / seats[name] for name, force in forces.items()}
+    assert max(pressed, key=pressed.__getitem__) == {"kenan": "leg", "strongest": "pin"}[robot]
+    assert seat.value == pytest.approx(max(pressed.values()) / (2.0 * strong.layout.axle_mm))
+
+
 def test_the_plates_bear_the_push_of_the_cam_between_them(strongest: Robot) -> None:
     """Bearing stress is force over the projected area, diameter times thickness (Shigley, 8-12), of two seats."""
     layout = strongest.layout
@@ -180,3 +197,21 @@ def test_the_leg_takes_its_share_of_the_springs_energy(kenan: Robot) -> None:
     bent = np.trapezoid(moment**2 / (2.0 * case.workshop.material("links").modulus_mpa * second), x)
     assert flex.value == pytest.approx(100.0 * bent / (1000.0 * kenan.spring.energy_j), rel=2e-3)
     assert flex.limit == pytest.approx(100.0 * kenan.workshop.safety.leg_flex_share)
+
+
+@pytest.mark.parametrize("robot", ["kenan", "strongest"])
+def test_the_dog_bears_the_cams_torque_and_its_blow(robot: str, request: pytest.FixtureRequest) -> None:
+    """Two jaws as cantilevers along the axle, as long as the cam gear is wide, and the boss in torsion, as a tube."""
+    strong = request.getfixturevalue(robot)
+    (dog,) = (finding for finding in strength_findings(strong) if finding.name == "cam_dog_strength")
+    drive, case = strong.layout.drive, LoadCase(strong)
+    torque = 1000.0 * max(drive.cam.peak_torque_nm, strong.release.blow_nm)
+    fits, outer = case.workshop.fits, drive.dog.outer_mm
+    inner = 3.0 + 4.0 * fits.sliding_mm + 2.0 * fits.wall_min_mm
+    root, radius = (outer - inner) / 2.0, (outer + inner) / 4.0
+    force, along = torque / 2.0 / radius, radius * drive.dog.jaw_rad
+    width = drive.train.stages[-1].wheel.face_width_mm
+    jaws = math.hypot(6.0 * force * width / 2.0 / (root * along**2), math.sqrt(3.0) * 1.5 * force / (root * along))
+    bore = 3.0 + 2.0 * fits.sliding_mm
+    boss = math.sqrt(3.0) * 16.0 * torque * outer / (math.pi * (outer**4 - bore**4))
+    assert dog.value == pytest.approx(max(jaws, boss))

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from jumpcad.drive import blows
-from jumpcad.drive.blows import damping_share, largest_torques_nm
+from jumpcad.drive.blows import _flight_s, damping_share, largest_torques_nm
 
 CAM, GEAR, ROTOR = 6e-7, 2e-6, 3e-3
 """Moments of inertia at the cam (kg·m²) of a usual drive."""
@@ -48,11 +48,14 @@ def test_without_backlash_cam_and_gear_stop_together_at_most() -> None:
         assert 0.0 < kick <= 60.0 * math.sqrt(150.0 * CAM) * 1.001
 
 
-@pytest.mark.parametrize("backlash_deg", [0.0, 0.3, 2.0])
-def test_the_torques_are_those_of_an_independent_solver(backlash_deg: float) -> None:
-    speed, motor, k, share = 60.0, 1.5, 150.0, damping_share(0.5)
-    gap = math.radians(backlash_deg)
-    dampings = [2.0 * share * math.sqrt(k * a * b / (a + b)) for a, b in ((CAM, GEAR), (GEAR, ROTOR))]
+@pytest.mark.parametrize(
+    ("backlash_deg", "heavier", "rebound"), [(0.0, 1, 0.5), (0.3, 1, 0.5), (2.0, 1, 0.5), (2.8, 4, 0.65)]
+)
+def test_the_torques_are_those_of_an_independent_solver(backlash_deg: float, heavier: int, rebound: float) -> None:
+    """A cam that is heavier than the gear catches up with it again on its way back from the rotor."""
+    speed, motor, k, share = 60.0, 1.5, 150.0, damping_share(rebound)
+    gap, cam, gear = math.radians(backlash_deg), CAM * heavier, GEAR / heavier
+    dampings = [2.0 * share * math.sqrt(k * a * b / (a + b)) for a, b in ((cam, gear), (gear, ROTOR))]
 
     def torques(state: np.ndarray) -> list[float]:
         deep = (state[0] - state[1], state[1] - state[2] - gap)
@@ -61,12 +64,12 @@ def test_the_torques_are_those_of_an_independent_solver(backlash_deg: float) -> 
 
     def motion(_: float, state: np.ndarray) -> list[float]:
         dog, head = torques(state)
-        return [*state[3:], -dog / CAM, (dog - head) / GEAR, head / ROTOR]
+        return [*state[3:], -dog / cam, (dog - head) / gear, head / ROTOR]
 
     start = [1e-12, 0.0, 0.0, speed, motor, motor]
     solved = solve_ivp(motion, (0.0, 0.008), start, max_step=2e-6, rtol=1e-7, atol=1e-12)
     expected = np.array([torques(state) for state in solved.y.T]).max(axis=0)
-    found = largest_torques_nm((CAM, GEAR, ROTOR), speed, motor, gap, k, 0.5)
+    found = largest_torques_nm((cam, gear, ROTOR), speed, motor, gap, k, rebound)
     assert found == pytest.approx(expected, rel=0.01)
 
 
@@ -84,3 +87,20 @@ def test_a_cam_that_flies_off_ends_the_run(monkeypatch: pytest.MonkeyPatch) -> N
     largest_torques_nm((8.3e-8, 1.67e-6, 0.0693), 1.99, 0.322, 0.014, 150.0, 0.5)
     assert flights[1] < 0.0  # after the first impact the cam falls back
     assert len(flights) < 10
+
+
+@pytest.mark.parametrize(
+    ("dog", "closing", "head", "ahead", "time_s"),
+    [
+        (-0.02, 4.0, -0.01, 0.0, 0.005),  # the cam behind the gear, which keeps its place before the rotor
+        (-0.02, 4.0, -0.01, 5.0, 0.002),  # the gear meets the rotor before
+        (-0.02, 4.0, -0.01, -5.0, 0.004),  # it falls back to the other end of a backlash of 0.03 rad before
+        (-0.02, -4.0, -0.01, -2.0, 0.01),
+        (-0.02, -4.0, -0.01, 0.0, math.inf),
+        (-0.02, 0.0, -0.01, 0.0, math.inf),
+    ],
+)
+def test_a_flight_ends_at_the_first_of_three_contacts(
+    dog: float, closing: float, head: float, ahead: float, time_s: float
+) -> None:
+    assert _flight_s(dog, closing, head, ahead, 0.03) == pytest.approx(time_s)

@@ -113,6 +113,12 @@ def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg
     corner = shape.in_body(shape.tip_mm, shape.free_rad)
     behind = math.atan2(corner[1], corner[0]) - (shape.lever_start_rad - limits.overshoot_rad)
     assert found["cam_overshoot"] == pytest.approx(min(behind, lead - limits.overshoot_rad), abs=1e-6)
+    fallen = 2.0 * math.pi - found["cam_drop"]
+    edge = shape.in_body(shape.contact_mm(np.array([0.0])), fallen)[0]
+    places = shape.roller_mm(-limits.overshoot_rad * np.array([1.0, 0.5, 0.0]))  # from past rest to rest
+    gaps = np.hypot(*(places - edge).T) - limits.roller_radius_mm - limits.clearance_mm
+    next_lift = [float(row[0]) for row, of in zip(rows, ROWS, strict=True) if LIMITS[of].name == "cam_next_lift"]
+    assert next_lift == pytest.approx(gaps, abs=1e-6)
 
 
 def test_shapes_measured_together_are_measured_as_each_alone() -> None:
@@ -144,3 +150,9 @@ def test_a_cam_has_room_between_the_limits_of_its_direction() -> None:
     assert ends(10.0, axis_min_rad=0.1, lowest_mm=6.0) == pytest.approx((115.0, math.degrees(math.asin(0.7))))
     assert ends(0.0, axis_max_rad=3.0) == pytest.approx((135.0, 60.0))
     assert ends(0.0, axis_max_rad=3.0, lever_loaded_max_rad=9.0) == pytest.approx((150.0, 60.0))
+
+
+def test_the_cams_material_is_petg() -> None:
+    """Poisson's ratio 0.37 to 0.40; rolling shakes down up to 4·k, k = 45 MPa/√3 (Johnson, Contact Mechanics, 9.2)."""
+    assert 0.37 <= CAM_LIMITS.poisson <= 0.40
+    assert CAM_LIMITS.pressure_mpa * math.sqrt(1.1 * 1.05) <= 4.0 * 45.0 / math.sqrt(3.0)

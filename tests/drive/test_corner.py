@@ -9,7 +9,7 @@ from shapely import affinity
 from support.built import built
 
 from jumpcad.drive.cam import CamGeometry
-from jumpcad.drive.corner import clear_window_rad, roll_over
+from jumpcad.drive.corner import _rounding, clear_window_rad, roll_over
 
 TEMPLATES = ("kenan-2.0", "best-ga")
 
@@ -39,6 +39,21 @@ def test_the_roller_touches_the_corner_all_the_way(name: str, rounding_mm: float
 
 
 @pytest.mark.parametrize("name", TEMPLATES)
+@pytest.mark.parametrize("radius_mm", [0.3, 1.0])
+def test_a_rounding_touches_lift_and_drop_face_from_inside(name: str, radius_mm: float) -> None:
+    """Its centre is a radius from where it begins and from the outline; the drop face is an arc about the hub."""
+    cam = geometry(name)
+    begin, centre = _rounding(cam, radius_mm)
+    assert np.hypot(*(centre - cam.contact_mm(begin))) == pytest.approx(radius_mm, abs=1e-4)
+    assert shapely.Polygon(cam.outline_mm(1441)).exterior.distance(shapely.Point(centre)) == pytest.approx(
+        radius_mm, abs=2e-4
+    )
+    face = cam.lever_mm + cam.roller_radius_mm + cam.clearance_mm
+    assert np.hypot(*cam.in_body(centre, cam.free_rad)) == pytest.approx(face + radius_mm, abs=1e-5)
+    assert roll_over(cam, radius_mm).cam_rad[0] == begin < roll_over(cam).cam_rad[0] == cam.law.lift_rad
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
 def test_slopes_are_those_of_the_path(name: str) -> None:
     path = roll_over(geometry(name))
     middle = slice(5, 200)
@@ -52,13 +67,13 @@ def test_slopes_are_those_of_the_path(name: str) -> None:
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_the_window_is_where_the_roller_s_way_is_free(name: str) -> None:
     cam, law = geometry(name), geometry(name).law
-    way = shapely.LineString(cam.roller_mm(np.linspace(-cam.overshoot_rad, law.compression_rad, 200)))
+    way = shapely.LineString(cam.roller_mm(np.linspace(-cam.overshoot_rad, law.compression_rad, 800)))
     begin, end = clear_window_rad(cam, cam.outline_mm())
 
     def gap(turn: float) -> float:
         return standing(name, law.lift_rad + turn).distance(way) - cam.roller_radius_mm
 
-    slack = math.radians(0.3)
-    assert min(gap(turn) for turn in np.linspace(begin + slack, end - slack, 20)) > -1e-3
+    slack = math.radians(0.004)
+    assert min(gap(turn) for turn in np.linspace(begin + slack, end - slack, 20)) > 0.0
     assert gap(begin - slack) < 0.0
     assert gap(end + slack) < 0.0

@@ -23,3 +23,31 @@ def test_a_jaw_fills_its_pocket_but_for_the_play_ahead_of_it() -> None:
     own = low - first, begin + 2.0 * math.pi - second  # the gear's own jaws, as wide as the cam's on average
     assert sum(own) / 2.0 == pytest.approx(dog.jaw_rad)
     assert 2.0 * (2.0 * dog.jaw_rad + dog.play_rad) == pytest.approx(2.0 * math.pi)
+
+
+@pytest.mark.parametrize("play_deg", [12.0, 25.0])
+def test_the_gear_fits_in_one_position_only(play_deg: float) -> None:
+    """Turned by half a turn, and by as much as helps most, the cam's jaws overlap the pockets' ends by 6°."""
+    dog = Dog(math.radians(play_deg), 14.0)
+
+    def overlap_rad(turned_rad: float) -> float:
+        jaws = [(begin + turned_rad, end + turned_rad) for begin, end in dog.cam_jaws_rad]
+        over = 0.0
+        for begin, end in jaws:
+            middle = (begin + end) / 2.0
+            low, high = min(
+                (
+                    (low + turn, high + turn)
+                    for low, high in dog.pockets_rad
+                    for turn in (-2.0 * math.pi, 0.0, 2.0 * math.pi)
+                ),
+                key=lambda pocket: abs(sum(pocket) / 2.0 - middle),
+            )
+            over += max(low - begin, 0.0) + max(end - high, 0.0)
+        return over
+
+    turns = [math.radians(step / 10.0) for step in range(-300, 301)]
+    assert min(map(overlap_rad, turns)) == pytest.approx(0.0, abs=1e-9)
+    assert min(overlap_rad(math.pi + turn) for turn in turns) == pytest.approx(math.radians(6.0), abs=1e-6)
+    first, second = ((begin + end) / 2.0 for begin, end in dog.cam_jaws_rad)
+    assert second - first == pytest.approx(math.pi + math.radians(play_deg / 2.0 + 3.0))

@@ -37,6 +37,21 @@ def test_at_half_of_its_stall_torque_a_motor_turns_half_as_fast_and_draws_half_o
     assert free * math.radians(50 + 2 * 280 + 30) < turn.seconds < free * math.radians(50 + 2 * 310)
 
 
+def test_what_a_turn_draws_is_the_current_over_the_time_of_each_of_its_angles() -> None:
+    """In closed form up to half of the stall torque: the ramp's share s grows evenly, at (1 - s) of the free speed."""
+    spring = law(1.0)
+    ratio = spring.peak_torque_nm / (0.5 * MOTOR.stall_torque_nm)
+    turn, free = winding(spring, MOTOR, ratio, 1.0), ratio / free_speed_rad_s(MOTOR)
+    least, more = MOTOR.no_load_current_a, MOTOR.stall_current_a - MOTOR.no_load_current_a
+    ramp, even, loose = (math.radians(angle) for angle in (30.0, 280.0, 50.0))
+    log = math.log(2.0)
+    seconds = free * (ramp / 0.5 * log + 2.0 * even + loose)
+    drawn = ramp / 0.5 * (least * log + more * (log - 0.5)) + 2.0 * even * (least + 0.5 * more) + loose * least
+    assert turn.seconds == pytest.approx(seconds)
+    assert turn.mean_current_a == pytest.approx(free * drawn / seconds, rel=1e-4)
+    assert turn.electrical_j == pytest.approx(MOTOR.voltage_v * free * drawn, rel=1e-4)
+
+
 def test_the_weaker_of_stall_share_and_gearbox_limits_the_torque() -> None:
     assert allowed_nm(MOTOR, replace(LIMITS, stall_share=0.2, torque_max_nm=9.0)) == 0.2 * MOTOR.stall_torque_nm
     assert allowed_nm(MOTOR, replace(LIMITS, stall_share=0.2, torque_max_nm=0.01)) == 0.01

@@ -133,6 +133,7 @@ def test_a_rigid_key_and_too_little_play_lose_what_the_dog_keeps(name: str) -> N
     for play_deg in (0.0, 3.0, 5.0):
         rolled, _ = released(robot, play_rad=math.radians(play_deg), cam_rad_s=0.2)
         assert rolled.kept_j < 0.95 * rolled.held_j
+        assert rolled.wind_rad_s < 0.0, "towards rest, although the roller bounced"
 
 
 def test_a_rigid_key_fails_its_checks() -> None:
@@ -179,3 +180,13 @@ def test_jumps_start_where_the_roller_leaves(name: str) -> None:
     assert robot.roller_off == robot.release.off
     assert -robot.spring.wind_rad < robot.release.off.leg_rad < -0.95 * robot.spring.wind_rad
     assert np.isfinite(robot.release.off.leg_rad_s)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-ga"])
+def test_the_contact_is_as_stiff_about_the_pivot_as_its_lever_arm_says(name: str) -> None:
+    """Stiffness times the arm's square; the arm is the springs' torque at the lift's end over the contact force."""
+    robot = built(name)
+    arm_m = robot.spring.peak_torque_nm / robot.layout.drive.cam.peak_contact_n
+    expected = 1000.0 * robot.workshop.release.contact_n_per_mm * arm_m**2
+    for parts in robot.release.parts:
+        assert parts.contact_nm_per_rad == pytest.approx(expected, rel=0.05)

@@ -11,7 +11,7 @@ from support.limits import default_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive.spring import inner_fibre
-from jumpcad.drive.spring_choice import synthesise_spring
+from jumpcad.drive.spring_choice import _smallest_arms, synthesise_spring
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import Spring
@@ -193,3 +193,31 @@ def test_a_preloaded_spring_keeps_to_room_and_bushing_whatever_they_are(name):
                 assert spring.mandrel_mm >= mandrel - 1e-6
                 found += 1
     assert found > 20
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("preload_deg", [0.0, 15.0])
+def test_the_smallest_coil_of_a_wire_is_at_one_of_its_limits(name, preload_deg):
+    """Index, stress, length or bushing: no coil of that wire is narrower, whatever its whole turns."""
+    design, preload = load_design(name), math.radians(preload_deg)
+    on_leg, found = springs_on_leg(design, None, preload), 0
+    for d, tensile in zip(WIRE.diameters_mm, WIRE.tensile_strength_mpa, strict=True):
+        arms = _smallest_arms(d, tensile, on_leg, WIRE, LIMITS, LENGTH_MM)
+        if arms is None:
+            continue
+        found += 1
+        mean = arms.mean_mm
+        beside, radius = (mean + d + LIMITS.pin_mm) / 2, (mean + d) / 2 + LIMITS.arm_reach_mm
+        lever = math.sqrt(radius**2 - beside**2)
+        turns = WIRE.modulus_mpa * d**4 / (64 * 500 * on_leg.stiffness_nm_per_rad * mean) - 2 * lever / (
+            3 * math.pi * mean
+        )
+        loaded = turns + (design.compression_rad + preload) / (2 * math.pi)
+        moment = 500 * design.stiffness_nm_per_rad * (design.compression_rad + preload)
+        stress = inner_fibre(mean / d) * 32 * moment / (math.pi * d**3)
+        room = [
+            mean / d - 4, 1 - stress / (LIMITS.stress_share * tensile), LENGTH_MM - (loaded + 1) * d,
+            mean * turns / loaded - d - LIMITS.mandrel_min_mm - LIMITS.mandrel_clearance_mm,
+        ]  # fmt: skip
+        assert min(room) == pytest.approx(0.0, abs=1e-5)
+    assert found

@@ -13,6 +13,7 @@ from jumpcad.checks import constraint_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import TorsionSpring
+from jumpcad.drive.spring_arms import ARM_BEYOND_MM
 from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
@@ -82,6 +83,12 @@ def test_its_stress_is_that_of_its_torque() -> None:
 def test_arms_that_are_too_short_are_refused() -> None:
     with pytest.raises(CannotBuildError, match=r"arms of 12 mm do not reach the pins; 1\d\.\d mm are needed: "):
         fitted(STOCK.model_copy(update={"arm_length_mm": 12.0}))
+    outer, pin = STOCK.inside_diameter_mm + 2.0 * STOCK.wire_mm, LIMITS.pin_mm
+    beside = (outer + pin) / 2.0  # from the axle, square to the arm, to the middle of the pin at the arm's side
+    needed = math.sqrt(LIMITS.pin_radius_mm(outer) ** 2 - beside**2) + ARM_BEYOND_MM
+    for more, words in ((-0.01, f"do not reach the pins; {needed:.1f} mm are needed"), (0.01, "there is room from")):
+        with pytest.raises(CannotBuildError, match=words):
+            fitted(STOCK.model_copy(update={"arm_length_mm": needed + more}))
 
 
 def test_an_arm_angle_that_no_pin_fits_is_refused() -> None:
@@ -130,10 +137,11 @@ def test_an_own_one_may_be_chosen() -> None:
     assert wrong(robot) == []
 
 
-def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits() -> None:
-    """Arms further apart by what is named plus a degree bring the pin into the range, from its smallest to largest."""
+@pytest.mark.parametrize("off_deg", [60.0, 150.0, 210.0, 300.0])
+def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits(off_deg: float) -> None:
+    """Arms turned by what is named plus a degree bring the pin just into the range, on the side that is nearer."""
     limits = replace(LIMITS, plate_pins_rad=tuple(map(math.radians, (70.0, 50.0, 60.0))))
-    askew = STOCK.model_copy(update={"arm_angle_deg": (STOCK.arm_angle_deg + 150.0) % 360.0})
+    askew = STOCK.model_copy(update={"arm_angle_deg": (STOCK.arm_angle_deg + off_deg) % 360.0})
     with pytest.raises(CannotBuildError, match="there is room from 50° to 70°") as refused:
         fitted(askew, limits=limits)
     about = float(str(refused.value).partition("arms about ")[2].partition("°")[0])
@@ -141,3 +149,6 @@ def test_arms_at_the_wrong_angle_name_the_room_and_the_angle_that_fits() -> None
     turned = abs((about - askew.arm_angle_deg + 180.0) % 360.0 - 180.0)
     assert turned == pytest.approx(away + 1.0, abs=1.01)
     fitted(askew.model_copy(update={"arm_angle_deg": about}), limits=limits)
+    back = math.copysign(2.5, (askew.arm_angle_deg - about + 180.0) % 360.0 - 180.0)
+    with pytest.raises(CannotBuildError, match="there is room from"):
+        fitted(askew.model_copy(update={"arm_angle_deg": (about + back) % 360.0}), limits=limits)

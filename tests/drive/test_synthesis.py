@@ -161,3 +161,15 @@ def test_gears_widen_where_their_teeth_are_too_weak():
         assert lewis <= stress
     with pytest.raises(CannotBuildError, match=r"1.2 MPa in teeth 8 mm wide: lower stiffness_nmm_per_deg"):
         synthesise(design, dataclasses.replace(LIMITS, train=dataclasses.replace(LIMITS.train, stress_mpa=1.2)))
+
+
+@pytest.mark.parametrize(("name", "motors"), [("kenan-2.0", ("n20-100",)), ("best-bo", LIMITS.motors)])
+def test_the_cams_axis_makes_room_for_one_pair_at_the_least_gap_that_is_enough(name, motors):
+    """Two pairs where the cam is as near as it can be; each gap alone, the first with one pair is what is found."""
+    limits, design = dataclasses.replace(LIMITS, motors=motors), load_design(name)
+    alone = [synthesise(design, dataclasses.replace(limits, more_gap_mm=(gap,))) for gap in limits.more_gap_mm]
+    assert len(alone[0].train.stages) == 2
+    first = next(drive for drive in alone if len(drive.train.stages) == 1)
+    found = synthesise(design, limits)
+    assert found.train == first.train
+    assert found.cam.cam_axis_mm.tolist() == first.cam.cam_axis_mm.tolist()

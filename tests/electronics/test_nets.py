@@ -75,6 +75,17 @@ def test_current_flows_from_the_battery_through_plug_and_switch_and_back(kit: st
 
 
 @pytest.mark.parametrize("kit", KITS)
+def test_each_board_has_one_ground_wire_and_behind_a_regulator_none_at_its_charger(kit: str) -> None:
+    """A XIAO takes one cell at its battery pads, and 5 V at the pins beside them; a board grounded twice is a loop."""
+    chosen = parts(kit)
+    (net,) = (net for net in wiring_of(chosen, {}).nets if net.kind == "ground")
+    at = {role: [end.pin for end in net.terminals if end.part == role] for role in chosen.boards}
+    at["driver"] = [pin for pin in at["driver"] if pin not in chosen.driver.with_function("reverse")]
+    assert at.pop("controller") == ["BAT-" if chosen.regulator is None else "GND"]
+    assert all(pins == ["GND"] for pins in at.values())
+
+
+@pytest.mark.parametrize("kit", KITS)
 def test_the_converter_sees_as_much_of_a_full_battery_as_it_bears(kit: str) -> None:
     """Of dividers with a lower resistor of 200 kOhm: the next smaller one of those listed would be too much."""
     chosen = parts(kit)
@@ -129,6 +140,14 @@ def test_a_closed_contact_carries_its_least_current_even_with_five_per_cent_off(
     assert 0.95 * volts / (1.05 * wiring.pull_up_ohm) >= 0.995 * sensor.least_a
     assert volts / (10.0**0.2 * wiring.pull_up_ohm) < 1.1 * sensor.least_a  # the next of the series is too large
     assert wiring.resistors["pull-up resistor"] == wiring.pull_up_ohm
+
+
+def test_a_contact_without_a_least_current_has_the_largest_pull_up() -> None:
+    """10 kOhm: 0.3 mA at 3.3 V."""
+    chosen = parts("light-1s")
+    dry = chosen.components["sensor"].model_copy(update={"least_a": None})
+    wiring = wiring_of(replace(chosen, components={**chosen.components, "sensor": dry}), {})
+    assert wiring.pull_up_ohm == 10_000
 
 
 @pytest.mark.parametrize("kit", KITS)

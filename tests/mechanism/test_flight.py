@@ -8,7 +8,7 @@ import pytest
 from support.built import built
 
 from jumpcad.mechanism import flight
-from jumpcad.mechanism.flight import leg_blow
+from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.settings import load_settings
 from jumpcad.simulation.planar import PlanarEngine
@@ -74,9 +74,11 @@ class Rocking:
 
     def __init__(self) -> None:
         self.seen: list[tuple[float, ...]] = []
+        self.pivots: list[str] = []
 
     def equations(self, state: flight._State) -> flight._Equations:
         self.seen.append(state[:4])
+        self.pivots.append(state.pivot.name)
         foot_nm = -0.5 if state.leg_rad < 0.02 else 4.0
         (leg, mixed), (_, foot) = self.inertia
         return flight._Equations(leg, mixed, foot, 1.0, foot_nm, 0.0, 0.0, 1.0)
@@ -85,11 +87,16 @@ class Rocking:
 def test_a_foot_that_comes_down_flat_keeps_the_momentum_of_the_leg() -> None:
     """The ground's blow has no moment about the leg's joint: 2·w + 0.6·v before is 2·w after, and the foot stands."""
     chain, robot = Rocking(), built("kenan-2.0")
-    contacts = tuple(one for body in robot.bodies.values() for one in body.contacts)
-    flight._push_off(chain, contacts)  # type: ignore[arg-type]
+    flight._push_off(chain, robot.bodies["foot"].contacts)  # type: ignore[arg-type]
+    assert chain.pivots[0].endswith("toe"), "the nose lifts off"
+    assert "front_eye" in chain.pivots, "whether the toes would lift off is tried too"
     seen = np.array(chain.seen)
     landed = next(i for i in range(1, len(seen)) if seen[i - 1, 1] != 0.0 and seen[i, 1] == 0.0)
     before, after = seen[landed - 1], seen[landed]
     assert before[3] != 0.0
     assert after[3] == 0.0
     assert 2.0 * after[2] == pytest.approx(2.0 * before[2] + 0.6 * before[3], rel=1e-9)
+
+
+def test_the_energy_of_a_blow_is_that_of_a_turning_body() -> None:
+    assert Blow(takeoff_rad=0.0, stop_rad_s=20.0, inertia_kg_m2=1e-4).energy_j == pytest.approx(0.02)

@@ -8,7 +8,7 @@ import pytest
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism, five_bar
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism, Spring, five_bar
 
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"]
 
@@ -82,3 +82,16 @@ def test_links_turned_by_their_joints_meet_in_the_loop(mechanism: Mechanism, sha
         ends.append(origin + point[0] * np.array([math.cos(angle), -math.sin(angle)]))
     np.testing.assert_allclose(ends[0], ends[1], atol=1e-12)
     np.testing.assert_allclose(1000.0 * placed[FOOT][0], pose.ankle_mm[0], atol=1e-9)
+
+
+@pytest.mark.parametrize("preload_rad", [0.0, 0.2])
+@pytest.mark.parametrize("one_sided", [False, True])
+def test_the_energy_of_springs_is_their_torque_over_the_angle(preload_rad: float, one_sided: bool) -> None:
+    """By integration from any angle to rest; one-sided arms let go where they are free, 0.2 rad beyond it or there."""
+    spring = Spring("leg", 1.5, 0.8, preload_rad, one_sided)
+    for begin in (-0.8, -0.3, 0.1, 0.5):
+        angles = np.linspace(begin, 0.0, 20_001)
+        energy = np.trapezoid([spring.torque_nm(float(angle)) for angle in angles], angles)
+        assert spring.stored_j(begin) == pytest.approx(float(energy), abs=1e-8)
+    assert spring.energy_j == pytest.approx(spring.stored_j(-0.8))
+    assert spring.peak_torque_nm == spring.torque_nm(-0.8) == pytest.approx(1.5 * (0.8 + preload_rad))

@@ -36,6 +36,7 @@ def test_the_loop_is_closed(mechanism: Mechanism, loaded: float) -> None:
 def test_release_is_where_the_springs_are_fully_loaded(mechanism: Mechanism) -> None:
     release = release_pose(mechanism)
     assert release.joint_rad["leg"] == -mechanism.spring.wind_rad
+    assert {*release.joint_rad_s.values(), *release.body_m_s, release.body_rad_s} == {0.0}, "released instantly"
     half, rest = standing(mechanism, 0.5), standing(mechanism, 0.0)
     assert half.joint_rad["leg"] == pytest.approx(-mechanism.spring.wind_rad / 2.0)
     assert rest.joint_rad == pytest.approx({"leg": 0.0, "front": 0.0, "ankle": 0.0}, abs=1e-12)

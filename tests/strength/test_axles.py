@@ -5,7 +5,15 @@ import math
 import pytest
 
 from jumpcad.dimensions import AXLE_FLOOR_MM
-from jumpcad.strength.axles import RoundBar, axle_bar, clipped_pins, pin_bar, pin_head_mm
+from jumpcad.strength.axles import (
+    SCREW_CORE_MM,
+    SCREW_THREAD_MM,
+    RoundBar,
+    axle_bar,
+    clipped_pins,
+    pin_bar,
+    pin_head_mm,
+)
 from jumpcad.workshop import Workshop, load_workshop
 
 
@@ -58,3 +66,26 @@ def test_pins_are_clevis_pins_where_they_are_made_and_rods_elsewhere() -> None:
     assert (held.diameter_mm, held.bore_mm) == (3.0, 3.0 * rod.bore_share)
     thin = workshop(axle_mm=2.0)
     assert clipped_pins(thin.catalogue, thin.bought) is not None
+
+
+def test_the_weaker_of_rod_and_the_workshops_steel_counts() -> None:
+    """A tube of 1.4301, 3 x 0.5 mm, yields at 210 MPa (EN 10217-7); of spring steel a workshop may trust 900 MPa."""
+    tube = axle_bar(workshop(axle="steel-tube", axle_mm=3.0))
+    assert (tube.yield_mpa, tube.bore_mm) == (210.0, pytest.approx(2.0, abs=1e-3))
+    shop = workshop(axle="spring-steel", axle_mm=3.0)
+    careful = shop.model_copy(update={"safety": shop.safety.model_copy(update={"steel_yield_mpa": 900.0})})
+    assert axle_bar(careful).yield_mpa == 900.0
+    tubes = workshop(retention="clips", axle="steel-tube", axle_mm=3.0)
+    assert pin_bar(tubes).yield_mpa == 210.0
+    thin = workshop(axle_mm=2.0)
+    careful = thin.model_copy(update={"safety": thin.safety.model_copy(update={"steel_yield_mpa": 300.0})})
+    assert (pin_bar(thin).yield_mpa, pin_bar(careful).yield_mpa) == (400.0, 300.0)
+
+
+def test_screws_as_axles_are_of_class_12_9() -> None:
+    """M3: shank 2.86 mm at least, 1080 MPa, thread of 18 mm (ISO 4762), and its run-out of 5 pitches at most."""
+    screw = axle_bar(workshop(retention="nuts"))
+    assert (screw.diameter_mm, screw.yield_mpa) == (2.86, 1080.0)
+    assert 18.0 < SCREW_THREAD_MM <= 18.0 + 5.0 * 0.5
+    core = 3.0 - 1.22687 * 0.5  # ISO 724: d - 1.22687·P
+    assert core == pytest.approx(SCREW_CORE_MM, abs=0.01)

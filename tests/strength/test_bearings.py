@@ -89,3 +89,5 @@ def test_the_nearer_bearing_bears_more_than_the_cam_pushes() -> None:
     apart, beside = 8.0 - 2.5, 4.0 + 0.5 + 2.0
     assert bearing_load_n(push, 8.0, 4.0, bearing) == pytest.approx(10.0 * (apart / 2.0 + beside) / apart)
     assert bearing_load_n(push[::-1], 8.0, 4.0, bearing) == pytest.approx(5.0)
+    against = (np.array([0.0, -100.0]), push[1])  # arms in the middle, which the cam unloads at its own side alone
+    assert bearing_load_n(against, 8.0, 4.0, bearing) == pytest.approx(50.0 + 10.0 * (beside - apart / 2.0) / apart)

@@ -26,3 +26,13 @@ def test_pins_that_last_obey_goodman() -> None:
     assert limit / 2.0 / endless + limit / 2.0 / 1760.0 == pytest.approx(1.0)
     assert pin_limit_mpa(1760.0, 1e8) == limit
     assert pin_limit_mpa(1760.0, 1.0) == pytest.approx(0.78 * 1760.0)  # yields before it tires
+
+
+def test_pins_for_fewer_jumps_are_on_a_straight_line_in_logarithms() -> None:
+    """From 77 % of the tensile strength at 1e3 cycles (Shigley, figure 6-18) to the endurance limit at 1e6."""
+    endless = 700.0 * 4.51 * 1760.0**-0.265
+    for jumps, share in ((10.0**5.4, 0.8), (10.0**5.7, 0.9)):
+        strength = (0.77 * 1760.0) ** (1.0 - share) * endless**share
+        limit = pin_limit_mpa(1760.0, jumps)
+        assert limit / 2.0 / strength + limit / 2.0 / 1760.0 == pytest.approx(1.0)
+        assert limit < 0.78 * 1760.0

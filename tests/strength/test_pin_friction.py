@@ -27,7 +27,8 @@ def test_its_work_is_that_of_the_pins(name: str) -> None:
 def test_it_grows_with_coefficient_and_radius_and_each_pin_adds_its_own() -> None:
     robot = rubbing(capsule_robot(load_design("best-bo")), pin=0.25)
     whole = pin_torque_nm(robot, 0.25)
-    assert pin_torque_nm(robot, 0.5) == pytest.approx(2.0 * whole, abs=2e-6)
+    for times in (2.0, 4.0):
+        assert pin_torque_nm(robot, times * 0.25) == pytest.approx(times * whole, abs=1e-6 * times)
     alone = []
     for pin in range(4):
         radii = tuple(radius if index == pin else 0.0 for index, radius in enumerate(PINS_M))
@@ -45,7 +46,7 @@ def test_capsules_have_no_pins() -> None:
 def test_each_pin_rubs_by_its_force_along_its_own_turn() -> None:
     """Turns of the pins between neighbouring positions, from poses alone; both links meet in the eye."""
     uneven = Design.from_vector([189.773, 1.18, 0.864, 0.748, 0.4, 60.869, 14.361, 10.146])
-    robot = rubbing(capsule_robot(uneven), pin=0.25)
+    robot = replace(rubbing(capsule_robot(uneven), pin=0.25), foot_depth_m=0.03)
     body = robot.bodies["body"]
     gyration = 1000.0 * (body.inertia_kg_m2[1, 1] / body.mass_kg) ** 0.5
     mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
@@ -59,5 +60,5 @@ def test_each_pin_rubs_by_its_force_along_its_own_turn() -> None:
         way = np.abs(np.diff(turn)) * (force[1:] + force[:-1]) / 2.0
         expected = TILTING * 0.25 * PINS_M[pin] * way.sum() / robot.spring.wind_rad
         assert pin_torque_nm(rubbing(robot, pin=0.25, pin_radius_m=radii), 0.25) == pytest.approx(
-            expected, rel=0.03, abs=1e-6
+            expected, rel=1e-3, abs=1e-6
         )

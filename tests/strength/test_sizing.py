@@ -112,3 +112,25 @@ def test_dogs_are_twisted_alike_whatever_their_torque() -> None:
             stresses.append(16.0 * 1000.0 * design.peak_spring_torque_nm / (math.pi * dog**3))
     assert len(stresses) >= 2
     assert stresses == pytest.approx([stresses[0]] * len(stresses), rel=0.01)
+
+
+def test_the_least_dog_has_jaws_that_print_around_the_gears_hub() -> None:
+    """Axle, play, the hub's wall, play, and a jaw as thick as the thinnest column even between its drawn corners."""
+    shop = load_workshop()
+    fits = shop.fits
+    weak = load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 0.1})
+    jaw = fits.pin_min_mm + 0.05
+    radius = 1.5 + fits.sliding_mm + fits.wall_min_mm + fits.sliding_mm + jaw
+    assert sections(Linkage(weak), shop).dog_mm == pytest.approx(2.0 * radius, abs=0.011)
+
+
+def test_preloaded_springs_ask_for_thicker_dogs_and_legs() -> None:
+    """Their torque grows by (δ + p)/δ, the dog's diameter by its cube root, a solid lever's height by the root."""
+    shop, design = load_workshop(), load_design("best-bo").model_copy(update={"stiffness_nmm_per_deg": 30.0})
+    solid = shop.model_copy(update={"process": shop.process.model_copy(update={"infill": 1.0})})
+    loaded = solid.model_copy(update={"spring": solid.spring.model_copy(update={"preload_deg": 10.0})})
+    usual, more = (sections(Linkage(design), one) for one in (solid, loaded))
+    times = 1.0 + math.radians(10.0) / design.compression_rad
+    assert more.thickness_mm == usual.thickness_mm
+    assert more.dog_mm / usual.dog_mm == pytest.approx(times ** (1.0 / 3.0), abs=2e-3)
+    assert more.lever_root_mm / usual.lever_root_mm == pytest.approx(math.sqrt(times), abs=2e-3)

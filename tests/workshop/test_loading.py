@@ -4,6 +4,7 @@ import re
 
 import pytest
 
+from jumpcad.catalogue import load_catalogue
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names, to_toml
 from jumpcad.workshop import Workshop, load_workshop
@@ -95,6 +96,36 @@ def test_an_unknown_workshop_is_refused_with_the_known_ones():
         load_workshop("kitchen")
 
 
+def test_a_part_of_ones_own_is_whole_or_like_a_shipped_one(written):
+    """What is like another has its figures but for those of its own, and a source of its own."""
+    shipped = load_catalogue().pads["rubber-2"].model_dump(exclude={"name"})
+    whole = shipped | {"thickness_mm": 1.8, "source": "measured"}
+    like = {"like": "rubber-2", "thickness_mm": 1.8, "source": "measured"}
+    found = load_workshop(written(to_toml({"pads": {"whole": whole, "like": like}}))).pads
+    assert found["whole"].model_dump(exclude={"name"}) == found["like"].model_dump(exclude={"name"}) == whole
+
+
+def test_a_kit_brings_its_parts_and_the_file_may_choose_others(written):
+    kit = load_catalogue().kits["strong-2s"]
+    bought = load_workshop(written('[bought]\nkit = "strong-2s"\n')).bought
+    assert (bought.battery, bought.regulator) == (kit.battery, kit.regulator) != ("", "")
+    other = load_workshop(written('[bought]\nkit = "strong-2s"\nregulator = ""\n')).bought
+    assert (other.battery, other.regulator) == (kit.battery, "")
+
+
+def test_another_printer_and_one_material_for_all(written):
+    path = written("[materials.PETG]\ndensity_g_cm3 = 1.23\n")
+    shop = load_workshop(path, printer="mini", material="petg")
+    assert shop.printer.bed_mm == (180.0, 180.0, 180.0)
+    assert list(shop.materials) == ["PETG"]
+    assert {shop.material_name(role) for role in ("links", "body", "gears")} == {"PETG"}
+    assert shop.material("body").density_g_cm3 == 1.23
+    assert load_workshop(path, material="pla").material("links").density_g_cm3 == 1.24
+    for name, way in (("mini", "--printer mini"), ("PETG", "--material PETG")):
+        with pytest.raises(JumpcadError, match=f"not a workshop: say {way}"):
+            load_workshop(name)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -105,6 +136,10 @@ def test_an_unknown_workshop_is_refused_with_the_known_ones():
         ("[materials.PTEG]\nmodulus_mpa = 1.0", r"materials.PTEG: no role uses it.*did you mean PETG\?"),
         ('printer = "mk5"', r"'mk5' is neither a TOML file nor one of the printers .*did you mean mk4\?"),
         ('base = "my.toml"', r"leads back to a file that builds on it"),
+        ('[pads.own]\nlike = "rubber-3"', r"pads.own.like = 'rubber-3': is no shipped part of this kind .*rubber-2"),
+        ("[pads.own]\nlike = 2", r"pads.own.like = 2: is no shipped part of this kind"),
+        ('[bought]\nkit = "strong-3s"', r"bought.kit = 'strong-3s': is none of the kits .*did you mean strong-2s\?"),
+        ("[bought]\nkit = 2", r"bought.kit = 2: is none of the kits"),
         ("base = 3", r"base = 3: must be the name of a workshop or a path"),
     ],
 )

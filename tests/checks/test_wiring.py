@@ -1,0 +1,106 @@
+"""The checks of the wiring, each on a chosen part that breaks it; whole robots in test_electronics.py."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from jumpcad.catalogue import load_catalogue
+from jumpcad.checks.wiring import BASIS, wiring_findings
+from jumpcad.electronics.chosen import Chosen, chosen_of
+from jumpcad.electronics.nets import wiring_of
+from jumpcad.findings import Finding
+
+CATALOGUE = load_catalogue()
+
+
+def parts(kit: str) -> Chosen:
+    return chosen_of(CATALOGUE, CATALOGUE.kits[kit])
+
+
+def found(chosen: Chosen, pins: dict[str, str] | None = None) -> dict[str, Finding]:
+    return {finding.name: finding for finding in wiring_findings(chosen, wiring_of(chosen, pins or {}))}
+
+
+def without(chosen: Chosen, role: str) -> Chosen:
+    return replace(chosen, components={name: one for name, one in chosen.components.items() if name != role})
+
+
+def board(chosen: Chosen, role: str, **changes: Any) -> Chosen:
+    return replace(chosen, **{role: getattr(chosen, role).model_copy(update=changes)})
+
+
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_a_kit_breaks_nothing(kit: str) -> None:
+    findings = found(parts(kit))
+    assert set(findings) == set(BASIS) - (set() if kit == "strong-2s" else {"wiring_diode"})
+    assert {finding.severity for finding in findings.values()} == {"info"}
+    assert {finding.margin for name, finding in findings.items() if name != "wiring_contact"} == {0.0}
+
+
+def test_what_is_left_out_is_missed() -> None:
+    chosen = parts("strong-2s")
+    for role, name, severity in (
+        ("sensor", "wiring_pins", "error"),
+        ("capacitor", "wiring_capacitor", "warning"),
+        ("diode", "wiring_diode", "error"),
+    ):
+        finding = found(without(chosen, role))[name]
+        assert (finding.severity, finding.margin) == (severity, -1.0)
+        assert f"bought.{role}" in finding.remedy
+    apart = board(chosen, "controller", diode_at=[])
+    assert found(without(apart, "diode"))["wiring_diode"].severity == "info"
+
+
+def test_a_board_without_ground_is_named() -> None:
+    """A driver's reverse input is on ground too."""
+    chosen = parts("strong-2s")
+    for role in ("controller", "driver", "regulator"):
+        pins = getattr(chosen, role).pins.items()
+        others = {name: does for name, does in pins if not {"ground", "reverse"} & set(does)}
+        finding = found(board(chosen, role, pins=others))["wiring_ground"]
+        assert (finding.severity, finding.message) == ("error", f"no ground at {role}")
+
+
+def test_too_few_pins_and_a_driver_that_cannot_be_driven() -> None:
+    chosen = parts("light-1s")
+    few = {name: chosen.controller.pins[name] for name in ("BAT-", "GND", "3V3", "D1", "D2")}
+    finding = found(board(chosen, "controller", pins=few))["wiring_pins"]
+    assert finding.severity == "error"
+    assert "no pin left for ready: 2 of 3 suit" in finding.message
+    for lost in ("forward", "motor+", "motor-"):
+        pins = {name: does for name, does in chosen.driver.pins.items() if lost not in does}
+        finding = found(board(chosen, "driver", pins=pins))["wiring_pins"]
+        assert (finding.severity, finding.message) == ("error", f"driver {chosen.driver.name} has no pin {lost}")
+
+
+@pytest.mark.parametrize(
+    ("pins", "name", "words"),
+    [
+        ({"ready": "D0"}, "wiring_strapping", "D0 (ready) is a strapping pin"),
+        ({"ready": "D6"}, "wiring_strapping", "D6 (ready) is a boot log pin"),
+        ({"battery": "D4"}, "wiring_strapping", "D4 (battery) has no adc"),
+        ({"ready": "GND"}, "wiring_strapping", "GND (ready) has no GPIO"),
+        ({"ready": "D2", "motor": "D2"}, "wiring_pins", "D2 is used twice, by motor and ready"),
+    ],
+)
+def test_pins_that_cannot_do_it_are_named(pins: dict[str, str], name: str, words: str) -> None:
+    finding = found(parts("light-1s"), pins)[name]
+    assert (finding.severity, finding.margin) == ("error", -1.0)
+    assert words in finding.message
+
+
+def test_a_contact_gets_the_current_of_its_pull_up_or_of_the_pins_own() -> None:
+    """Ohm: 3.3 V over the resistor at the supply's pin, or over 45 kOhm in a controller without such a pin."""
+    chosen = parts("light-1s")
+    ohm = wiring_of(chosen, {}).pull_up_ohm
+    finding = found(chosen)["wiring_contact"]
+    assert ohm is not None
+    assert finding.value == pytest.approx(3300.0 / ohm)
+    assert finding.limit == pytest.approx(1000.0 * chosen.components["sensor"].least_a)
+    pins = {name: does for name, does in chosen.controller.pins.items() if "out" not in does}
+    weak = found(board(chosen, "controller", pins=pins))["wiring_contact"]
+    assert weak.value == pytest.approx(3.3 / 45.0)
+    assert weak.severity == "warning"
+    dry = chosen.components["sensor"].model_copy(update={"least_a": None})
+    assert "wiring_contact" not in found(replace(chosen, components=chosen.components | {"sensor": dry}))

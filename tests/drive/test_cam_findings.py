@@ -1,0 +1,58 @@
+"""What the findings of a cam say: figures whose difference is the margin."""
+
+import math
+import re
+
+import pytest
+from support.limits import default_limits
+
+from jumpcad.drive.cam_findings import LIMITS, SCALES, Limit, _found, cam_findings, missed
+from jumpcad.drive.cam_limits import FIRST_ROWS
+
+CAM = default_limits().cam
+
+
+def shown(checked: Limit, room: float) -> float:
+    """Return a margin in the unit of the words."""
+    return math.degrees(room) if checked.unit == "rad" else room
+
+
+@pytest.mark.parametrize("checked", LIMITS, ids=lambda one: one.name)
+@pytest.mark.parametrize("times", [-3.0, 0.0, 3.0])
+def test_what_is_found_differs_from_the_limit_by_the_margin(checked: Limit, times: float) -> None:
+    room = times * checked.scale
+    found, limit = map(float, re.findall(r"-?\d+(?:\.\d+)?", _found(checked.name, room, CAM))[-2:])
+    assert abs(found - limit) == pytest.approx(abs(shown(checked, room)), abs=0.51 if checked.unit == "rad" else 0.051)
+
+
+@pytest.mark.parametrize("checked", LIMITS, ids=lambda one: one.name)
+def test_a_cam_on_its_limit_has_no_negative_zeros(checked: Limit) -> None:
+    """The search ends on its limits, a billionth inside or outside."""
+    words = [_found(checked.name, room, CAM) for room in (-1e-9, 0.0, 1e-9)]
+    assert len(set(words)) == 1
+    assert "-0" not in words[0]
+
+
+def test_what_a_cam_misses_is_named_with_how_much_and_what_to_change() -> None:
+    """Half a millimetre of undercut, a hub gap with room, and 5° too steep, each with its own remedy."""
+    margin = 0.0 * SCALES[FIRST_ROWS] + 1.0
+    names = [checked.name for checked in LIMITS]
+    margin[names.index("cam_undercut")] = -0.5
+    words = missed(CAM, margin)
+    assert "least convex radius" in words
+    assert "(0.5 mm short): a smaller bought.roller" in words
+    assert "pressure angle" not in words
+    margin[names.index("cam_pressure_angle")] = -math.radians(5.0)
+    words = missed(CAM, margin)
+    assert re.search(r"\(5 ?° short\)", words)
+    assert "lower compression_ratio, or a larger cam" in words
+
+
+def test_three_findings_have_their_value_and_limit() -> None:
+    """Pressure angle, contact pressure and force on the roller; the others are places and gaps."""
+    numbers = {"pressure_angle": [0.4], "pressure": [30.0], "force": [20.0]}
+    found = {one.name: one for one in cam_findings(CAM, 0.0 * SCALES[FIRST_ROWS] + 0.01, numbers)}
+    compared = {name: (one.value, one.limit) for name, one in found.items() if one.value is not None}
+    limits = {"cam_pressure_angle": (0.4, CAM.pressure_angle_rad), "cam_contact": (30.0, CAM.pressure_mpa)}
+    assert compared == limits | {"cam_roller_load": (20.0, CAM.roller_load_n)}
+    assert [one.name for one in found.values()] == [checked.name for checked in LIMITS]
