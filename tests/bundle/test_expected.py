@@ -142,3 +142,17 @@ def test_names_in_braces_are_replaced_and_steps_are_counted_from_one() -> None:
     steps = [SimpleNamespace(key="trays"), SimpleNamespace(key="motor")]
     words = module._order(steps)  # type: ignore[arg-type]
     assert filled("from step {step_trays} to {step_motor}", words) == "from step 1 to 2"
+
+
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_a_sentence_may_go_on_with_switching_off(kit: str) -> None:
+    """In the middle of a sentence it begins with a small letter, and is the same otherwise."""
+    shop = load_workshop()
+    chosen = shop.catalogue.kits[kit].model_dump() | {"kit": kit}
+    robot = build(
+        load_design("best-printable"), shop.model_copy(update={"bought": shop.bought.model_copy(update=chosen)})
+    )
+    words = expected(robot, [])
+    first = {"light-1s": "Pull the USB cable", "strong-2s": "Switch off"}[kit]
+    assert words["off"].startswith(first)
+    assert words["off_then"] == first[0].lower() + words["off"][1:]
