@@ -262,8 +262,17 @@ def test_the_page_has_room_for_every_word(drawn: Drawn) -> None:
     assert all(box[1, 1] < drawn.board[0, 1] for box in titles)
 
 
-def test_nothing_is_drawn_of_a_board_whose_sides_are_not_known() -> None:
+def with_sides(left: tuple[str, ...], right: tuple[str, ...]) -> Workshop:
     shop = left_board()
-    board = shop.boards["own"].model_copy(update={"left": (), "right": ()})
-    unknown = Workshop(**shop.model_dump(exclude_none=True) | {"boards": {"own": board.model_dump(exclude_none=True)}})
-    assert soldering_svg(replace(built("kenan-2.0"), workshop=unknown)) == ""
+    board = shop.boards["own"].model_dump(exclude_none=True) | {"left": left, "right": right}
+    return Workshop(**shop.model_dump(exclude_none=True) | {"boards": {"own": board}})
+
+
+def test_nothing_is_drawn_of_a_board_whose_sides_are_not_known() -> None:
+    """One side is enough; pins that are on none are then drawn underneath."""
+    drawn = [
+        soldering_svg(replace(built("kenan-2.0"), workshop=with_sides(left, ()))) for left in ((), ("D5", "D1", "D4"))
+    ]
+    assert drawn[0] == ""
+    assert "BAT+ (underneath)" in drawn[1]
+    assert "D1 (underneath)" not in drawn[1]

@@ -51,3 +51,18 @@ def test_values_of_closures_and_defaults_count() -> None:
 
     for make in (weighted, default):
         assert code_hash(make(1.0)) == code_hash(make(1.0)) != code_hash(make(2.0))
+
+
+@pytest.mark.parametrize(("module", "by_name"), [("jumpcad.made", True), ("math", True), ("my_aims", False)])
+def test_functions_of_libraries_count_by_their_names(module: str, by_name: bool) -> None:
+    """Another version of jumpcad or of Python is no other objective; the user's own code is."""
+
+    def using(factor: float) -> str:
+        space: dict[str, Any] = {"__name__": module}
+        exec(f"def helper(x):\n    return {factor} * x\n", space)
+        own: dict[str, Any] = {"helper": space["helper"]}
+        exec("def light(m):\n    return helper(m['range'])\n", own)
+        return code_hash(own["light"])
+
+    assert (using(2.0) == using(3.0)) is by_name
+    assert using(2.0) == using(2.0)

@@ -192,3 +192,14 @@ def test_it_ends_with_its_thread_and_keeps_no_robot(studio: Studio) -> None:
     assert not studio._thread.is_alive()
     assert studio.shown is None
     assert not studio.stage.meshes
+
+
+def test_what_is_still_wanted_when_it_ends_is_not_built(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    answered = []
+    monkeypatch.setattr(studio, "answer", answered.append)
+    studio.start()
+    studio.end()
+    answered.clear()
+    studio._wanted = studio.design
+    studio._work()
+    assert answered == []
