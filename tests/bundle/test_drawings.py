@@ -54,6 +54,8 @@ def test_all_is_on_the_page(drawings: dict[str, ET.Element]) -> None:
         assert places.min() >= -0.5, name
         assert (places <= [width + 0.5, height + 0.5]).all(), name
         assert places[:, 1].max() > 0.8 * height, name  # and the page is no longer than needed
+        if name == "wiring.svg":
+            assert places[1:, 0][places[1:, 0] < width].max() > 0.8 * width  # nor wider
 
 
 def words(root: ET.Element) -> list[tuple[str, float, float, float, float]]:
