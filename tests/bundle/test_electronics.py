@@ -290,3 +290,12 @@ def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> Non
         mesh = triangles(name)
         beside = (mesh.min(axis=1) >= high - 1e-6) | (mesh.max(axis=1) <= low + 1e-6)
         assert beside.any(axis=1).all(), name
+
+
+def test_which_ground_is_used_is_said_where_there_are_two(robot: Robot) -> None:
+    """The controller's battery pads are joined to its ground; behind a regulator they stay empty."""
+    text = "\n".join(wiring_lines(robot))
+    one = not robot.workshop.bought.regulator
+    assert ("BAT- and GND of the controller are connected on the board" in text) == one
+    assert ("The controller's battery pads stay empty" in text) != one
+    assert ("diode: K is the end with the ring" in text) != one

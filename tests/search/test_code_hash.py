@@ -2,8 +2,9 @@
 
 import importlib
 import sys
+import sysconfig
 from pathlib import Path
-from types import FunctionType
+from types import FunctionType, SimpleNamespace
 from typing import Any
 
 import pytest
@@ -53,9 +54,17 @@ def test_values_of_closures_and_defaults_count() -> None:
         assert code_hash(make(1.0)) == code_hash(make(1.0)) != code_hash(make(2.0))
 
 
-@pytest.mark.parametrize(("module", "by_name"), [("jumpcad.made", True), ("math", True), ("my_aims", False)])
-def test_functions_of_libraries_count_by_their_names(module: str, by_name: bool) -> None:
+@pytest.mark.parametrize(
+    ("module", "by_name"),
+    [("jumpcad.made", True), ("math", True), ("an_installed", True), ("my_aims", False), ("a_frozen", True)],
+)
+def test_functions_of_libraries_count_by_their_names(
+    module: str, by_name: bool, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     """Another version of jumpcad or of Python is no other objective; the user's own code is."""
+    places = {"an_installed": f"{sysconfig.get_path('purelib')}/an_installed.py", "my_aims": f"{tmp_path}/my_aims.py"}
+    if module in (*places, "a_frozen"):
+        monkeypatch.setitem(sys.modules, module, SimpleNamespace(__file__=places.get(module)))  # type: ignore[misc]
 
     def using(factor: float) -> str:
         space: dict[str, Any] = {"__name__": module}
