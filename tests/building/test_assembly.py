@@ -272,6 +272,9 @@ def test_what_touches_the_ground_is_where_the_design_says(name: str) -> None:
     assert feet["right_toe"][:2] == pytest.approx([x, -y])
     for one in robot.bodies[FOOT].contacts:
         assert one.centre_m[2] - one.radius_m == pytest.approx(-robot.foot_depth_m)
+    sections, (_, *toes) = robot.layout.sections, robot.bodies[FOOT].contacts
+    for toe in toes:  # from the pad's lower face to its upper one, around the printed tip
+        assert 2000.0 * toe.radius_m == pytest.approx(sections.toe_tip_height_mm + 2.0 * sections.pad_mm)
     ends = {one.name: (1000.0 * one.centre_m, 1000.0 * one.radius_m) for one in robot.bodies[BODY].contacts}
     for end, sign in (("back", -1.0), ("front", 1.0)):
         assert ends[end][0] == pytest.approx([sign * design.l1_mm / 2.0, 0.0, 0.0])

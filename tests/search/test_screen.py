@@ -80,6 +80,7 @@ def test_nothing_is_left_out_before_enough_is_known_and_no_guess_is_a_score(tria
     assert len(left_out) > 20
     assert all(one.evaluation.verdict != SCREENED for one in trials[:LEAST])
     assert all(one.score is None for one in left_out)
+    assert all(one.duration_s == 0.0 for one in left_out)
     assert best_trial(trials).evaluation.verdict == "jump"
 
 
