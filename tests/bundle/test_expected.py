@@ -1,6 +1,7 @@
 """What the guide says of motor, springs, sizes and jump, computed by hand from data sheets and the design."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -156,3 +157,17 @@ def test_a_sentence_may_go_on_with_switching_off(kit: str) -> None:
     first = {"light-1s": "Pull the USB cable", "strong-2s": "Switch off"}[kit]
     assert words["off"].startswith(first)
     assert words["off_then"] == first[0].lower() + words["off"][1:]
+
+
+def test_the_capacitors_wires_start_at_named_pins_of_the_driver() -> None:
+    """Both poles; without a capacitor the pins have no name here."""
+    robot = built("kenan-2.0")
+    found = expected(robot, [])["driver_supply"].split(" and ")
+    driver = chosen_parts(robot.workshop).driver
+    assert len(found) == 2
+    pins = [words.removeprefix("the driver ") for words in found]
+    assert set(pins) <= set(driver.pins) | set(driver.supply_v)
+    assert pins[0] in driver.supply_v
+    assert pins[1] in driver.with_function("ground")
+    bare = robot.workshop.model_copy(update={"bought": robot.workshop.bought.model_copy(update={"capacitor": ""})})
+    assert expected(replace(robot, workshop=bare), [])["driver_supply"] == "the driver's supply pins"
