@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from support.built import LONG_TOES, body_in_plane, built, design, geared
+from support.built import LONG_TOES, body_in_plane, built, design, geared, placed
 from support.elsewhere import environment
 from support.places import ROOT
 
@@ -287,3 +287,15 @@ def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
     assert robot.layout.hub_bearing is not None
     assert robot.friction.pin_radius_m == (0.0, 0.0015, 0.0015, 0.0015)
     assert build(load_design("kenan-2.0"), plain).friction.pin_radius_m == (0.0015,) * 4
+
+
+def test_spacers_of_the_idler_have_as_much_play_to_either_side() -> None:
+    """Between the right plate and the wheel; that of the cam touches the left plate and leaves the gear its play."""
+    robot = geared()
+    lateral = robot.layout.lateral
+    low, high = placed(robot, "idler_spacer_right").bounds[:, 1]
+    assert low - lateral.inside[0] == pytest.approx(lateral.gears[0][0] - high, abs=1e-3)
+    assert 0.1 < low - lateral.inside[0] < 0.5
+    start, end = placed(robot, "cam_spacer_left").bounds[:, 1]
+    assert end == pytest.approx(lateral.inside[1], abs=1e-3)
+    assert 0.0 < start - lateral.gears[0][1] < 0.5
