@@ -50,6 +50,7 @@ def test_without_a_share_the_margin_is_said_in_units_that_people_read(margin: fl
     [
         (bare("one", "error", 0.0, ""), "a condition, kept or not"),
         (limit("one", 1.0, "mm", "", ""), "given as a margin"),
+        (limit("one", 1.0, "mm", "", "", value=2.0), "given as a margin"),
         (at_most("one", -1.0, 0.0, "mm", "", ""), "the limit is 0"),
         (at_most("one", -1.0, 2.0, "mm", "", ""), "below 0"),
     ],
