@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from support.built import LONG_TOES, body_in_plane, built, design, geared
+from support.built import LONG_TOES, body_in_plane, built, design, geared, placed
 from support.elsewhere import environment
 from support.places import ROOT
 
@@ -272,6 +272,9 @@ def test_what_touches_the_ground_is_where_the_design_says(name: str) -> None:
     assert feet["right_toe"][:2] == pytest.approx([x, -y])
     for one in robot.bodies[FOOT].contacts:
         assert one.centre_m[2] - one.radius_m == pytest.approx(-robot.foot_depth_m)
+    sections, (_, *toes) = robot.layout.sections, robot.bodies[FOOT].contacts
+    for toe in toes:  # from the pad's lower face to its upper one, around the printed tip
+        assert 2000.0 * toe.radius_m == pytest.approx(sections.toe_tip_height_mm + 2.0 * sections.pad_mm)
     ends = {one.name: (1000.0 * one.centre_m, 1000.0 * one.radius_m) for one in robot.bodies[BODY].contacts}
     for end, sign in (("back", -1.0), ("front", 1.0)):
         assert ends[end][0] == pytest.approx([sign * design.l1_mm / 2.0, 0.0, 0.0])
@@ -284,3 +287,15 @@ def test_pins_rub_at_their_radius_and_a_ball_bearing_does_not() -> None:
     assert robot.layout.hub_bearing is not None
     assert robot.friction.pin_radius_m == (0.0, 0.0015, 0.0015, 0.0015)
     assert build(load_design("kenan-2.0"), plain).friction.pin_radius_m == (0.0015,) * 4
+
+
+def test_spacers_of_the_idler_have_as_much_play_to_either_side() -> None:
+    """Between the right plate and the wheel; that of the cam touches the left plate and leaves the gear its play."""
+    robot = geared()
+    lateral = robot.layout.lateral
+    low, high = placed(robot, "idler_spacer_right").bounds[:, 1]
+    assert low - lateral.inside[0] == pytest.approx(lateral.gears[0][0] - high, abs=1e-3)
+    assert 0.1 < low - lateral.inside[0] < 0.5
+    start, end = placed(robot, "cam_spacer_left").bounds[:, 1]
+    assert end == pytest.approx(lateral.inside[1], abs=1e-3)
+    assert 0.0 < start - lateral.gears[0][1] < 0.5

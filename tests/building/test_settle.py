@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.built import built
 
 from jumpcad.building import settle as settling
 from jumpcad.building.limits import drive_limits
@@ -17,6 +18,7 @@ from jumpcad.drive import synthesise
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
 from jumpcad.strength.sizing import Growth, sections
 from jumpcad.workshop import Workshop, load_workshop
@@ -113,3 +115,12 @@ def test_the_leg_falls_by_springs_with_the_preload_of_the_workshop(monkeypatch: 
 
 def preloaded(workshop: Workshop, degrees: float) -> Any:
     return workshop.spring.model_copy(update={"preload_deg": degrees})
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
+def test_no_leg_falls_in_more_time_than_its_drive_gives_it(name: str) -> None:
+    """Typical masses and a reserve: at least what the finished robot's own masses need, and at most a fifth more."""
+    robot = built(name)
+    past_rad = robot.layout.stop.angle_rad
+    own_s = reflected_mass(robot.bodies, robot.layout.linkage).push_off_s(robot.spring, past_rad)
+    assert 1.0 <= fall_s(robot.layout.linkage, robot.spring, past_rad) / own_s < 1.2

@@ -54,6 +54,8 @@ def test_all_is_on_the_page(drawings: dict[str, ET.Element]) -> None:
         assert places.min() >= -0.5, name
         assert (places <= [width + 0.5, height + 0.5]).all(), name
         assert places[:, 1].max() > 0.8 * height, name  # and the page is no longer than needed
+        if name == "wiring.svg":
+            assert places[1:, 0][places[1:, 0] < width].max() > 0.8 * width  # nor wider
 
 
 def words(root: ET.Element) -> list[tuple[str, float, float, float, float]]:
@@ -184,3 +186,69 @@ def test_plates_are_drawn_to_scale_seen_from_outside(robot: Robot, drawings: dic
             assert any(
                 text == "sensor" and math.dist((x, y), drawn(layout.sensor.place_mm)) < 40.0 for text, x, y in texts
             )
+
+
+def test_words_of_wiring_are_inside_their_boxes(drawings: dict[str, ET.Element]) -> None:
+    """With room for their letters; names of terminals end at the edge where their lines begin."""
+    root = drawings["wiring.svg"]
+    page, *boxes = (np.array(points_of(one)) for one in root.iter(f"{SPACE}rect"))
+    nets = {one.text for one in root.iter(f"{SPACE}text") if one.get("fill")}
+    for text, left, top, right, bottom in words(root):
+        if text not in nets:
+            (box,) = (box for box in boxes if (box[0] <= [left, top]).all() and ([left, top] <= box[1]).all())
+            assert (box[1] >= [right, bottom]).all(), text
+    for one in root.iter(f"{SPACE}text"):
+        if one.get("text-anchor") == "end":
+            x, y = float(one.get("x")), float(one.get("y"))
+            (box,) = (box for box in boxes if (box[0] <= [x, y]).all() and ([x, y] <= box[1]).all())
+            assert 0.0 < box[1][0] - x < 4.0
+    assert (page[1] == np.array(root.get("viewBox").split()[2:], dtype=float)).all()
+    assert float(root.get("width")) == 4.0 * page[1][0]
+
+
+def test_a_net_is_one_piece_and_no_net_runs_in_another_or_through_a_box(
+    robot: Robot, drawings: dict[str, ET.Element]
+) -> None:
+    """Lines of one net meet; those of two nets cross square; at a turn or a crossing there is no doubt."""
+    root = drawings["wiring.svg"]
+    wiring = wiring_of(chosen_parts(robot.workshop), robot.workshop.bought.pins)
+    _, *boxes = (np.array(points_of(one)) for one in root.iter(f"{SPACE}rect"))
+    lines = iter([np.array(points_of(one)) for one in root.iter(f"{SPACE}polyline")])
+    nets: list[list[tuple[np.ndarray, np.ndarray]]] = []
+    for net in wiring.nets:
+        ways = [next(lines) for _ in net.terminals]
+        columns = {way[1][0] for way in ways}
+        ways += [next(lines)] if len(columns) > 1 else []
+        assert len({way[-1][1] for way in ways}) == 1  # all go down to one lane, or to the last terminal
+        if len(columns) > 1:
+            assert {x for x, _ in ways[-1]} == {min(columns), max(columns)}
+            assert ways[-1][0][1] > max(box[1][1] for box in boxes)
+        nets.append([
+            (np.minimum(a, b), np.maximum(a, b)) for way in ways for a, b in itertools.pairwise(way)
+        ])  # fmt: skip
+    assert next(lines, None) is None
+    for pieces in nets:
+        for low, high in pieces:
+            assert (low == high).any()
+            assert not any(((low < box[1] - 1e-6) & (high > box[0] + 1e-6)).all() for box in boxes)
+    for one, other in itertools.combinations(nets, 2):
+        for (low, high), (least, most) in itertools.product(one, other):
+            same = (low == high) & (least == most) & (low == least)
+            overlap = np.minimum(high, most) - np.maximum(low, least)
+            assert not (same[0] and overlap[1] >= 0.0)
+            assert not (same[1] and overlap[0] >= 0.0)
+
+
+def test_a_net_s_name_stands_on_its_lane(robot: Robot, drawings: dict[str, ET.Element]) -> None:
+    """In the net's colour, at the lane's beginning, and dots where terminals meet their tracks."""
+    root = drawings["wiring.svg"]
+    lanes = [points_of(one) for one in root.iter(f"{SPACE}polyline") if len(points_of(one)) == 2]
+    names = [one for one in root.iter(f"{SPACE}text") if one.get("fill")]
+    assert len(lanes) == len(names)
+    for lane, name in zip(lanes, names, strict=True):
+        x, y = float(name.get("x")), float(name.get("y"))
+        assert 0.0 < x - lane[0][0] < 3.0
+        assert 0.0 < lane[0][1] - y < 2.0
+    dots = [(float(one.get("cx")), float(one.get("cy"))) for one in root.iter(f"{SPACE}circle")]
+    turns = [points_of(one)[1] for one in root.iter(f"{SPACE}polyline") if len(points_of(one)) == 3]
+    assert dots == turns

@@ -290,3 +290,27 @@ def test_the_battery_leaves_the_finished_robot_to_the_front(robot: Robot) -> Non
         mesh = triangles(name)
         beside = (mesh.min(axis=1) >= high - 1e-6) | (mesh.max(axis=1) <= low + 1e-6)
         assert beside.any(axis=1).all(), name
+
+
+def test_which_ground_is_used_is_said_where_there_are_two(robot: Robot) -> None:
+    """The controller's battery pads are joined to its ground; behind a regulator they stay empty."""
+    text = "\n".join(wiring_lines(robot))
+    one = not robot.workshop.bought.regulator
+    assert ("BAT- and GND of the controller are connected on the board" in text) == one
+    assert ("The controller's battery pads stay empty" in text) != one
+    assert ("diode: K is the end with the ring" in text) != one
+
+
+def test_leads_between_the_boards_run_in_the_gap_between_them(robot: Robot) -> None:
+    """Seen from above, no lead from one board to the other is drawn across a third, nor beyond the gap."""
+    electronics, tray = robot.layout.electronics, robot.layout.tray_mm[0]
+    seats = electronics.seats(robot.layout.lateral.inside)
+    ends = sorted((seats[role].x_mm - seats[role].size_mm[0] / 2.0, seats[role].x_mm + seats[role].size_mm[0] / 2.0)
+                  for role in ("controller", "driver"))  # fmt: skip
+    low, high = tray + ends[0][1], tray + ends[1][0]
+    between = [lead for lead in leads_of(robot) if set(lead.parts) == {"controller", "driver"}]
+    assert len(between) >= 2
+    for lead in between:
+        assert ((low <= lead.points_mm[1:-1, 0]) & (lead.points_mm[1:-1, 0] <= high)).all()
+    places = [round(float(lead.points_mm[1, 0]), 6) for lead in between]
+    assert len({*places}) == len(places)

@@ -1,6 +1,7 @@
 """What the guide says of motor, springs, sizes and jump, computed by hand from data sheets and the design."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -142,3 +143,31 @@ def test_names_in_braces_are_replaced_and_steps_are_counted_from_one() -> None:
     steps = [SimpleNamespace(key="trays"), SimpleNamespace(key="motor")]
     words = module._order(steps)  # type: ignore[arg-type]
     assert filled("from step {step_trays} to {step_motor}", words) == "from step 1 to 2"
+
+
+@pytest.mark.parametrize("kit", ["light-1s", "strong-2s"])
+def test_a_sentence_may_go_on_with_switching_off(kit: str) -> None:
+    """In the middle of a sentence it begins with a small letter, and is the same otherwise."""
+    shop = load_workshop()
+    chosen = shop.catalogue.kits[kit].model_dump() | {"kit": kit}
+    robot = build(
+        load_design("best-printable"), shop.model_copy(update={"bought": shop.bought.model_copy(update=chosen)})
+    )
+    words = expected(robot, [])
+    first = {"light-1s": "Pull the USB cable", "strong-2s": "Switch off"}[kit]
+    assert words["off"].startswith(first)
+    assert words["off_then"] == first[0].lower() + words["off"][1:]
+
+
+def test_the_capacitors_wires_start_at_named_pins_of_the_driver() -> None:
+    """Both poles; without a capacitor the pins have no name here."""
+    robot = built("kenan-2.0")
+    found = expected(robot, [])["driver_supply"].split(" and ")
+    driver = chosen_parts(robot.workshop).driver
+    assert len(found) == 2
+    pins = [words.removeprefix("the driver ") for words in found]
+    assert set(pins) <= set(driver.pins) | set(driver.supply_v)
+    assert pins[0] in driver.supply_v
+    assert pins[1] in driver.with_function("ground")
+    bare = robot.workshop.model_copy(update={"bought": robot.workshop.bought.model_copy(update={"capacitor": ""})})
+    assert expected(replace(robot, workshop=bare), [])["driver_supply"] == "the driver's supply pins"

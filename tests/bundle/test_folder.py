@@ -129,3 +129,9 @@ def test_a_manifest_that_lists_what_jumpcad_never_writes_is_none(path: str, tmp_
     with pytest.raises(JumpcadError, match="manifest"):
         old(target)
     assert mine.exists()
+
+
+def test_a_file_lies_as_deep_as_its_name_says(tmp_path: Path) -> None:
+    write_folder(tmp_path / "robot", "robot", {}, {"a/b/c/d.md": "deep", "a/e.md": "new"}.items())
+    assert (tmp_path / "robot" / "a" / "b" / "c" / "d.md").read_text() == "deep"
+    assert verify(tmp_path / "robot") == []

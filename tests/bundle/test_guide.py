@@ -38,6 +38,13 @@ def test_the_guide_names_all_that_the_bill_names(robot: Robot) -> None:
         assert item.name in tables
         counted = sum(int(n) for n in re.findall(rf"^- (\d+) × {re.escape(item.name)} \(.*\)$", steps, re.MULTILINE))
         assert counted == item.quantity, item.name
+    for table in re.findall(r"(?:^\|.*\n)+", guide, re.MULTILINE):
+        head, line, *rows = table.splitlines()
+        assert re.fullmatch(r"\|(:?-+:?\|)+", line)
+        assert {row.count("|") for row in (line, *rows)} == {head.count("|")}, head
+    put = re.findall(r"^- (.*)$", steps, re.MULTILINE)
+    assert any(line.startswith("the ") for line in put)  # what was put together before has no count
+    assert not any(re.match(r"\d+ × the ", line) for line in put)
     assert "pictures/" not in guide
     assert "![Foot and front link](pictures/step-2-pads.png)" in write_guide(robot, ["step-2-pads", "step-12"])
 

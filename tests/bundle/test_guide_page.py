@@ -76,3 +76,15 @@ def test_each_hand_has_its_drawing_with_the_rate() -> None:
         assert "agree within 5 %" in sheet
         assert re.search(r"° \+4° / -10°; 180° is opposite directions", sheet)
         assert f"rises to the {hand}" in sheet
+
+
+def test_the_contents_lead_to_the_sections() -> None:
+    """Headings of the second level alone, by anchors of their words, in their order."""
+    page = write_page("# A\n\n## 1. Feet & eyes\n\n### not me\n\n## After *use*\n\ntext\n", "A", {})
+    root = ET.fromstring(page.replace("<!DOCTYPE html>", "", 1))
+    links = [(link.get("href"), "".join(link.itertext())) for link in root.iter("a")]
+    assert [href for href, _ in links] == ["#1-feet-eyes", "#after-use"]
+    assert links[0][1] == "1. Feet & eyes"
+    anchors = {heading.get("id") for heading in root.iter("h2")}
+    assert anchors == {href[1:] for href, _ in links if href}
+    assert [heading.get("id") for heading in root.iter("h3")] == [None]

@@ -2,11 +2,14 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
+import trimesh
 from support.slicers import OBEDIENT, pretend_slicer, three_parts
 
 from jumpcad.bundle.export import export
-from jumpcad.bundle.sliced import SlicedPart, slice_bundle
+from jumpcad.bundle.sliced import SlicedPart, _StlPart, slice_bundle
+from jumpcad.errors import JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 
@@ -27,3 +30,30 @@ def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
 def test_a_model_that_is_a_tenth_heavier_says_so() -> None:
     part = SlicedPart("main_leg", "PETG", 1, grams=10.0, modelled_grams=11.0, time_s=600.0)
     assert part.difference == pytest.approx(0.10)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_no_part_reaches_further_than_two_metres(tmp_path: Path, axis: int, sign: float) -> None:
+    """A cube of 10 mm, volume and bounds as it was placed, or one line that names the limit."""
+    for reach, allowed in ((1999.0, True), (2001.0, False)):
+        cube = trimesh.creation.box((10.0, 10.0, 10.0))
+        cube.apply_translation(np.eye(3)[axis] * sign * (reach - 5.0))
+        cube.export(tmp_path / "part.stl")
+        if allowed:
+            part = _StlPart(tmp_path / "part.stl")
+            assert part.moments[0] == pytest.approx(1000.0, rel=1e-3)
+            assert part.bounds_mm == pytest.approx(cube.bounds, abs=1e-3)
+        else:
+            with pytest.raises(JumpcadError, match=r"part\.stl: reaches further than 2000 mm, so it is no part"):
+                _StlPart(tmp_path / "part.stl")
+
+
+def test_sections_that_are_alike_are_one(tmp_path: Path) -> None:
+    """Of a cube with a smaller one on it, by their squares; neighbours at two heights share a region."""
+    lower, upper = trimesh.creation.box((10.0, 10.0, 10.0)), trimesh.creation.box((4.0, 4.0, 10.0))
+    upper.apply_translation((0.0, 0.0, 9.99))
+    trimesh.boolean.union([lower, upper], engine="manifold").export(tmp_path / "part.stl")
+    sections = _StlPart(tmp_path / "part.stl").sections_at(np.array([-3.0, 0.0, 3.0, 7.0, 12.0]))
+    assert [region.area() for region in sections.outlines] == pytest.approx([100.0, 16.0], rel=1e-3)
+    assert sections.which.tolist() == [0, 0, 0, 1, 1]

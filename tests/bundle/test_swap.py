@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from jumpcad.bundle.swap import exchanged
 
 
@@ -17,3 +19,13 @@ def test_two_folders_change_places_or_stay(tmp_path: Path) -> None:
         (tmp_path / name / name).write_text("")
     inside = ["other", "one"] if exchanged(tmp_path / "one", tmp_path / "other") else ["one", "other"]
     assert [path.name for folder in ("one", "other") for path in (tmp_path / folder).iterdir()] == inside
+
+
+def test_names_are_relative_to_the_working_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for folder in ("apart", "here"):
+        for name in ("one", "other"):
+            (tmp_path / folder / name / name).mkdir(parents=True)
+    whole = exchanged(tmp_path / "apart" / "one", tmp_path / "apart" / "other")
+    monkeypatch.chdir(tmp_path / "here")
+    assert exchanged(Path("one"), Path("other")) == whole
+    assert Path("one/other").exists() == whole

@@ -1,24 +1,30 @@
 """Scatter of measurements: what more jumps reduce, and what they do not."""
 
 import math
+import re
 from collections.abc import Callable
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy import stats
+from support.places import ROOT
 
 from jumpcad.calibration.likelihood import (
     ANGLE_DEG,
     BODY_ANGLE_DEG,
     STUDENT_T_DEGREES,
     Datum,
+    Model,
     Predicted,
     _log_density,
     data_of,
+    energy_per_mass,
     predict,
 )
-from jumpcad.calibration.measurements import Jumps
+from jumpcad.calibration.measurements import Jumps, Measurements
+from jumpcad.calibration.priors import Prior
 from jumpcad.calibration.surface import JumpAt
 
 ONE = np.ones(1)
@@ -121,3 +127,122 @@ def test_a_measurement_is_of_what_it_is_read_as() -> None:
     assert spread == pytest.approx([math.hypot(0.1, 0.05)])
     degrees = robot.deviation(Datum("r", "angle", "body", 50.0, 1, 0.0, 2.0, relative=False), "body", 50.0 * ONE)
     assert degrees == pytest.approx([2.0])
+
+
+def measured_robot(name: str = "a", **said: Any) -> Any:
+    """A robot that jumps 0.1 m for each of the model's energies, with priors of its own."""
+
+    def at(energy: Any, pins: Any, floor: Any) -> JumpAt:
+        return JumpAt(0.1 * energy, 0.05 * energy, energy, energy)
+
+    video = SimpleNamespace(speed_m_s=1.4, speed_error_m_s=0.0, angle_deg=47.0, angle_error_deg=0.0)
+    measured = Measurements(**{"design": "kenan-2.0", "source": "a test", "release": "dog"} | said)
+    return SimpleNamespace(
+        name=name, pair=measured.spring.pair or name, measured=measured, surface=SimpleNamespace(at=at),
+        seen=(video,) * len(measured.videos), electrical_j=2.0, beyond_m=(0.02, 0.005), standing_m=0.1,
+        mass=Prior("normal", 1.0, 0.2, "model", 0.1), floor=Prior("uniform", 0.3, 1.0, ""),
+        rate=Prior("normal", 1.0, 0.03, "measured" if measured.spring.rate_nmm_per_deg else "workshop", 0.3),
+    )  # fmt: skip
+
+
+JUMPED = ({"distance_mm": (200.0,), "distance_of": "unknown", "battery_j": (1.5,)},)
+VIDEOS = ({"points": "a.csv", "point": "centre-of-mass"}, {"points": "b.csv", "point": "body"})
+
+
+def test_errors_are_those_that_the_documentation_says() -> None:
+    """docs/calibration.md, Likelihood."""
+    page = " ".join(
+        (ROOT / "docs" / "calibration.md").read_text(encoding="utf-8").split("- **Likelihood.** ")[1].splitlines()[:1]
+    )
+    words = re.search(
+        r"Student's t with (\d+) degrees of freedom, (\d+) %/√n of the jumps and (\d+) % of the model\. "
+        r"Height (\d+) mm/√n, (\d+) %\. ln battery energy (\d+) %\. Speed (\d+) % and (\d+) % \(body (\d+) %\), "
+        r"angle (\d+)° \(body (\d+)°\)",
+        page,
+    )
+    assert words is not None
+    degrees, jumps, model, height, height_share, battery, speed, seen, body, angle, body_angle = map(
+        float, words.groups()
+    )
+    jumped = ({"distance_mm": (200.0,), "distance_of": "unknown", "battery_j": (1.5,)},
+              {"height_mm": (90.0,), "height_of": "rise"})  # fmt: skip
+    distance, energy, rise, *videos = data_of(measured_robot(jumps=jumped, videos=VIDEOS))
+    assert degrees == STUDENT_T_DEGREES
+    assert (distance.scatter, distance.error) == pytest.approx((jumps / 100.0, model / 100.0))
+    assert (energy.scatter, energy.error) == pytest.approx((0.0, battery / 100.0))
+    assert rise.error == pytest.approx(height_share / 100.0)
+    assert deviation("height", "rise", 1, 0.0, 0.0) == pytest.approx(height / 1000.0)
+    assert [one.scatter for one in videos] == pytest.approx([speed / 100.0, 0.0] * 2)
+    assert [one.error for one in videos] == pytest.approx([seen / 100.0, angle, body / 100.0, body_angle])
+
+
+def test_parameters_are_what_the_measurements_leave_open() -> None:
+    """Shared ones first; of a release without a dog, and of a battery, one more; of each robot its mass and floor.
+
+    Two robots with one pair of springs have one rate, and what one of them says is measured stays.
+    """
+
+    def keys(*subjects: Any) -> list[str]:
+        return [one.key for one in Model(subjects).parameters]
+
+    shared = ["spring_efficiency", "pin_friction"]
+    assert keys(measured_robot()) == [*shared, "rate:a", "mass:a", "floor:a"]
+    assert keys(measured_robot(release="fixed")) == [*shared, "back_efficiency", "rate:a", "mass:a", "floor:a"]
+    both = keys(
+        measured_robot(jumps=JUMPED), measured_robot("b", jumps=({"height_mm": (9.0,), "height_of": "unknown"},))
+    )
+    assert both == [
+        *shared,
+        "drive_efficiency",
+        "rate:a",
+        "mass:a",
+        "floor:a",
+        "travel:a",
+        "rate:b",
+        "mass:b",
+        "floor:b",
+    ]
+    known = measured_robot("c", spring={"pair": "ours", "rate_nmm_per_deg": 4.6, "springs": 2})
+    for pair in (
+        (known, measured_robot("d", spring={"pair": "ours"})),
+        (measured_robot("d", spring={"pair": "ours"}), known),
+    ):
+        (rate,) = (one for one in Model(pair).parameters if one.key.startswith("rate:"))
+        assert (rate.key, rate.prior.source) == ("rate:ours", "measured")
+
+
+def test_energy_over_mass_is_that_of_the_springs_over_the_scale_s() -> None:
+    """Efficiency 0.9, springs 10 % stiffer, a robot 20 % heavier; a release that keeps 0.4 + 0.6 x 0.5 = 0.7 of it."""
+    values = {"spring_efficiency": 0.9 * ONE, "rate:a": 1.1 * ONE, "mass:a": 1.2 * ONE, "back_efficiency": 0.5 * ONE}
+    assert energy_per_mass(measured_robot(), values) == pytest.approx([0.9 * 1.1 / 1.2])
+    assert energy_per_mass(measured_robot(release="fixed"), values) == pytest.approx([0.7 * 0.9 * 1.1 / 1.2])
+
+
+def test_travel_is_drawn_in_mm_and_said_in_m() -> None:
+    values = {"spring_efficiency": ONE, "pin_friction": ONE, "rate:a": ONE, "mass:a": ONE, "floor:a": ONE}
+    assert predict(measured_robot(), values).of("distance", "resting-place") == pytest.approx([0.12])
+    assert predict(measured_robot(), values | {"travel:a": 30.0 * ONE}).travel_m == pytest.approx([0.03])
+
+
+def test_a_posterior_is_prior_times_the_mean_of_the_readings() -> None:
+    """Bayes, for one distance of which it is not known what it is of, and the energy from the battery."""
+    model = Model([measured_robot(jumps=JUMPED)])
+    z = np.array([[0.3, -0.2, 0.5, -1.0, 0.4, 0.1, 0.7], np.zeros(7)])
+    values = model.values(z)
+    energy = values["spring_efficiency"] * values["rate:a"] / values["mass:a"]
+    touchdown = 0.1 * energy + 0.02
+    readings = [(0.1 * energy, 0.0), (touchdown, 0.005), (touchdown + values["travel:a"] / 1000.0, 0.005)]
+    share = math.hypot(0.08, 0.03)
+    density = np.mean([
+        stats.t(4.0).pdf(np.log(0.2 / where) / np.hypot(share, off / where)) / np.hypot(share, off / where)
+        for where, off in readings
+    ], axis=0)  # fmt: skip
+    battery = 2.0 * values["rate:a"] / values["drive_efficiency"]
+    known = np.log(density) - 0.5 * (np.log(1.5 / battery) / 0.1) ** 2 - math.log(0.1) - 0.5 * (z**2).sum(axis=1)
+    assert model.log_probability(z) == pytest.approx(known)
+
+
+def test_what_does_not_jump_is_not_believed() -> None:
+    robot = measured_robot(jumps=({"distance_mm": (200.0,), "distance_of": "centre-of-mass"},))
+    robot.surface = SimpleNamespace(at=lambda *_: JumpAt(np.nan * ONE, ONE, ONE, ONE))
+    assert Model([robot]).log_probability(np.zeros((1, 5))).tolist() == [-math.inf]

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from jumpcad.calibration.likelihood import Model
+from jumpcad.calibration.likelihood import CalibrationParameter, Datum, Model, Predicted
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.posterior import CalibrationPosterior, _verdict, sampled
-from jumpcad.calibration.priors import FLOOR, SPRING_EFFICIENCY
+from jumpcad.calibration.posterior import CalibrationPosterior, _residual, _verdict, sampled
+from jumpcad.calibration.priors import FLOOR, PIN_FRICTION, SPRING_EFFICIENCY
 from jumpcad.calibration.subject import Subject
+from jumpcad.calibration.surface import JumpAt
 from jumpcad.errors import JumpcadError
 
 SAID: dict[str, Any] = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
@@ -63,6 +64,7 @@ def test_chains_are_long_enough_or_say_so(posterior: CalibrationPosterior) -> No
 def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: CalibrationPosterior) -> None:
     first, again = (sampled(Model(posterior.model.subjects), 1, **SHORTEST) for _ in range(2))
     assert np.array_equal(again.z, first.z)
+    assert first.walkers == 8 * len(posterior.model.parameters)
 
 
 def test_distance_of_an_unknown_kind_is_wider(subject: Subject, posterior: CalibrationPosterior) -> None:
@@ -146,3 +148,62 @@ def test_without_emcee(subject: Subject, monkeypatch: pytest.MonkeyPatch) -> Non
 def test_data_identify_what_they_make_twice_as_sure(spread: float, shift: float, words: str) -> None:
     """Half of the prior's deviation; partly from 0.85 of it on, or where the mean has moved by one deviation."""
     assert _verdict(spread, shift) == words
+
+
+def drawn(z: np.ndarray, autocorrelation: float = 30.0, steps: int = 1500) -> CalibrationPosterior:
+    """Return a posterior of these draws of three parameters."""
+    parameters = [
+        CalibrationParameter("spring_efficiency", "springs", SPRING_EFFICIENCY),
+        CalibrationParameter("pin_friction", "pins", PIN_FRICTION), CalibrationParameter("floor:a", "floor", FLOOR),
+    ]  # fmt: skip
+    model: Any = Model([])
+    vars(model)["parameters"] = parameters
+    return CalibrationPosterior(model, z, autocorrelation, steps, 24)
+
+
+def test_chains_of_fifty_autocorrelation_times_have_converged() -> None:
+    """docs/calibration.md; of 24 chains of 1500 steps, every thirtieth counts: 1200."""
+    z = np.zeros((4, 3))
+    assert drawn(z).effective == pytest.approx(1200.0)
+    assert drawn(z).converged
+    assert not drawn(z, steps=1499).converged
+
+
+def test_pairs_of_which_one_tells_of_the_other_are_named_strongest_first() -> None:
+    """Correlations of 0.9, -0.55 and, by construction, their product, which is below a half."""
+    a, b, c = np.random.default_rng(0).standard_normal((3, 20_000))
+    second = -0.55 * a + math.sqrt(1.0 - 0.55**2) * b
+    z = np.stack([a, second, 0.9 * second + math.sqrt(0.19) * c], axis=1)
+    strong, weak = drawn(z).correlated()
+    assert strong == ("pin_friction", "floor:a", pytest.approx(0.9, abs=0.02))
+    assert weak == ("spring_efficiency", "pin_friction", pytest.approx(-0.55, abs=0.02))
+
+
+def test_a_summary_has_the_quantiles_of_prior_and_posterior() -> None:
+    """Of a normal: 1.2816 deviations to either side of the middle hold eight in ten."""
+    z = np.stack([np.linspace(-1.0, 1.0, 1001), np.zeros(1001), np.linspace(-3.0, 3.0, 1001)], axis=1)
+    springs, pins, floor = drawn(z).summaries()
+    assert springs["prior"] == pytest.approx([0.95 - 1.28155 * 0.05, 0.95, 0.95 + 1.28155 * 0.05], abs=1e-5)
+    assert springs["posterior"] == pytest.approx([0.95 - 0.8 * 0.05, 0.95, 0.95 + 0.8 * 0.05])
+    assert springs["spread"] == pytest.approx(1.0 / math.sqrt(3.0), rel=1e-2)
+    assert (springs["verdict"], pins["verdict"], floor["verdict"]) == (
+        "partly identified", "identified", "stays at its prior",
+    )  # fmt: skip
+    assert pins["posterior"] == pytest.approx([0.25] * 3)
+
+
+def test_a_measurement_stands_beside_its_likeliest_reading() -> None:
+    """0.24 m: touchdown at 0.24 m, range at 0.2 m; off by deviations of 8.5 % and the touchdown's own scatter."""
+    one = np.ones(5)
+    robot = Predicted(JumpAt(0.2 * one, one, one, one), 0.1 * one, one, (0.04, 0.005), 0.1)
+    share = math.hypot(0.08, 0.03)
+    found = _residual(Datum("a", "distance", "unknown", 0.24, 1, 0.08, 0.03), robot)
+    assert (found["as"], found["measured"]) == ("first-touchdown", 0.24)
+    assert found["predicted"] == pytest.approx([0.24] * 3)
+    assert found["off_by_deviations"] == pytest.approx(0.0)
+    assert sum(found["readings"].values()) == pytest.approx(1.0)
+    assert max(found["readings"], key=lambda name: found["readings"][name]) == "first-touchdown"
+    range_ = _residual(Datum("a", "distance", "centre-of-mass", 0.25, 1, 0.08, 0.03), robot)
+    assert range_["off_by_deviations"] == pytest.approx(0.05 / (0.2 * share))
+    landed = _residual(Datum("a", "distance", "first-touchdown", 0.25, 4, 0.08, 0.03), robot)
+    assert landed["off_by_deviations"] == pytest.approx(0.01 / math.hypot(0.24 * math.hypot(0.04, 0.03), 0.005))

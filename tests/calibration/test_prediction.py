@@ -1,5 +1,6 @@
 """A robot that was not calibrated on: its own properties stay open, shared ones follow the calibration."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from jumpcad.calibration.subject import Subject
 from jumpcad.settings import Settings, load_settings
 
 SAID: dict[str, Any] = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
+HEIGHT = ({"height_mm": (80.0,), "height_of": "absolute"},)
 JUMPS = ({"distance_mm": (220.0,), "distance_of": "centre-of-mass"},)
 
 
@@ -61,6 +63,13 @@ def test_explanations_reach_the_distance(posterior: CalibrationPosterior, subjec
     assert subject.surface.at(np.array([energy.needed]), pins, ground).range_m[0] == pytest.approx(0.35, rel=0.02)
     assert mass.needed == pytest.approx(mass.predicted * energy.predicted / energy.needed)
     assert rate.needed == pytest.approx(rate.predicted * energy.needed / energy.predicted)
+    middle = {key: float(np.median(value)) for key, value in found.values.items()}
+    assert mass.predicted == pytest.approx(1000.0 * subject.robot.mass_kg * middle["mass:twin"])
+    assert rate.predicted == pytest.approx(subject.robot.design.stiffness_nmm_per_deg * middle["rate:twin"])
+    assert energy.predicted == pytest.approx(middle["spring_efficiency"] * middle["rate:twin"] / middle["mass:twin"])
+    assert floor.predicted == middle["floor:twin"]
+    reached = subject.surface.at(np.array([energy.predicted]), pins, ground).range_m[0]
+    assert travel.needed == pytest.approx(1000.0 * (0.35 - reached - subject.beyond_m[0]))
     assert floor.needed is None  # a foot that sticks already gains nothing from more friction
     assert travel.needed == pytest.approx(350.0 - 220.0, abs=30.0)
 
@@ -73,3 +82,41 @@ def test_settings_are_read_back(posterior: CalibrationPosterior, tmp_path: Any) 
     assert settings.ground_friction == pytest.approx(np.tan(np.radians(38.0)), rel=0.1)
     assert len(settings.draws.spring_efficiency) == len(settings.draws.pin_friction) == SAVED
     assert settings.model_copy(update={"draws": Settings().draws}).spring_efficiency == settings.spring_efficiency
+
+
+def test_an_easier_floor_explains_a_jump_that_slipped(posterior: CalibrationPosterior, subject: Subject) -> None:
+    """Of two floors with one range each, that on which the robot jumps as far; nearer than measured needs no travel."""
+    found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
+    values = {key: np.array([np.median(value)]) for key, value in found.values.items()}
+    energy = values["spring_efficiency"] * values["rate:twin"] / values["mass:twin"]
+    slips = float(subject.surface.at(energy, values["pin_friction"], np.array([0.42])).range_m[0])
+    *_, floor, travel = explanations(found, slips)
+    assert floor.needed == pytest.approx(0.42, abs=0.012)  # one of 101 from 0.2 to 1.3
+    assert travel.needed == 0.0
+
+
+def test_errors_are_in_what_a_measurement_is_predicted_as(posterior: CalibrationPosterior, subject: Subject) -> None:
+    """A height scatters by 15 mm besides its shares; of a normal, 10 and 90 % lie 1.2816 deviations off the middle."""
+    found = predicted_jump(posterior, twin(subject, jumps=HEIGHT, mass={"robot_g": 103.0}))
+    assert found.jumps_share == 1.0
+    plain = found.predicted.of("height", "absolute")
+    (row,) = found.beside()
+    assert (row["what"], row["as"], row["measured"]) == ("height", "absolute", pytest.approx(0.08))
+    low, middle, high = row["predicted"]
+    assert middle == pytest.approx(np.median(plain), abs=0.004)
+    spread = np.hypot(plain.std(), np.hypot(0.015, np.hypot(0.08, 0.03) * plain.mean()))
+    assert (high - low) / 2.0 == pytest.approx(1.2816 * spread, rel=0.15)
+    assert row["below_share"] == pytest.approx(
+        0.5 * (1.0 + math.erf((0.08 - middle) / spread / math.sqrt(2.0))), abs=0.05
+    )
+
+
+def test_the_share_of_draws_that_jump_is_said(posterior: CalibrationPosterior, subject: Subject) -> None:
+    """Robots of fifty times the mass do not; no jump counts as none far."""
+    found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
+    assert found.jumps_share == 1.0
+    mass = found.values["mass:twin"].copy()
+    mass[::2] *= 50.0
+    heavy = type(found)(found.subject, found.values | {"mass:twin": mass}, found.generator)
+    assert heavy.jumps_share == pytest.approx(0.5, abs=0.01)
+    assert heavy.quantiles()["ballistic_range_m"][0] == 0.0 < heavy.quantiles()["ballistic_range_m"][2]

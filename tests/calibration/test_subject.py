@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.subject import Subject, load_subject, renamed
+from jumpcad.calibration.subject import LARGEST_FACTOR, Subject, _require_energy, _require_unit, load_subject, renamed
 from jumpcad.errors import JumpcadError
 
 HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
@@ -118,3 +118,79 @@ def test_a_design_beside_the_measurements(tmp_path: Path, subject: Subject) -> N
 
 def test_names_of_robots_differ(subject: Subject) -> None:
     assert [one.name for one in renamed([subject, subject])] == ["kenan-2.0", "kenan-2.0 2"]
+
+
+MISTAKES = [
+    *((kind, factor, hint) for kind in ("mass", "part") for factor, hint in
+      ((0.001, "is that kg?"), (10.0, "a digit too many?"), (0.1, "a digit too few?"))),
+    ("rate", 180.0 / math.pi, "is that per radian?"), ("rate", 0.18 / math.pi, "is that N·m/rad?"),
+    ("rate", 0.001, "is that N·m/deg?"), ("rate", 0.5, "is that of one spring?"),
+    ("rate", 10.0, "a digit too many?"), ("rate", 0.1, "a digit too few?"),
+    ("length", 0.001, "is that m?"), ("length", 0.1, "is that cm?"), ("length", 10.0, "a digit too many?"),
+    ("energy", 1000.0, "is that mJ?"), ("energy", 1.0 / 3600.0, "is that Wh?"), ("energy", 10.0, "a digit too many?"),
+]  # fmt: skip
+"""What a value is of that is so many times the model's: 1 Wh is 3600 J, 1 rad is 57.3°."""
+
+
+@pytest.mark.parametrize(("kind", "factor", "hint"), MISTAKES)
+def test_a_value_in_another_unit_is_asked_about(kind: str, factor: float, hint: str) -> None:
+    """Robots differ: also where the value in its own unit would be a tenth above or below the model's."""
+    for share in (0.9, 1.0, 1.1):
+        with pytest.raises(JumpcadError) as caught:
+            _require_unit("mine.toml", "key", 20.0 * factor * share, 20.0, "units", kind)
+        assert str(caught.value) == (
+            f"mine.toml: key = {20.0 * factor * share:g}: the model has 20 units: {hint} give it in units"
+        )
+
+
+@pytest.mark.parametrize(
+    ("kind", "most"), [("mass", 2.5), ("part", 5.0), ("rate", 1.8), ("length", 5.0), ("energy", 5.0)]
+)
+def test_robots_differ_from_their_model_by_a_factor_at_most(kind: str, most: float) -> None:
+    """A robot may be 2.5 times as light as the model's (docs/calibration.md); no question far from all mistakes."""
+    for inside in (0.99 * most, 1.01 / most, 1.0):
+        _require_unit("mine.toml", "key", 20.0 * inside, 20.0, "g", kind)
+    for outside in (1.01 * most, 0.99 / most):
+        with pytest.raises(JumpcadError, match="the model has 20 g:"):
+            _require_unit("mine.toml", "key", 20.0 * outside, 20.0, "g", kind)
+    with pytest.raises(JumpcadError, match="the model has 20 g: give it in g"):
+        _require_unit("mine.toml", "key", 20.0 * 1e7, 20.0, "g", kind)
+    assert LARGEST_FACTOR[kind] == most
+
+
+def flight_needs(subject: Subject, share: float, weighed: bool) -> float:
+    """Return the height (mm) of a flight of 100 mm that takes a share of the springs' energy, by bisection."""
+    mass_kg = subject.robot.mass_kg * (1.0 if weighed else 1.0 / 2.5)
+    low, high = 0.05, 100.0
+    while high - low > 1e-6:
+        middle = (low + high) / 2.0
+        needs = mass_kg * 9.81 * (middle + 0.1**2 / (16.0 * middle))
+        low, high = (middle, high) if needs < share * subject.robot.spring.energy_j else (low, middle)
+    return 1000.0 * low
+
+
+@pytest.mark.parametrize("weighed", [True, False])
+@pytest.mark.parametrize(("share", "refused"), [(1.09, False), (1.11, True)])
+def test_a_flight_may_need_a_tenth_more_than_the_springs_hold(
+    subject: Subject, weighed: bool, share: float, refused: bool
+) -> None:
+    """Both have errors; a robot that was not weighed counts as 2.5 times as light as the model's."""
+    said = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
+    mass = {"robot_g": 1000.0 * subject.robot.mass_kg} if weighed else {}
+    robot = subject.remeasured(Measurements(**said, mass=mass))
+    given = (100.0,), (flight_needs(robot, share, weighed),), "mine.toml"
+    for what in ("centre-of-mass", "first-touchdown"):
+        if refused:
+            with pytest.raises(JumpcadError, match="and the springs hold"):
+                _require_energy(robot, what, "rise", *given)
+        else:
+            _require_energy(robot, what, "rise", *given)
+    _require_energy(robot, "resting-place", "rise", *given)
+    _require_energy(robot, "first-touchdown", "absolute", *given)
+
+
+def test_a_spring_s_pair_is_the_robot_s_unless_said(subject: Subject) -> None:
+    said = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
+    assert subject.remeasured(Measurements(**said)).pair == "kenan-2.0"
+    assert subject.remeasured(Measurements(**said, spring={"pair": "ours"})).pair == "ours"
+    assert subject.rate_nmm_per_deg == pytest.approx(subject.robot.design.stiffness_nmm_per_deg)

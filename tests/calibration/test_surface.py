@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from jumpcad.calibration.priors import FLOOR
 from jumpcad.calibration.subject import Subject
-from jumpcad.calibration.surface import DT_S, Surface
+from jumpcad.calibration.surface import DT_S, FINE, NODES, Surface
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
@@ -48,3 +49,43 @@ def test_weaker_springs_are_a_heavier_robot(subject: Subject) -> None:
 def test_no_jump_is_no_number(surface: Surface) -> None:
     found = surface.at(np.array([0.2, 3.0, 1.0]), np.full(3, 0.25), np.full(3, 0.8))
     assert np.isnan(found.range_m).tolist() == [True, True, False]
+
+
+def test_default_nodes_ascend_and_hold_what_is_believed() -> None:
+    """The model's energy is a node, as are the ends of the floor's prior; pins end at 99.9 % of theirs.
+
+    Steps of energy are even to a factor; every interval between nodes has two of the even points.
+    """
+    energy, pins, floors = (np.array(one) for one in NODES)
+    for one, count in zip((np.log(energy), pins, floors), FINE, strict=True):
+        steps = np.diff(one)
+        assert (steps > 0.0).all()
+        assert np.ptp(one) / (count - 1) <= steps.min() / 2.0 + 1e-9
+    assert 1.0 in energy
+    assert {FLOOR.first, FLOOR.second} <= set(floors)
+    assert pins[-1] > 0.25 * np.exp(3.0 * 0.4)
+    assert pins[0] == 0.0
+    ratios = np.diff(np.log(energy))[1:] / np.diff(np.log(energy))[:-1]
+    assert ((ratios > 0.6) & (ratios < 1.7)).all()
+    assert floors[-1] > FLOOR.second
+
+
+def test_a_line_on_log_energy_pins_and_floor_is_met_everywhere(surface: Surface) -> None:
+    """Of figures that are linear in each coordinate; a friction beyond the nodes is that of the nearest."""
+    axes = [np.linspace(low, high, count) for (low, high), count in
+            zip(((np.log(0.3), np.log(3.0)), (0.0, 0.9), (0.2, 1.3)), FINE, strict=True)]  # fmt: skip
+    grid = np.meshgrid(*axes, indexing="ij")
+    values = np.stack([*grid, grid[0] + 2.0 * grid[1]])
+    straight = replace(surface, nodes=NODES, values=values)
+    rng = np.random.default_rng(4)
+    energy, pins, floor = rng.uniform(0.31, 2.9, 20), rng.uniform(0.0, 0.9, 20), rng.uniform(0.2, 1.3, 20)
+    found = straight.at(energy, pins, floor)
+    assert found.range_m == pytest.approx(np.log(energy))
+    assert found.rise_m == pytest.approx(pins)
+    assert found.forward_m_s == pytest.approx(floor)
+    assert found.speed_m_s == pytest.approx(np.hypot(found.forward_m_s, found.up_m_s))
+    assert np.tan(np.radians(found.angle_deg)) == pytest.approx(found.up_m_s / found.forward_m_s)
+    beyond = straight.at(np.ones(2), np.array([-1.0, 2.0]), np.array([0.1, 5.0]))
+    assert beyond.rise_m == pytest.approx([0.0, 0.9])
+    assert beyond.forward_m_s == pytest.approx([0.2, 1.3])
+    assert np.isnan(straight.at(np.array([0.299, 3.01]), np.zeros(2), np.ones(2)).range_m).all()

@@ -76,6 +76,7 @@ def test_a_flight_backwards() -> None:
         ("t,x,z\n0,0,a\n", r"points.csv:2: '0,0,a' must be three numbers"),
         ("t,x,z\n0,0,nan\n", r"must be finite"),
         ("t,x,z\n" + "0,0,0\n" * 8, r"t must grow"),
+        ("t,x,z\n" + "".join(f"{t},0,0\n" for t in (0, 1, 2, 3, 3, 4, 5, 6)), r"t must grow"),
     ],
 )
 def test_bad_files(tmp_path: Path, text: str, message: str) -> None:

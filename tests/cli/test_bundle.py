@@ -245,3 +245,51 @@ def test_a_bundle_is_not_printed_elsewhere(run: Run, bundle: Path, tmp_path: Pat
         "plate-1-PLA.3mf",
         "plate-2-PLA.3mf",
     }
+
+
+def test_build_prints_grams_percent_and_millimetres(capsys: pytest.CaptureFixture[str]) -> None:
+    """Two parts of 1.5 g, half of the battery's joules in the springs, three quarters of those at take-off."""
+    jump = {
+        "verdict": "jump", "ballistic_range_m": 0.2214, "com_rise_m": 0.0806, "mass_kg": 0.1032,
+        "takeoff_energy_ratio": 0.75, "findings": [],
+    }  # fmt: skip
+    wrong = {"severity": "error", "name": "tips", "message": "falls over", "remedy": "longer toes"}
+    facts = {
+        "masses": [{"name": "toe", "quantity": 2, "mass_kg": 0.0015, "material": "PLA", "source": "printed"}],
+        "mass_kg": 0.1032, "spring_energy_j": 0.13251,
+        "winding": {"electrical_j": 0.26502, "time_s": 2.345, "motor": "n20", "ratio": 3.456, "efficiency": 0.5},
+        "notes": ["no room for the name"], "jump": jump, "folder": "frog", "files": ["a", "b"],
+        "capsule_jump": jump | {"verdict": "tips", "findings": [{"severity": "info"}, wrong, wrong]},
+        "violated": [], "violation": "",
+    }  # fmt: skip
+    _print_facts(facts)
+    lines = capsys.readouterr().out.splitlines()
+    labels = (
+        "toe",
+        "all",
+        "springs",
+        "winding",
+        "take-off",
+        "printed robot",
+        "study's masses",
+        "written",
+        "note",
+        "next",
+    )
+    rows = {label: next(line for line in lines if line.startswith(label)) for label in labels}
+    assert rows["toe"].split() == ["toe", "2", "PLA", "1.50", "3.00", "printed"]
+    assert rows["all"].split() == ["all", "103.20"]
+    assert rows["springs"].split() == ["springs", "0.1325", "J"]
+    assert rows["winding"].endswith("0.27 J electrical in 2.35 s (n20, 3.46:1), 50.0 % of it in the springs")
+    assert rows["take-off"].endswith("75.0 % of the springs' energy")
+    assert rows["printed robot"].endswith("jumps 221 mm far and 81 mm high with 103.2 g")
+    assert rows["study's masses"].endswith("does not jump (tips): falls over; longer toes")
+    assert rows["written"].endswith("3 files in frog")  # with the manifest
+    assert rows["note"].endswith("no room for the name")
+    assert "open its report.html" in rows["next"]
+    _print_facts(facts | {"violated": [wrong], "violation": "1 of its 9 limits is violated"})
+    said = capsys.readouterr().out
+    assert "error" in said
+    assert "tips: falls over; longer toes" in said
+    assert "1 of its 9 limits is violated; jumpcad check says more" in said
+    assert "open its report.html" not in said

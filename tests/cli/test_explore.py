@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
 
 
@@ -19,3 +20,12 @@ def test_views_of_the_space(folder):
     assert re.search(r"feasible at \d of 3 values", run("explore", "sweep", *QUICK, "--points", 3))
     assert "they say nothing about the robot" in run("explore", "pca", *QUICK, "--samples", 80)
     assert "did you mean sweep" in refusal("explore", "sweeps", *QUICK)
+
+
+@pytest.mark.parametrize(("option", "least", "most"), [("--samples", 20, 100_000), ("--points", 2, 1000)])
+def test_counts_have_ends_that_are_told(folder, option, least, most):
+    """At an end they are taken, and something else is wrong."""
+    for count in (least, most):
+        assert "did you mean sweep" in refusal("explore", "sweeps", *QUICK, option, count)
+    for count, words in ((least - 1, f"greater than or equal to {least}"), (most + 1, f"less than or equal to {most}")):
+        assert words in refusal("explore", "sweeps", *QUICK, option, count)

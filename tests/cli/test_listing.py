@@ -5,7 +5,7 @@ import json
 import pytest
 from support.commands import Run
 
-from jumpcad.cli.listing import USED_AS
+from jumpcad.cli.listing import USED_AS, described
 from jumpcad.files import template_names
 from jumpcad.workshop import load_workshop
 
@@ -49,3 +49,31 @@ def test_an_unknown_kind_is_refused_with_a_hint(run: Run) -> None:
     code, out, err = run("list", "printer")
     assert (code, out) == (2, "")
     assert "did you mean printers?" in err
+
+
+def test_parts_are_described_by_their_data_sheets_figures() -> None:
+    """Pololu 2371: 297.92:1 at 6 V, 73 rpm, 2.4 kg·cm stalled, which are 235 mN·m; a 623 is 3 x 10 x 4 mm (ISO 15)."""
+    motor = described("motors")["n20-298-mp"]
+    assert motor.startswith("297.92:1, 6 V, 73/min, 235 mN·m stalled, ")
+    assert described("bearings")["623"].startswith("3 x 10 x 4 mm, ")
+    catalogue = load_workshop().catalogue
+    for name, words in described("springs").items():
+        spring = catalogue.springs[name]
+        assert words == (
+            f"wire {spring.wire_mm:g} mm, inside {spring.inside_diameter_mm:g} mm, {spring.turns:g} turns, "
+            f"{spring.rate_nmm_per_deg:g} N·mm/°"
+        )
+    for name, words in described("batteries").items():
+        assert words.endswith(f", {catalogue.batteries[name].mass_g:g} g")
+    assert described("printers")["mk4"].endswith("bed 250 x 210 x 220 mm, nozzle 0.4 mm")
+    assert described("materials")["PETG"].startswith("1.27 g/cm³, 45 MPa along its layers")
+    assert "to be entered in the workshop" in described("materials")["PA12"]
+
+
+def test_a_template_is_described_by_one_sentence() -> None:
+    for kind in ("templates", "workshops", "settings"):
+        for words in described(kind).values():
+            assert words
+            assert "#" not in words
+            assert ". " not in words
+            assert not words.endswith(".")

@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 from support.commands import Run
 
+from jumpcad.cli import simulate as module
 from jumpcad.cli.uncertain import uncertain_lines
 from jumpcad.design import Design, load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.simulation import Settings, simulate
 
@@ -95,6 +97,7 @@ def test_a_trajectory_replaces_nothing_unasked(command: Run, tmp_path: Path) -> 
         (["kenan-2.0", "--capsule", "--workshop", "fine"], "--workshop fine: cannot apply"),
         (["kenan-2.0", "--capsule", "--settings", "quick"], "'quick' is neither a TOML file nor"),
         (["kenan-3.0", "--capsule"], "did you mean kenan-2.0"),
+        (["kenan-2.0", "--engine", "both", "--uncertain"], "--uncertain takes one engine: choose --engine pybullet"),
     ],
 )
 def test_wrong_requests(command: Run, arguments: list[str], message: str) -> None:
@@ -128,3 +131,16 @@ def test_quantiles_are_printed_in_millimetres():
     }  # fmt: skip
     lines = uncertain_lines(found)
     assert [line.split()[-2:] for line in lines[1:3]] == [["200…300…400", "mm"], ["50…60…70", "mm"]]
+
+
+def test_uncertain_jumps_and_trajectories_are_of_one_engine(command: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By default, or named: what is asked for is begun."""
+
+    def asked(*given: object) -> None:
+        raise JumpcadError(f"asked with seed {given[-1]} in {given[-2]}")
+
+    monkeypatch.setattr(module, "_jumps", lambda *_: [])
+    monkeypatch.setattr(module, "_uncertain", asked)
+    for engine in ("mujoco", "planar"):
+        code, _, err = command("kenan-2.0", "--engine", engine, "--uncertain", "--seed", 7)
+        assert (code, err) == (2, f"jumpcad: asked with seed 7 in {engine}\n")

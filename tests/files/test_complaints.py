@@ -11,6 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     did_you_mean,
 )
+from jumpcad.workshop import load_workshop
 
 
 def test_hint_only_where_something_is_near() -> None:
@@ -79,3 +80,14 @@ def test_of_twenty_thousand_unknown_keys_ten_are_named(tmp_path: Path) -> None:
     told = complaint(tmp_path, 'name = "x"\n' + "".join(f"k{number} = 1\n" for number in range(20_000)))
     assert told.count("unknown key") + told.count("missing") == 10
     assert told.endswith("and 19991 more")  # the missing bed is one of them
+
+
+def test_a_missing_key_is_told_with_the_line_of_its_table(tmp_path: Path) -> None:
+    """Also of a table in a table."""
+    file = tmp_path / "w.toml"
+    file.write_text('[batteries]\n\n[batteries.own]\nsource = "mine"\ndescription = "cell"\n')
+    with pytest.raises(JumpcadError) as caught:
+        load_workshop(file)
+    told = str(caught.value).split("; ")
+    assert f"{file}:3: batteries.own.mass_g: missing: weigh it, or take the maker's figure" in told
+    assert all(one.startswith((f"{file}:3: batteries.own.", "and ")) for one in told)

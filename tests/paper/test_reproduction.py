@@ -52,3 +52,18 @@ def test_measured_jumps_are_those_that_the_predictions_stand_beside() -> None:
             kinds = {"distance": values.distance_m, "height": values.height_m, "battery": values.electrical_energy_j}
             assert row.measured == kinds[row.what]
         assert {row.what for row in found.rows} == {"distance", "height", "battery"}
+
+
+def test_a_row_says_what_was_measured_of_a_built_robot(rows: dict[str, Reproduction]) -> None:
+    """The bench values of the study's two prototypes; the two optimised robots were not built."""
+    measured = {name: row.to_dict()["measured"] for name, row in rows.items()}
+    assert measured == {
+        "kenan-1.0": {"distance_m": 0.25, "height_m": 0.15, "electrical_energy_j": 1.5},
+        "kenan-2.0": {"distance_m": 0.35, "height_m": 0.12, "electrical_energy_j": 1.3},
+        "best-ga": None, "best-bo": None,
+    }  # fmt: skip
+    for name, row in rows.items():
+        found = row.to_dict()
+        assert found["robot"] == name
+        assert found["reproduced"]["distance_m"] == row.again.distance_m
+        assert found["evaluated"]["touchdown_distance_m"] == row.jump.touchdown_distance_m

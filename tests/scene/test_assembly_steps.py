@@ -12,8 +12,8 @@ from support.built import built
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot import Robot
-from jumpcad.scene.assembly_order.plan import Move
-from jumpcad.scene.assembly_steps import REST, SIDES, assembly_steps, travel
+from jumpcad.scene.assembly_order.plan import Move, Words
+from jumpcad.scene.assembly_steps import REST, SIDES, _texts, assembly_steps, travel
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import pose_about_y, pose_about_z
 
@@ -123,3 +123,17 @@ def test_toes_come_along_their_own_width(name: str, way: float) -> None:
     np.testing.assert_allclose(found, way * turned[:3, :3] @ np.array([math.sin(0.7), math.cos(0.7), 0.0]), atol=1e-12)
     with pytest.raises(ValueError, match="no direction from nowhere"):
         travel(built("kenan-2.0"), thing, Move("toe_left", "from nowhere"), turned)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("needs", "lacks", "said"),
+    [
+        ("", "", True), ("gear_.*", "", True), ("idler", "", False), ("", "idler", True), ("", "gear_.*", False),
+        ("gear_1", "idler", True), ("gear_1", "gear_2", False), ("idler", "toe", False), ("gear", "", False),
+    ],
+)  # fmt: skip
+def test_words_are_said_of_a_robot_that_has_what_they_need_and_lacks_what_they_lack(
+    needs: str, lacks: str, said: bool
+) -> None:
+    """Patterns of whole names."""
+    assert _texts([Words("so", needs, lacks)], ["gear_1", "gear_2"]) == (("so",) if said else ())

@@ -25,3 +25,24 @@ def test_the_camera_sees_all_it_is_asked_to(view: View) -> None:
     assert np.allclose(distance, depth)
     assert np.allclose(pixels[:, 0], 200 + 150 * rays @ right / depth / slope)
     assert np.allclose(pixels[:, 1], 150 - 150 * rays @ up / depth / slope)
+
+
+@pytest.mark.parametrize("view", [View(0.0, 0.0), View(), View(130.0, 60.0)])
+def test_the_camera_moves_with_what_it_sees(view: View) -> None:
+    """A frame elsewhere is seen from as far; one twice as large from twice as far, in the same picture."""
+    points = np.random.default_rng(2).uniform(-0.1, 0.1, (50, 3))
+    camera, away = aimed(points, view, 1.5), np.array([3.0, -2.0, 1.0])
+    assert aimed(points + away, view, 1.5).eye_m == pytest.approx(camera.eye_m + away)
+    assert aimed(2.0 * points, view, 1.5).eye_m == pytest.approx(2.0 * camera.eye_m)
+
+
+@pytest.mark.parametrize("aspect", [0.5, 2.0])
+def test_a_flat_frame_fills_the_picture_but_for_its_margin(aspect: float) -> None:
+    """Seen from the front, 6 % larger than what is framed on the side where it is tight, 14° from top to bottom."""
+    points = np.array([[0.0, y, z] for y in (-0.1, 0.1) for z in (-0.1, 0.1)])
+    camera = aimed(points, View(0.0, 0.0), aspect)
+    half = 1.06 * 0.1 / min(aspect, 1.0)
+    assert camera.eye_m == pytest.approx([half / np.tan(np.radians(7.0)), 0.0, 0.0])
+    pixels, _ = camera.seen(points, (round(200 * aspect), 200))
+    width = np.ptp(pixels[:, 0]) / (200.0 * aspect), np.ptp(pixels[:, 1]) / 200.0
+    assert max(width) == pytest.approx(1.0 / 1.06)

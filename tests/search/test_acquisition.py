@@ -3,7 +3,7 @@
 import numpy as np
 from support.hills import FIXED, SMALL
 
-from jumpcad.search.acquisition import propose
+from jumpcad.search.acquisition import _apart, propose
 from jumpcad.search.posterior import SearchPosterior
 from jumpcad.search.space import Space
 from jumpcad.search.surrogate import Surrogate
@@ -40,3 +40,10 @@ def test_choices_and_refusals_are_respected():
     )
     assert other.variant.design.stiffness_nmm_per_deg == 8.0
     assert propose(space, posterior, 0.0, np.empty((0, 3)), lambda d: False, np.random.default_rng(1)) is None
+
+
+def test_climbs_begin_at_points_that_are_apart_the_best_first():
+    """By more than a twentieth along some axis; as many as asked for."""
+    points = np.array([[0.5, 0.5], [0.54, 0.46], [0.5, 0.56], [0.9, 0.9], [0.86, 0.94], [0.1, 0.5]])
+    assert _apart(points, np.arange(6), 6) == [0, 2, 3, 5]
+    assert _apart(points, np.arange(6)[::-1], 2) == [5, 4]

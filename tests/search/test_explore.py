@@ -70,3 +70,9 @@ def test_too_little_to_look_at(evaluator):
 def test_hill_is_what_these_tests_say():
     top = CENTRE.model_copy(update=TOP)
     assert Hill()(top).metrics["fitness"] == 10.0
+
+
+def test_twenty_samples_are_the_least(evaluator):
+    assert len(sample(evaluator(), 20, 0)) == 20
+    with pytest.raises(JumpcadError, match="samples = 19 must be at least 20"):
+        sample(evaluator(), 19, 0)

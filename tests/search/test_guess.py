@@ -121,3 +121,21 @@ def first_trial():
 def test_rows_are_learned_in_steps(known, rows):
     """8 times 1.3, 1.3², 1.3³, …: 10.4, 13.5, …, 84.8, rounded."""
     assert learned_rows(known, 8, 1.3) == rows
+
+
+def test_a_robot_a_quarter_of_the_ranges_from_the_best_counts_half():
+    """By the largest coordinate; half of the ranges away a fifth; beyond 300 the farthest are left out."""
+    centre = np.full(SPACE.dimension, 0.5)
+    far = [centre.copy() for _ in range(3)]
+    far[1][0], far[2][1] = 0.75, 0.0
+    trials = [
+        Trial("bo", 0, 0, SPACE.to_design(point), Evaluation("jump", {MARK: 1.0}), 1.0, "m", 0.0) for point in far
+    ]
+    table = Table(SPACE, trials, centre)
+    assert table._weights == pytest.approx([1.0, 0.5, 0.2])
+    near = SPACE.spread(310, np.random.default_rng(5))
+    many = [Trial("bo", 0, place, SPACE.to_design(point), Evaluation("jump", {MARK: 1.0}), 1.0, "m", 0.0)
+            for place, point in enumerate(near)]  # fmt: skip
+    kept = Table(SPACE, many, centre)
+    away = np.abs(np.array([SPACE.to_unit(one.variant) for one in many]) - centre).max(axis=1)
+    assert [one.place for one in kept.trials] == sorted(np.argsort(away, kind="stable")[:300].tolist())

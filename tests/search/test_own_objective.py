@@ -150,3 +150,11 @@ def test_an_own_objective_on_the_command_line(tmp_path, monkeypatch):
         ("hight", "an own one is FILE.py:FUNCTION"),
     ):
         assert message in refusal("optimize", "bo", *QUICK, "--evaluations", 12, "--objective", place)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_score_is_a_number_within_ten_to_the_twelfth(sign):
+    """A study file holds no larger figure; the message names the limit."""
+    assert find_objective(lambda m: sign * 1e12).score(JUMP) == sign * 1e12
+    with pytest.raises(JumpcadError, match=r"not a number within ±1e\+12"):
+        find_objective(lambda m: sign * 1.001e12).score(JUMP)

@@ -141,3 +141,33 @@ def test_dask_that_does_not_answer(monkeypatch):
 def test_wrong_pools(workers, limit_s, message):
     with pytest.raises(JumpcadError, match=message):
         local_pool(workers, limit_s)
+
+
+@pytest.mark.parametrize("workers", [1, 3, 8])
+@pytest.mark.parametrize(("count", "mean_s"), [(1, 0.001), (50, 0.001), (1000, 0.001), (60, 0.03), (7, 5.0)])
+def test_a_batch_is_cut_into_tasks_of_a_tenth_of_a_second_and_ends_together(workers, count, mean_s):
+    """Every design once; no task longer than the one before; one design at least; the last task has one."""
+    pool = local_pool(workers)
+    pool._mean_s = mean_s
+    tasks = pool._tasks(count)
+    assert [index for task in tasks for index in task] == list(range(count))
+    sizes = [len(task) for task in tasks]
+    assert max(sizes) <= max(1.0, 0.1 / mean_s)
+    assert sizes == sorted(sizes, reverse=True)
+    assert sizes[-1] == 1
+    if count * mean_s > 0.3 * workers and mean_s < 0.05:
+        assert sizes[0] == int(0.1 / mean_s)
+    if count >= 2 * workers:
+        assert len(tasks) > workers  # nobody waits at the beginning
+
+
+@pytest.mark.parametrize(
+    ("workers", "limit_s", "message"),
+    [(257, 60.0, "at most 256"), (1, 0.099, "at least 0.1 and at most 86400"), (1, 86401.0, "at most 86400")],
+)
+def test_workers_and_timeouts_have_ends_that_are_told(workers, limit_s, message):
+    """A day at most; a tenth of a second, below which nothing ends."""
+    with pytest.raises(JumpcadError, match=message):
+        local_pool(workers, limit_s)
+    for limit in (0.1, 86400.0):
+        assert local_pool(256, limit).workers == 256

@@ -1,6 +1,7 @@
 """Refusals with a number: searches learn by how much a limit was missed."""
 
 import pickle
+import re
 
 import pytest
 from support.built import built
@@ -35,6 +36,9 @@ def test_a_reserve_is_taken_from_the_room_between_the_legs():
     rooms = [{one.name: one.margin for one in room_findings(layout, reserve)} for reserve in (0.0, 1.5)]
     assert rooms[0]["legs_apart"] - rooms[1]["legs_apart"] == pytest.approx(1.5)
     assert rooms[0]["stop_room"] == rooms[1]["stop_room"]  # has its reserve already
+    apart, _ = room_findings(layout, 1.5)
+    gap, needed = re.findall(r"([\d.]+) mm", apart.message)
+    assert float(gap) - float(needed) == pytest.approx(apart.margin, abs=0.0051)
 
 
 def test_a_refusal_without_a_number_has_no_finding():

@@ -1,6 +1,7 @@
 """Rehearsals: what they refuse, what they teach, and that a search with them is the same however it is run."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,9 +10,13 @@ from support.quick import LIKE, SPACE, quick
 
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.learner import Learner
+
+
+from jumpcad.search.guess import Guess
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import run_bayesian
 from jumpcad.search.models import robot_model
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.pool import local_pool
 from jumpcad.search.rehearsal import FAILED, TRIED, Rehearsal
 from jumpcad.search.request import Request
@@ -163,3 +168,18 @@ def test_a_start_that_has_no_room_is_passed_over_and_learned():
     refused = [one for one in variants if model.admits(one.design) and not rehearsal.starts_with(one)]
     assert [trial.key for trial in rehearsal.failures([], [])] == [one.key for one in refused]
     assert len(refused) >= 4
+
+
+def test_what_had_room_but_would_not_jump_is_a_failure_too(monkeypatch):
+    """Of three points that were tried, one is refused, one is guessed to stay on the ground, and one holds."""
+    rehearsal = Rehearsal.__new__(Rehearsal)
+    vars(rehearsal).update(_space=SPACE, _phase="bo", _task=TASK, _prior=set(), _passed_over={}, _refusals={})
+    points = [np.full(SPACE.dimension, share) for share in (0.1, 0.5, 0.9)]
+    refused, grounded, _ = (SPACE.to_variant(point).key for point in points)
+    outcome = {refused: Evaluation("no_room")}
+    monkeypatch.setattr(Rehearsal, "_guess", lambda _, one: Guess(None if one.key == grounded else 1.0, {}))
+    vars(rehearsal)["_model"] = SimpleNamespace(refusal=lambda one: outcome.get(one.key))
+    found = rehearsal.failures([], points)
+    assert [(one.key, one.evaluation.verdict, one.score) for one in found] == [
+        (refused, "no_room", None), (grounded, "no_takeoff", None),
+    ]  # fmt: skip

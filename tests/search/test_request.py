@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from support.hills import SMALL, Hill
 
+from jumpcad.errors import JumpcadError
 from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request, plan_stages
 from jumpcad.search.space import Space
@@ -48,3 +49,22 @@ def test_a_fixed_value_of_the_workshop_leaves_one_workshop_to_guess_in():
         {}, {"fix": ["body.plate_mm=2.4"]}, {"bound": ["body.plate_mm=1.6:2.4"]},
     )]  # fmt: skip
     assert [Request.make(space, model, "bo").guessed for space in spaces] == [True, True, False]
+
+
+@pytest.mark.parametrize(
+    ("name", "least", "most", "step"),
+    [
+        ("seed", 0, 2**32 - 1, 1),
+        ("until_percent", 0.0, 100.0, 0.1),
+        ("hours", 0.0, 1e6, 0.1),
+        ("evaluations", 1, 1_000_000, 1),
+    ],
+)
+def test_numbers_of_a_request_have_ends_that_are_told(name, least, most, step):
+    """A seed is one of 2^32: numpy's generators take no other."""
+    plain = Request(SMALL, Hill(), method="ga", evaluations=40)
+    for value in (least, most):
+        assert getattr(replace(plain, **{name: value}), name) == value
+    for value, words in ((least - step, f"at least {least:g}"), (most + step, "at most")):
+        with pytest.raises(JumpcadError, match=f"{name} = .* must be {words}"):
+            replace(plain, **{name: value})

@@ -208,3 +208,21 @@ def test_lengths_as_made_are_those_of_the_built_robot():
     stiffer = design.stiffness_nmm_per_deg * 1.01
     made, _ = as_made(robot, Settings(), {"made.stiffness_nmm_per_deg": stiffer})
     assert made.spring.energy_j == pytest.approx(1.01 * robot.spring.energy_j)
+
+
+def test_what_joins_off_an_edge_stands_in_the_order_of_its_robustness(evaluator):
+    """16 evaluations have one round: the best, on the edge, and what is tried away from it."""
+    one = evaluator()
+    points = [
+        point for point in SMALL.spread(24, np.random.default_rng(0)) if SMALL.to_design(point).compression_ratio < 0.45
+    ]
+    edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(
+        update={"compression_ratio": 0.6999, "rest_angle_deg": 55.0, "stiffness_nmm_per_deg": 20.0}
+    )
+    one.evaluate([*map(SMALL.to_design, points), edge], "bo", 0)
+    ranked = rank_candidates(one, one.trials, seed=0, making=LENGTHS_ALONE, evaluations=16)
+    scores = [candidate.robust_score for candidate in ranked]
+    assert len({*scores}) > 1
+    assert scores == sorted(scores, reverse=True)
+    assert ranked[-1].trial.design == edge
+    assert ranked[-1].rejections["loop"] > 0

@@ -14,13 +14,13 @@ from jumpcad.search.guess import Guess
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.models import robot_model
-from jumpcad.search.objective import SCREENED, find_objective
+from jumpcad.search.objective import SCREENED, Evaluation, find_objective
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
 from jumpcad.search.screen import LEAST, Screen
 from jumpcad.search.stand_in import stand_in
 from jumpcad.search.store import StudyStore
-from jumpcad.search.trial import best_trial
+from jumpcad.search.trial import Trial, best_trial
 from jumpcad.simulation import simulate
 
 
@@ -80,6 +80,7 @@ def test_nothing_is_left_out_before_enough_is_known_and_no_guess_is_a_score(tria
     assert len(left_out) > 20
     assert all(one.evaluation.verdict != SCREENED for one in trials[:LEAST])
     assert all(one.score is None for one in left_out)
+    assert all(one.duration_s == 0.0 for one in left_out)
     assert best_trial(trials).evaluation.verdict == "jump"
 
 
@@ -116,3 +117,19 @@ def test_a_guess_is_left_out_if_it_is_worse_by_more_than_its_error(
     screen = Screen.__new__(Screen)
     screen.fit = SimpleNamespace(errors={"score": 0.1, "reach": 0.2})  # type: ignore[assignment]
     assert screen.leaves_out(Guess(score, {"reach": margin, "unknown": -9.0}), 1.0) is left_out
+
+
+def test_nothing_is_learned_where_too_few_were_built(model):
+    """Of a hundred trials all but some were refused before anything was built, or all failed."""
+    screen = Screen(SPACE, model, find_objective("body_lengths"))
+    few = [
+        Trial(
+            "ga", 0, place, BEST, Evaluation("jump", {"body_lengths": 1.0}), 1.0 if place < jumped else None, "m", 0.0
+        )
+        for jumped in (0, 20)
+        for place in range(100)
+    ]
+    for trials in (few[:79], few[:100], few[100:]):
+        assert screen.learn(trials) is False
+        assert screen.fit is None
+        assert screen.guess(few[0].variant) is None

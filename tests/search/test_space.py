@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.space import Space
+from jumpcad.search.variant import Variant
 
 
 def test_default_space_is_the_published_box():
@@ -115,3 +116,18 @@ def test_wrong_spaces_are_refused_in_one_line(options, message):
 def test_a_share_of_the_range_must_be_one():
     with pytest.raises(JumpcadError, match="outside 0…100"):
         Space.parse(around=load_design("best-bo"), within_percent=0)
+
+
+def test_a_part_of_the_space_is_as_wide_as_asked_and_not_wider_than_the_whole():
+    """10 % to either side are a fifth of the range; at an end of it a tenth, or what is left."""
+    space = Space.default()
+    middle, end, beside = (Variant(space.to_design(np.full(8, at))) for at in (0.5, 1.0, 0.05))
+    for variant, shares in ((middle, (0.4, 0.6)), (end, (0.9, 1.0)), (beside, (0.0, 0.15))):
+        part = space.near(variant, (), 10.0)
+        for one, whole in zip(part.free, space.free, strict=True):
+            ends = [(value - whole.lower) / whole.width for value in (one.lower, one.upper)]
+            assert ends == pytest.approx(shares, abs=1e-9)
+    held = space.near(middle, ("e_coef",), None)
+    assert [parameter.name for parameter in held.free] == ["e_coef"]
+    assert (held.free[0].lower, held.free[0].upper) == (0.6, 1.4)
+    assert held.to_design([0.5]) == middle.design

@@ -1,12 +1,15 @@
 """What runs in a worker process."""
 
+import os
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search import worker
 from jumpcad.search.pool import local_pool
 
 
@@ -32,3 +35,15 @@ def test_a_worker_that_starts_after_its_parent_was_killed_ends():
         "import os, signal; from jumpcad.search.worker import start_worker; start_worker(os.getpid()); signal.pause()"
     )
     assert subprocess.run([sys.executable, "-c", code]).returncode == 1
+
+
+def test_what_a_worker_prints_goes_nowhere(monkeypatch):
+    """Descriptor 1 is standard output, on which the parent may be printing a document; errors stay on 2."""
+    made, ended = [], []
+    monkeypatch.setattr(worker.signal, "signal", lambda *_: None)
+    monkeypatch.setattr(worker.threading, "Thread", lambda **given: SimpleNamespace(start=lambda: ended.append(given)))
+    monkeypatch.setattr(worker.os, "open", lambda path, _: path)
+    monkeypatch.setattr(worker.os, "dup2", lambda source, target: made.append((source, target)))
+    worker.start_worker(7)
+    assert made == [(os.devnull, 1)]
+    assert [(given["args"], given["daemon"]) for given in ended] == [((7,), True)]

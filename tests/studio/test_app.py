@@ -2,20 +2,23 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.built import built
 
 from jumpcad.bundle.bom import bill_of_materials
 from jumpcad.design import load_design
 from jumpcad.evaluation import evaluate
+from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.workshop import load_workshop
 
 viser = pytest.importorskip("viser", reason="the extra studio is not installed")
 
-from jumpcad.studio import Points, Studio  # noqa: E402
+from jumpcad.studio import Points, Studio, app  # noqa: E402
 from jumpcad.studio.answers import capsule_answer, printed_answer  # noqa: E402
 from jumpcad.studio.app import BY_NUMBER  # noqa: E402
 
@@ -192,3 +195,28 @@ def test_it_ends_with_its_thread_and_keeps_no_robot(studio: Studio) -> None:
     assert not studio._thread.is_alive()
     assert studio.shown is None
     assert not studio.stage.meshes
+
+
+def test_what_is_still_wanted_when_it_ends_is_not_built(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    answered = []
+    monkeypatch.setattr(studio, "answer", answered.append)
+    studio.start()
+    studio.end()
+    answered.clear()
+    studio._wanted = studio.design
+    studio._work()
+    assert answered == []
+
+
+def test_a_bundle_of_the_studio_has_pictures(studio: Studio, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    asked: list[object] = []
+
+    def export(robot: Robot, folder: Path, pictures: bool) -> SimpleNamespace:
+        asked.extend([robot.design, folder, pictures])
+        return SimpleNamespace(folder=folder)
+
+    monkeypatch.setattr(app, "export", export)
+    robot = built("kenan-2.0")
+    monkeypatch.setattr(app, "printed_answer", lambda *_: SimpleNamespace(robot=robot))
+    assert studio._build() == f"built {tmp_path / 'kenan-2.0-studio'}"
+    assert asked == [studio.design, tmp_path / "kenan-2.0-studio", True]

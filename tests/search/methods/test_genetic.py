@@ -45,6 +45,8 @@ def test_published_preset_replaces_five_genes(evaluator):
     assert settings.population == 10
     assert settings.operators["mutation_num_genes"] == 5
     assert settings.operators["keep_parents"] == 2
+    assert settings.operators["num_parents_mating"] == 5
+    assert settings.operators["keep_elitism"] == 0
     one = evaluator(space=Space.default())
     run_genetic(one, Task(60, 0, preset="published"))
     assert len(one.trials) == 60

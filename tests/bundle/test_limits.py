@@ -1,0 +1,109 @@
+"""Bars of use: words and widths at their ends, and the order in which limits stand."""
+
+import re
+
+import pytest
+
+from jumpcad.bundle.limits import limits, ordered, verdict_on, violation
+from jumpcad.findings import Finding, at_least, at_most, bare, limit
+
+
+def page(*findings: Finding) -> str:
+    return "\n".join(limits(findings))
+
+
+def used(finding: Finding) -> str:
+    """Return the words of a limit's use."""
+    found = re.search(r"<td>one</td><td>(?:<span class=\"bar\">.*</span></span> )?(.*?)(?:<br />|</td>)", page(finding))
+    assert found is not None
+    return found[1]
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [
+        (1.0004, "at the limit"), (0.9996, "at the limit"), (1.0006, "100 % used"), (0.9994, "100 % used"),
+        (0.5, "50 % used"), (0.004, "0 % used"), (1.3, "130 % used"),
+    ],
+)  # fmt: skip
+def test_a_use_is_said_in_whole_percent(share: float, words: str) -> None:
+    """Within 0.05 % sizing ended there: "at the limit"."""
+    assert used(at_most("one", 40.0 * share, 40.0, "MPa", "", "")) == words
+    assert used(at_least("one", 40.0 / share, 40.0, "MPa", "", "")) == words
+
+
+@pytest.mark.parametrize(
+    ("margin", "unit", "words"),
+    [
+        (0.0004, "mm", "at the limit"), (-0.0004, "mm", "at the limit"), (0.0006, "mm", "margin 0.0006 mm"),
+        (0.25, "J", "margin 250 mJ"), (0.1, "rad", "margin 5.73 °"), (-2.0, "", "margin -2"),
+        (0.0, "mm", "margin 0 mm"), (0.0, "", "holds"),
+    ],
+)  # fmt: skip
+def test_without_a_share_the_margin_is_said_in_units_that_people_read(margin: float, unit: str, words: str) -> None:
+    assert used(limit("one", margin, unit, "", "")) == words
+    assert used(bare("one", "error", 0.0, "")) == "does not hold"
+
+
+@pytest.mark.parametrize(
+    ("finding", "why"),
+    [
+        (bare("one", "error", 0.0, ""), "a condition, kept or not"),
+        (limit("one", 1.0, "mm", "", ""), "given as a margin"),
+        (limit("one", 1.0, "mm", "", "", value=2.0), "given as a margin"),
+        (at_most("one", -1.0, 0.0, "mm", "", ""), "the limit is 0"),
+        (at_most("one", -1.0, 2.0, "mm", "", ""), "below 0"),
+    ],
+)
+def test_why_there_is_no_share_is_said(finding: Finding, why: str) -> None:
+    assert why in page(finding)
+    assert "bar" not in page(finding).split("</p>")[1]
+
+
+@pytest.mark.parametrize(("share", "width"), [(0.5, 40.0), (1.0, 80.0), (1.25, 100.0), (3.0, 100.0)])
+def test_the_mark_of_the_limit_is_at_four_fifths_of_a_bar(share: float, width: float) -> None:
+    """Bars end at 125 %."""
+    found = re.search(r"width: ([\d.]+)%", page(at_most("one", 8.0 * share, 8.0, "mm", "", "")))
+    assert found is not None
+    assert float(found[1]) == pytest.approx(width)
+
+
+def test_what_is_used_by_half_is_shown_and_less_is_behind_a_heading() -> None:
+    """So is what has no share, but where it is just kept: that heading is open."""
+    shown, *behind = page(at_most("half", 5.0, 10.0, "mm", "", ""), at_most("less", 4.9, 10.0, "mm", "", "")).split(
+        "<details"
+    )
+    assert "half" in shown
+    assert "less" not in shown
+    assert len(behind) == 1
+    assert ">1 more are kept, less than half used<" in behind[0]
+    assert "<details><summary>1 more are kept and have no share" in page(limit("one", 1.0, "mm", "", ""))
+    assert '<details open="open"><summary>1 more' in page(limit("one", 1e-4, "mm", "", ""))
+
+
+def test_the_worst_limit_stands_first() -> None:
+    """Violated ones by their use, then kept ones; without a share last, of these what is just kept first."""
+    in_order = [
+        at_most("twice", 2.0, 1.0, "mm", "", ""), at_most("more", 1.1, 1.0, "mm", "", "", violated="warning"),
+        limit("violated", -1.0, "mm", "", ""), at_most("tight", 0.9, 1.0, "mm", "", ""),
+        at_most("loose", 0.1, 1.0, "mm", "", ""), limit("just", 1e-4, "mm", "", ""), limit("far", 3.0, "mm", "", ""),
+    ]  # fmt: skip
+    assert ordered(in_order[::-1]) == in_order
+    assert violation(in_order) == "3 of its 7 limits are violated: do not build it as it is"
+    warned = [in_order[1], *in_order[3:]]
+    assert violation(warned) == "1 of its 5 limits is violated: it can be built, but read the warnings first"
+    assert violation(in_order[3:]) == ""
+    assert violation([bare("one", "error", 0.0, "")]) == "1 of its 1 limits is violated: do not build it as it is"
+
+
+def test_three_limits_are_named_at_the_top() -> None:
+    violated = [at_most(name, 2.0 - number / 10.0, 1.0, "mm", "", "") for number, name in enumerate("abcd")]
+    for count, words in ((3, "Violated;"), (4, "The worst of 4 violated limits;")):
+        _, named = (" ".join(lines) for lines in verdict_on(violated[:count]))
+        assert words in named
+        assert re.findall(r">(\w)<", named) == ["a", "b", "c"]
+    sentence, named = (" ".join(lines) for lines in verdict_on([at_most("e", 0.1, 1.0, "mm", "", "")]))
+    assert sentence == ""
+    assert "All 1 limits are kept" in named
+    assert '<p class="error">' in " ".join(verdict_on(violated)[0])
+    assert '<p class="warning">' in " ".join(verdict_on([at_most("a", 2.0, 1.0, "", "", "", violated="warning")])[0])

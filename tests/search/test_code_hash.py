@@ -1,0 +1,77 @@
+"""The hash of an objective's code follows what it uses of the user's own modules, objects and closures."""
+
+import importlib
+import sys
+import sysconfig
+from pathlib import Path
+from types import FunctionType, SimpleNamespace
+from typing import Any
+
+import pytest
+
+from jumpcad.search.code_hash import code_hash
+
+HELPER = "FACTOR = {factor}\n\ndef scaled(x):\n    return {factor} * x\n\ndef unused(x):\n    return {other} * x\n"
+
+
+@pytest.fixture
+def hashed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return a function that gives the hash of an objective that uses a module of these numbers."""
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def of(factor: float, other: float = 1.0, use: str = "my_aims.scaled(m['range'])") -> str:
+        (tmp_path / "my_aims.py").write_text(HELPER.format(factor=factor, other=other))
+        sys.modules.pop("my_aims", None)
+        importlib.invalidate_caches()
+        monkeypatch.setattr(sys, "dont_write_bytecode", True)
+        space: dict[str, Any] = {"my_aims": importlib.import_module("my_aims")}
+        exec(f"def light(m):\n    return {use}\n", space)
+        function = space["light"]
+        assert isinstance(function, FunctionType)
+        return code_hash(function)
+
+    yield of
+    sys.modules.pop("my_aims", None)
+
+
+@pytest.mark.parametrize("use", ["my_aims.scaled(m['range'])", "my_aims.FACTOR * m['range']"])
+def test_a_module_of_one_s_own_counts_by_what_is_used_of_it(hashed: Any, use: str) -> None:
+    assert hashed(2.0, use=use) == hashed(2.0, use=use) != hashed(3.0, use=use)
+    assert hashed(2.0, use=use) == hashed(2.0, other=5.0, use=use)
+
+
+def test_values_of_closures_and_defaults_count() -> None:
+    def weighted(weight: float) -> Any:
+        return lambda m: weight * m["range"]
+
+    def default(weight: float) -> Any:
+        def light(m: Any, by: float = weight) -> float:
+            return by * m["range"]
+
+        return light
+
+    for make in (weighted, default):
+        assert code_hash(make(1.0)) == code_hash(make(1.0)) != code_hash(make(2.0))
+
+
+@pytest.mark.parametrize(
+    ("module", "by_name"),
+    [("jumpcad.made", True), ("math", True), ("an_installed", True), ("my_aims", False), ("a_frozen", True)],
+)
+def test_functions_of_libraries_count_by_their_names(
+    module: str, by_name: bool, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Another version of jumpcad or of Python is no other objective; the user's own code is."""
+    places = {"an_installed": f"{sysconfig.get_path('purelib')}/an_installed.py", "my_aims": f"{tmp_path}/my_aims.py"}
+    if module in (*places, "a_frozen"):
+        monkeypatch.setitem(sys.modules, module, SimpleNamespace(__file__=places.get(module)))  # type: ignore[misc]
+
+    def using(factor: float) -> str:
+        space: dict[str, Any] = {"__name__": module}
+        exec(f"def helper(x):\n    return {factor} * x\n", space)
+        own: dict[str, Any] = {"helper": space["helper"]}
+        exec("def light(m):\n    return helper(m['range'])\n", own)
+        return code_hash(own["light"])
+
+    assert (using(2.0) == using(3.0)) is by_name
+    assert using(2.0) == using(2.0)
