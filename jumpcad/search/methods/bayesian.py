@@ -31,9 +31,8 @@ ELITE = 4
 LEARNED, LEARNED_BEST = 400, 100
 """Most trials that the processes are fitted to, and how many of them are the best ones; the others are the nearest to
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
-PATIENCE = 2 * REFIT_EVERY
-"""The search ends when so many proposals in a row promise too little. A new fit may see what the last did not: two must
-agree. Measured without an end, one fit alone would have ended a search of three at 4.66, which came to 4.75."""
+PATIENCE = 5
+"""The search ends when so many proposals in a row promise too little; judgement: one or two do now and then."""
 
 Proposer = Callable[[Learner, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
