@@ -40,7 +40,7 @@ def lead_findings(robot: Robot) -> Iterator[Finding]:
         for start, end in itertools.pairwise(ends):
             y = (min(start[1], end[1]) - AROUND_MM, max(start[1], end[1]) + AROUND_MM)
             points = bar(start[[0, 2]], end[[0, 2]], APART_MM)
-            gaps[role] = min(gaps.get(role, np.inf), float(clearance(moving, points, (0.0, 0.0), 0.0, y).min()))
+            gaps[role] = min(gaps.get(role, np.inf), float(clearance(moving, points, (0.0, 0.0), 0.0, y, FAR_MM).min()))
     if gaps:
         role = min(gaps, key=lambda name: gaps[name])
         gap = min(gaps[role], FAR_MM)

@@ -34,11 +34,13 @@ def test_what_moves_across_a_lead_or_close_beside_it_is_found(
     assert finding.severity == severity
 
 
-@pytest.mark.parametrize("aside", [(0.0, 1.5), (0.0, -1.5), (1.5, 0.0), (-1.5, 0.0)])
+@pytest.mark.parametrize(
+    "aside", [(0.0, 1.5), (0.0, -1.5), (1.5, 0.0), (-1.5, 0.0), (0.0, 4.0), (0.0, -40.0), (-40.0, 0.0)]
+)
 def test_the_gap_is_from_a_leads_middle_to_what_moves(
     monkeypatch: pytest.MonkeyPatch, aside: tuple[float, float]
 ) -> None:
-    """A disc of 2 mm across the leads outside the plate, its middle 1.5 mm beside the middle of their way."""
+    """A disc of 2 mm across the leads outside the plate, its middle beside the middle of their way: touching or not."""
     robot = built("kenan-2.0")
     start, end = way_in(robot.layout, "motor")[:2]
     place, y = (start + end)[[0, 2]] / 2.0 + aside, start[1]
