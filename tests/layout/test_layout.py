@@ -247,3 +247,19 @@ def test_the_lever_has_room_for_the_rollers_screw_on_either_side() -> None:
     """A lock nut of 4.0 mm (DIN 985 M3) behind the lever, a head of 1.65 mm (ISO 7380-1 M3) beside the roller."""
     assert 4.0 <= LEVER_NUT_MM < 5.0
     assert 1.65 <= LEVER_HEAD_MM < 2.0
+
+
+def test_the_ankles_faces_are_those_of_what_stands_farther_out_lug_or_toe() -> None:
+    """Beside a leg of 6 mm, 0.5 mm, and a lug of 4 mm with a toe of 7 mm beside its end; or a thicker lug."""
+    layout = plans()["kenan-2.0"]
+    for lug, toe in ((4.0, 7.0), (8.5, 7.0)):
+        sections = replace(layout.sections, thickness_mm=6.0, lug_thickness_mm=lug, toe_width_mm=toe)
+        assert replace(layout, sections=sections).ankle_face_mm == pytest.approx(3.0 + 0.5 + max(lug, toe))
+
+
+def test_what_is_around_the_legs_axle_passes_through_the_springs_coils() -> None:
+    """Spacers of 6.4 mm, or thinner ones where the spring is wound on a thinner mandrel."""
+    layout = plans()["kenan-2.0"]
+    for mandrel, room in ((9.0, 6.4), (5.0, 5.0)):
+        spring = replace(layout.drive.spring, mandrel_mm=mandrel)
+        assert replace(layout, drive=replace(layout.drive, spring=spring)).spring_bore_room_mm == pytest.approx(room)

@@ -14,9 +14,13 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.dimensions import MOTOR_CAP_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import socket_half_mm
-from jumpcad.parts.body_plate import ENGRAVING_MM, TEXT_HEIGHTS_MM, ear_reach_mm
+from jumpcad.parts.body_plate import ENGRAVING_MM, TEXT_HEIGHTS_MM, _drawing, ear_reach_mm
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Face
 from jumpcad.robot import Robot
+from jumpcad.solids.outline import rectangle
 from jumpcad.solids.text import engravable, text
+from jumpcad.workshop import load_workshop
 
 
 def engraved_mm2(name: str, label: str) -> dict[str, float]:
@@ -209,3 +213,20 @@ def test_ribs_of_3_mm_hold_a_plate_together(name: str) -> None:
     web = shapely.Polygon(section.exterior).difference(shapely.union_all(pockets))
     assert len(pockets) > 4
     assert web.buffer(-1.49).geom_type == "Polygon"
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -> None:
+    """Engraved 0.5 mm deep on the bed, where it is seen in a mirror, as near to the pivots' line as it finds room."""
+    holes = HoleSizes.of(load_workshop(), None)
+    plate, covered = rectangle((60.0, 40.0), (0.0, 12.0)), rectangle((70.0, 8.0), (0.0, 1.0))
+    y0, y1 = (17.0, 20.0) if side == "left" else (-20.0, -17.0)
+    depth = (y1 - 0.5, y1) if side == "left" else (y0, y0 + 0.5)
+    for cover, low, high in ((None, -3.3, 3.3), (covered, 5.0, 13.0)):
+        drawing = _drawing("plate", holes, [(y0, y1, plate)], depth, "Fy R", side, cover)
+        outside, inside = drawing.shape.regions_at(np.array([0.45, 0.55]))
+        letters, flat = inside - outside, text("Fy R", TEXT_HEIGHTS_MM[0]).mirror((1.0, 0.0))
+        box, at = flat.bounds(), letters.bounds()
+        assert low < at[1] < at[3] < high
+        moved = flat.translate((at[0] - box[0], at[1] - box[1]))
+        assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
