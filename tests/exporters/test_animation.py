@@ -99,3 +99,13 @@ def test_times_state_their_least_and_largest(glb: bytes) -> None:
         assert stated.min == pytest.approx([film.time_s.min()])
         assert stated.max == pytest.approx([film.time_s.max()])
         assert film.time_s.min() < film.time_s.max()
+
+
+def test_the_meshes_data_come_first_and_stay_as_they_were(glb: bytes) -> None:
+    """Views of the still file keep their numbers and bytes; what moves comes after all of it."""
+    still, moving = (pygltflib.GLTF2().load_from_bytes(data) for data in (write_glb(built("kenan-2.0")), glb))
+    before, after = still.binary_blob(), moving.binary_blob()
+    assert after[: len(before)] == before
+    assert still.bufferViews == moving.bufferViews[: len(still.bufferViews)]
+    assert min(view.byteOffset for view in moving.bufferViews[len(still.bufferViews) :]) >= len(before)
+    assert moving.buffers[0].byteLength == len(after)

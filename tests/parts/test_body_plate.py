@@ -230,3 +230,23 @@ def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -
         assert low < at[1] < at[3] < high
         moved = flat.translate((at[0] - box[0], at[1] - box[1]))
         assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_tabs_of_trays_slide_into_slots_at_both_ends(name: str, side: str) -> None:
+    """What of a tray is in the plate's thickness: a sliding fit all around, 10 mm long, 1 mm before the tray's end."""
+    robot = built(name)
+    plate, fit = getattr(robot.layout.lateral, f"{side}_plate"), robot.workshop.fits.sliding_mm
+    middle = sum(plate) / 2.0
+    around = region(cut(placed(robot, f"body_plate_{side}"), middle))
+    ends = robot.layout.electronics.length_mm / 2.0 - 1.0
+    for tray in ("electronics_tray_lower", "electronics_tray_upper"):
+        tabs = shapely.get_parts(region(cut(placed(robot, tray), middle)))
+        reach = sorted(tab.bounds[0] - robot.layout.tray_mm[0] for tab in tabs)
+        assert reach == pytest.approx([-ends, ends - 10.0][-len(tabs) :], abs=0.01)
+        for tab in tabs:
+            assert tab.distance(around) == pytest.approx(fit, abs=0.01)
+            slot = tab.buffer(fit, join_style="mitre")
+            assert slot.intersection(around).area < 0.01
+            assert slot.buffer(0.05, join_style="mitre").difference(slot).difference(around).area < 0.05

@@ -1,6 +1,7 @@
 """The foot with its toes, measured on meshes: where pins and toe tips are, flat on the ground."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from jumpcad.building import build
 from jumpcad.mechanism.model import FOOT
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts import foot as foot_part
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -129,3 +131,15 @@ def test_the_ankles_pin_fits_its_lugs_and_its_ends_have_room_outside(name: str, 
     face = robot.layout.ankle_face_mm
     assert not mesh.contains([[2.2, side * (face + 0.3), 0.0]])[0]
     assert mesh.contains([[2.2, side * (face - 0.3), 0.0]])[0]
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0, 5.0])
+def test_the_ankles_boss_has_two_walls_around_its_pin_and_more_than_its_ends_have_room(axle_mm: float) -> None:
+    """Round about the ankle, and as wide down to the sole; the ends of a pin have 7 mm of room outside it."""
+    robot = built("kenan-2.0")
+    layout, fits = replace(robot.layout, axle_mm=axle_mm), robot.workshop.fits
+    holes = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), axle_mm=axle_mm)
+    low_x, low_z, high_x, high_z = foot_part._ankle_boss(layout, holes).bounds()
+    outer = max(8.0, axle_mm + 2.0 * fits.lying_mm + 4.0 * fits.wall_mm)
+    assert (-low_x, high_x, high_z) == pytest.approx([outer / 2.0] * 3, abs=1e-6)
+    assert low_z == pytest.approx(-layout.sections.foot_depth_mm)

@@ -3,6 +3,7 @@
 import math
 import re
 from collections import defaultdict
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.parts.shopping import _standoffs
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import load_workshop
@@ -259,3 +261,40 @@ def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
         bounds = item.look.copy().apply_transform(item.T_body_part).bounds
         assert bounds.mean(axis=0)[[0, 2]] == pytest.approx([x + side * 7.5, z], abs=1e-3)
         assert bounds[0, 1] < low < bounds[1, 1]
+
+
+def test_bearings_are_in_the_hub_and_on_the_lever(assembled_robot: Robot) -> None:
+    """The hub's two at the leg's faces about its axle; roller, washer, screw and nut about the hole of the lever."""
+    layout, cam = assembled_robot.layout, assembled_robot.layout.drive.cam
+    angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
+    lever = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
+    half, hub = layout.sections.thickness_mm / 2.0, layout.hub_bearing
+    places = {
+        "hub_bearing_1": ((0.0, 0.0), -half, hub.width_mm - half),
+        "hub_bearing_2": ((0.0, 0.0), half - hub.width_mm, half),
+        "roller_washer": (lever, half, half + 0.5), "roller_nut": (lever, -half - 4.0, -half),
+        "roller": (lever, *layout.lateral.cam), "roller_screw": (lever, None, layout.lateral.cam[1] + 1.65),
+    }  # fmt: skip
+    for name, (centre, low, high) in places.items():
+        (item,) = (thing for thing in assembled_robot.hardware if thing.name == name)
+        bounds = item.look.copy().apply_transform(item.T_body_part).bounds
+        assert bounds.mean(axis=0)[[0, 2]] == pytest.approx(centre, abs=0.02), name
+        assert bounds[1, 1] == pytest.approx(high, abs=1e-3), name
+        assert low is None or bounds[0, 1] == pytest.approx(low, abs=1e-3), name
+
+
+@pytest.mark.parametrize("plate_mm", [1.6, 2.0, 2.4, 3.0, 3.5, 4.0, 4.5])
+def test_a_standoffs_screw_has_4_to_6_mm_of_thread_under_any_plate(plate_mm: float) -> None:
+    layout = built("kenan-2.0").layout
+    low, high = layout.lateral.inside
+    lateral = replace(layout.lateral, left_plate=(high, high + plate_mm), right_plate=(low - plate_mm, low))
+    for item in _standoffs(replace(layout, lateral=lateral), load_catalogue()):
+        bounds = item.look.copy().apply_transform(item.T_body_part).bounds[:, 1]
+        if item.name.endswith("left"):
+            assert 4.0 - 1e-6 <= high - bounds[0] < 6.0
+            assert bounds[1] > high + plate_mm
+        elif item.name.endswith("right"):
+            assert 4.0 - 1e-6 <= bounds[1] - low < 6.0
+            assert bounds[0] < low - plate_mm
+        else:
+            assert bounds == pytest.approx([low, high])

@@ -78,3 +78,15 @@ def test_the_body_moves_as_the_roller_leaves_the_cam(kenan: Robot) -> None:
     arm = np.array(place) - release.body_position_m
     expected = np.array(release.body_m_s) + release.body_rad_s * np.array([arm[2], 0.0, -arm[0]])
     np.testing.assert_allclose(velocity, expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("friction", [0.37, 1.1])
+def test_pybullets_ground_has_the_settings_friction_and_leaves_bounces_to_the_robot(
+    kenan: Robot, friction: float
+) -> None:
+    """Bullet multiplies the restitutions of both sides: that of the ground is 1."""
+    bullet = pytest.importorskip("pybullet")
+    with engine_named("pybullet").world(kenan, Settings(ground_friction=friction)) as world:
+        info = bullet.getDynamicsInfo(world._ground, -1, physicsClientId=world._client)
+        assert bullet.getPhysicsEngineParameters(physicsClientId=world._client)["gravityAccelerationZ"] == -9.81
+    assert (info[0], info[1], info[5]) == (0.0, friction, 1.0)

@@ -111,3 +111,20 @@ def test_rounded_corners_may_take_up_a_whole_side(size: tuple[float, float]) -> 
 def test_corners_that_do_not_fit_are_refused(size: tuple[float, float]) -> None:
     with pytest.raises(JumpcadError, match="corners of 3 mm radius do not fit"):
         outline.rectangle(size, corner_radius_mm=3.0)
+
+
+@pytest.mark.parametrize("ends", [[(0.0, 0.0)], [(0.0, 0.0), (-20.0, 10.0)]])
+def test_strips_have_square_ends_and_one_width(ends):
+    """Every corner lies half of the width beside an end, square to the way to the other end."""
+    start = np.array(ends)
+    end = start + [[30.0, 40.0], [-7.0, 24.0]][: len(ends)]
+    found = outline.strips(start, end, 4.0)
+    assert found.area() == pytest.approx(4.0 * np.hypot(*(end - start).T).sum())
+    for one, other in zip(start, end, strict=True):
+        length = np.hypot(*(other - one))
+        along = (other - one) / length
+        (corners,) = outline.strips(one, other, 4.0).to_polygons()
+        beside, ahead = (corners - one) @ [-along[1], along[0]], (corners - one) @ along
+        assert np.sort(beside) == pytest.approx([-2.0, -2.0, 2.0, 2.0], abs=1e-6)
+        assert np.sort(ahead) == pytest.approx([0.0, 0.0, length, length], abs=1e-6)
+        assert (outline.strips(one, other, 4.0) - found).area() == pytest.approx(0.0, abs=1e-6)
