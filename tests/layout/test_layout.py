@@ -19,7 +19,6 @@ from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout.electronics import Electronics
-from jumpcad.layout.fittings import switch_half_mm
 from jumpcad.layout.layout import LEVER_HEAD_MM, LEVER_NUT_MM, Layout, make_layout
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
@@ -264,16 +263,3 @@ def test_what_is_around_the_legs_axle_passes_through_the_springs_coils() -> None
     for mandrel, room in ((9.0, 6.4), (5.0, 5.0)):
         spring = replace(layout.drive.spring, mandrel_mm=mandrel)
         assert replace(layout, drive=replace(layout.drive, spring=spring)).spring_bore_room_mm == pytest.approx(room)
-
-
-def test_openings_for_wires_and_switch_keep_off_what_the_plates_hold() -> None:
-    """3 mm of material are left around every axle, the springs' pin, and the middle of the rest stop's tab."""
-    for name, layout in plans().items():
-        fittings = layout.fittings
-        rooms = {"left": box(fittings.left_mm, 12.0, 16.0), "right": box(fittings.right_mm, 12.0, 16.0)}
-        if fittings.switch is not None and fittings.switch_mm is not None:
-            half = switch_half_mm(fittings.switch)
-            rooms["switch"] = box(fittings.switch_mm, 2.0 * half[0], 2.0 * half[1])
-        seats = [*layout.axles.values(), layout.spring_pin_mm, layout.stop.tab_mm]
-        for place, (what, room) in itertools.product(seats, rooms.items()):
-            assert room.distance(shapely.Point(*place)) >= layout.axle_mm / 2.0 + 3.0 - 1e-6, f"{name}: {what}"
