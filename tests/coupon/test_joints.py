@@ -9,9 +9,10 @@ from manifold3d import CrossSection
 
 from jumpcad.coupon import joints
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
-from jumpcad.coupon.pieces import MARGIN_MM, Piece, coupon_holes
+from jumpcad.coupon.pieces import MARGIN_MM, Piece, coupon_holes, engraved
 from jumpcad.solids.outline import hole, rectangle
 from jumpcad.solids.stack import Stack
+from jumpcad.solids.text import text
 from jumpcad.workshop import load_workshop
 
 
@@ -124,3 +125,44 @@ def test_lying_holes_get_larger_towards_the_cut_corner(pieces: dict[str, Piece])
         assert box[0, 1] == pytest.approx(5.0 - 1.5 - step, abs=0.01)
     corner = CrossSection([[(32.5, 7.5), (35.0, 7.5), (35.0, 10.0), (32.5, 10.0)]])
     assert (section ^ corner).area() == pytest.approx(2.5**2 - (3.0**2 / 2.0 - 0.5**2), abs=0.01)
+
+
+def test_every_opening_has_its_label_in_front_of_it_3_mm_from_the_plates_edge(pieces: dict[str, Piece]) -> None:
+    """Engraved 0.6 mm deep: diameters of taps, offsets per side of everything else, in letters of 3.5 mm."""
+    fits = load_workshop().fits
+    labels = {
+        "taps": [f"{fits.m2_tap_mm + more:.1f}" for more in (-0.1, 0.0, 0.1)],
+        "shaft_bores": [engraved(step) for step in rib_steps_mm(fits)],
+        "motor_sockets": [engraved(step) for step in steps_mm(fits.sliding_mm)],
+        "tray_slots": [engraved(step) for step in steps_mm(fits.sliding_mm)],
+        "seat": [engraved(step) for step in steps_mm(fits.press_mm)],
+    }
+    for name, expected in labels.items():
+        solid = pieces[name].shape.solid()
+        top = solid.bounding_box()[5]
+        whole, cut = solid.slice(top - 0.65), solid.slice(top - 0.05)
+        letters = whole - cut
+        low_x, low_y, high_x, _ = whole.bounds()
+        pitch = (high_x - low_x) / len(expected)
+        for number, label in enumerate(expected):
+            middle = low_x + (number + 0.5) * pitch
+            column = rectangle((pitch - 0.2, 100.0), (middle, 0.0))
+            word = text(label, 3.5)
+            left, bottom, right, _ = word.bounds()
+            placed = word.translate((middle - (left + right) / 2.0, low_y + 3.0))
+            found = letters ^ column
+            assert (found - placed).area() + (placed - found).area() < 0.02 * word.area(), (name, label)
+            assert bottom == pytest.approx(0.0, abs=0.1)
+
+
+def test_pockets_have_their_label_inside_their_rim(pieces: dict[str, Piece]) -> None:
+    """Below the pockets of 14 mm: letters of 3.5 mm, 3 mm beyond them, and 2 mm of rim around all."""
+    for step in steps_mm(load_workshop().fits.sliding_mm):
+        solid = pieces[f"dog_pockets_{joints._number(step)}"].shape.solid()
+        whole, cut = solid.slice(5.0 - 0.65), solid.slice(5.0 - 0.05)
+        assert solid.bounding_box()[5] == pytest.approx(5.0)
+        assert whole.bounds()[2] == pytest.approx(7.0 + 3.0 + 3.5 + 2.0, abs=0.01)
+        word = text(engraved(step), 3.5)
+        left, _, right, _ = word.bounds()
+        placed, letters = word.translate((-(left + right) / 2.0, -7.0 - 3.0 - 3.5)), whole - cut
+        assert (letters - placed).area() + (placed - letters).area() < 0.02 * word.area()

@@ -14,7 +14,7 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.dimensions import MOTOR_CAP_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import socket_half_mm
-from jumpcad.parts.body_plate import ENGRAVING_MM, TEXT_HEIGHTS_MM, _drawing, ear_reach_mm
+from jumpcad.parts.body_plate import ENGRAVING_MM, TEXT_HEIGHTS_MM, _drawing, ear_reach_mm, socket_about_axis
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
 from jumpcad.robot import Robot
@@ -250,3 +250,12 @@ def test_tabs_of_trays_slide_into_slots_at_both_ends(name: str, side: str) -> No
             slot = tab.buffer(fit, join_style="mitre")
             assert slot.intersection(around).area < 0.01
             assert slot.buffer(0.05, join_style="mitre").difference(slot).difference(around).area < 0.05
+
+
+@pytest.mark.parametrize(("width", "height"), [(12.0, 10.0), (15.0, 24.0)])
+def test_ears_of_5_6_mm_stand_beside_a_sockets_wall_of_1_6_mm(width: float, height: float) -> None:
+    """Their screws are in the middle of the ears, which begin where the wall ends; 0.2 mm more are kept for the fit."""
+    assert ear_reach_mm(height) == pytest.approx(height / 2.0 + 1.6 + 2.8)
+    low_x, low_y, high_x, high_y = socket_about_axis(width, height).bounds()
+    assert (-low_x, high_x) == pytest.approx([width / 2.0 + 1.8] * 2, abs=0.01)
+    assert (-low_y, high_y) == pytest.approx([height / 2.0 + 1.6 + 5.6] * 2, abs=0.01)
