@@ -167,15 +167,15 @@ def test_the_balance_lead_has_its_tie_between_the_stop_and_the_trays_end() -> No
     assert CARRIED.battery_mm + CARRIED.balance_mm + 2.0 + 1.6 == pytest.approx(CARRIED.length_mm / 2.0)
     short = replace(CARRIED, battery=CARRIED.battery.model_copy(update={"length_mm": 9.0}))
     assert short.stop_mm == pytest.approx(11.0 / 2.0 + 1.6 + 0.6)
-    single = replace(CARRIED, battery=CARRIED.battery.model_copy(update={"cells": 1}))
+    single = replace(CARRIED, battery=next(one for one in CATALOGUE.batteries.values() if one.cells == 1))
     assert (single.balanced, CARRIED.balanced) == (False, True)
     assert single.battery_mm == 0.0
 
 
 def test_what_lies_on_the_trays_has_the_height_of_trays_tape_and_gap() -> None:
-    """Bottoms above the lower tray's underside: battery on 1.6 mm; 3.8 mm over it the upper tray; boards on 1 mm of tape
+    """Bottoms above the lower tray's underside: battery on 1.6 mm; 3.8 mm over it the upper tray; tape of 1 mm.
 
-    at the plate, controllers 0.9 mm and others 0.6 mm from it; capacitor and plug beside them on the tray itself.
+    Controllers are 0.9 mm from a plate, others 0.6 mm; capacitor and plug beside them lie on the tray itself.
     """
     parts = CATALOGUE.components
     full = replace(CARRIED, plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"])
