@@ -228,6 +228,7 @@ def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -
         letters, flat = inside - outside, text("Fy R", TEXT_HEIGHTS_MM[0]).mirror((1.0, 0.0))
         box, at = flat.bounds(), letters.bounds()
         assert low < at[1] < at[3] < high
+        assert abs(at[0] + at[2]) / 2.0 < 1.0  # in the middle of the plate, on a raster of 1 mm
         moved = flat.translate((at[0] - box[0], at[1] - box[1]))
         assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
 

@@ -90,8 +90,11 @@ def test_the_leg_has_material_around_all_its_holes_and_a_flat_heel(robot: Robot)
     assert heel.difference(filled).area < 0.05
     face = filled.intersection(shapely.box(stop.radius_mm - 4.0, -100.0, stop.radius_mm + 4.0, 0.0))
     assert face.bounds[1] == pytest.approx(-stop.heel_mm, abs=0.01)
-    smaller, larger = (filled.buffer(radius).buffer(-radius).difference(filled).area for radius in (2.9, 3.6))
-    assert smaller < 0.12 < larger
+    beside = shapely.box(stop.radius_mm - 6.0, -stop.heel_mm - 0.1, stop.radius_mm + 6.0, 0.01 - stop.heel_mm)
+    low_x, _, high_x, _ = filled.intersection(beside).bounds
+    assert (low_x, high_x) == pytest.approx((stop.radius_mm - 4.5, stop.radius_mm + 4.5), abs=0.06)
+    smaller, larger = (filled.buffer(radius).buffer(-radius).difference(filled).area for radius in (2.8, 3.6))
+    assert smaller < 0.1 < larger
 
 
 def test_the_front_link_is_a_straight_bar_between_equal_eyes(robot: Robot) -> None:

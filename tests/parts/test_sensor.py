@@ -111,6 +111,9 @@ def test_the_mounts_ears_are_2_mm_high_however_far_the_base_stands_out(robot: Ro
         if height < 2.0:
             reach = layout.sensor.ear_mm + EAR_RADIUS_MM
         assert (found.bounds[0], found.bounds[2]) == pytest.approx((-reach, reach), abs=0.02), height
+        if height < 2.0:  # ears as wide as their round ends, up to the mount's walls
+            ear = found.intersection(shapely.box(length / 2.0 + 1.5, -50.0, length / 2.0 + 3.2, 50.0))
+            assert (ear.bounds[1], ear.bounds[3]) == pytest.approx((-2.6, 2.6), abs=0.02), height
         opened = case if height < base_mm else case.buffer(-0.9, join_style="mitre")
         assert found.intersection(opened).area < 1e-3, height
         closed = case.difference(opened) if height > base_mm else case.buffer(0.0).difference(case)

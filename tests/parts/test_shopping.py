@@ -22,7 +22,7 @@ from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.parts.shopping import _standoffs
+from jumpcad.parts.shopping import _electronics, _standoffs
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import load_workshop
@@ -365,3 +365,21 @@ def test_motor_and_cap_screws_stand_where_the_layout_says() -> None:
         assert high[1] == pytest.approx(lateral.motor_cap[1], abs=1e-3)
         head = load_catalogue().screws["M2"].button_head_height_mm
         assert low[1] == pytest.approx(high[1] - head - 8.0, abs=1e-3)
+
+
+def test_the_balance_lead_of_two_cells_lies_under_its_tie_ahead_of_the_battery() -> None:
+    """A tie of 2.5 x 1.1 mm across 10 mm, on a plug 6 mm high; a battery of one cell has no balance lead."""
+    robot, catalogue = built("kenan-2.0"), load_catalogue()
+    layout, chosen = robot.layout, robot.workshop.bought
+    carried = replace(layout.electronics, battery=catalogue.batteries["lipo-2s-180"])
+    found = {item.name: item for item in _electronics(replace(layout, electronics=carried), catalogue, chosen)}
+    tie, battery = (
+        found[name].look.copy().apply_transform(found[name].T_body_part).bounds
+        for name in ("tie_balance_lead", "battery")
+    )
+    middle = battery.mean(axis=0)
+    assert tie.mean(axis=0)[:2] == pytest.approx([middle[0] + carried.balance_mm, middle[1]], abs=2e-3)
+    assert tie[0, 2] == pytest.approx(battery[0, 2] + 6.0, abs=2e-3)
+    assert np.ptp(tie, axis=0) == pytest.approx([2.5, 10.0, 1.1], abs=2e-3)
+    assert tie[0, 0] > battery[1, 0]
+    assert "tie_balance_lead" not in {item.name for item in robot.hardware}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.machines import let_go
 
-from jumpcad.mechanism.model import BODY, BODY_NAMES
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
 from jumpcad.settings import coefficients
@@ -130,3 +130,16 @@ def test_the_loop_and_the_joints_are_closed_in_pybullet_at_release(lopsided: Rob
         np.testing.assert_allclose(mechanics.frame_positions_m(state)[at], pose[:3, 3], atol=1e-6, err_msg=str(index))
         np.testing.assert_allclose(state.rotation[at], pose[:3, :3], atol=1e-6)
     assert np.abs(state.velocity_m_s).max() == 0.0
+
+
+def test_the_foots_motion_is_that_of_the_state(kenan: Robot) -> None:
+    """Centre of mass, its velocity, and the spin, of a robot that has just been let go."""
+    robot = let_go(kenan)
+    with engine_named("pybullet").world(robot, Settings()) as world:
+        world.advance(20)
+        (com, velocity, spin), state = world._foot_motion(), world.state()
+    foot = BODY_NAMES.index(FOOT)
+    np.testing.assert_allclose(com, state.com_m[foot], atol=1e-9)
+    np.testing.assert_allclose(velocity, state.velocity_m_s[foot], atol=1e-9)
+    np.testing.assert_allclose(spin, state.angular_rad_s[foot], atol=1e-9)
+    assert np.abs(velocity).max() > 1e-6
