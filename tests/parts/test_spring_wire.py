@@ -20,7 +20,8 @@ def spring(request: pytest.FixtureRequest) -> TorsionSpring:
 
 def turned_rad(points: np.ndarray) -> float:
     """The angle by which points (n, 2) go around the origin, counter-clockwise."""
-    return float(np.ptp(np.unwrap(np.arctan2(points[:, 1], points[:, 0]))))
+    angle = np.unwrap(np.arctan2(points[:, 1], points[:, 0]))
+    return float(angle[-1] - angle[0])
 
 
 def test_a_coil_has_the_springs_turns_from_the_outer_y_to_the_inner(spring: TorsionSpring) -> None:
