@@ -141,3 +141,14 @@ def test_rotations_are_told_without_jumps_of_sign() -> None:
     smooth = np.column_stack([np.zeros((5, 1)), np.sin(turns), np.zeros((5, 1)), np.cos(turns)])
     found = _continuous(smooth * np.array([[1.0], [-1.0], [-1.0], [1.0], [-1.0]]))
     np.testing.assert_allclose(found, smooth)
+
+
+def test_views_say_what_they_hold(glb: bytes) -> None:
+    """glTF 2.0, 5.11.5: 34962 for vertices, 34963 for their indices."""
+    file = pygltflib.GLTF2().load_from_bytes(glb)
+    kinds = {"vertices": set(), "indices": set()}
+    for primitive in (one for mesh in file.meshes for one in mesh.primitives):
+        kinds["indices"].add(file.bufferViews[file.accessors[primitive.indices].bufferView].target)
+        for accessor in (primitive.attributes.POSITION, primitive.attributes.NORMAL):
+            kinds["vertices"].add(file.bufferViews[file.accessors[accessor].bufferView].target)
+    assert kinds == {"vertices": {34962}, "indices": {34963}}

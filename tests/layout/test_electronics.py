@@ -220,3 +220,29 @@ def test_ties_have_their_slots_on_both_sides_of_what_they_hold() -> None:
                 assert (x, y) == pytest.approx((seat.x_mm, seat.y_mm + side * (seat.size_mm[1] / 2.0 + 0.9)))
                 assert size == (4.0, 1.8)
     assert set(full.tie_slots(inside)) == {"controller", "driver", "plug", "capacitor"}
+
+
+def test_standoffs_are_wanted_at_the_boards_front_and_between_cam_and_boards() -> None:
+    """Just above the boards: a standoff's 3.2 mm and a gap of 0.5 mm; above a higher cam's axis where that is higher.
+
+    With nothing else there each is within half a raster of 2 mm, and the clearance of 0.8 mm, of where it is wanted.
+    """
+    tray, front = np.array([40.0, 2.0]), np.array([40.0, 0.0])
+    boards = electronics_obstacle(CARRIED, tray, INSIDE)
+    top = tray[1] + CARRIED.height_mm + 3.2 + 0.5
+    for cam in (np.array([-20.0, 5.0]), np.array([-20.0, 70.0])):
+        first, second = standoff_places([boards], cam, front, CARRIED, tray, INSIDE)
+        assert first == pytest.approx([tray[0] + CARRIED.length_mm / 2.0, top], abs=2.0)
+        assert second == pytest.approx([(cam[0] + tray[0]) / 2.0, max(top, cam[1])], abs=2.0)
+
+
+def test_trays_prefer_a_lower_place_to_a_nearer_one() -> None:
+    """A millimetre up costs 1.2 as much as one along: over a low post they go aside by less than 1.2 of its height."""
+    half = CARRIED.length_mm / 2.0
+    for aside, high in ((10.0, 20.0), (30.0, 8.0)):
+        post = disc("post", (40.0 + half - aside, high - 1.0), 1.0, EVERYWHERE)
+        tray = tray_place([post], CARRIED, 80.0, INSIDE)
+        if aside < 1.2 * high:
+            assert tray == pytest.approx([40.0 - aside - 1.0, 0.0], abs=3.0)
+        else:
+            assert tray == pytest.approx([40.0, high], abs=3.0)

@@ -14,7 +14,14 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.dimensions import MOTOR_CAP_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import socket_half_mm
-from jumpcad.parts.body_plate import ENGRAVING_MM, TEXT_HEIGHTS_MM, _drawing, ear_reach_mm, socket_about_axis
+from jumpcad.parts.body_plate import (
+    ENGRAVING_MM,
+    TEXT_HEIGHTS_MM,
+    _drawing,
+    ear_reach_mm,
+    socket_about_axis,
+    tray_slots,
+)
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
 from jumpcad.robot import Robot
@@ -201,6 +208,8 @@ def test_the_strut_between_the_axles_has_3_mm_beside_their_bores(side: str) -> N
     large = shapely.union_all([one for one in pockets if one.area > 60.0 and not one.contains(strut.centroid)])
     assert filled.buffer(0.05).contains(shapely.LineString([robot.layout.hub_mm, robot.layout.front_mm]))
     assert strut.intersection(large).area < 0.05
+    line = shapely.LineString([robot.layout.hub_mm, robot.layout.front_mm])
+    assert large.distance(line) == pytest.approx(robot.layout.axle_mm / 2.0 + 3.0, abs=0.2)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -260,3 +269,25 @@ def test_ears_of_5_6_mm_stand_beside_a_sockets_wall_of_1_6_mm(width: float, heig
     low_x, low_y, high_x, high_y = socket_about_axis(width, height).bounds()
     assert (-low_x, high_x) == pytest.approx([width / 2.0 + 1.8] * 2, abs=0.01)
     assert (-low_y, high_y) == pytest.approx([height / 2.0 + 1.6 + 5.6] * 2, abs=0.01)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_plates_have_material_around_what_they_hold(name: str, side: str) -> None:
+    """3 mm around axles, 9 mm under standoffs' screws, 8 mm round the springs' pin, 2.5 mm around the trays' tabs."""
+    robot = built(name)
+    layout = robot.layout
+    plate = getattr(layout.lateral, f"{side}_plate")
+    section = region(cut(placed(robot, f"body_plate_{side}"), sum(plate) / 2.0))
+    kept = [(place, layout.axle_mm / 2.0 + 3.0, 1.75) for place in layout.axles.values()]
+    kept += [(place, 4.5, 1.75) for place in layout.standoffs_mm] + [(layout.spring_pin_mm, 4.0, 1.75)]
+    for place, radius, bore in kept:
+        around = shapely.Point(*place).buffer(radius - 0.03, 64).difference(shapely.Point(*place).buffer(bore, 64))
+        if side == "left":  # the sensor's opening and the shaft's hole may be beside them
+            around = around.difference(shapely.Point(*layout.motor_mm).buffer(2.0))
+        assert around.difference(section).area < 0.01
+    for slots in tray_slots(layout, side):
+        for place in slots:
+            slot = shapely.box(place[0] - 5.2, place[1] - 1.0, place[0] + 5.2, place[1] + 1.0)
+            outer = shapely.box(place[0] - 7.4, place[1] - 3.2, place[0] + 7.4, place[1] + 3.2).buffer(-1.0).buffer(1.0)
+            assert outer.difference(slot).difference(section).area < 0.05

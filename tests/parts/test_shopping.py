@@ -252,6 +252,8 @@ def test_wire_is_bought_in_tenths_of_a_metre_rounded_up() -> None:
             ordered = float(re.findall(rf"{colour}, ([\d.]+) m$", item.article)[0])
             assert -1e-6 <= ordered - metres < 0.1 - 1e-9, colour
             assert ordered * 10.0 == pytest.approx(round(ordered * 10.0))
+            wire = load_catalogue().components[robot.workshop.bought.wire]
+            assert 1e3 * item.mass_kg == pytest.approx(1e3 * metres * wire.mass_g / wire.length_mm), colour
 
 
 def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:

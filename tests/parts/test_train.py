@@ -19,7 +19,7 @@ from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing
-from jumpcad.parts.train import _webbed, gears, ribbed_d_bore
+from jumpcad.parts.train import _webbed, gear_turns, gears, ribbed_d_bore
 from jumpcad.robot import Robot
 from jumpcad.solids import outline
 from jumpcad.workshop import load_workshop
@@ -354,3 +354,24 @@ def test_six_web_holes_leave_3_mm_around_the_hub_inside_the_teeth_and_between_th
     assert kept.area() > made.area()
     small = gear_pair(15, 16, 1.25, 5.0, 0.1).wheel
     assert len(_webbed(small, outline.hole(3.4), 0.0).to_polygons()) == 2
+
+
+@pytest.mark.parametrize("teeth", [(40, 17, 44, 16), (41, 16, 43, 19)])
+def test_a_gap_of_each_pinion_is_where_a_tooth_of_its_wheel_points(teeth: tuple[int, int, int, int]) -> None:
+    """On the line of centres the shares of a pitch from tooth to line add up to a half, for any numbers of teeth."""
+    layout = geared().layout
+    first, last = layout.drive.train.stages
+    pairs = [
+        replace(pair, wheel=replace(pair.wheel, teeth=wheel), pinion=replace(pair.pinion, teeth=pinion))
+        for pair, wheel, pinion in ((first, *teeth[:2]), (last, *teeth[2:]))
+    ]
+    train = replace(layout.drive.train, stages=tuple(pairs))
+    turns = gear_turns(replace(layout, drive=replace(layout.drive, train=train)))
+    meshes = [
+        (layout.cam_axis_mm, teeth[2], turns["cam_gear"], layout.idler_mm, teeth[3], turns["idler"]),
+        (layout.idler_mm, teeth[0], turns["idler"], layout.motor_mm, teeth[1], turns["motor_pinion"]),
+    ]
+    for wheel_mm, wheel, wheel_rad, pinion_mm, pinion, pinion_rad in meshes:
+        line = math.atan2(*(pinion_mm - wheel_mm)[::-1])
+        share = ((line - wheel_rad) * wheel + (line + math.pi - pinion_rad) * pinion) / (2.0 * math.pi)
+        assert share % 1.0 == pytest.approx(0.5, abs=1e-9)
