@@ -119,7 +119,7 @@ def test_only_polygons_of_short_sides_are_circles(count: int, round_: bool) -> N
     assert {type(curve) for curve in curves_of(regular(count))} == ({Circle} if round_ else {Line})
 
 
-@pytest.mark.parametrize(("count", "sides", "arcs"), [(64, 4, 0), (64, 8, 1), (64, 40, 1), (24, 8, 0)])
+@pytest.mark.parametrize(("count", "sides", "arcs"), [(64, 5, 0), (64, 6, 1), (64, 40, 1), (24, 8, 0)])
 def test_an_arc_has_six_short_sides_or_more(count: int, sides: int, arcs: int) -> None:
     curves = curves_of(regular(count, sides))
     assert sum(isinstance(curve, Arc) for curve in curves) == arcs

@@ -13,7 +13,7 @@ from jumpcad.dimensions import STRAP_EDGE_MM, STRAP_SLOT_MM, TRAY_LENGTH_MIN_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout import electronics
 from jumpcad.layout.electronics import Electronics, Seat, electronics_obstacle, standoff_places, tray_place
-from jumpcad.layout.room import EVERYWHERE, disc
+from jumpcad.layout.room import EVERYWHERE, box_obstacle, disc
 
 CATALOGUE = load_catalogue()
 CARRIED = Electronics(CATALOGUE.batteries["lipo-2s-180"], CATALOGUE.boards["xiao-esp32c3"], CATALOGUE.boards["drv8833"])
@@ -236,13 +236,10 @@ def test_standoffs_are_wanted_at_the_boards_front_and_between_cam_and_boards() -
         assert second == pytest.approx([(cam[0] + tray[0]) / 2.0, max(top, cam[1])], abs=2.0)
 
 
-def test_trays_prefer_a_lower_place_to_a_nearer_one() -> None:
-    """A millimetre up costs 1.2 as much as one along: over a low post they go aside by less than 1.2 of its height."""
-    half = CARRIED.length_mm / 2.0
-    for aside, high in ((10.0, 20.0), (30.0, 8.0)):
-        post = disc("post", (40.0 + half - aside, high - 1.0), 1.0, EVERYWHERE)
-        tray = tray_place([post], CARRIED, 80.0, INSIDE)
-        if aside < 1.2 * high:
-            assert tray == pytest.approx([40.0 - aside - 1.0, 0.0], abs=3.0)
-        else:
-            assert tray == pytest.approx([40.0, high], abs=3.0)
+@pytest.mark.parametrize(("aside_mm", "high_mm", "over"), [(40.0, 36.0, False), (40.0, 30.0, True)])
+def test_a_millimetre_up_costs_trays_as_much_as_1_2_mm_along(aside_mm: float, high_mm: float, over: bool) -> None:
+    """Before a wall that reaches in from the front they stand 40 mm farther back, or on top of it."""
+    edge = 40.0 + CARRIED.length_mm / 2.0 - aside_mm
+    wall = box_obstacle("wall", (edge + 100.0, high_mm / 2.0 - 50.0), (100.0, high_mm / 2.0 + 50.0), 0.0, EVERYWHERE)
+    place = (40.0, high_mm) if over else (40.0 - aside_mm, 0.0)
+    assert tray_place([wall], CARRIED, 80.0, INSIDE) == pytest.approx(place, abs=2.0)

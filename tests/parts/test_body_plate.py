@@ -17,6 +17,7 @@ from jumpcad.drive.socket import socket_half_mm
 from jumpcad.parts.body_plate import (
     ENGRAVING_MM,
     TEXT_HEIGHTS_MM,
+    _covers,
     _drawing,
     ear_reach_mm,
     socket_about_axis,
@@ -208,8 +209,6 @@ def test_the_strut_between_the_axles_has_3_mm_beside_their_bores(side: str) -> N
     large = shapely.union_all([one for one in pockets if one.area > 60.0 and not one.contains(strut.centroid)])
     assert filled.buffer(0.05).contains(shapely.LineString([robot.layout.hub_mm, robot.layout.front_mm]))
     assert strut.intersection(large).area < 0.05
-    line = shapely.LineString([robot.layout.hub_mm, robot.layout.front_mm])
-    assert large.distance(line) == pytest.approx(robot.layout.axle_mm / 2.0 + 3.0, abs=0.2)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -291,3 +290,16 @@ def test_plates_have_material_around_what_they_hold(name: str, side: str) -> Non
             slot = shapely.box(place[0] - 5.2, place[1] - 1.0, place[0] + 5.2, place[1] + 1.0)
             outer = shapely.box(place[0] - 7.4, place[1] - 3.2, place[0] + 7.4, place[1] + 3.2).buffer(-1.0).buffer(1.0)
             assert outer.difference(slot).difference(section).area < 0.05
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
+def test_pockets_come_as_near_to_the_strut_as_3_mm_beside_a_bore(name: str) -> None:
+    """And no nearer to the plate's edge than 3.2 mm; their corners have a radius of 1.5 mm."""
+    layout = built(name).layout
+    covers = _covers(layout)
+    pockets = shapely.union_all([shapely.Polygon(contour) for contour in covers.pockets.to_polygons()])
+    line = shapely.LineString([layout.hub_mm, layout.front_mm])
+    assert pockets.distance(line) == pytest.approx(layout.axle_mm / 2.0 + 3.0, abs=0.05)
+    (edge,) = (shapely.Polygon(contour) for contour in covers.whole.to_polygons())
+    assert pockets.distance(edge.exterior) == pytest.approx(3.2, abs=0.05)
+    assert pockets.buffer(-1.45).buffer(1.45).symmetric_difference(pockets).area < 0.01 * pockets.area

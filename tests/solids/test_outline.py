@@ -128,3 +128,12 @@ def test_strips_have_square_ends_and_one_width(ends):
         assert np.sort(beside) == pytest.approx([-2.0, -2.0, 2.0, 2.0], abs=1e-6)
         assert np.sort(ahead) == pytest.approx([0.0, 0.0, length, length], abs=1e-6)
         assert (outline.strips(one, other, 4.0) - found).area() == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("radius", [0.5, 3.0, 20.0, 90.0])
+def test_round_corners_are_within_five_micrometres_of_their_circles(radius):
+    """Of a square that is grown: every corner and the middle of every side of an arc, and the straight sides."""
+    (points,) = outline.grown(outline.rectangle((10.0, 10.0)), radius).to_polygons()
+    for at in np.concatenate([points, (points + np.roll(points, -1, axis=0)) / 2.0]):
+        beyond = np.maximum(np.abs(at) - 5.0, 0.0)
+        assert np.hypot(*beyond) == pytest.approx(radius, abs=1.1 * outline.SAGITTA_MM)
