@@ -101,6 +101,7 @@ def test_draws_of_a_calibration_are_taken_in_pairs(robot: Robot) -> None:
     """Each as often as the others, the efficiency with the friction that was drawn with it."""
     draws = Draws(spring_efficiency=(0.9, 0.95, 1.0, 0.8), pin_friction=(0.1, 0.2, 0.3, 0.4))
     group = _groups(robot, Settings(draws=draws))["calibration"]
+    assert group.inputs == 1
     pairs = group.values(np.array([[0.0], [0.2499], [0.25], [0.5], [0.75], [1.0 - 1e-9], [1.0]]))
     assert pairs[:, 0].tolist() == [0.9, 0.9, 0.95, 1.0, 0.8, 0.8, 0.8]
     assert pairs[:, 1].tolist() == [0.1, 0.1, 0.2, 0.3, 0.4, 0.4, 0.4]
