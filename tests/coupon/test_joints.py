@@ -24,7 +24,15 @@ def openings(stack: Stack) -> tuple[np.ndarray, list[np.ndarray]]:
     return plate, sorted((box for box in boxes if box is not plate), key=lambda box: box[0, 0])
 
 
-@pytest.mark.parametrize("cuts", [[hole(2.0), hole(3.0), hole(4.0)], [rectangle((8.0, 3.0)), rectangle((9.0, 4.0))]])
+@pytest.mark.parametrize(
+    "cuts",
+    [
+        [hole(2.0), hole(3.0), hole(4.0)],
+        [rectangle((8.0, 3.0)), rectangle((9.0, 4.0))],
+        [rectangle((8.0, 3.0), (2.0, 1.0)), rectangle((9.0, 4.0), (-3.0, 0.5))],
+    ],
+    ids=["round", "square", "off their origins"],
+)
 def test_openings_are_evenly_apart_with_a_margin(cuts: list) -> None:
     plate, found = openings(joints._row(cuts, ["a"] * len(cuts), 5.0))
     assert len(found) == len(cuts)
