@@ -201,14 +201,17 @@ def test_the_pins_boss_is_4_mm_high_or_as_high_as_what_is_beside_it_lets_it() ->
         lateral = replace(layout.lateral, spring_right=(low + spring_mm, low + spring_mm + 5.0))
         return spring_boss_mm(list(obstacles), pin, 3.0, lateral)
 
-    def beside(name: str, gap_mm: float, above_mm: float) -> Obstacle:
-        return disc(name, pin + np.array([0.0, 1.5 + 2.0 + 1.0 + gap_mm]), 1.0, (low + above_mm, low + 20.0))
+    def beside(name: str, gap_mm: float, above_mm: float, direction: tuple[float, float] = (0.0, 1.0)) -> Obstacle:
+        place = pin + (1.5 + 2.0 + 1.0 + gap_mm) * np.array(direction)
+        return disc(name, place, 1.0, (low + above_mm, low + 20.0))
 
     assert high() == 4.0
     assert high(spring_mm=3.0) == pytest.approx(2.5)
     assert (high(spring_mm=1.71), high(spring_mm=1.69)) == (pytest.approx(1.21), 0.0)
     assert high(beside("post", -0.01, 2.0)) == pytest.approx(2.0)
     assert high(beside("post", 0.01, 2.0)) == 4.0
+    assert high(beside("post", -0.01, 2.0, (1.0, 0.0))) == pytest.approx(2.0)
+    assert high(beside("post", 0.01, 2.0, (1.0, 0.0))) == 4.0
     assert high(beside("post", -0.01, 2.0), beside("gear", -0.01, 3.0)) == pytest.approx(2.0)
     assert high(beside("post", -0.01, 5.0)) == 4.0
     assert high(beside("post", -0.01, 1.0)) == 0.0

@@ -195,3 +195,7 @@ def test_a_clevis_pin_is_the_shortest_from_stock_whose_split_pin_is_outside() ->
         split = reach(things[f"{name}_split_pin"])
         assert split == pytest.approx(low + pin.end_mm + np.array([-0.5, 0.5]) * pin.cotter_mm)
         assert split[1] <= -face - 0.2 + 1e-6
+        item = things[f"{name}_split_pin"]
+        along, _, up = np.ptp(item.look.copy().apply_transform(item.T_body_part).bounds, axis=0)
+        assert (along > up) == (name != "leg_spring_pin")  # along the foot, and across the leg
+        assert max(along, up) == pytest.approx(5.0, abs=0.05)

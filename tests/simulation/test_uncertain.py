@@ -105,3 +105,11 @@ def test_draws_of_a_calibration_are_taken_in_pairs(robot: Robot) -> None:
     pairs = group.values(np.array([[0.0], [0.2499], [0.25], [0.5], [0.75], [1.0 - 1e-9], [1.0]]))
     assert pairs[:, 0].tolist() == [0.9, 0.9, 0.95, 1.0, 0.8, 0.8, 0.8]
     assert pairs[:, 1].tolist() == [0.1, 0.1, 0.2, 0.3, 0.4, 0.4, 0.4]
+
+
+def test_the_polynomial_is_a_cubic() -> None:
+    """Of a normal input, the third Hermite polynomial is explained, the fourth, which no cubic resembles, is not."""
+    a = np.random.default_rng(0).standard_normal((4096, 1))
+    found = _first_order({"a": a}, np.concatenate([a**3 - 3.0 * a, a**4 - 6.0 * a**2 + 3.0], axis=1), np.arange(4096))
+    assert found[0, 0] == pytest.approx(1.0, abs=0.01)
+    assert found[0, 1] < 0.3
