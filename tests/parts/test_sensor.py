@@ -38,7 +38,10 @@ def test_the_case_lies_in_the_mount_up_to_its_ceiling(robot: Robot) -> None:
     case = shapely.box(-length / 2.0, -width / 2.0, length / 2.0, width / 2.0)
     assert below.intersection(case).area == pytest.approx(0.0, abs=1e-6)
     play = below.distance(case)
-    assert 0.02 <= play <= 0.3
+    assert play == pytest.approx(0.2, abs=2e-3)
+    for x, y in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):  # on all four sides
+        edges = [(x * (length / 2.0 + gap), y * (width / 2.0 + gap)) for gap in (0.19, 0.21)]
+        assert [below.intersects(shapely.Point(*edge)) for edge in edges] == [False, True]
     ledge = above.intersection(case)
     assert ledge.area == pytest.approx(length * width - (length - 1.8) * (width - 1.8), rel=1e-3)
     assert (below.bounds[0] + below.bounds[2], below.bounds[1] + below.bounds[3]) == pytest.approx((0, 0), abs=1e-3)
