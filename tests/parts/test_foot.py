@@ -5,9 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
 from manifold3d import Manifold, Mesh
-from support.built import LONG_TOES, body_in_plane, built, cut, hole_centres, placed
+from support.built import LONG_TOES, body_in_plane, built, cut, hole_centres, placed, region
 from support.robots import FOLDED
 
 from jumpcad.building import build
@@ -198,3 +199,18 @@ def test_a_foot_fits_the_bed_with_its_nose_tips_and_toes(name: str) -> None:
     assert not foot_part.in_one_piece(*given, (size[0] - 0.1, min(size[0], size[1]) * 0.5, 100.0))
     wide = 1.0 + max(size)
     assert not foot_part.in_one_piece(*given, (wide, wide, 100.0), toe_half_width_mm=wide)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_lugs_stand_on_soles_of_1_mm_behind_and_ahead_of_both_eyes(name: str) -> None:
+    """Round as deep as the foot; soles reach 1.6 depths behind, as far ahead of the ankle, 0.42 depths ahead of the eye."""
+    robot = built(name)
+    depth, length = robot.layout.sections.foot_depth_mm, robot.design.l4_mm
+    section = region(cut(placed(robot, "foot"), sum(robot.layout.lateral.lug_left) / 2.0))
+    filled = shapely.union_all([shapely.Polygon(one.exterior) for one in shapely.get_parts(section)])
+    for x, ahead in ((0.0, 1.6), (length, 0.42)):
+        sole = shapely.box(x - 1.6 * depth, -depth, x + ahead * depth, 1.0 - depth)
+        lug = shapely.union_all([shapely.Point(x, 0.0).buffer(depth - 0.02, 64), sole]).convex_hull
+        assert lug.difference(filled).area < 0.1
+    high_x = filled.bounds[2]
+    assert high_x == pytest.approx(length + depth, abs=0.02)
