@@ -203,7 +203,7 @@ def test_a_foot_fits_the_bed_with_its_nose_tips_and_toes(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
 def test_lugs_stand_on_soles_of_1_mm_behind_and_ahead_of_both_eyes(name: str) -> None:
-    """Round as deep as the foot; soles reach 1.6 depths behind, as far ahead of the ankle, 0.42 depths ahead of the eye."""
+    """Round as deep as the foot; soles reach 1.6 depths behind, as far before the ankle, 0.42 before the eye."""
     robot = built(name)
     depth, length = robot.layout.sections.foot_depth_mm, robot.design.l4_mm
     section = region(cut(placed(robot, "foot"), sum(robot.layout.lateral.lug_left) / 2.0))
