@@ -86,6 +86,9 @@ def test_the_leg_has_material_around_all_its_holes_and_a_flat_heel(robot: Robot)
         max(sections.eye_radius_mm, sections.leg_tip_mm / 2.0), abs=0.05
     )
     assert filled.exterior.distance(shapely.Point(*lever)) == pytest.approx(4.5, abs=0.05)
+    ends = [(0.0, 0.0, sections.lever_root_mm / 2.0), (*lever, 4.5)]
+    arm = shapely.union_all([shapely.Point(x, z).buffer(radius - 0.02, 64) for x, z, radius in ends]).convex_hull
+    assert arm.difference(filled).area < 1e-3
     heel = shapely.box(stop.radius_mm - 4.5, -stop.heel_mm, stop.radius_mm + 4.5, 0.0)
     assert heel.difference(filled).area < 0.05
     face = filled.intersection(shapely.box(stop.radius_mm - 4.0, -100.0, stop.radius_mm + 4.0, 0.0))
