@@ -1,15 +1,18 @@
 """Plates with openings side by side: evenly apart, with a margin all around, each with its label in front."""
 
 import itertools
+import math
 
 import numpy as np
 import pytest
+from manifold3d import CrossSection
 
 from jumpcad.coupon import joints
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
-from jumpcad.coupon.pieces import MARGIN_MM, coupon_holes
+from jumpcad.coupon.pieces import MARGIN_MM, Piece, coupon_holes, engraved
 from jumpcad.solids.outline import hole, rectangle
 from jumpcad.solids.stack import Stack
+from jumpcad.solids.text import text
 from jumpcad.workshop import load_workshop
 
 
@@ -21,7 +24,15 @@ def openings(stack: Stack) -> tuple[np.ndarray, list[np.ndarray]]:
     return plate, sorted((box for box in boxes if box is not plate), key=lambda box: box[0, 0])
 
 
-@pytest.mark.parametrize("cuts", [[hole(2.0), hole(3.0), hole(4.0)], [rectangle((8.0, 3.0)), rectangle((9.0, 4.0))]])
+@pytest.mark.parametrize(
+    "cuts",
+    [
+        [hole(2.0), hole(3.0), hole(4.0)],
+        [rectangle((8.0, 3.0)), rectangle((9.0, 4.0))],
+        [rectangle((8.0, 3.0), (2.0, 1.0)), rectangle((9.0, 4.0), (-3.0, 0.5))],
+    ],
+    ids=["round", "square", "off their origins"],
+)
 def test_openings_are_evenly_apart_with_a_margin(cuts: list) -> None:
     plate, found = openings(joints._row(cuts, ["a"] * len(cuts), 5.0))
     assert len(found) == len(cuts)
@@ -56,3 +67,110 @@ def test_steps_lie_on_both_sides_of_a_fit_and_ribs_are_never_negative() -> None:
 def test_every_piece_has_a_name_of_its_own() -> None:
     names = [piece.name for piece in joint_pieces(load_workshop(), coupon_holes(load_workshop()))]
     assert len(set(names)) == len(names)
+
+
+@pytest.fixture(scope="module")
+def pieces() -> dict[str, Piece]:
+    shop = load_workshop()
+    return {piece.name: piece for piece in joint_pieces(shop, coupon_holes(shop))}
+
+
+def holes_of(region: CrossSection) -> list[np.ndarray]:
+    """Sizes (2,) of the holes in a section, from left to right."""
+    boxes = [np.array([points.min(axis=0), points.max(axis=0)]) for points in region.to_polygons()]
+    whole = max(boxes, key=lambda box: np.ptp(box, axis=0).prod())
+    return [np.ptp(box, axis=0) for box in sorted(boxes, key=lambda box: box[0, 0]) if box is not whole]
+
+
+def test_openings_are_what_they_hold_with_the_engraved_offset_on_every_side(pieces: dict[str, Piece]) -> None:
+    """Taps for M2 by their diameters; a tab of 10 x 1.6 mm, motor and bearing by the sizes of the catalogue."""
+    shop = load_workshop()
+    fits, motor, (bearing,) = shop.fits, joints._motor(shop), joints.seats(shop)
+    sliding = steps_mm(fits.sliding_mm)
+    expected = {
+        "taps": [(fits.m2_tap_mm + more,) * 2 for more in (-0.1, 0.0, 0.1)],
+        "tray_slots": [(10.0 + 2.0 * step, 1.6 + 2.0 * step) for step in sliding],
+        "motor_sockets": [(motor.width_mm + 2.0 * step, motor.height_mm + 2.0 * step) for step in sliding],
+        "seat": [(bearing.outer_mm + 2.0 * step,) * 2 for step in steps_mm(fits.press_mm)],
+        "axle_floor": [(3.0 + 2.0 * fits.sliding_mm,) * 2],
+    }
+    for name, sizes in expected.items():
+        found = holes_of(pieces[name].shape.solid().slice(1.5))
+        assert found == [pytest.approx(size, abs=0.01) for size in sizes], name
+    assert pieces["seat"].mesh.bounds[1, 2] >= bearing.width_mm
+    assert np.ptp(pieces["tray_tab"].mesh.bounds, axis=0) == pytest.approx([10.0, 30.0, 1.6])
+    assert holes_of(pieces["axle_floor"].shape.solid().slice(0.75)) == []  # 0.8 mm close a plate's bore
+
+
+def test_jaws_slide_in_pockets_that_are_15_degrees_longer(pieces: dict[str, Piece]) -> None:
+    """Two jaws of 40°, from 8 to 14 mm across, on a disc of 18 mm; pockets a step wider inside and outside."""
+    jaws, base = (pieces["dog_jaws"].shape.solid().slice(height) for height in (3.0, 1.5))
+    assert jaws.area() == pytest.approx(math.pi / 4.0 * (14.0**2 - 8.0**2) * 80.0 / 360.0, rel=0.01)
+    assert base.bounds() == pytest.approx((-9.0, -9.0, 9.0, 9.0), abs=0.01)
+    assert (jaws - base).area() == pytest.approx(0.0, abs=1e-3)
+    running = 3.0 + 2.0 * load_workshop().fits.sliding_mm
+    for step in steps_mm(load_workshop().fits.sliding_mm):
+        disc = pieces[f"dog_pockets_{joints._number(step)}"].shape.solid().slice(2.0)
+        wide = math.pi / 4.0 * ((14.0 + 2.0 * step) ** 2 - (8.0 - 2.0 * step) ** 2)
+        outer = disc.bounds()[2]
+        free = math.pi * outer**2 - math.pi / 4.0 * running**2 - disc.area()
+        assert free == pytest.approx(wide * 110.0 / 360.0, rel=0.03)
+        assert (jaws ^ disc).area() == pytest.approx(0.0, abs=1e-6)
+        assert (jaws.rotate(7.0) ^ disc).area() == pytest.approx(0.0, abs=1e-6)  # of 7.5° to either side
+        assert (jaws.rotate(8.0) ^ disc).area() > 0.01
+
+
+def test_lying_holes_get_larger_towards_the_cut_corner(pieces: dict[str, Piece]) -> None:
+    """In a bar 10 mm high they are 10 mm apart, half way up; for axles of 3 mm with a step below and above the fit."""
+    solid = pieces["lying_holes"].shape.solid()
+    assert solid.bounding_box() == pytest.approx((0.0, 0.0, 0.0, 35.0, 5.0, 10.0), abs=1e-3)
+    section = solid.rotate((-90.0, 0.0, 0.0)).slice(-2.5)
+    boxes = [np.array([points.min(axis=0), points.max(axis=0)]) for points in section.to_polygons()]
+    found = sorted((box for box in boxes if np.ptp(box, axis=0)[0] < 9.0), key=lambda box: box[0, 0])
+    assert [box.mean(axis=0)[0] for box in found] == pytest.approx([6.0, 16.0, 26.0], abs=0.01)
+    for box, step in zip(found, steps_mm(load_workshop().fits.lying_mm), strict=True):
+        assert np.ptp(box[:, 0]) == pytest.approx(3.0 + 2.0 * step, abs=0.01)
+        assert box[0, 1] == pytest.approx(5.0 - 1.5 - step, abs=0.01)
+    corner = CrossSection([[(32.5, 7.5), (35.0, 7.5), (35.0, 10.0), (32.5, 10.0)]])
+    assert (section ^ corner).area() == pytest.approx(2.5**2 - (3.0**2 / 2.0 - 0.5**2), abs=0.01)
+
+
+def test_every_opening_has_its_label_in_front_of_it_3_mm_from_the_plates_edge(pieces: dict[str, Piece]) -> None:
+    """Engraved 0.6 mm deep: diameters of taps, offsets per side of everything else, in letters of 3.5 mm."""
+    fits = load_workshop().fits
+    labels = {
+        "taps": [f"{fits.m2_tap_mm + more:.1f}" for more in (-0.1, 0.0, 0.1)],
+        "shaft_bores": [engraved(step) for step in rib_steps_mm(fits)],
+        "motor_sockets": [engraved(step) for step in steps_mm(fits.sliding_mm)],
+        "tray_slots": [engraved(step) for step in steps_mm(fits.sliding_mm)],
+        "seat": [engraved(step) for step in steps_mm(fits.press_mm)],
+    }
+    for name, expected in labels.items():
+        solid = pieces[name].shape.solid()
+        top = solid.bounding_box()[5]
+        whole, cut = solid.slice(top - 0.65), solid.slice(top - 0.05)
+        letters = whole - cut
+        low_x, low_y, high_x, _ = whole.bounds()
+        pitch = (high_x - low_x) / len(expected)
+        for number, label in enumerate(expected):
+            middle = low_x + (number + 0.5) * pitch
+            column = rectangle((pitch - 0.2, 100.0), (middle, 0.0))
+            word = text(label, 3.5)
+            left, bottom, right, _ = word.bounds()
+            placed = word.translate((middle - (left + right) / 2.0, low_y + 3.0))
+            found = letters ^ column
+            assert (found - placed).area() + (placed - found).area() < 0.02 * word.area(), (name, label)
+            assert bottom == pytest.approx(0.0, abs=0.1)
+
+
+def test_pockets_have_their_label_inside_their_rim(pieces: dict[str, Piece]) -> None:
+    """Below the pockets of 14 mm: letters of 3.5 mm, 3 mm beyond them, and 2 mm of rim around all."""
+    for step in steps_mm(load_workshop().fits.sliding_mm):
+        solid = pieces[f"dog_pockets_{joints._number(step)}"].shape.solid()
+        whole, cut = solid.slice(5.0 - 0.65), solid.slice(5.0 - 0.05)
+        assert solid.bounding_box()[5] == pytest.approx(5.0)
+        assert whole.bounds()[2] == pytest.approx(7.0 + 3.0 + 3.5 + 2.0, abs=0.01)
+        word = text(engraved(step), 3.5)
+        left, _, right, _ = word.bounds()
+        placed, letters = word.translate((-(left + right) / 2.0, -7.0 - 3.0 - 3.5)), whole - cut
+        assert (letters - placed).area() + (placed - letters).area() < 0.02 * word.area()

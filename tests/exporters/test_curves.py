@@ -104,3 +104,35 @@ def test_corners_that_are_one_make_no_edge() -> None:
     curves = curves_of(square)
     assert len(curves) == 4
     assert min(float(np.hypot(*(curve.end - curve.start))) for curve in curves if isinstance(curve, Line)) > 3.999
+
+
+def regular(count: int, sides: int | None = None, radius_mm: float = 10.0) -> np.ndarray:
+    """Corners of a regular polygon, or of so many of its sides that go on to its middle."""
+    turns = 2.0 * math.pi * np.arange((sides or count - 1) + 1) / count
+    points = radius_mm * np.column_stack([np.cos(turns), np.sin(turns)])
+    return points if sides is None else np.vstack([points, [[0.0, 0.0]]])
+
+
+@pytest.mark.parametrize(("count", "round_"), [(6, False), (24, False), (36, True), (64, True)])
+def test_only_polygons_of_short_sides_are_circles(count: int, round_: bool) -> None:
+    """Sides of 15° are meant as corners, those of 10° as an approximation; circles are drawn with 64 or more."""
+    assert {type(curve) for curve in curves_of(regular(count))} == ({Circle} if round_ else {Line})
+
+
+@pytest.mark.parametrize(("count", "sides", "arcs"), [(64, 5, 0), (64, 6, 1), (64, 40, 1), (24, 8, 0)])
+def test_an_arc_has_six_short_sides_or_more(count: int, sides: int, arcs: int) -> None:
+    curves = curves_of(regular(count, sides))
+    assert sum(isinstance(curve, Arc) for curve in curves) == arcs
+    for arc in curves:
+        if isinstance(arc, Arc):
+            assert radius(arc) == pytest.approx(10.0, abs=1e-6)
+            chord = 2.0 * 10.0 * math.sin(math.pi * sides / count)
+            assert math.dist(arc.start, arc.end) == pytest.approx(chord, abs=1e-6)
+
+
+@pytest.mark.parametrize(("off_mm", "round_"), [(1e-3, True), (0.02, False)])
+def test_corners_off_the_circle_are_no_part_of_it(off_mm: float, round_: bool) -> None:
+    """Outlines are cut on a grid of 0.2 µm: 1 µm off is on the circle, 20 µm is not."""
+    points = regular(64)
+    points[10] *= 1.0 + off_mm / 10.0
+    assert (curves_of(points)[0].__class__ is Circle) == round_

@@ -9,9 +9,10 @@ from scipy.spatial.transform import Rotation
 from support.built import built
 
 from jumpcad.design import load_design
-from jumpcad.exporters.collision import capsules
+from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.exporters.ros2 import mimicked, model_name, ros2_files
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 
 
@@ -104,3 +105,17 @@ def test_joints_that_mimic_the_leg_are_those_of_the_line(package: dict[str, ET.E
 def test_names_are_those_that_ros_allows(name: str, model: str) -> None:
     """REP 144: lower case, digits, single underscores, a letter first."""
     assert model_name(name) == model
+
+
+def test_the_bodys_box_lies_where_its_parts_do(package: dict[str, ET.Element]) -> None:
+    """From corner to corner, with its middle half way between them."""
+    robot = built("kenan-2.0")
+    box = body_box(robot, visuals(robot))
+    assert box is not None
+    links = package["links.xacro"].findall("link")
+    (shape,) = (one for link in links for one in link.findall("collision") if one.get("name") == "body_box")
+    middle = np.array(shape.find("origin").get("xyz").split(), dtype=float)
+    half = np.array(shape.find("geometry/box").get("size").split(), dtype=float) / 2.0
+    assert shape.find("origin").get("rpy") == "0 0 0"
+    np.testing.assert_allclose(middle - half, box.low_m, atol=2e-6)
+    np.testing.assert_allclose(middle + half, box.high_m, atol=2e-6)

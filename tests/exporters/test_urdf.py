@@ -16,6 +16,7 @@ from jumpcad.exporters.urdf import write_loop, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES
 from jumpcad.robot import Robot
+from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
@@ -111,3 +112,10 @@ def test_the_legs_joint_has_the_friction_of_all_pins() -> None:
     pins = pin_torque_nm(robot, robot.workshop.pins.friction)
     assert pins > 1e-4
     assert friction == pytest.approx({"leg": 0.001 + pins, "front": 0.001, "ankle": 0.001})
+
+
+def test_what_is_seen_hangs_on_the_link_that_it_moves_with() -> None:
+    robot = built("kenan-2.0")
+    root = ET.fromstring(write_urdf(robot, visuals(robot)))
+    seen = {visual.get("name"): link.get("name") for link in root.iter("link") for visual in link.iter("visual")}
+    assert seen == {shape.name: shape.body for shape in visuals(robot)}

@@ -17,13 +17,15 @@ from jumpcad.layout.drive_places import (
     arm_line,
     idler_obstacles,
     require_gear_room,
+    require_shaft,
+    spring_boss_mm,
     spring_obstacles,
     spring_pin_place,
     train_obstacles,
     train_places,
 )
 from jumpcad.layout.layout import _cam_obstacles as cam_obstacles
-from jumpcad.layout.room import EVERYWHERE, disc
+from jumpcad.layout.room import EVERYWHERE, Obstacle, disc
 
 HUB, INSIDE = np.array([-40.0, 0.0]), (-20.0, 20.0)
 
@@ -188,3 +190,42 @@ def test_what_is_inside_the_coils_fits_a_narrow_spring_and_is_a_spacer_in_a_wide
     for mandrel, room in ((4.0, 4.0), (20.0, 2.0 * SPACER_RADIUS_MM)):
         spring = replace(layout.drive.spring, mandrel_mm=mandrel)
         assert replace(layout, drive=replace(layout.drive, spring=spring)).spring_bore_room_mm == room
+
+
+def test_the_pins_boss_is_4_mm_high_or_as_high_as_what_is_beside_it_lets_it() -> None:
+    """0.5 mm short of the spring, and up to what lies over it; less than 1.2 mm is none. The motor may touch it."""
+    layout, pin = built("kenan-2.0").layout, np.array([10.0, 20.0])
+    low = layout.lateral.inside[0]
+
+    def high(*obstacles: Obstacle, spring_mm: float = 9.0) -> float:
+        lateral = replace(layout.lateral, spring_right=(low + spring_mm, low + spring_mm + 5.0))
+        return spring_boss_mm(list(obstacles), pin, 3.0, lateral)
+
+    def beside(name: str, gap_mm: float, above_mm: float, direction: tuple[float, float] = (0.0, 1.0)) -> Obstacle:
+        place = pin + (1.5 + 2.0 + 1.0 + gap_mm) * np.array(direction)
+        return disc(name, place, 1.0, (low + above_mm, low + 20.0))
+
+    assert high() == 4.0
+    assert high(spring_mm=3.0) == pytest.approx(2.5)
+    assert (high(spring_mm=1.71), high(spring_mm=1.69)) == (pytest.approx(1.21), 0.0)
+    assert high(beside("post", -0.01, 2.0)) == pytest.approx(2.0)
+    assert high(beside("post", 0.01, 2.0)) == 4.0
+    assert high(beside("post", -0.01, 2.0, (1.0, 0.0))) == pytest.approx(2.0)
+    assert high(beside("post", 0.01, 2.0, (1.0, 0.0))) == 4.0
+    assert high(beside("post", -0.01, 2.0), beside("gear", -0.01, 3.0)) == pytest.approx(2.0)
+    assert high(beside("post", -0.01, 5.0)) == 4.0
+    assert high(beside("post", -0.01, 1.0)) == 0.0
+    for name in ("motor", "spring arm", "spring pin"):
+        assert high(beside(name, -1.0, 2.0)) == 4.0
+
+
+@pytest.mark.parametrize("pairs", [1, 2])
+def test_a_shaft_reaches_into_its_pinion_by_its_diameter(pairs: int) -> None:
+    """From the motor's front through the cap and the gap behind it: 3 mm more, and 0.01 mm less is refused."""
+    layout = (built("kenan-2.0") if pairs == 1 else geared()).layout
+    motor, lateral = layout.drive.train.motor, layout.lateral
+    needed = lateral.gears[-1][0] - lateral.motor[1] + 3.0
+    require_shaft(motor.model_copy(update={"shaft_length_mm": needed}), lateral)
+    with pytest.raises(CannotBuildError, match=rf"it needs {needed:.1f} mm to pass its cap") as refused:
+        require_shaft(motor.model_copy(update={"shaft_length_mm": needed - 0.01}), lateral)
+    assert refused.value.margin == pytest.approx(-0.01)

@@ -13,7 +13,7 @@ from jumpcad.dimensions import STRAP_EDGE_MM, STRAP_SLOT_MM, TRAY_LENGTH_MIN_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout import electronics
 from jumpcad.layout.electronics import Electronics, Seat, electronics_obstacle, standoff_places, tray_place
-from jumpcad.layout.room import EVERYWHERE, disc
+from jumpcad.layout.room import EVERYWHERE, box_obstacle, disc
 
 CATALOGUE = load_catalogue()
 CARRIED = Electronics(CATALOGUE.batteries["lipo-2s-180"], CATALOGUE.boards["xiao-esp32c3"], CATALOGUE.boards["drv8833"])
@@ -153,3 +153,93 @@ def test_resistors_lie_two_by_two_apart_from_each_other_and_from_ties_and_boards
         assert not any(box(seat).intersects(other) for other in (*slots, *taken))
     away = [abs(seat.y_mm - seats["controller"].y_mm) for seat in small]
     assert away == sorted(away)
+
+
+def test_the_balance_lead_has_its_tie_between_the_stop_and_the_trays_end() -> None:
+    """1.6 mm of tray before and behind the slots of 4 mm, beyond a stop of 1.2 mm that is 0.5 mm from the battery.
+
+    The stop's middle is half of its thickness before that; where the strap is longer than the battery it is the strap,
+    11 mm, that the stop keeps 1.6 mm away from.
+    """
+    half = CARRIED.battery.length_mm / 2.0
+    assert CARRIED.stop_mm == pytest.approx(half + 0.5 + 0.6)
+    assert CARRIED.balance_mm == pytest.approx(half + 0.5 + 1.2 + 1.6 + 2.0)
+    assert CARRIED.battery_mm + CARRIED.balance_mm + 2.0 + 1.6 == pytest.approx(CARRIED.length_mm / 2.0)
+    short = replace(CARRIED, battery=CARRIED.battery.model_copy(update={"length_mm": 9.0}))
+    assert short.stop_mm == pytest.approx(11.0 / 2.0 + 1.6 + 0.6)
+    single = replace(CARRIED, battery=next(one for one in CATALOGUE.batteries.values() if one.cells == 1))
+    assert (single.balanced, CARRIED.balanced) == (False, True)
+    assert single.battery_mm == 0.0
+
+
+def test_what_lies_on_the_trays_has_the_height_of_trays_tape_and_gap() -> None:
+    """Bottoms above the lower tray's underside: battery on 1.6 mm; 3.8 mm over it the upper tray; tape of 1 mm.
+
+    Controllers are 0.9 mm from a plate, others 0.6 mm; capacitor and plug beside them lie on the tray itself.
+    """
+    parts = CATALOGUE.components
+    full = replace(CARRIED, plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"])
+    inside = (-30.0, 26.0)
+    seats, upper = full.seats(inside), 1.6 + full.battery.height_mm + 3.8
+    assert full.upper_tray_mm == pytest.approx(upper)
+    bottoms = {"battery": 1.6, "controller": upper + 2.6, "driver": upper + 2.6, "plug": upper + 1.6}
+    bottoms["capacitor"] = upper + 1.6
+    assert {role: seat.bottom_mm for role, seat in seats.items()} == pytest.approx(bottoms)
+    assert seats["controller"].y_mm - full.controller.length_mm / 2.0 == pytest.approx(inside[0] + 0.9)
+    assert seats["driver"].y_mm + full.driver.length_mm / 2.0 == pytest.approx(inside[1] - 0.6)
+    row = full.controller.width_mm + full.driver.width_mm + 4.8
+    assert seats["controller"].x_mm - full.controller.width_mm / 2.0 == pytest.approx(-row / 2.0)
+    assert seats["driver"].x_mm + full.driver.width_mm / 2.0 == pytest.approx(row / 2.0)
+    beside = seats["controller"].y_mm + full.controller.length_mm / 2.0 + 0.2 + 1.2 + 1.8
+    assert seats["capacitor"].y_mm - parts["electrolytic-100uf"].width_mm / 2.0 == pytest.approx(beside)
+    assert seats["capacitor"].x_mm == pytest.approx(seats["controller"].x_mm)
+    beside = seats["driver"].y_mm - full.driver.length_mm / 2.0 - 0.2 - 1.2 - 1.8
+    assert seats["plug"].y_mm + parts["jst-ph-2"].width_mm / 2.0 == pytest.approx(beside)
+    assert seats["plug"].x_mm + parts["jst-ph-2"].length_mm / 2.0 == pytest.approx(full.length_mm / 2.0)
+    across = full.controller.length_mm + 0.9 + 0.2 + 1.2 + 1.8 + parts["electrolytic-100uf"].width_mm + 1.8 + 1.0
+    assert full.width_mm >= across
+    wide = replace(full, controller=full.controller.model_copy(update={"length_mm": 60.0}))
+    assert wide.width_mm == pytest.approx(across + 60.0 - full.controller.length_mm)
+    tall = replace(full, capacitor=parts["electrolytic-100uf"].model_copy(update={"height_mm": 30.0}))
+    assert tall.height_mm == pytest.approx(upper + 1.6 + 30.0)
+
+
+def test_ties_have_their_slots_on_both_sides_of_what_they_hold() -> None:
+    """Of a board along the robot, 0.2 mm beside it; of capacitor and plug across, close to them."""
+    parts = CATALOGUE.components
+    full = replace(CARRIED, plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"])
+    inside = (-30.0, 26.0)
+    seats = full.seats(inside)
+    for role, slots in full.tie_slots(inside).items():
+        seat = seats[role]
+        for side, (x, y, size) in zip((-1.0, 1.0), slots, strict=True):
+            if role in full.boards:
+                assert (x, y) == pytest.approx((seat.x_mm + side * (seat.size_mm[0] / 2.0 + 0.2 + 0.9), seat.y_mm))
+                assert size == (1.8, 4.0)
+            else:
+                assert (x, y) == pytest.approx((seat.x_mm, seat.y_mm + side * (seat.size_mm[1] / 2.0 + 0.9)))
+                assert size == (4.0, 1.8)
+    assert set(full.tie_slots(inside)) == {"controller", "driver", "plug", "capacitor"}
+
+
+def test_standoffs_are_wanted_at_the_boards_front_and_between_cam_and_boards() -> None:
+    """Just above the boards: a standoff's 3.2 mm and a gap of 0.5 mm; above a higher cam's axis where that is higher.
+
+    With nothing else there each is within half a raster of 2 mm, and the clearance of 0.8 mm, of where it is wanted.
+    """
+    tray, front = np.array([40.0, 2.0]), np.array([40.0, 0.0])
+    boards = electronics_obstacle(CARRIED, tray, INSIDE)
+    top = tray[1] + CARRIED.height_mm + 3.2 + 0.5
+    for cam in (np.array([-20.0, 5.0]), np.array([-20.0, 70.0])):
+        first, second = standoff_places([boards], cam, front, CARRIED, tray, INSIDE)
+        assert first == pytest.approx([tray[0] + CARRIED.length_mm / 2.0, top], abs=2.0)
+        assert second == pytest.approx([(cam[0] + tray[0]) / 2.0, max(top, cam[1])], abs=2.0)
+
+
+@pytest.mark.parametrize(("aside_mm", "high_mm", "over"), [(40.0, 36.0, False), (40.0, 30.0, True)])
+def test_a_millimetre_up_costs_trays_as_much_as_1_2_mm_along(aside_mm: float, high_mm: float, over: bool) -> None:
+    """Before a wall that reaches in from the front they stand 40 mm farther back, or on top of it."""
+    edge = 40.0 + CARRIED.length_mm / 2.0 - aside_mm
+    wall = box_obstacle("wall", (edge + 100.0, high_mm / 2.0 - 50.0), (100.0, high_mm / 2.0 + 50.0), 0.0, EVERYWHERE)
+    place = (40.0, high_mm) if over else (40.0 - aside_mm, 0.0)
+    assert tray_place([wall], CARRIED, 80.0, INSIDE) == pytest.approx(place, abs=2.0)

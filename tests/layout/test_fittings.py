@@ -1,13 +1,14 @@
 """Openings of the plates keep apart from each other and from what the plates hold."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
 from support.built import built, geared
 
-from jumpcad.layout.fittings import switch_half_mm
+from jumpcad.layout.fittings import fittings_of, switch_half_mm
 from jumpcad.robot import Robot
 
 
@@ -60,3 +61,36 @@ def test_the_usb_plug_is_before_the_controllers_socket(robot: Robot) -> None:
     if layout.fittings.usb_mm is not None:
         assert layout.fittings.usb_mm == pytest.approx(layout.tray_mm + np.array([seat.x_mm, up]), abs=1e-6)
         assert layout.fittings.usb_size_mm == board.usb_mm
+
+
+@pytest.mark.parametrize("seat_mm", [4.5, 10.0])
+def test_openings_lie_as_near_to_the_boards_as_a_seat_amid_them_lets_them(seat_mm: float) -> None:
+    """Around it they keep its radius and 0.4 mm; places are 2 mm apart, so none is 2.9 mm farther than it need be.
+
+    Without a seat the holes for leads are in the boards' middle, on that raster, but for what has its room beside it.
+    """
+    layout = built("kenan-2.0").layout
+    middle = layout.electronics.middle_mm(layout.tray_mm)
+    given = (layout.lateral, layout.electronics, layout.tray_mm, layout.fittings.switch)
+    free, kept = fittings_of([], *given, [], seat_mm), fittings_of([], *given, [middle], seat_mm)
+    assert np.abs(free.left_mm - middle).max() <= 1.0 + 1e-6
+    seat = shapely.Point(*middle).buffer(seat_mm, 64)
+    assert seat_mm + 0.4 - 0.01 < box(kept.left_mm, (6.0, 8.0)).distance(shapely.Point(*middle)) < seat_mm + 0.4 + 2.9
+    for fittings in (free, kept):
+        rooms = [box(fittings.right_mm, (6.0, 8.0)), box(fittings.switch_mm, switch_half_mm(fittings.switch))]
+        width, height = fittings.usb_size_mm
+        rooms.append(box(fittings.usb_mm, (width / 2.0 + 2.5, height / 2.0 + 2.5)))
+        for one, other in itertools.combinations(rooms, 2):
+            assert one.distance(other) >= 0.4 - 0.05  # half of the usual 0.8 mm, from points 1 mm thick
+        assert fittings is free or all(room.intersection(seat).area < 0.01 for room in rooms[:2])
+        assert all(room.bounds[1] >= -0.5 for room in rooms[:2])
+
+
+def test_without_a_socket_or_a_known_switch_there_is_no_opening_for_them() -> None:
+    layout = built("kenan-2.0").layout
+    board = layout.electronics.controller.model_copy(update={"usb_mm": None})
+    carried = replace(layout.electronics, controller=board)
+    switch = layout.fittings.switch.model_copy(update={"length_mm": None})
+    for given in (switch, None):
+        found = fittings_of([], layout.lateral, carried, layout.tray_mm, given, [], 4.5)
+        assert (found.usb_mm, found.usb_size_mm, found.switch, found.switch_mm) == (None, (0.0, 0.0), None, None)

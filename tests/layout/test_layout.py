@@ -19,7 +19,7 @@ from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.layout.electronics import Electronics
-from jumpcad.layout.layout import LEVER_HEAD_MM, LEVER_NUT_MM, Layout, make_layout
+from jumpcad.layout.layout import LEVER_HEAD_MM, LEVER_NUT_MM, Layout, _hub_obstacles, make_layout, moving_obstacles
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
@@ -247,3 +247,47 @@ def test_the_lever_has_room_for_the_rollers_screw_on_either_side() -> None:
     """A lock nut of 4.0 mm (DIN 985 M3) behind the lever, a head of 1.65 mm (ISO 7380-1 M3) beside the roller."""
     assert 4.0 <= LEVER_NUT_MM < 5.0
     assert 1.65 <= LEVER_HEAD_MM < 2.0
+
+
+def test_the_ankles_faces_are_those_of_what_stands_farther_out_lug_or_toe() -> None:
+    """Beside a leg of 6 mm, 0.5 mm, and a lug of 4 mm with a toe of 7 mm beside its end; or a thicker lug."""
+    layout = plans()["kenan-2.0"]
+    for lug, toe in ((4.0, 7.0), (8.5, 7.0)):
+        sections = replace(layout.sections, thickness_mm=6.0, lug_thickness_mm=lug, toe_width_mm=toe)
+        assert replace(layout, sections=sections).ankle_face_mm == pytest.approx(3.0 + 0.5 + max(lug, toe))
+
+
+def test_what_is_around_the_legs_axle_passes_through_the_springs_coils() -> None:
+    """Spacers of 6.4 mm, or thinner ones where the spring is wound on a thinner mandrel."""
+    layout = plans()["kenan-2.0"]
+    for mandrel, room in ((9.0, 6.4), (5.0, 5.0)):
+        spring = replace(layout.drive.spring, mandrel_mm=mandrel)
+        assert replace(layout, drive=replace(layout.drive, spring=spring)).spring_bore_room_mm == pytest.approx(room)
+
+
+def test_what_moves_occupies_its_share_across_the_robot() -> None:
+    """The lever from the end of its screw and nut, 4.5 mm behind the leg, to the screw's head beside the roller."""
+    for name in ("kenan-2.0", "geared"):
+        layout = plans()[name]
+        lateral, half = layout.lateral, layout.sections.thickness_mm / 2.0
+        found = {one.name: one for one in moving_obstacles(layout)}
+        assert found.keys() == {"main leg", "lever", "front link", "foot", "cam", "cam's dog", "cam gear", "pinion"}
+        assert found["lever"].y_mm == pytest.approx((-half - 4.5, lateral.cam[1] + 1.7))
+        assert found["main leg"].y_mm == found["front link"].y_mm == (-half, half)
+        assert found["cam"].y_mm == lateral.cam
+        assert found["cam gear"].y_mm == lateral.gears[0]
+        assert found["pinion"].y_mm == lateral.gears[-1]
+        assert found["pinion"].points_mm.tolist() == [layout.motor_mm.tolist()]
+        assert found["pinion"].radius_mm == layout.drive.train.stages[0].pinion.tip_radius_mm
+        assert found["front link"].radius_mm == layout.sections.eye_radius_mm  # without a clearance
+
+
+def test_springs_and_axles_keep_the_usual_clearance() -> None:
+    """0.8 mm around coils, or the gap that is asked for, and around spacers of 3.2 mm from plate to plate."""
+    layout = plans()["kenan-2.0"]
+    lateral, coil = layout.lateral, layout.drive.spring.outer_diameter_mm / 2.0
+    for given, gap in (((), 0.8), ((0.5,), 0.5)):
+        left, right, axle = _hub_obstacles(layout.hub_mm, layout.drive, lateral, *given)
+        assert (left.radius_mm, right.radius_mm) == pytest.approx((coil + gap, coil + gap))
+        assert (left.y_mm, right.y_mm) == (lateral.spring_left, lateral.spring_right)
+        assert (axle.radius_mm, axle.y_mm) == (pytest.approx(3.2 + 0.8), lateral.inside)

@@ -1,6 +1,7 @@
 """Places against a search of all of them, one by one."""
 
 import math
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -92,3 +93,11 @@ def test_what_is_in_the_way_is_found_beside_the_box_as_it_is_turned() -> None:
         best_place("small box", obstacles, places, (4.0, 1.0), turns, (0.0, 1.0), to_origin, "make room")
     assert refused.value.limit == "room_small_box"
     assert refused.value.margin == pytest.approx(-0.5)
+
+
+@pytest.mark.parametrize(("short_mm", "free"), [(-1e-3, True), (0.0, True), (5e-7, True), (5e-6, False)])
+def test_what_just_touches_is_free(short_mm: float, free: bool) -> None:
+    """A synthesised drive may leave a clearance of exactly 0: a shortfall of less than a nanometre is none."""
+    wheel, place = disc("wheel", (10.0, 0.0), 6.0 + short_mm, EVERYWHERE), np.zeros((1, 2))
+    with nullcontext() if free else pytest.raises(CannotBuildError, match="no room for the box"):
+        assert chosen([wheel], place, (4.0, 1.0)) == 0

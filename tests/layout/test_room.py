@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from jumpcad.layout.room import EVERYWHERE, Cloud, clearance, disc
+from jumpcad.layout.room import EVERYWHERE, Cloud, bar, box_obstacle, clearance, disc
 
 
 def test_distance_from_a_box_to_a_disc():
@@ -41,3 +41,35 @@ def test_far_points_left_out_change_nothing_that_collides():
         assert len(near.radii_mm) < len(cloud.radii_mm)
         np.testing.assert_array_equal(found < 0, whole < 0)
         np.testing.assert_allclose(found[whole < 0], whole[whole < 0])
+
+
+@pytest.mark.parametrize("half", [(6.0, 2.5), (1.3, 9.7)])
+def test_a_box_of_points_reaches_as_far_as_the_box_and_leaves_only_notches(half: tuple[float, float]) -> None:
+    """Discs of 1 mm radius within the turned box, so close that 0.3 mm inside its sides nothing is free."""
+    turn, centre = math.radians(37.0), np.array([3.0, -8.0])
+    box = box_obstacle("box", centre, half, turn, (1.0, 2.0))
+    assert (box.name, box.y_mm) == ("box", (1.0, 2.0))
+    along, across = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
+    u, v = (box.points_mm - centre) @ along, (box.points_mm - centre) @ across
+    assert np.abs(u).max() + box.radius_mm == pytest.approx(half[0])
+    assert np.abs(v).max() + box.radius_mm == pytest.approx(half[1])
+    tried = np.random.default_rng(1).uniform(-1.0, 1.0, (300, 2)) * (np.array(half) - 0.3)
+    places = centre + tried[:, :1] * along + tried[:, 1:] * across
+    corner = (np.abs(tried) > np.array(half) - 1.0).all(axis=1)
+    assert (clearance([box], places[~corner], (0.0, 0.0), 0.0, EVERYWHERE)[:] < 0.15).all()
+
+
+@pytest.mark.parametrize(("spacing", "count"), [(4.0, 8), (2.0, 15), (100.0, 2)])
+def test_points_of_a_bar_are_evenly_apart_from_end_to_end(spacing: float, count: int) -> None:
+    """28 mm in seven steps of 4 mm, in fourteen of 2 mm, or in one; of several bars the longest says how many."""
+    start, end = np.array([[0.0, 0.0], [5.0, 5.0]]), np.array([[0.0, 28.0], [5.0, 12.0]])
+    first, second = np.split(bar(start, end, spacing), 2)
+    np.testing.assert_allclose(first, np.column_stack([np.zeros(count), np.linspace(0.0, 28.0, count)]))
+    np.testing.assert_allclose(second, np.column_stack([np.full(count, 5.0), np.linspace(5.0, 12.0, count)]))
+    assert len(bar((0.0, 0.0), (0.0, 28.0))) == 8
+
+
+def test_thinned_is_one_disc_in_so_many() -> None:
+    cloud = Cloud(np.arange(20.0).reshape(10, 2), np.arange(10.0)).thinned(4)
+    assert cloud.radii_mm.tolist() == [0.0, 4.0, 8.0]
+    assert cloud.points_mm[:, 0].tolist() == [0.0, 8.0, 16.0]

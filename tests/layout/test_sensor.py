@@ -1,13 +1,15 @@
 """The switch's place and track, from the data sheet's plunger positions and plane geometry."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.built import built, geared
 
 from jumpcad.dimensions import GAP_MM
-from jumpcad.layout.sensor import middle_mm, sensor_obstacle, sensor_place, track_mm
+from jumpcad.errors import CannotBuildError
+from jumpcad.layout.sensor import SensorPlace, middle_mm, sensor_obstacle, sensor_place, track_mm
 from jumpcad.robot import Robot
 
 
@@ -104,4 +106,64 @@ def test_an_axle_just_beside_the_mount_leaves_the_switch_in_its_place_and_a_near
     for more, stays in ((0.05, True), (-0.2, False)):
         seat = free.place_mm + outwards * (free.half_mm[1] + layout.axle_mm / 2.0 + 3.0 + more)
         found = sensor_place([], *given, {"leg": seat}, far, layout.axle_mm, away)
+        assert (found.place_mm == free.place_mm).all() == stays
+
+
+def placed_with(robot: Robot, **travel: float) -> SensorPlace:
+    """Return the place of a switch with other positions of its plunger, with nothing in its way."""
+    layout, needs = robot.layout, robot.layout.sensor.needs
+    other = replace(needs, travel=needs.travel.model_copy(update=travel))
+    far = np.array([900.0, 900.0])
+    return sensor_place([], layout.drive, layout.lateral, layout.cam_axis_mm, {}, far, layout.axle_mm, other)
+
+
+def test_the_gear_keeps_1_6_mm_under_the_groove_or_is_refused(robot: Robot) -> None:
+    """A plunger that stands out farther needs a groove that is deeper by layers: of 5 mm, 16 of 0.2 mm but not 18."""
+    needs, thick = robot.layout.sensor.needs, robot.layout.drive.train.stages[-1].face_width_mm
+    assert (needs.layer_mm, thick) == (0.2, 5.0)
+    least = middle_mm(needs.travel) - needs.axial_mm - 0.1
+    assert placed_with(robot, free_mm=least + 3.2).depth_mm == pytest.approx(3.2)
+    with pytest.raises(CannotBuildError, match=r"no room for the sensor's groove: 3\.6 mm deep") as refused:
+        placed_with(robot, free_mm=least + 3.5)
+    assert refused.value.margin == pytest.approx(-0.2)
+    assert refused.value.limit == "sensor_groove"
+
+
+def test_the_track_fits_between_dog_and_teeth_with_its_walls_or_is_refused(robot: Robot) -> None:
+    """1.6 mm on either side: a plunger may be as thick as that leaves, and lies then in the middle between them."""
+    layout, needs = robot.layout, robot.layout.sensor.needs
+    wheel, dog = layout.drive.train.stages[-1].wheel, layout.drive.dog
+    room = wheel.root_radius_mm - dog.outer_mm / 2.0 - 2.0 * 1.6
+    thickest = room - 2.0 * (needs.along_mm + 0.3)
+    assert placed_with(robot, pin_mm=thickest - 1e-6).radius_mm == pytest.approx(
+        (wheel.root_radius_mm + dog.outer_mm / 2.0) / 2.0, abs=1e-3
+    )
+    with pytest.raises(CannotBuildError, match=r"no room for the sensor's track on the cam gear: 0\.5 mm") as refused:
+        placed_with(robot, pin_mm=thickest + 0.5)
+    assert (refused.value.limit, refused.value.margin) == ("sensor_track", pytest.approx(-0.5))
+
+
+def test_the_switch_is_12_mm_from_the_cams_axis_where_it_can_and_nearest_to_where_the_plate_is(robot: Robot) -> None:
+    """Of 72 directions the one nearest to the middle between the pivots, 14 mm up."""
+    layout, needs = robot.layout, robot.layout.sensor.needs
+    found = placed_with(robot)
+    half = needs.travel.pin_mm / 2.0 + needs.along_mm + 0.3
+    low = layout.drive.dog.outer_mm / 2.0 + 1.6 + half
+    high = layout.drive.train.stages[-1].wheel.root_radius_mm - 1.6 - half
+    assert found.radius_mm == pytest.approx(min(max(12.0, low), high), abs=1e-3)
+    turns = 2.0 * math.pi * np.arange(72) / 72.0
+    ring = layout.cam_axis_mm + found.radius_mm * np.column_stack([np.cos(turns), np.sin(turns)])
+    nearest = np.hypot(*(ring - [0.0, 14.0]).T).min()
+    assert math.dist(found.place_mm, (0.0, 14.0)) == pytest.approx(nearest, abs=1e-5)
+
+
+def test_a_motors_shaft_in_the_plate_keeps_the_switch_off(robot: Robot) -> None:
+    """Half of the shaft's diameter and the usual 0.8 mm, across the mount."""
+    layout, needs = robot.layout, robot.layout.sensor.needs
+    given = (layout.drive, layout.lateral, layout.cam_axis_mm, {})
+    free = placed_with(robot)
+    outwards = (free.place_mm - layout.cam_axis_mm) / free.radius_mm
+    for more, stays in ((0.02, True), (-0.02, False)):
+        reach = free.half_mm[1] + layout.drive.train.motor.shaft_mm / 2.0 + 0.8 + more
+        found = sensor_place([], *given, free.place_mm + outwards * reach, layout.axle_mm, needs)
         assert (found.place_mm == free.place_mm).all() == stays

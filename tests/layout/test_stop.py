@@ -11,6 +11,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.room import Obstacle, bar, disc
 from jumpcad.layout.stop import stop_angle_rad, stop_obstacles, stop_place, stop_tab_obstacle
+from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import Robot
 
@@ -139,3 +140,22 @@ def test_the_stop_is_as_far_past_rest_as_asked_for_or_as_the_loop_closes() -> No
         return float(linkage.diagonal_mm(angle + math.radians(3.0))) <= linkage.l3 + linkage.l4
 
     assert closes(far)
+
+
+def test_links_that_are_too_short_beyond_the_least_stop_are_refused(robot: Robot) -> None:
+    """At 3°, and 3° more for the pad, the ankle is no farther from the front pivot than foot and front link reach."""
+    linkage, sections = robot.linkage, robot.layout.sections
+
+    class Short(Linkage):
+        def diagonal_mm(self, leg_rad: float) -> np.ndarray:
+            return np.asarray(self.l3 + self.l4 + (leg_rad - math.radians(6.0)) * 10.0 + 0.4)
+
+    with pytest.raises(
+        CannotBuildError, match=r"0\.4 mm too short to close the loop with the leg 6\.0° past"
+    ) as refused:
+        stop_angle_rad(Short(robot.design), sections, math.radians(9.0))
+    assert (refused.value.limit, refused.value.margin) == ("stop_reach", pytest.approx(-0.4))
+    wide = replace(sections, leg_root_mm=400.0, leg_tip_mm=400.0)
+    with pytest.raises(CannotBuildError, match="the gap of main leg and front link is") as refused:
+        stop_angle_rad(linkage, wide, math.radians(9.0), 0.5)
+    assert refused.value.margin == pytest.approx(legs_apart_mm(linkage, wide, math.radians(6.0)) - 0.5)

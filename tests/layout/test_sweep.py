@@ -115,3 +115,14 @@ def test_the_gap_between_the_legs_is_shapelys(name: str) -> None:
         link = shapely.union_all([link, shapely.Point(*front).buffer(eye), shapely.Point(*eyes).buffer(eye)])
         smallest = min(smallest, main_leg.distance(link))
     assert legs_apart_mm(Linkage(design), sections, PAST_RAD) == pytest.approx(smallest, abs=0.35)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_foots_lugs_are_in_its_sweep(name: str) -> None:
+    """Round both eyes, ankle and nose, the foot is as deep as below them."""
+    robot = built(name)
+    room = area(swept(robot)["foot"]).buffer(BETWEEN_MM["foot"])
+    eyes = np.array([[0.0, 0.0], [robot.design.l4_mm, 0.0]])
+    for wind in windings(robot):
+        for eye in in_body(robot, FOOT, wind, eyes):
+            assert room.contains(shapely.Point(*eye).buffer(robot.layout.sections.foot_depth_mm))

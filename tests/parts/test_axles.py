@@ -12,6 +12,7 @@ from jumpcad.checks.interference import components, interference_findings
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.parts.axles import _clip, require_retention
+from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -148,3 +149,53 @@ def test_a_clip_is_open_to_one_side_and_as_much_above_as_below() -> None:
         assert (region ^ region.mirror((0.0, 1.0))).area() == pytest.approx(region.area())
         assert high_x < clip.outer_mm / 2.0 - 1e-6
         assert region.area() < math.pi / 4.0 * (clip.outer_mm**2 - clip.groove_mm**2)
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0])
+def test_a_clip_stands_in_the_groove_at_either_end_of_its_rod(axle_mm: float) -> None:
+    """0.2 mm outside of what it keeps; the rod is as long as its article says, its grooves as far from its ends."""
+    robot = build(load_design("kenan-2.0"), workshop(retention="clips", axle="silver-steel", axle_mm=axle_mm))
+    layout, clip = robot.layout, robot.workshop.catalogue.clip_for(axle_mm)
+    things = {item.name: item for item in robot.hardware}
+    faces = {"leg_axle": layout.lateral.outside, "ankle_pin": (-layout.ankle_face_mm, layout.ankle_face_mm)}
+    for name, (low, high) in faces.items():
+        rod, y0 = things[name], reach(things[name])[0]
+        length = float(rod.article.split(", grooves")[0].split(" x ")[1].split()[0])
+        assert np.ptp(reach(rod)) == pytest.approx(length, abs=0.051)
+        assert f"grooves {clip.groove_mm:g} x {clip.groove_width_mm:g} mm, {clip.end_mm:g} mm from" in rod.article
+        thin = [slab for slab in rod.shape.slabs if slab.region.bounds()[2] < axle_mm / 2.0 - 0.1]
+        grooves = sorted((y0 + slab.z0_mm, y0 + slab.z1_mm) for slab in thin)
+        clips = [reach(things[f"{name}_clip_{number}"]) for number in (1, 2)]
+        for (begin, end), found in zip(grooves, clips, strict=True):
+            assert begin - 1e-6 <= found[0] < found[1] <= end + 1e-6
+            assert end - begin == pytest.approx(clip.groove_width_mm)
+        assert (clips[0][1], clips[1][0]) == pytest.approx((low - 0.2, high + 0.2))
+        assert grooves[0][0] - y0 == pytest.approx(clip.end_mm)
+        assert reach(rod)[1] - grooves[1][1] == pytest.approx(clip.end_mm)
+
+
+def reach(item: BoughtPart) -> np.ndarray:
+    """Least and greatest y of a bought part in its body's frame."""
+    return np.sort(item.shape.bounds_mm[:, 2] * item.T_body_part[1, 2] + item.T_body_part[1, 3])
+
+
+def test_a_clevis_pin_is_the_shortest_from_stock_whose_split_pin_is_outside() -> None:
+    """ISO 2341 by the catalogue's lengths: head 0.2 mm outside of one face, split pin no nearer to the other."""
+    robot = build(load_design("kenan-2.0"))
+    layout, pin = robot.layout, robot.workshop.catalogue.clevis_pin_for(3.0)
+    things = {item.name: item for item in robot.hardware}
+    arm = layout.lateral.leg[1] + 0.5 + 2.0 * layout.drive.spring.wire_mm
+    lug = layout.lateral.lug_left[1]
+    for name, face in (("ankle_pin", layout.ankle_face_mm), ("front_eye_pin", lug), ("leg_spring_pin", arm)):
+        low, high = reach(things[name])
+        length = float(things[name].article.split(" x ")[1].split()[0])
+        assert (high, low) == pytest.approx((face + 0.2 + pin.head_height_mm, face + 0.2 - length))
+        needed = 2.0 * (face + 0.2) + pin.cotter_mm / 2.0 + pin.end_mm
+        assert length == min(known for known in pin.lengths_mm if known >= needed - 1e-9)
+        split = reach(things[f"{name}_split_pin"])
+        assert split == pytest.approx(low + pin.end_mm + np.array([-0.5, 0.5]) * pin.cotter_mm)
+        assert split[1] <= -face - 0.2 + 1e-6
+        item = things[f"{name}_split_pin"]
+        along, _, up = np.ptp(item.look.copy().apply_transform(item.T_body_part).bounds, axis=0)
+        assert (along > up) == (name != "leg_spring_pin")  # along the foot, and across the leg
+        assert max(along, up) == pytest.approx(5.0, abs=0.05)

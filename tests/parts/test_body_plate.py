@@ -14,9 +14,21 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.dimensions import MOTOR_CAP_MM, MOTOR_CLAMP_MM
 from jumpcad.drive.socket import socket_half_mm
-from jumpcad.parts.body_plate import ENGRAVING_MM, TEXT_HEIGHTS_MM, ear_reach_mm
+from jumpcad.parts.body_plate import (
+    ENGRAVING_MM,
+    TEXT_HEIGHTS_MM,
+    _covers,
+    _drawing,
+    ear_reach_mm,
+    socket_about_axis,
+    tray_slots,
+)
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Face
 from jumpcad.robot import Robot
+from jumpcad.solids.outline import rectangle
 from jumpcad.solids.text import engravable, text
+from jumpcad.workshop import load_workshop
 
 
 def engraved_mm2(name: str, label: str) -> dict[str, float]:
@@ -209,3 +221,85 @@ def test_ribs_of_3_mm_hold_a_plate_together(name: str) -> None:
     web = shapely.Polygon(section.exterior).difference(shapely.union_all(pockets))
     assert len(pockets) > 4
     assert web.buffer(-1.49).geom_type == "Polygon"
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -> None:
+    """Engraved 0.5 mm deep on the bed, where it is seen in a mirror, as near to the pivots' line as it finds room."""
+    holes = HoleSizes.of(load_workshop(), None)
+    plate, covered = rectangle((60.0, 40.0), (0.0, 12.0)), rectangle((70.0, 8.0), (0.0, 1.0))
+    y0, y1 = (17.0, 20.0) if side == "left" else (-20.0, -17.0)
+    depth = (y1 - 0.5, y1) if side == "left" else (y0, y0 + 0.5)
+    for cover, low, high in ((None, -3.3, 3.3), (covered, 5.0, 13.0)):
+        drawing = _drawing("plate", holes, [(y0, y1, plate)], depth, "Fy R", side, cover)
+        outside, inside = drawing.shape.regions_at(np.array([0.45, 0.55]))
+        letters, flat = inside - outside, text("Fy R", TEXT_HEIGHTS_MM[0]).mirror((1.0, 0.0))
+        box, at = flat.bounds(), letters.bounds()
+        assert low < at[1] < at[3] < high
+        assert abs(at[0] + at[2]) / 2.0 < 1.0  # in the middle of the plate, on a raster of 1 mm
+        moved = flat.translate((at[0] - box[0], at[1] - box[1]))
+        assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_tabs_of_trays_slide_into_slots_at_both_ends(name: str, side: str) -> None:
+    """What of a tray is in the plate's thickness: a sliding fit all around, 10 mm long, 1 mm before the tray's end."""
+    robot = built(name)
+    plate, fit = getattr(robot.layout.lateral, f"{side}_plate"), robot.workshop.fits.sliding_mm
+    middle = sum(plate) / 2.0
+    around = region(cut(placed(robot, f"body_plate_{side}"), middle))
+    ends = robot.layout.electronics.length_mm / 2.0 - 1.0
+    for tray in ("electronics_tray_lower", "electronics_tray_upper"):
+        tabs = shapely.get_parts(region(cut(placed(robot, tray), middle)))
+        reach = sorted(tab.bounds[0] - robot.layout.tray_mm[0] for tab in tabs)
+        assert reach == pytest.approx([-ends, ends - 10.0][-len(tabs) :], abs=0.01)
+        for tab in tabs:
+            assert tab.distance(around) == pytest.approx(fit, abs=0.01)
+            slot = tab.buffer(fit, join_style="mitre")
+            assert slot.intersection(around).area < 0.01
+            assert slot.buffer(0.05, join_style="mitre").difference(slot).difference(around).area < 0.05
+
+
+@pytest.mark.parametrize(("width", "height"), [(12.0, 10.0), (15.0, 24.0)])
+def test_ears_of_5_6_mm_stand_beside_a_sockets_wall_of_1_6_mm(width: float, height: float) -> None:
+    """Their screws are in the middle of the ears, which begin where the wall ends; 0.2 mm more are kept for the fit."""
+    assert ear_reach_mm(height) == pytest.approx(height / 2.0 + 1.6 + 2.8)
+    low_x, low_y, high_x, high_y = socket_about_axis(width, height).bounds()
+    assert (-low_x, high_x) == pytest.approx([width / 2.0 + 1.8] * 2, abs=0.01)
+    assert (-low_y, high_y) == pytest.approx([height / 2.0 + 1.6 + 5.6] * 2, abs=0.01)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_plates_have_material_around_what_they_hold(name: str, side: str) -> None:
+    """3 mm around axles, 9 mm under standoffs' screws, 8 mm round the springs' pin, 2.5 mm around the trays' tabs."""
+    robot = built(name)
+    layout = robot.layout
+    plate = getattr(layout.lateral, f"{side}_plate")
+    section = region(cut(placed(robot, f"body_plate_{side}"), sum(plate) / 2.0))
+    kept = [(place, layout.axle_mm / 2.0 + 3.0, 1.75) for place in layout.axles.values()]
+    kept += [(place, 4.5, 1.75) for place in layout.standoffs_mm] + [(layout.spring_pin_mm, 4.0, 1.75)]
+    for place, radius, bore in kept:
+        around = shapely.Point(*place).buffer(radius - 0.03, 64).difference(shapely.Point(*place).buffer(bore, 64))
+        if side == "left":  # the sensor's opening and the shaft's hole may be beside them
+            around = around.difference(shapely.Point(*layout.motor_mm).buffer(2.0))
+        assert around.difference(section).area < 0.01
+    for slots in tray_slots(layout, side):
+        for place in slots:
+            slot = shapely.box(place[0] - 5.2, place[1] - 1.0, place[0] + 5.2, place[1] + 1.0)
+            outer = shapely.box(place[0] - 7.4, place[1] - 3.2, place[0] + 7.4, place[1] + 3.2).buffer(-1.0).buffer(1.0)
+            assert outer.difference(slot).difference(section).area < 0.05
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
+def test_pockets_come_as_near_to_the_strut_as_3_mm_beside_a_bore(name: str) -> None:
+    """And no nearer to the plate's edge than 3.2 mm; their corners have a radius of 1.5 mm."""
+    layout = built(name).layout
+    covers = _covers(layout)
+    pockets = shapely.union_all([shapely.Polygon(contour) for contour in covers.pockets.to_polygons()])
+    line = shapely.LineString([layout.hub_mm, layout.front_mm])
+    assert pockets.distance(line) == pytest.approx(layout.axle_mm / 2.0 + 3.0, abs=0.05)
+    (edge,) = (shapely.Polygon(contour) for contour in covers.whole.to_polygons())
+    assert pockets.distance(edge.exterior) == pytest.approx(3.2, abs=0.05)
+    assert pockets.buffer(-1.45).buffer(1.45).symmetric_difference(pockets).area < 0.01 * pockets.area

@@ -1,18 +1,21 @@
 """The foot with its toes, measured on meshes: where pins and toe tips are, flat on the ground."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
 from manifold3d import Manifold, Mesh
-from support.built import LONG_TOES, built, cut, hole_centres, placed
+from support.built import LONG_TOES, body_in_plane, built, cut, hole_centres, placed, region
 from support.robots import FOLDED
 
 from jumpcad.building import build
-from jumpcad.mechanism.model import FOOT
+from jumpcad.mechanism.model import FOOT, FRONT_LINK
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts import foot as foot_part
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -129,3 +132,85 @@ def test_the_ankles_pin_fits_its_lugs_and_its_ends_have_room_outside(name: str, 
     face = robot.layout.ankle_face_mm
     assert not mesh.contains([[2.2, side * (face + 0.3), 0.0]])[0]
     assert mesh.contains([[2.2, side * (face - 0.3), 0.0]])[0]
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0, 5.0])
+def test_the_ankles_boss_has_two_walls_around_its_pin_and_more_than_its_ends_have_room(axle_mm: float) -> None:
+    """Round about the ankle, and as wide down to the sole; the ends of a pin have 7 mm of room outside it."""
+    robot = built("kenan-2.0")
+    layout, fits = replace(robot.layout, axle_mm=axle_mm), robot.workshop.fits
+    holes = replace(HoleSizes.of(robot.workshop, layout.hub_bearing), axle_mm=axle_mm)
+    low_x, low_z, high_x, high_z = foot_part._ankle_boss(layout, holes).bounds()
+    outer = max(8.0, axle_mm + 2.0 * fits.lying_mm + 4.0 * fits.wall_mm)
+    assert (-low_x, high_x, high_z) == pytest.approx([outer / 2.0] * 3, abs=1e-6)
+    assert low_z == pytest.approx(-layout.sections.foot_depth_mm)
+
+
+@pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
+def test_webs_are_as_high_as_rails_and_folded_link_let_them(name: str) -> None:
+    """Seen in the foot by the law of cosines: 1 mm below the loaded link's eyes and no higher than the rails.
+
+    10 mm long at the ankle, 2 mm high at least; 6 mm long from the middle, 0.2 mm lower than the rails at 0.6 of their
+    length, if that leaves 2 mm.
+    """
+    robot = built(name)
+    layout, sections, length = robot.layout, robot.layout.sections, robot.design.l4_mm
+    foot, link = (body_in_plane(robot, body, robot.spring.wind_rad) for body in (FOOT, FRONT_LINK))
+    pivot = np.linalg.inv(foot) @ link[:, 2]
+    along = np.array([length, 0.0]) - pivot[:2]
+    slope, reach = along[1] / along[0], math.hypot(*along) / abs(along[0])
+
+    def free(x_mm: float) -> float:
+        return sections.foot_depth_mm + slope * (x_mm - length) - sections.eye_radius_mm * reach - 1.0
+
+    start, middle = sections.foot_depth_mm, length / 2.0
+    rail = 0.4 * sections.rail_root_mm + 0.6 * sections.rail_tip_mm - 0.2
+    expected = [(start, start + 10.0, max(2.0, min(sections.rail_root_mm, free(start + 10.0))))]
+    if (low := min(rail, free(middle + 6.0))) >= 2.0:
+        expected.append((middle, middle + 6.0, low))
+    found = foot_part._webs(layout, sections.rail_root_mm)
+    assert len(found) == len(expected)
+    for one, other in zip(found, expected, strict=True):
+        assert one == pytest.approx(other, abs=1e-6)
+
+
+def test_a_link_that_folds_low_lowers_the_webs() -> None:
+    """A robot whose loaded link lies nearly flat in the foot has a first web of 2 mm, and a second one only if free."""
+    robot = build(FOLDED, load_workshop())
+    sections, layout = robot.layout.sections, robot.layout
+    (start, end, height), *others = foot_part._webs(layout, sections.rail_root_mm)
+    assert (start, end) == pytest.approx((sections.foot_depth_mm, sections.foot_depth_mm + 10.0))
+    assert 2.0 <= height < sections.rail_root_mm
+    for _, _, low in others:
+        assert 2.0 <= low < sections.rail_root_mm
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_a_foot_fits_the_bed_with_its_nose_tips_and_toes(name: str) -> None:
+    """By the sizes of its outline: exactly so large a bed is enough, and one that is 0.1 mm smaller is not."""
+    robot = built(name)
+    size = np.ptp(placed(robot, "foot").bounds, axis=0)
+    given = (robot.design, robot.layout.sections)
+    high = 2.0 * robot.layout.sections.foot_depth_mm
+    top = max(high, robot.layout.sections.toe_root_mm, robot.layout.sections.rail_root_mm)
+    assert foot_part.in_one_piece(*given, (500.0, 500.0, top))
+    assert not foot_part.in_one_piece(*given, (500.0, 500.0, top - 0.1))
+    assert foot_part.in_one_piece(*given, (size[0] + 0.05, size[1] + 0.05, 100.0))
+    assert not foot_part.in_one_piece(*given, (size[0] - 0.1, min(size[0], size[1]) * 0.5, 100.0))
+    wide = 1.0 + max(size)
+    assert not foot_part.in_one_piece(*given, (wide, wide, 100.0), toe_half_width_mm=wide)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_lugs_stand_on_soles_of_1_mm_behind_and_ahead_of_both_eyes(name: str) -> None:
+    """Round as deep as the foot; soles reach 1.6 depths behind, as far before the ankle, 0.42 before the eye."""
+    robot = built(name)
+    depth, length = robot.layout.sections.foot_depth_mm, robot.design.l4_mm
+    section = region(cut(placed(robot, "foot"), sum(robot.layout.lateral.lug_left) / 2.0))
+    filled = shapely.union_all([shapely.Polygon(one.exterior) for one in shapely.get_parts(section)])
+    for x, ahead in ((0.0, 1.6), (length, 0.42)):
+        sole = shapely.box(x - 1.6 * depth, -depth, x + ahead * depth, 1.0 - depth)
+        lug = shapely.union_all([shapely.Point(x, 0.0).buffer(depth - 0.02, 64), sole]).convex_hull
+        assert lug.difference(filled).area < 0.1
+    high_x = filled.bounds[2]
+    assert high_x == pytest.approx(length + depth, abs=0.02)

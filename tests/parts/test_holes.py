@@ -9,7 +9,10 @@ import shapely.affinity
 import shapely.ops
 from support.built import LONG_TOES, built, cut, geared, hole_centres, inscribed_diameter, part, placed, region
 from support.fits import (
+    EYE,
     EYES,
+    LOOSE,
+    LYING,
     LYING_HOLE,
     MR63_OUTER,
     N20_FLAT,
@@ -18,12 +21,15 @@ from support.fits import (
     PRESSED,
     RIB,
     RUNNING,
+    SLIDING,
     TOLERANCE_MM,
     measured,
 )
 
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.solids.finish import to_trimesh
+from jumpcad.workshop import load_workshop
 
 
 @pytest.fixture(scope="module")
@@ -132,3 +138,23 @@ def test_finer_fits_make_smaller_bores() -> None:
     robot = built("kenan-2.0", "fine")
     found = measured(robot, "cam", sum(robot.layout.lateral.cam) / 2.0, robot.layout.cam_axis_mm)
     assert found == pytest.approx(3.0 + 2 * 0.14, abs=TOLERANCE_MM)
+
+
+def test_every_fit_is_added_on_both_sides_of_the_shaft() -> None:
+    """The default workshop's fits, and its hub: the bearing's seat with two walls of 1.2 mm around it."""
+    shop = load_workshop()
+    bearing = shop.catalogue.bearings["MR63"]
+    holes = HoleSizes.of(shop, bearing)
+    for made, fit in (
+        (holes.press, PRESS), (holes.eye, EYE), (holes.lying, LYING), (holes.running, SLIDING), (holes.loose, LOOSE),
+    ):  # fmt: skip
+        assert made(4.0) == pytest.approx(4.0 + 2.0 * fit)
+    assert holes.hub_bore_mm == pytest.approx(MR63_OUTER + 2.0 * PRESS)
+    assert holes.hub_radius_mm == pytest.approx(MR63_OUTER / 2.0 + PRESS + 2.0 * shop.fits.wall_mm)
+    bare = HoleSizes.of(shop, None)
+    assert bare.hub_bore_mm == pytest.approx(RUNNING)
+    assert [(y0, y1) for y0, y1, _ in bare.hub_slabs(-3.0, 4.0)] == [(-3.0, 4.0)]
+    slabs = holes.hub_slabs(-3.0, 4.0)
+    width = bearing.width_mm
+    assert [slab[:2] for slab in slabs] == [(-3.0, width - 3.0), (width - 3.0, 4.0 - width), (4.0 - width, 4.0)]
+    assert slabs[1][2].bounds()[2] == pytest.approx((MR63_OUTER - 1.2) / 2.0, abs=0.01)  # 0.6 mm hold its outer ring

@@ -13,6 +13,7 @@ from jumpcad.bundle.wiring import wires
 from jumpcad.design import load_design
 from jumpcad.exporters.dxf import sheet
 from jumpcad.parts.lead_ways import _beside, battery_way, corners, gap_mm, lead_way, outer_way, plate_of, way_words
+from jumpcad.parts.leads import way_in
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import contained
 from jumpcad.workshop import load_workshop
@@ -206,3 +207,15 @@ def test_leads_go_round_the_opening_for_usb_on_the_nearer_side(above_mm: float, 
     (point,) = _beside(layout, "motor", start, end)
     assert point == pytest.approx([x, -30.0, z + side * half])
     assert _beside(layout, "sensor", start, end) == []  # the left plate has none
+
+
+def test_leads_end_in_the_middle_of_their_part_within_its_height(robot: Robot) -> None:
+    """Of battery, boards, plug and capacitor as they lie on the trays."""
+    placed = {item.name: item for item in robot.hardware}
+    ends = {end.part for _, *both, _, _ in wires(robot) for end in both} & {"battery", "plug", "capacitor"}
+    for part in ends | set(robot.layout.electronics.boards):
+        low, high = placed[part].look.copy().apply_transform(placed[part].T_body_part).bounds
+        (x, y, z), *others = way_in(robot.layout, part)
+        assert (x, y) == pytest.approx(((low + high) / 2.0)[:2], abs=0.02), part
+        assert low[2] < z < high[2], part
+        assert others == []

@@ -65,3 +65,49 @@ def test_the_hub_has_two_walls_around_its_bearing(robot: Robot) -> None:
         seat + 0.05
     )
     assert wall.difference(leg).area < 0.01 * wall.area
+
+
+def test_the_leg_has_material_around_all_its_holes_and_a_flat_heel(robot: Robot) -> None:
+    """Ankle by its eye, lever 4.5 mm, springs' pin as high as the beam; a heel 0.5 mm longer than the pad at each end.
+
+    Corners between them are filled to a radius of 3 mm: a smaller disc touches all along them, a larger one does not.
+    """
+    layout, cam = robot.layout, robot.layout.drive.cam
+    sections, stop = layout.sections, layout.stop
+    leg = region(cut(placed(robot, "main_leg"), 0.01))
+    filled = shapely.Polygon(leg.exterior)
+    turn = cam.lever_start_rad + math.radians(robot.design.rest_angle_deg)
+    lever = (cam.lever_length_mm * math.cos(turn), cam.lever_length_mm * math.sin(turn))
+    pin = max(sections.leg_root_mm / 2.0, sections.eye_radius_mm)
+    eyes = [((robot.design.l2_mm, 0.0), sections.eye_radius_mm), (lever, 4.5), ((layout.leg_pin_mm, 0.0), pin)]
+    for place, radius in eyes:
+        assert shapely.Point(*place).buffer(radius - 0.02).difference(filled).area < 1e-3
+    assert filled.exterior.distance(shapely.Point(robot.design.l2_mm, 0.0)) == pytest.approx(
+        max(sections.eye_radius_mm, sections.leg_tip_mm / 2.0), abs=0.05
+    )
+    assert filled.exterior.distance(shapely.Point(*lever)) == pytest.approx(4.5, abs=0.05)
+    ends = [(0.0, 0.0, sections.lever_root_mm / 2.0), (*lever, 4.5)]
+    arm = shapely.union_all([shapely.Point(x, z).buffer(radius - 0.02, 64) for x, z, radius in ends]).convex_hull
+    assert arm.difference(filled).area < 1e-3
+    heel = shapely.box(stop.radius_mm - 4.5, -stop.heel_mm, stop.radius_mm + 4.5, 0.0)
+    assert heel.difference(filled).area < 0.05
+    face = filled.intersection(shapely.box(stop.radius_mm - 4.0, -100.0, stop.radius_mm + 4.0, 0.0))
+    assert face.bounds[1] == pytest.approx(-stop.heel_mm, abs=0.01)
+    beside = shapely.box(stop.radius_mm - 6.0, -stop.heel_mm - 0.1, stop.radius_mm + 6.0, 0.01 - stop.heel_mm)
+    low_x, _, high_x, _ = filled.intersection(beside).bounds
+    assert (low_x, high_x) == pytest.approx((stop.radius_mm - 4.5, stop.radius_mm + 4.5), abs=0.06)
+    smaller, larger = (filled.buffer(radius).buffer(-radius).difference(filled).area for radius in (2.8, 3.6))
+    assert smaller < 0.1 < larger
+
+
+def test_the_front_link_is_a_straight_bar_between_equal_eyes(robot: Robot) -> None:
+    sections, length = robot.layout.sections, robot.design.l3_mm
+    link = shapely.Polygon(region(cut(placed(robot, "front_link"), 0.5)).exterior)
+    for x in (0.0, length):
+        assert link.exterior.distance(shapely.Point(x, 0.0)) == pytest.approx(sections.eye_radius_mm, abs=0.02)
+    middle = link.intersection(shapely.box(length / 2.0 - 1.0, -50.0, length / 2.0 + 1.0, 50.0))
+    half = sections.front_mm / 2.0
+    assert middle.bounds[1::2] == pytest.approx((-half, half), abs=0.02)
+    assert link.buffer(2.95).buffer(-2.95).difference(link).area < 0.05
+    mesh = placed(robot, "front_link")
+    assert mesh.bounds[:, 1] == pytest.approx([-sections.thickness_mm / 2.0, sections.thickness_mm / 2.0])

@@ -1,11 +1,16 @@
 """Pads on the meshes: between stop and leg, around the nose, and as large as is cut."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.built import built
+import shapely
+from support.built import built, cut, placed, region
 
+from jumpcad.parts.foot import foot
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.pads import pads
 from jumpcad.robot import Robot
 
 
@@ -73,3 +78,50 @@ def test_toe_pads_are_glued_under_the_tips_from_8_mm_behind_their_middle_to_1_5_
         assert (beside.min(), beside.max()) == pytest.approx((-2.5, 2.5), abs=0.05)
         pad_mm = robot.workshop.foot_pad.thickness_mm
         assert (corners[:, 2].min(), corners[:, 2].max()) == pytest.approx((-depth - pad_mm, -depth), abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_a_pad_lies_on_its_lug_and_not_in_it(name: str) -> None:
+    """Its section is what shapely finds within its thickness outside the foot, from 0.9 depths behind the eye and up to
+    0.7 depths below it; the strip is as long as that along its middle line."""
+    robot = built(name)
+    left = next(one for one in robot.hardware if one.name == "nose_pad_left")
+    pad = left.look.copy().apply_transform(left.T_body_part)
+    middle, thick = sum(robot.layout.lateral.lug_left) / 2.0, robot.workshop.foot_pad.thickness_mm
+    strip, foot = region(cut(pad, middle)), region(cut(placed(robot, "foot"), middle))
+    depth, eye = robot.layout.sections.foot_depth_mm, robot.design.l4_mm
+    around = shapely.box(eye - 0.9 * depth, -2.0 * depth, eye + 3.0 * depth, -0.7 * depth)
+    expected = foot.buffer(thick).difference(foot).intersection(around)
+    assert strip.symmetric_difference(expected).area < 0.02 * expected.area
+    assert cut_mm(robot, left.name)[1] == pytest.approx(expected.area / thick, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_under_the_bars_of_wide_toes_pads_lie_from_tip_to_end(name: str) -> None:
+    """Bars reach straight to the side: pads 5 mm wide on their soles, from the tip's middle to 1.5 mm before the end.
+
+    The bars themselves are as wide as the tips, 5 mm, and have round ends about the half width that was asked for.
+    """
+    robot, half_mm = built(name), 62.0 + built(name).design.l5_mm
+    layout, strip = replace(robot.layout, toe_half_width_mm=half_mm), robot.workshop.foot_pad
+    angle, depth = np.radians(robot.design.ground_link_angle_deg), layout.sections.foot_depth_mm
+    tip = robot.design.l5_mm * np.array([-np.cos(angle), np.sin(angle)])
+    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
+    sole = foot(layout, holes).mesh.vertices
+    found = {item.name: item for item in pads(layout, strip)}
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        pad = found[f"toe_{side}_pad"]
+        corners = pad.look.copy().apply_transform(pad.T_body_part).vertices
+        assert (corners[:, 0].min(), corners[:, 0].max()) == pytest.approx((tip[0] - 2.5, tip[0] + 2.5), abs=1e-3)
+        beside = np.sort(sign * np.array([corners[:, 1].min(), corners[:, 1].max()]))
+        assert beside == pytest.approx([tip[1], half_mm + 1.5], abs=1e-3)
+        assert (corners[:, 2].min(), corners[:, 2].max()) == pytest.approx(
+            (-depth - strip.thickness_mm, -depth), abs=1e-3
+        )
+        assert f"cut 5.0 x {half_mm + 1.5 - tip[1]:.1f} mm" in pad.article
+        volume = 5.0 * (half_mm + 1.5 - tip[1]) * strip.thickness_mm
+        assert 1e6 * pad.mass_kg == pytest.approx(strip.density_g_cm3 * volume)
+        bar = sole[sign * sole[:, 1] > tip[1] + 10.0]
+        assert (bar[:, 0].min(), bar[:, 0].max()) == pytest.approx((tip[0] - 2.5, tip[0] + 2.5), abs=0.02)
+        assert (sign * bar[:, 1]).max() == pytest.approx(half_mm + 2.5, abs=0.02)
+        assert bar[:, 2].max() == pytest.approx(layout.sections.toe_tip_height_mm, abs=1e-3)

@@ -1,10 +1,18 @@
 """The sensor's mount on its mesh: the switch fits, its terminals come out, its screws hold in the plate."""
 
+from contextlib import nullcontext
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
+import trimesh
 from support.built import built, cut, hole_centres, placed, region
 
+from jumpcad.errors import CannotBuildError
+from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.sensor import EAR_MM, ear_height_mm, screw_mm, sensor_mount
 from jumpcad.robot import Robot
 
 
@@ -30,7 +38,10 @@ def test_the_case_lies_in_the_mount_up_to_its_ceiling(robot: Robot) -> None:
     case = shapely.box(-length / 2.0, -width / 2.0, length / 2.0, width / 2.0)
     assert below.intersection(case).area == pytest.approx(0.0, abs=1e-6)
     play = below.distance(case)
-    assert 0.02 <= play <= 0.3
+    assert play == pytest.approx(0.2, abs=2e-3)
+    for x, y in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):  # on all four sides
+        edges = [(x * (length / 2.0 + gap), y * (width / 2.0 + gap)) for gap in (0.19, 0.21)]
+        assert [below.intersects(shapely.Point(*edge)) for edge in edges] == [False, True]
     ledge = above.intersection(case)
     assert ledge.area == pytest.approx(length * width - (length - 1.8) * (width - 1.8), rel=1e-3)
     assert (below.bounds[0] + below.bounds[2], below.bounds[1] + below.bounds[3]) == pytest.approx((0, 0), abs=1e-3)
@@ -76,3 +87,62 @@ def test_the_switch_stands_in_its_mount_with_its_plunger_inwards(robot: Robot) -
     bounds = item.look.copy().apply_transform(item.T_body_part).bounds
     assert bounds[1, 1] == pytest.approx(robot.layout.lateral.left_plate[1] + sensor.base_mm)
     assert np.ptp(bounds[:, 1]) == pytest.approx(sensor.needs.travel.total_mm)
+
+
+@pytest.mark.parametrize("base_mm", [1.0, 1.999, 2.0, 2.4, 6.0])
+def test_the_mounts_ears_are_2_mm_high_however_far_the_base_stands_out(robot: Robot, base_mm: float) -> None:
+    """A base that stands out less than the ears leaves them above its ceiling's underside, whole but for the window.
+
+    By hand: the mount without ears is a box over the case with play and wall; the ears and what joins them add their
+    outline as high as they are.
+    """
+    layout = replace(robot.layout, sensor=replace(robot.layout.sensor, base_mm=base_mm))
+    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
+    (mount,) = sensor_mount(layout, holes)
+    mesh, (length, width) = mount.mesh, layout.sensor.case_mm
+    assert ear_height_mm(layout) == pytest.approx(2.0)
+    assert mesh.bounds[1, 2] == pytest.approx(base_mm + 1.2)
+
+    def section(height_mm: float) -> shapely.Geometry:
+        return region(trimesh.intersections.mesh_plane(mesh, [0.0, 0.0, 1.0], [0.0, 0.0, height_mm])[:, :, :2])
+
+    heights = [z for z in (0.7, 1.5, 1.97, 2.03, 3.0, 6.6, 7.1) if z < base_mm + 1.2 and abs(z - base_mm) > 0.02]
+    case = shapely.box(-length / 2.0, -width / 2.0, length / 2.0, width / 2.0)
+    for height in heights:
+        found = section(height)
+        reach = length / 2.0 + MOUNT_PLAY_MM + MOUNT_WALL_MM
+        if height < 2.0:
+            reach = layout.sensor.ear_mm + EAR_RADIUS_MM
+        assert (found.bounds[0], found.bounds[2]) == pytest.approx((-reach, reach), abs=0.02), height
+        if height < 2.0:  # ears as wide as their round ends, up to the mount's walls
+            ear = found.intersection(shapely.box(length / 2.0 + 1.5, -50.0, length / 2.0 + 3.2, 50.0))
+            assert (ear.bounds[1], ear.bounds[3]) == pytest.approx((-2.6, 2.6), abs=0.02), height
+        opened = case if height < base_mm else case.buffer(-0.9, join_style="mitre")
+        assert found.intersection(opened).area < 1e-3, height
+        closed = case.difference(opened) if height > base_mm else case.buffer(0.0).difference(case)
+        assert closed.difference(found).area < 1e-3, height
+
+
+def test_the_mount_is_refused_on_a_plate_so_thick_that_the_base_does_not_stand_out(robot: Robot) -> None:
+    """At least the first layer's chamfer, or that layer, is left of the rim around the base."""
+    holes = HoleSizes.of(robot.workshop, robot.layout.hub_bearing)
+    least = max(robot.workshop.fits.first_layer_chamfer_mm, robot.workshop.process.first_layer_mm)
+    for base_mm, fits in ((least + 0.001, True), (least - 0.001, False)):
+        layout = replace(robot.layout, sensor=replace(robot.layout.sensor, base_mm=base_mm))
+        with nullcontext() if fits else pytest.raises(CannotBuildError, match="no room for the sensor's mount") as no:
+            assert len(list(sensor_mount(layout, holes))) == 1
+        if not fits:
+            assert no.value.margin == pytest.approx(-0.001)
+
+
+def test_the_shortest_screw_that_holds_goes_through_the_ear_and_four_threads() -> None:
+    """M2 has a pitch of 0.4 mm (ISO 261), so four are 1.6 mm; with 2 mm of ear a screw of 4 mm is long enough."""
+    assert screw_mm() == 4.0
+    assert screw_mm() >= EAR_MM + 4 * 0.4
+    thin = built("kenan-2.0").layout
+    plate = thin.lateral.left_plate
+    for thickness, height in ((plate[1] - plate[0], 2.0), (1.6, 2.6)):
+        lateral = replace(thin.lateral, left_plate=(plate[0], plate[0] + thickness))
+        ear = ear_height_mm(replace(thin, lateral=lateral))
+        assert ear == pytest.approx(height)
+        assert screw_mm() <= ear + thickness  # it ends inside the plate

@@ -1,8 +1,10 @@
 """What is bought: rods as long and as heavy as their articles say, screws of stock lengths, springs of either hand."""
 
+import itertools
 import math
 import re
 from collections import defaultdict
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,7 +19,10 @@ from jumpcad.bundle.wiring import wires
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
+from jumpcad.parts.body_plate import ear_places
+from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.parts.shopping import _electronics, _standoffs
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import load_workshop
@@ -247,6 +252,8 @@ def test_wire_is_bought_in_tenths_of_a_metre_rounded_up() -> None:
             ordered = float(re.findall(rf"{colour}, ([\d.]+) m$", item.article)[0])
             assert -1e-6 <= ordered - metres < 0.1 - 1e-9, colour
             assert ordered * 10.0 == pytest.approx(round(ordered * 10.0))
+            wire = load_catalogue().components[robot.workshop.bought.wire]
+            assert 1e3 * item.mass_kg == pytest.approx(1e3 * metres * wire.mass_g / wire.length_mm), colour
 
 
 def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
@@ -259,3 +266,122 @@ def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
         bounds = item.look.copy().apply_transform(item.T_body_part).bounds
         assert bounds.mean(axis=0)[[0, 2]] == pytest.approx([x + side * 7.5, z], abs=1e-3)
         assert bounds[0, 1] < low < bounds[1, 1]
+
+
+def test_bearings_are_in_the_hub_and_on_the_lever(assembled_robot: Robot) -> None:
+    """The hub's two at the leg's faces about its axle; roller, washer, screw and nut about the hole of the lever."""
+    layout, cam = assembled_robot.layout, assembled_robot.layout.drive.cam
+    angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
+    lever = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
+    half, hub = layout.sections.thickness_mm / 2.0, layout.hub_bearing
+    places = {
+        "hub_bearing_1": ((0.0, 0.0), -half, hub.width_mm - half),
+        "hub_bearing_2": ((0.0, 0.0), half - hub.width_mm, half),
+        "roller_washer": (lever, half, half + 0.5), "roller_nut": (lever, -half - 4.0, -half),
+        "roller": (lever, *layout.lateral.cam), "roller_screw": (lever, None, layout.lateral.cam[1] + 1.65),
+    }  # fmt: skip
+    for name, (centre, low, high) in places.items():
+        (item,) = (thing for thing in assembled_robot.hardware if thing.name == name)
+        bounds = item.look.copy().apply_transform(item.T_body_part).bounds
+        assert bounds.mean(axis=0)[[0, 2]] == pytest.approx(centre, abs=0.02), name
+        assert bounds[1, 1] == pytest.approx(high, abs=1e-3), name
+        assert low is None or bounds[0, 1] == pytest.approx(low, abs=1e-3), name
+
+
+@pytest.mark.parametrize("plate_mm", [1.6, 2.0, 2.4, 3.0, 3.5, 4.0, 4.5])
+def test_a_standoffs_screw_has_4_to_6_mm_of_thread_under_any_plate(plate_mm: float) -> None:
+    layout = built("kenan-2.0").layout
+    low, high = layout.lateral.inside
+    lateral = replace(layout.lateral, left_plate=(high, high + plate_mm), right_plate=(low - plate_mm, low))
+    for item in _standoffs(replace(layout, lateral=lateral), load_catalogue()):
+        bounds = item.look.copy().apply_transform(item.T_body_part).bounds[:, 1]
+        if item.name.endswith("left"):
+            assert 4.0 - 1e-6 <= high - bounds[0] < 6.0
+            assert bounds[1] > high + plate_mm
+        elif item.name.endswith("right"):
+            assert 4.0 - 1e-6 <= bounds[1] - low < 6.0
+            assert bounds[0] < low - plate_mm
+        else:
+            assert bounds == pytest.approx([low, high])
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_what_holds_the_boards_lies_on_them_and_under_them(name: str) -> None:
+    """Foam tape from tray to board, ties and strap on top, in the middle; leads lie flat under the tray."""
+    robot = built(name)
+    boxes = {item.name: item.look.copy().apply_transform(item.T_body_part).bounds for item in robot.hardware}
+    electronics, (x, z) = robot.layout.electronics, robot.layout.tray_mm
+    floor = z + electronics.upper_tray_mm + 1.6
+    for role in electronics.boards:
+        board, tape, tie = boxes[role], boxes[f"tape_{role}"], boxes[f"tie_{role}"]
+        assert tape[:, 2] == pytest.approx([floor, board[0, 2]], abs=2e-3)
+        assert tape[:, :2] == pytest.approx(board[:, :2], abs=2e-3)
+        assert tie[0, 2] == pytest.approx(board[1, 2], abs=2e-3)
+        assert tie.mean(axis=0)[:2] == pytest.approx(board.mean(axis=0)[:2], abs=2e-3)
+        assert np.ptp(tie[:, 0]) == pytest.approx(np.ptp(board[:, 0]), abs=2e-3)
+    for role in electronics.tied:
+        part, tie = boxes[role], boxes[f"tie_{role}"]
+        assert part[0, 2] == pytest.approx(floor, abs=2e-3)
+        assert tie[0, 2] == pytest.approx(part[1, 2], abs=2e-3)
+        assert tie.mean(axis=0)[:2] == pytest.approx(part.mean(axis=0)[:2], abs=2e-3)
+        assert np.ptp(tie[:, 1]) == pytest.approx(np.ptp(part[:, 1]), abs=2e-3)
+    strap, battery = boxes["strap_battery"], boxes["battery"]
+    assert strap[0, 2] == pytest.approx(battery[1, 2], abs=2e-3)
+    assert strap.mean(axis=0)[:2] == pytest.approx(battery.mean(axis=0)[:2], abs=2e-3)
+    assert np.ptp(strap[:, 1]) == pytest.approx(np.ptp(battery[:, 1]), abs=2e-3)
+    wires = sorted((one for item, one in boxes.items() if item.startswith("wiring_wire")), key=lambda one: one[0, 0])
+    for wire in wires:
+        assert battery[1, 2] < wire[0, 2] < wire[1, 2] < floor - 1.6
+        assert (
+            x - electronics.battery.length_mm / 2.0 <= wire[0, 0] < wire[1, 0] <= x + electronics.battery.length_mm / 2
+        )
+        assert wire[:, 1].mean() == pytest.approx(sum(robot.layout.lateral.inside) / 2.0, abs=2e-3)
+    assert all(one[1, 0] < other[0, 0] for one, other in itertools.pairwise(wires))
+
+
+@pytest.mark.parametrize(("role", "outwards"), [("sensor", 1.0), ("motor", -1.0)])
+def test_ties_of_leads_lie_on_the_plates_across_their_slots(role: str, outwards: float) -> None:
+    """5 mm above the hole's middle, from slot to slot, 5.2 mm apart; outside the plate, 1.1 mm thick."""
+    robot = built("kenan-2.0")
+    fittings, outside = robot.layout.fittings, robot.layout.lateral.outside
+    (item,) = (one for one in robot.hardware if one.name == f"tie_{role}_leads")
+    low, high = item.look.copy().apply_transform(item.T_body_part).bounds
+    x, z = wire_hole_mm(fittings.left_mm if role == "sensor" else fittings.right_mm)
+    assert ((low + high) / 2.0)[[0, 2]] == pytest.approx([x, z + 5.0], abs=2e-3)
+    assert (high - low) == pytest.approx([5.2, 1.1, 2.5], abs=2e-3)
+    face = outside[1] if outwards > 0.0 else outside[0]
+    assert min(low[1], high[1], key=lambda y: abs(y - face)) == pytest.approx(face, abs=2e-3)
+    assert outwards * ((low + high)[1] / 2.0 - face) > 0.5
+
+
+def test_motor_and_cap_screws_stand_where_the_layout_says() -> None:
+    """The shaft from the motor's front to the left, turned with the pinion; screws of 8 mm end under sunk heads."""
+    robot = built("kenan-2.0")
+    things = {item.name: item.look.copy().apply_transform(item.T_body_part).bounds for item in robot.hardware}
+    motor, lateral = robot.layout.drive.train.motor, robot.layout.lateral
+    assert things["motor"][:, 1] == pytest.approx(lateral.motor)
+    assert things["motor_shaft"][:, 1] == pytest.approx([lateral.motor[1], lateral.motor[1] + motor.shaft_length_mm])
+    for number, ear in enumerate(ear_places(robot.layout), start=1):
+        low, high = things[f"cap_screw_{number}"]
+        assert ((low + high) / 2.0)[[0, 2]] == pytest.approx(ear, abs=2e-3)
+        assert high[1] == pytest.approx(lateral.motor_cap[1], abs=1e-3)
+        head = load_catalogue().screws["M2"].button_head_height_mm
+        assert low[1] == pytest.approx(high[1] - head - 8.0, abs=1e-3)
+
+
+def test_the_balance_lead_of_two_cells_lies_under_its_tie_ahead_of_the_battery() -> None:
+    """A tie of 2.5 x 1.1 mm across 10 mm, on a plug 6 mm high; a battery of one cell has no balance lead."""
+    robot, catalogue = built("kenan-2.0"), load_catalogue()
+    layout, chosen = robot.layout, robot.workshop.bought
+    carried = replace(layout.electronics, battery=catalogue.batteries["lipo-2s-180"])
+    found = {item.name: item for item in _electronics(replace(layout, electronics=carried), catalogue, chosen)}
+    tie, battery = (
+        found[name].look.copy().apply_transform(found[name].T_body_part).bounds
+        for name in ("tie_balance_lead", "battery")
+    )
+    middle = battery.mean(axis=0)
+    assert tie.mean(axis=0)[:2] == pytest.approx([middle[0] + carried.balance_mm, middle[1]], abs=2e-3)
+    assert tie[0, 2] == pytest.approx(battery[0, 2] + 6.0, abs=2e-3)
+    assert np.ptp(tie, axis=0) == pytest.approx([2.5, 10.0, 1.1], abs=2e-3)
+    assert tie[0, 0] > battery[1, 0]
+    assert "tie_balance_lead" not in {item.name for item in robot.hardware}

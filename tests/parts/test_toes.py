@@ -1,13 +1,18 @@
 """Separate toes, and holes that print lying."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
+import trimesh
 from support.built import LONG_TOES, built, part, placed
 
 from jumpcad.mechanism.model import FOOT
-from jumpcad.parts.toes import lying_hole, toes
+from jumpcad.parts.foot import foot
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.toes import lying_hole, toes, toes_apart
 
 
 def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
@@ -94,3 +99,34 @@ def test_cross_screws_are_16_and_30_mm_from_the_toes_root() -> None:
             if item.name.startswith(f"{toe.name}_screw"):
                 places.append(item.look.copy().apply_transform(inverse @ item.T_body_part).bounds[:, 0].mean())
         assert sorted(places) == pytest.approx([16.0, 30.0], abs=0.05)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
+def test_bare_toes_have_two_grooves_across_the_sole_at_their_tips(name: str) -> None:
+    """Two layers of 0.2 mm deep, two lines of 0.4 mm wide, 2.4 mm apart about the tip's middle, closed at both ends."""
+    robot = built(name)
+    layout = replace(robot.layout, sections=replace(robot.layout.sections, pad_mm=0.0))
+    holes = HoleSizes.of(robot.workshop, layout.hub_bearing)
+    for toe in toes(layout):
+        if layout.toes_apart:
+            (mesh,) = (one.mesh for one in toes_apart(layout, holes) if one.name == toe.name)
+        else:
+            turn = np.linalg.inv(toe.pose_mm)
+            mesh = foot(layout, holes).mesh.copy().apply_transform(turn)
+        slits = [
+            shapely.Polygon(ring)
+            for polygon in trimesh.load_path(
+                trimesh.intersections.mesh_plane(mesh, [0.0, 0.0, 1.0], [0.0, 0.0, 0.39])[:, :, :2]
+            ).polygons_full
+            for ring in polygon.interiors
+            if shapely.Polygon(ring).distance(shapely.Point(toe.length_mm, 0.0)) < 3.0
+        ]
+        expected = [toe.length_mm - 1.2, toe.length_mm + 1.2]
+        assert sorted(slit.centroid.x for slit in slits) == pytest.approx(expected, abs=0.01)
+        for slit in slits:
+            low_x, low_y, high_x, high_y = slit.bounds
+            assert (high_x - low_x, low_y, high_y) == pytest.approx((0.8, -1.5, 1.5), abs=0.01)
+        above = trimesh.intersections.mesh_plane(mesh, [0.0, 0.0, 1.0], [0.0, 0.0, 0.41])[:, :, :2]
+        assert (
+            shapely.Point(expected[0], 0.0).distance(shapely.multilinestrings(list(shapely.linestrings(above)))) > 1.0
+        )

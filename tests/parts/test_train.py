@@ -14,12 +14,14 @@ from support.built import built, cut, geared, hole_centres, in_body, placed, reg
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
+from jumpcad.drive.gear_pair import gear_pair
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing
-from jumpcad.parts.train import gears, ribbed_d_bore
+from jumpcad.parts.train import _webbed, gear_turns, gears, ribbed_d_bore
 from jumpcad.robot import Robot
+from jumpcad.solids import outline
 from jumpcad.workshop import load_workshop
 
 ALPHA = math.radians(20)
@@ -327,3 +329,49 @@ def test_the_cam_gear_has_a_groove_with_one_land_in_its_left_face(name: str) -> 
     away = np.array(land.centroid.coords[0]) - layout.cam_axis_mm
     middle = math.atan2(away[1], away[0]) - (begin + end) / 2.0
     assert math.remainder(middle, 2.0 * math.pi) == pytest.approx(0.0, abs=0.02)
+
+
+@pytest.mark.parametrize(("bore_mm", "hub_mm", "reach_mm"), [(6.0, 0.0, 3.0), (6.0, 8.0, 8.0), (20.0, 8.0, 10.0)])
+def test_six_web_holes_leave_3_mm_around_the_hub_inside_the_teeth_and_between_them(
+    bore_mm: float, hub_mm: float, reach_mm: float
+) -> None:
+    """Around the hub, or the bore where that is larger; spokes at every 60°; corners round, with a radius of 1 mm."""
+    gear = gear_pair(15, 60, 1.25, 5.0, 0.1).wheel
+    made = _webbed(gear, outline.hole(bore_mm), hub_mm)
+    contours = [shapely.Polygon(contour) for contour in made.to_polygons()]
+    axis = shapely.Point(0.0, 0.0)
+    webs = [one for one in contours if not one.contains(axis)]
+    webs.sort(key=lambda one: math.atan2(*one.centroid.coords[0]))
+    assert len(webs) == 6
+    for web, beside in zip(webs, [*webs[1:], webs[0]], strict=True):
+        assert web.distance(axis) == pytest.approx(reach_mm + 3.0, abs=0.02)
+        assert web.hausdorff_distance(axis) == pytest.approx(gear.root_radius_mm - 3.0, abs=0.02)
+        assert web.distance(beside) == pytest.approx(3.0, abs=0.02)
+        assert web.buffer(-0.99).buffer(1.0).symmetric_difference(web).area < 0.02 * web.area
+    solid = outline.ring(2.0 * 25.0, 2.0 * 20.0)
+    kept = _webbed(gear, outline.hole(bore_mm), hub_mm, solid)
+    assert (solid - kept).area() < 0.1
+    assert kept.area() > made.area()
+    small = gear_pair(15, 16, 1.25, 5.0, 0.1).wheel
+    assert len(_webbed(small, outline.hole(3.4), 0.0).to_polygons()) == 2
+
+
+@pytest.mark.parametrize("teeth", [(40, 17, 44, 16), (41, 16, 43, 19)])
+def test_a_gap_of_each_pinion_is_where_a_tooth_of_its_wheel_points(teeth: tuple[int, int, int, int]) -> None:
+    """On the line of centres the shares of a pitch from tooth to line add up to a half, for any numbers of teeth."""
+    layout = geared().layout
+    first, last = layout.drive.train.stages
+    pairs = [
+        replace(pair, wheel=replace(pair.wheel, teeth=wheel), pinion=replace(pair.pinion, teeth=pinion))
+        for pair, wheel, pinion in ((first, *teeth[:2]), (last, *teeth[2:]))
+    ]
+    train = replace(layout.drive.train, stages=tuple(pairs))
+    turns = gear_turns(replace(layout, drive=replace(layout.drive, train=train)))
+    meshes = [
+        (layout.cam_axis_mm, teeth[2], turns["cam_gear"], layout.idler_mm, teeth[3], turns["idler"]),
+        (layout.idler_mm, teeth[0], turns["idler"], layout.motor_mm, teeth[1], turns["motor_pinion"]),
+    ]
+    for wheel_mm, wheel, wheel_rad, pinion_mm, pinion, pinion_rad in meshes:
+        line = math.atan2(*(pinion_mm - wheel_mm)[::-1])
+        share = ((line - wheel_rad) * wheel + (line + math.pi - pinion_rad) * pinion) / (2.0 * math.pi)
+        assert share % 1.0 == pytest.approx(0.5, abs=1e-9)

@@ -11,7 +11,7 @@ from support.built import built, geared, placed
 
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.trays import trays
+from jumpcad.parts.trays import _window, trays
 from jumpcad.robot import Robot
 from jumpcad.workshop import load_workshop
 
@@ -75,6 +75,7 @@ def test_the_battery_lies_between_two_stops_on_a_ledge(robot: Robot) -> None:
         assert floor.buffer(2e-3).contains(end)
     holes = [shapely.Polygon(ring) for one in getattr(floor, "geoms", [floor]) for ring in one.interiors]
     under = [one for one in holes if one.contains(shapely.Point((x0 + x1) / 2.0, (y0 + y1) / 2.0))]
+    assert len(under) == 1
     for window in under:
         assert np.ptp(np.array(window.bounds)[[1, 3]]) == pytest.approx(y1 - y0 - 4.0, abs=2e-3)
         assert window.bounds[0] > ends[0].bounds[2] + 0.9
@@ -104,6 +105,7 @@ def test_every_board_lies_under_its_tie_before_its_rim(robot: Robot) -> None:
         assert np.ptp(np.array(rim.bounds)[[0, 2]]) == pytest.approx(0.6 * (high[0] - low[0]), abs=0.01)
         assert rim.centroid.x == pytest.approx(board.centroid.x, abs=2e-3)
         window = [one for one in holes if one.contains(board.centroid)]
+        assert len(window) == (min(high[0] - low[0], high[1] - low[1]) - 8.0 >= 4.0)
         for one in window:
             assert np.array(one.bounds) == pytest.approx(
                 np.array(board.bounds) + np.array([4.0, 4.0, -4.0, -4.0]), abs=2e-3
@@ -131,3 +133,12 @@ def test_two_slots_hold_the_balance_lead_of_two_cells_between_them() -> None:
     seat, middle = electronics.seats(layout.lateral.inside)["battery"], sum(layout.lateral.inside) / 2.0
     assert (high[0, 1] + low[1, 1]) / 2.0 == pytest.approx(seat.y_mm - middle, abs=0.01)
     assert low[0, 0] - seat.x_mm > battery.length_mm / 2.0
+
+
+@pytest.mark.parametrize(("size", "open_"), [((10.0, 4.0), True), ((4.0, 10.0), True), ((10.0, 3.9), False)])
+def test_a_window_is_at_least_as_wide_as_its_round_ends(size: tuple[float, float], open_: bool) -> None:
+    """4 mm: corners have a radius of 2 mm, which cost (4 - pi)·4 mm² together."""
+    found = _window(*size)
+    assert len(found) == open_
+    for one in found:
+        assert one.area() == pytest.approx(40.0 - (4.0 - np.pi) * 4.0, rel=2e-3)

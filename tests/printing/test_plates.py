@@ -99,3 +99,12 @@ def test_the_beds_edge_stays_free_where_that_takes_no_further_plate():
         lows, highs = zip(*map(corners, plate.items), strict=True)
         assert np.min(lows, axis=0)[:2].min() >= 5.0
         assert (np.array([250.0, 210.0]) - np.max(highs, axis=0)[:2]).min() >= 5.0
+
+
+def test_parts_are_turned_by_a_right_angle_as_needed():
+    """One that fits across alone, and two that share a plate only side by side."""
+    (plate,) = packed([box("tall", (40, 100, 5))], (100.0, 50.0, 50.0), 5.0)
+    low, high = corners(plate.items[0])
+    assert high - low == pytest.approx([100.0, 40.0, 5.0])
+    (plate,) = packed([box("tall", (40, 100, 5)), box("wide", (100, 40, 5))], (100.0, 85.0, 50.0), 5.0)
+    assert len(plate.items) == 2

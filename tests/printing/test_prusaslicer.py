@@ -108,3 +108,12 @@ def test_without_the_program_there_is_a_way_out(monkeypatch, tmp_path):
     assert slicer_program() is None
     with pytest.raises(JumpcadError, match="not installed: install PrusaSlicer, or leave the printed masses"):
         slicer_version()
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [("4s", 4), ("3m 4s", 184), ("2h 3m 4s", 7384), ("1d 2h 3m 4s", 93784), ("1d 0h 0m 0s", 86400)],
+)
+def test_durations_have_days_hours_minutes_and_seconds(stand_in, tmp_path, text, seconds):
+    stand_in(writing(GCODE.replace("1h 2m 3s", text)))
+    assert sliced(tmp_path).time_s == seconds

@@ -1,8 +1,11 @@
 """Runs of layers: where cross-sections jump, and which layers are taken together."""
 
 import numpy as np
+import pytest
 
 from jumpcad.printing.runs import ALIKE_LAYERS, LayerRun, jumps_of, runs_of
+from jumpcad.solids.moments import areas_moments
+from jumpcad.solids.outline import rectangle
 from jumpcad.workshop import load_workshop
 
 PROCESS = load_workshop("default").process.model_copy(update={"top_layers": 3, "bottom_layers": 2})
@@ -52,3 +55,15 @@ def test_a_cone_that_ends_in_a_plate_jumps_there():
 def test_the_middle_of_an_odd_run_is_its_middle():
     assert LayerRun(4, 9).middle == 6
     assert LayerRun(7, 8).middle == 7
+
+
+@pytest.mark.parametrize("slope", [0.4, 3.0])
+def test_runs_do_not_depend_on_where_a_part_lies(slope):
+    """What makes layers alike are areas and polar moments about their own centres, wherever these are."""
+    taper = np.linspace(1.0, 1.0 + slope, 40) ** 2
+
+    def runs_at(x, y, shift):
+        moved = [rectangle((20.0 * side, 10.0), (x + shift * n, y)) for n, side in enumerate(taper)]
+        return runs_of(areas_moments(moved), [], PROCESS)
+
+    assert runs_at(0.0, 0.0, 0.0) == runs_at(300.0, -150.0, 0.0) == runs_at(40.0, 20.0, 0.7)

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from support.machines import let_go
 
-from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.poses import release_pose
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot import Robot
+from jumpcad.settings import coefficients
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.bullet import LINKS, BulletWorld
 from jumpcad.simulation.engines import engine_named
+from jumpcad.simulation.mechanics import Mechanics
 
 pytest.importorskip("pybullet")
 
@@ -78,3 +80,67 @@ def test_the_body_moves_as_the_roller_leaves_the_cam(kenan: Robot) -> None:
     arm = np.array(place) - release.body_position_m
     expected = np.array(release.body_m_s) + release.body_rad_s * np.array([arm[2], 0.0, -arm[0]])
     np.testing.assert_allclose(velocity, expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("friction", [0.37, 1.1])
+def test_pybullets_ground_has_the_settings_friction_and_leaves_bounces_to_the_robot(
+    kenan: Robot, friction: float
+) -> None:
+    """Bullet multiplies the restitutions of both sides: that of the ground is 1."""
+    bullet = pytest.importorskip("pybullet")
+    with engine_named("pybullet").world(kenan, Settings(ground_friction=friction)) as world:
+        info = bullet.getDynamicsInfo(world._ground, -1, physicsClientId=world._client)
+        assert bullet.getPhysicsEngineParameters(physicsClientId=world._client)["gravityAccelerationZ"] == -9.81
+    assert (info[0], info[1], info[5]) == (0.0, friction, 1.0)
+
+
+def test_pybullet_has_the_settings_of_bodies_and_steps(kenan: Robot) -> None:
+    """Read back: friction, bounce and rolling of every link, axes of joints, steps, iterations."""
+    bullet = pytest.importorskip("pybullet")
+    settings = Settings(
+        dt_s=0.0004, solver_iterations=77, restitution=0.25, rolling_friction_m=0.001, spinning_friction_m=0.002,
+        foot_friction=0.8, body_friction=0.3,
+    )  # fmt: skip
+    rubs = coefficients(kenan, settings)
+    with engine_named("pybullet").world(kenan, settings) as world:
+        client = world._client
+        for link, name in enumerate((BODY, *LINKS), start=-1):
+            info = bullet.getDynamicsInfo(world.robot_id, link, physicsClientId=client)
+            assert info[1] == pytest.approx(rubs.of(kenan.bodies[name].surface)), name
+            assert info[5:8] == pytest.approx((0.25, 0.001, 0.002)), name
+        for link in range(3):
+            joint = bullet.getJointInfo(world.robot_id, link, physicsClientId=client)
+            assert joint[13] == (0.0, 1.0, 0.0)
+        asked = bullet.getPhysicsEngineParameters(physicsClientId=client)
+        assert (asked["fixedTimeStep"], asked["numSolverIterations"], asked["numSubSteps"]) == (0.0004, 77, 0)
+        assert bullet.getNumBodies(physicsClientId=client) == 2
+        assert world.loaded() or world.advance(3) < 0.0
+    assert bullet.getNumBodies(physicsClientId=client) == 1  # the ground
+
+
+def test_the_loop_and_the_joints_are_closed_in_pybullet_at_release(lopsided: Robot) -> None:
+    """Bodies stand where the release pose has them, and the loop's two points are one."""
+    with engine_named("pybullet").world(lopsided, Settings()) as world:
+        state = world.state()
+    mechanics = Mechanics(lopsided, 9.81)
+    assert mechanics.loop_gap_m(state) < 1e-6
+    assert state.leg_rad == pytest.approx(-lopsided.spring.wind_rad)
+    for index, (name, pose) in enumerate(body_poses(lopsided, 1.0).items()):
+        at = BODY_NAMES.index(name)
+        np.testing.assert_allclose(mechanics.frame_positions_m(state)[at], pose[:3, 3], atol=1e-6, err_msg=str(index))
+        np.testing.assert_allclose(state.rotation[at], pose[:3, :3], atol=1e-6)
+    assert np.abs(state.velocity_m_s).max() == 0.0
+
+
+def test_the_foots_motion_is_that_of_the_state(kenan: Robot) -> None:
+    """Centre of mass, its velocity, and the spin, of a robot that has just been let go."""
+    robot = let_go(kenan)
+    with engine_named("pybullet").world(robot, Settings()) as world:
+        world.advance(20)
+        (com, velocity, spin), state = world._foot_motion(), world.state()
+    foot = BODY_NAMES.index(FOOT)
+    # without the kinematics of the step's end, for which `state` asks
+    np.testing.assert_allclose(com, state.com_m[foot], atol=5e-5)
+    np.testing.assert_allclose(velocity, state.velocity_m_s[foot], atol=5e-5)
+    np.testing.assert_allclose(spin, state.angular_rad_s[foot], atol=0.01)
+    assert np.abs(velocity).max() > 1e-3

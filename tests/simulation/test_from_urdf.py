@@ -154,6 +154,15 @@ def test_a_flat_body_is_a_body(read: Callable[..., Robot]) -> None:
     assert robot.bodies["body"].inertia_kg_m2.trace() == pytest.approx(6.6e-5)
 
 
+def test_two_collisions_of_a_body_may_not_have_one_name(read: Callable[..., Robot]) -> None:
+    """The loop file tells the surface of each by its name."""
+    first, second = [contact.name for contact in KENAN.bodies["foot"].contacts][:2]
+    twice = URDF.replace(f'collision name="{second}"', f'collision name="{first}"')
+    assert twice != URDF
+    with pytest.raises(JumpcadError, match="foot: two collisions have the same name"):
+        read(twice)
+
+
 def spoilt(text: str, seed: int) -> bytes:
     """A text with flipped bytes, cut short, or with a piece left out or repeated."""
     chance, content = random.Random(seed), bytearray(text.encode())

@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from support.flights import Flight
+from support.machines import let_go
 
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
@@ -15,7 +16,7 @@ from jumpcad.mechanism.poses import release_pose
 from jumpcad.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.engines import engine_named
-from jumpcad.simulation.mechanics import Mechanics, State, ballistics
+from jumpcad.simulation.mechanics import Mechanics, State, ballistics, loaded_state
 from jumpcad.transforms import Array
 
 
@@ -133,3 +134,17 @@ def test_loop_gap_is_the_distance_of_its_ends(kenan: Robot) -> None:
         state = world.state()
     moved = replace(state, com_m=state.com_m + np.outer([name == FOOT for name in BODY_NAMES], [3e-3, 0, 4e-3]))
     assert Mechanics(kenan, 9.81).loop_gap_m(moved) == pytest.approx(5e-3, rel=1e-6)
+
+
+def test_the_loaded_state_is_that_of_an_engine_before_anything_moves(lopsided: Robot) -> None:
+    """Centres of mass, turns, no velocity; whichever state the cam leaves the robot in."""
+    with engine_named("planar").world(lopsided, Settings()) as world:
+        there = world.state()
+    for robot in (lopsided, let_go(lopsided)):
+        here = loaded_state(robot)
+        for key in ("com_m", "rotation", "velocity_m_s", "angular_rad_s"):
+            np.testing.assert_allclose(getattr(here, key), getattr(there, key), atol=1e-12, err_msg=key)
+        assert here.leg_rad == pytest.approx(there.leg_rad)
+    mechanics = Mechanics(lopsided, 9.81)
+    assert mechanics.energies(here).spring_j == pytest.approx(lopsided.spring.energy_j)
+    assert mechanics.energies(here).kinetic_j == 0.0

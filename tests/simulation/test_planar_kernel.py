@@ -18,7 +18,7 @@ from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import Mechanics, State
 from jumpcad.simulation.planar import PlanarWorld
 from jumpcad.simulation.planar_model import Model, planar_model
-from jumpcad.simulation.planar_state import Contact, Ground, Losses, Moment, Motion
+from jumpcad.simulation.planar_state import Contact, Ground, Inertia, Losses, Moment, Motion
 from jumpcad.transforms import Array
 
 NO_CONTACT = Contact(-1, -1, kernel.SEPARATE, 0.0, 0.0, 0.0)
@@ -290,3 +290,116 @@ def test_a_robot_that_stands_weighs_its_weight(kenan: Robot) -> None:
     borne = (arms[0] * contact.first_ns + arms[1] * contact.second_ns) / (contact.first_ns + contact.second_ns)
     centre = Mechanics(kenan, 9.81).centre_of_mass_m(world_at(kenan, upright).state())[0]
     assert borne == pytest.approx(centre, abs=1e-4)
+
+
+def mass_matrix(inertia: Inertia) -> Array:
+    """The mass matrix (4, 4) of the coordinates ankle x, ankle z, foot, leg, from its closed form."""
+    to_foot, to_leg, mass = inertia.by_foot, inertia.by_leg, inertia.mass
+    full = np.diag([mass, mass, inertia.foot + abs(to_foot) ** 2 / mass, inertia.leg + abs(to_leg) ** 2 / mass])
+    full[2, 3] = full[3, 2] = inertia.both + (to_foot.conjugate() * to_leg).real / mass
+    full[0, 2], full[1, 2], full[0, 3], full[1, 3] = to_foot.real, to_foot.imag, to_leg.real, to_leg.imag
+    full[2:, :2] = full[:2, 2:].T
+    return full
+
+
+def vector(speed: Motion) -> Array:
+    return np.array([speed.ankle.real, speed.ankle.imag, speed.foot, speed.leg])
+
+
+@pytest.mark.parametrize("held", [False, True])
+def test_a_step_on_the_ground_obeys_the_laws_of_contact(either: Robot, held: bool) -> None:
+    """Impulses change the velocities by the mass matrix. The ground pushes and does not pull; no sphere goes below it;
+
+    the foot sticks with less than the full friction, or slides against all of it. A leg that is held stands still.
+    """
+    model, rng, modes = model_of(either), np.random.default_rng(7), set()
+    for _ in range(150):
+        angle, leg_rad = rng.choice([0.0, rng.uniform(-0.15, 0.15)]), rng.uniform(-0.7, 0.1)
+        turn = complex(math.cos(angle), -math.sin(angle))
+        lowest = min((at * turn).imag - radius for at, radius in zip(model.sole_m, model.sole_radius_m, strict=True))
+        ground = Ground(complex(0.0, -lowest + rng.choice([0.0, 1e-4])), turn, 1e-4)
+        inertia = kernel.inertia_at(model, kernel.links_at(model, leg_rad), turn)
+        free = Motion(complex(rng.normal(0.0, 1.0), rng.normal(-0.5, 1.0)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0))
+        after, contact, hold = kernel.settle(model, ground, inertia, free, NO_CONTACT, held)
+        arms = [(at * turn).real for at in model.sole_m]
+        up, height = contact.first_ns + contact.second_ns, ground.ankle_m.imag
+        turning = -height * contact.along_ns - sum(
+            arms[index] * push
+            for index, push in ((contact.first, contact.first_ns), (contact.second, contact.second_ns))
+            if index >= 0
+        )
+        impulse = mass_matrix(inertia) @ (vector(after) - vector(free))
+        np.testing.assert_allclose(impulse, [contact.along_ns, up, turning, hold], atol=1e-12)
+        assert min(contact.first_ns, contact.second_ns) >= -1e-12
+        for index, arm in enumerate(arms):
+            rate = after.ankle.imag - arm * after.foot
+            gap = (ground.ankle_m + model.sole_m[index] * turn).imag - model.sole_radius_m[index]
+            assert rate >= -max(gap, 0.0) / ground.half_s - 1e-9
+            if index in (contact.first, contact.second):
+                assert rate == pytest.approx(-max(gap, 0.0) / ground.half_s, abs=1e-9)
+        slip = after.ankle.real - height * after.foot
+        assert abs(contact.along_ns) <= model.friction * up + 1e-12
+        if up > 0.0 and abs(slip) > 1e-9:
+            assert contact.along_ns == pytest.approx(-math.copysign(model.friction * up, slip))
+        if held:
+            assert after.leg == pytest.approx(0.0, abs=1e-9)
+        else:
+            assert hold == 0.0
+        modes.add((contact.mode, contact.second >= 0))
+    assert {mode for mode, _ in modes} == {kernel.SEPARATE, kernel.STICK, kernel.FORWARD, kernel.BACKWARD}
+    assert {two for _, two in modes} == {False, True}
+
+
+@pytest.mark.parametrize("height_m", [None, 0.5])
+def test_dry_friction_brakes_the_leg_or_holds_it(either: Robot, height_m: float | None) -> None:
+    """All of it against a leg that turns; of one that would turn back, what it takes to stand still."""
+    model, rng, held = model_of(either), np.random.default_rng(3), 0
+    limit = 2e-4
+    for _ in range(80):
+        ankle = complex(0.0, either.foot_depth_m if height_m is None else height_m)
+        ground = Ground(ankle, complex(1.0, 0.0), 1e-4)
+        inertia = kernel.inertia_at(model, kernel.links_at(model, rng.uniform(-0.6, 0.0)), ground.turn)
+        free = Motion(complex(rng.normal(0.0, 0.2), -0.3), rng.normal(0.0, 2.0), rng.normal(0.0, 3.0))
+        after, contact, friction = kernel.settle_with_friction(model, ground, inertia, free, NO_CONTACT, limit)
+        assert abs(friction) <= limit * (1.0 + 1e-9)
+        if abs(after.leg) > 1e-9:
+            assert friction == pytest.approx(-math.copysign(limit, after.leg))
+        held += abs(after.leg) <= 1e-9
+        impulse = mass_matrix(inertia) @ (vector(after) - vector(free))
+        assert impulse[3] == pytest.approx(friction, abs=1e-12)
+        assert impulse[0] == pytest.approx(contact.along_ns, abs=1e-12)
+    assert 0 < held < 80
+
+
+def test_the_stop_in_the_air_takes_no_momentum_from_a_leg_with_friction_either(kenan: Robot) -> None:
+    """Pad and dry friction act between leg and body alone; what is lost is what they and nothing else took."""
+    seconds, robot = 0.02, stopped(one_sided(kenan))
+    settings = replace_damping(FINE).model_copy(update={"joint_friction_nm": 0.002})
+    world = world_at(robot, moving(model_of(kenan), -0.05), settings)
+    mechanics, before = Mechanics(kenan, 9.81), world.state()
+    energy = kernel.energy(world.model, world.moment)
+    reach = max(world.advance(1) for _ in range(round(seconds / FINE.dt_s)))
+    assert reach > STOP_RAD
+    after, losses = world.state(), world.moment.losses
+    change = mechanics.velocity_m_s(after) - mechanics.velocity_m_s(before)
+    np.testing.assert_allclose(change, [0.0, 0.0, -9.81 * seconds], atol=5e-4)
+    assert spin(mechanics, after) == pytest.approx(spin(mechanics, before), rel=1e-3)
+    assert sum(losses) == pytest.approx(energy - kernel.energy(world.model, world.moment), rel=0.01)
+    assert losses.friction_j > 1e-4
+    assert losses.stop_j > 1e-4
+
+
+def test_the_bodys_gap_and_rise_are_those_of_the_robot_in_space(either: Robot) -> None:
+    """Its lowest sphere above the ground, sphere by sphere; the sign of the centre of mass's velocity."""
+    model, mechanics = model_of(either), Mechanics(either, 9.81)
+    body = either.bodies[BODY]
+    for leg_rad, upward in ((-0.6, 1.3), (-0.2, -1.6), (0.1, -0.4)):
+        moment = moving(model, leg_rad)._replace(speed=Motion(0.4 + 1j * upward, 2.1, 9.0))
+        state, links = world_at(either, moment).state(), kernel.links_at(model, leg_rad)
+        gap = min(
+            float(state.com_m[0, 2] + state.rotation[0, 2] @ (contact.centre_m - body.com_m)) - contact.radius_m
+            for contact in body.contacts
+        )
+        assert kernel._belly_gap_m(model, links, Ground(moment.ankle_m, turn_of(moment), 1e-4)) == pytest.approx(gap)
+        assert kernel.gap_m(model, moment._replace(belly_gap_m=gap)) == pytest.approx(mechanics.clearance_m(state))
+        assert kernel.rising(model, moment) == (mechanics.velocity_m_s(state)[2] > 0.0)

@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.machines import rubbing
 
-from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism
 from jumpcad.settings import Settings
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import State
@@ -113,3 +114,20 @@ def test_who_stands_60_ms_after_the_springs_came_to_rest_does_not_jump(kenan: Me
     """The legs are at rest from the start here, and nothing drives the robot any more."""
     assert takeoff_s(kenan, [(0.050, 0.060)]) == pytest.approx(0.050)
     assert takeoff_s(kenan, [(0.080, 0.090)]) is None
+
+
+@pytest.mark.parametrize(("speed_m_s", "enough"), [(0.2, False), (0.5, False), (5.0, True)])
+def test_who_stays_on_the_ground_is_told_the_speed_that_leaves_it(
+    kenan: Mechanism, speed_m_s: float, enough: bool
+) -> None:
+    """Froude number 1: the root of gravity times the height of the centre of mass; the margin is not positive."""
+    with released(kenan) as start:
+        world = Scripted(start, [], speed_m_s)
+        run = Run(world, kenan, Settings(dt_s=DT_S))
+        run.go()
+    assert run.takeoff is None
+    finding, masses = run.standing(), [kenan.bodies[name].mass_kg for name in BODY_NAMES]
+    needed = (9.81 * float(np.dot(masses, start.com_m[:, 2])) / sum(masses)) ** 0.5
+    assert (finding.name, finding.severity) == ("no_takeoff", "error")
+    assert (finding.value, finding.limit) == pytest.approx((speed_m_s, needed))
+    assert finding.margin == pytest.approx(0.0 if enough else speed_m_s - needed)

@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.special import ndtr
 from support.built import built
 
 from jumpcad.robot import Robot
-from jumpcad.settings import Draws, Settings
+from jumpcad.settings import Draws, Settings, coefficients
 from jumpcad.simulation import simulate
-from jumpcad.simulation.uncertain import _first_order, uncertain_jump
+from jumpcad.simulation.uncertain import _first_order, _groups, uncertain_jump
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +58,58 @@ def test_the_workshop_says_how_much_springs_scatter(robot: Robot) -> None:
     exact = replace(robot, workshop=robot.workshop.model_copy(update={"safety": safety}))
     found = uncertain_jump(exact, Settings(), "planar", samples=32)
     assert found.first_order["springs"]["ballistic_range_m"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_inputs_are_spread_as_the_workshop_and_the_model_say(robot: Robot) -> None:
+    """In the middle of every input the robot is as it was built; one standard deviation up, at a share of 0.8413:
+
+    springs stiffer by half of the scatter, a mass of 1.04 (which acts as weaker springs), a floor of e^0.15 times its
+    friction; links are longer or shorter by the tolerance at most.
+    """
+    shop, rubs = robot.workshop, coefficients(robot, Settings())
+    groups = _groups(robot, Settings())
+    assert [groups[name].inputs for name in ("calibration", "lengths", "springs", "mass", "floor")] == [2, 4, 1, 1, 1]
+
+    def changed(name: str, share: float) -> tuple[Robot, Settings]:
+        group = groups[name]
+        (value,) = group.values(np.full((1, group.inputs), share))
+        return group.apply(robot, Settings(), value)
+
+    up = ndtr(1.0)
+    scatter, tolerance = shop.safety.spring_rate_scatter, shop.fits.link_tolerance_mm
+    for name, factor in (("springs", 1.0 + scatter / 2.0), ("mass", 1.0 / 1.04)):
+        for share, expected in ((0.5, 1.0), (up, factor)):
+            found = changed(name, share)[0].spring.stiffness_nm_per_rad
+            assert found == pytest.approx(expected * robot.spring.stiffness_nm_per_rad), name
+    assert changed("floor", 0.5)[1].ground_friction == pytest.approx(rubs.ground)
+    assert changed("floor", up)[1].ground_friction == pytest.approx(rubs.ground * np.exp(0.15))
+    for share, more in ((0.5, 0.0), (1.0, tolerance), (0.0, -tolerance)):
+        found = changed("lengths", share)[0].design
+        links = [
+            (found.l2_mm, robot.design.l2_mm),
+            (found.l3_mm, robot.design.l3_mm),
+            (found.l4_mm, robot.design.l4_mm),
+        ]
+        for length, built_mm in links:
+            assert length == pytest.approx(built_mm + more, abs=1e-6)
+    middle, above = (changed("calibration", share)[1] for share in (0.5, up))
+    assert (middle.spring_efficiency, middle.pin_friction) == pytest.approx((0.95, rubs.pin))
+    assert (above.spring_efficiency, above.pin_friction) == pytest.approx((1.0, rubs.pin * np.exp(0.4)))
+
+
+def test_draws_of_a_calibration_are_taken_in_pairs(robot: Robot) -> None:
+    """Each as often as the others, the efficiency with the friction that was drawn with it."""
+    draws = Draws(spring_efficiency=(0.9, 0.95, 1.0, 0.8), pin_friction=(0.1, 0.2, 0.3, 0.4))
+    group = _groups(robot, Settings(draws=draws))["calibration"]
+    assert group.inputs == 1
+    pairs = group.values(np.array([[0.0], [0.2499], [0.25], [0.5], [0.75], [1.0 - 1e-9], [1.0]]))
+    assert pairs[:, 0].tolist() == [0.9, 0.9, 0.95, 1.0, 0.8, 0.8, 0.8]
+    assert pairs[:, 1].tolist() == [0.1, 0.1, 0.2, 0.3, 0.4, 0.4, 0.4]
+
+
+def test_the_polynomial_is_a_cubic() -> None:
+    """Of a normal input, the third Hermite polynomial is explained, the fourth, which no cubic resembles, is not."""
+    a = np.random.default_rng(0).standard_normal((4096, 1))
+    found = _first_order({"a": a}, np.concatenate([a**3 - 3.0 * a, a**4 - 6.0 * a**2 + 3.0], axis=1), np.arange(4096))
+    assert found[0, 0] == pytest.approx(1.0, abs=0.01)
+    assert found[0, 1] < 0.3

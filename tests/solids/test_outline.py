@@ -111,3 +111,29 @@ def test_rounded_corners_may_take_up_a_whole_side(size: tuple[float, float]) -> 
 def test_corners_that_do_not_fit_are_refused(size: tuple[float, float]) -> None:
     with pytest.raises(JumpcadError, match="corners of 3 mm radius do not fit"):
         outline.rectangle(size, corner_radius_mm=3.0)
+
+
+@pytest.mark.parametrize("ends", [[(0.0, 0.0)], [(0.0, 0.0), (-20.0, 10.0)]])
+def test_strips_have_square_ends_and_one_width(ends):
+    """Every corner lies half of the width beside an end, square to the way to the other end."""
+    start = np.array(ends)
+    end = start + [[30.0, 40.0], [-7.0, 24.0]][: len(ends)]
+    found = outline.strips(start, end, 4.0)
+    assert found.area() == pytest.approx(4.0 * np.hypot(*(end - start).T).sum())
+    for one, other in zip(start, end, strict=True):
+        length = np.hypot(*(other - one))
+        along = (other - one) / length
+        (corners,) = outline.strips(one, other, 4.0).to_polygons()
+        beside, ahead = (corners - one) @ [-along[1], along[0]], (corners - one) @ along
+        assert np.sort(beside) == pytest.approx([-2.0, -2.0, 2.0, 2.0], abs=1e-6)
+        assert np.sort(ahead) == pytest.approx([0.0, 0.0, length, length], abs=1e-6)
+        assert (outline.strips(one, other, 4.0) - found).area() == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("radius", [0.5, 3.0, 20.0, 90.0])
+def test_round_corners_are_within_five_micrometres_of_their_circles(radius):
+    """Of a square that is grown: every corner and the middle of every side of an arc, and the straight sides."""
+    (points,) = outline.grown(outline.rectangle((10.0, 10.0)), radius).to_polygons()
+    for at in np.concatenate([points, (points + np.roll(points, -1, axis=0)) / 2.0]):
+        beyond = np.maximum(np.abs(at) - 5.0, 0.0)
+        assert np.hypot(*beyond) == pytest.approx(radius, abs=1.1 * outline.SAGITTA_MM)

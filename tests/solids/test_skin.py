@@ -5,8 +5,9 @@ from collections import Counter
 import numpy as np
 import pytest
 import trimesh
+from manifold3d import CrossSection
 
-from jumpcad.solids.skin import GRID_MM, skin
+from jumpcad.solids.skin import GRID_MM, _chains, _conforming, skin
 
 SQUARE = np.array([[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]])
 HOLE = np.array([[2.0, 2.0], [2.0, 6.0], [6.0, 6.0], [6.0, 2.0]])
@@ -58,3 +59,61 @@ def test_every_edge_has_two_faces_however_near_outlines_are(gap_mm):
     assert set(edges.values()) == {2}
     assert np.array_equal(vertices[:, :2], np.rint(vertices[:, :2] / GRID_MM) * GRID_MM)
     assert trimesh.Trimesh(vertices.astype(np.float32), faces).is_watertight
+
+
+def stars(rng, count):
+    """Return outlines of random stars, counter-clockwise, as contours of one region each (mm)."""
+    turns = np.sort(rng.uniform(0.0, 2.0 * np.pi, (count, 9)), axis=1)
+    return [
+        [rng.uniform(2.0, 9.0, 9)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)]) + rng.uniform(-2.0, 2.0, 2)]
+        for turn in turns
+    ]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_slabs_of_stars_are_closed_and_as_large_as_their_outlines(seed):
+    """Against the polygons' own areas; every edge has two faces, run through once in either direction."""
+    rng = np.random.default_rng(seed)
+    contours, heights = stars(rng, 4), [(0.0, 1.0), (1.0, 3.0), (3.0, 3.5), (5.0, 6.0)]
+    vertices, faces = skin(heights, contours)
+    runs = Counter(tuple(edge) for face in faces.tolist() for edge in zip(face, face[1:] + face[:1], strict=True))
+    assert set(runs.values()) == {1}
+    assert all((end, start) in runs for start, end in runs)
+    areas = [CrossSection(one).area() for one in contours]
+    volume = sum(area * (top - bottom) for area, (bottom, top) in zip(areas, heights, strict=True))
+    assert trimesh.Trimesh(vertices, faces, process=False).volume == pytest.approx(volume, rel=2e-4)
+    at_bottom = vertices[vertices[:, 2] == 0.0]
+    for corner in contours[0][0]:
+        assert np.abs(at_bottom[:, :2] - corner).max(axis=1).min() < 8 * GRID_MM
+
+
+def cross(one, other):
+    return one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_edges_meet_in_their_ends_alone_and_pass_no_point_within_half_a_step(seed):
+    """Snap rounding (Hobby 1999), checked pair by pair in whole numbers; no edge is 4 steps long or shorter."""
+    contours = stars(np.random.default_rng(seed), 3)
+    bar = np.array([[-9.0, 0.0], [9.0, 1e-3], [9.0, 0.5], [-9.0, 0.5]])
+    points, edges, signs = _conforming(*_chains([*contours, [bar], [bar + np.array([0.0, 0.5005])]]))
+    start, end = points[edges[:, 0]], points[edges[:, 1]]
+    run = end - start
+    assert ((run**2).sum(axis=1) > 16).all()
+    assert signs.any(axis=1).all()
+    for point in range(len(points)):
+        own = (edges == point).any(axis=1)
+        away = points[point] - start
+        off = np.abs(cross(run, away))
+        along = (run * away).sum(axis=1)
+        beside = (along > 0) & (along < (run**2).sum(axis=1))
+        assert not (beside & ~own & (2 * off <= np.abs(run).sum(axis=1))).any()
+    for one in range(len(edges)):
+        side = [
+            np.sign(run[one, 0] * (at - start[one])[:, 1] - run[one, 1] * (at - start[one])[:, 0])
+            for at in (start, end)
+        ]
+        other = [
+            np.sign(run[:, 0] * (at - start)[:, 1] - run[:, 1] * (at - start)[:, 0]) for at in (start[one], end[one])
+        ]
+        assert not ((side[0] * side[1] < 0) & (other[0] * other[1] < 0)).any()

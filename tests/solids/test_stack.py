@@ -177,3 +177,18 @@ def test_a_pocket_cuts_what_subtracting_it_cuts():
     assert made.solid().volume() == pytest.approx(cut.solid().volume())
     assert made.solid().status() == Error.NoError
     assert made == block.pocketed(pockets) != block.pocketed([(2, 3, disc(4, (6, 1))), *pockets[1:]])
+
+
+def test_sections_of_pocketed_stacks_are_outlines_less_pockets():
+    """The pocketed layers are numbered after the outlines; each is told as an outline's number and its pocket."""
+    block = Stack.of([(0, 6, rectangle((30, 20))), (6, 9, rectangle((20, 20)))])
+    pockets = [(2, 3, disc(4, (6, 0))), (3, 7, disc(5, (6, 0)))]
+    made = block.pocketed(pockets)
+    heights = np.array([1.0, 2.5, 4.0, 5.0, 6.5, 8.0, 9.5])
+    outlines, which, _, hollow = made.sections_at(heights)
+    assert [outlines[number].area() for number in which[[0, 5, 6]]] == pytest.approx([600.0, 400.0, 0.0])
+    found = [hollow[number - len(outlines)] for number in which[1:5]]
+    assert [outlines[number].area() for number, _ in found] == pytest.approx([600.0, 600.0, 600.0, 400.0])
+    assert [pocket.area() for _, pocket in found] == pytest.approx([disc(4).area(), *[disc(5).area()] * 3])
+    assert which[2] == which[3]
+    assert len(hollow) == 3

@@ -1,0 +1,171 @@
+"""MJCF for simulations by others, as MuJoCo compiles it: key frames, motor, latch, sensors, and who touches whom."""
+
+import math
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from support.built import built
+from support.machines import one_sided
+
+from jumpcad.exporters.collision import capsules
+from jumpcad.exporters.mjcf_robot import write_robot
+from jumpcad.exporters.mjcf_scene import readme
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.mechanism.poses import body_poses, release_pose
+from jumpcad.robot import Robot
+from jumpcad.scene.visuals import visuals
+from jumpcad.settings import Settings, coefficients
+
+mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed (pip install mujoco)")
+JOINTS = ("leg", "front", "ankle")
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return built("kenan-2.0")
+
+
+@pytest.fixture(scope="module")
+def model(robot: Robot) -> Any:
+    return mujoco.MjModel.from_xml_string(write_robot(robot))
+
+
+def at_key(model: Any, key: str) -> Any:
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
+    mujoco.mj_forward(model, data)
+    return data
+
+
+@pytest.mark.parametrize(("key", "loaded"), [("home", 0.0), ("wound", 1.0)])
+def test_keys_are_poses_of_the_standing_robot_which_the_motor_lets_go_or_holds(
+    robot: Robot, model: Any, key: str, loaded: float
+) -> None:
+    """The motor holds the loaded leg with 1.25 times the springs' torque, and pulls at nothing else."""
+    data = at_key(model, key)
+    for name, pose in body_poses(robot, loaded).items():
+        np.testing.assert_allclose(data.body(name).xpos, pose[:3, 3], atol=1e-7)
+        np.testing.assert_allclose(data.body(name).xmat.reshape(3, 3), pose[:3, :3], atol=1e-6)
+    hold = -1.25 * robot.spring.peak_torque_nm
+    assert data.ctrl.tolist() == pytest.approx([hold * loaded])
+    assert np.abs(data.qvel).max() == 0.0
+    assert model.actuator("cam").ctrlrange.tolist() == pytest.approx([hold, 0.0])
+    assert model.actuator("cam").trnid[0] == model.joint("leg").id
+
+
+def test_the_last_key_is_the_moment_at_which_the_roller_leaves_the_cam(robot: Robot, model: Any) -> None:
+    release, data = release_pose(robot), at_key(model, "released")
+    assert model.nkey == 3
+    for joint in JOINTS:
+        assert data.joint(joint).qpos[0] == pytest.approx(release.joint_rad[joint], abs=1e-9)
+        assert data.joint(joint).qvel[0] == pytest.approx(release.joint_rad_s[joint], rel=1e-9)
+    assert data.ctrl.tolist() == [0.0]
+    assert mujoco.MjModel.from_xml_string(write_robot(replace(robot, roller_off=None))).nkey == 2
+
+
+def test_leg_and_latch_end_where_the_springs_are_loaded(robot: Robot, model: Any) -> None:
+    """The tendon `wound` is a limit there; the latch, which is off, holds the leg there."""
+    wind = robot.spring.wind_rad
+    tendon = model.tendon("wound").id
+    assert model.tendon_range[tendon, 0] == pytest.approx(-wind)
+    assert model.tendon_limited[tendon] == 1
+    latch = model.equality("latch")
+    assert latch.data[:2].tolist() == pytest.approx([-wind, 0.0])
+    assert latch.active0[0] == 0
+    assert model.equality("loop").active0[0] == 1
+    pushing = mujoco.MjModel.from_xml_string(write_robot(one_sided(robot)))
+    assert pushing.tendon_stiffness[pushing.tendon("springs").id] == pytest.approx(robot.spring.stiffness_nm_per_rad)
+
+
+def test_options_are_those_that_the_notes_name(robot: Robot, model: Any) -> None:
+    """`mjcf/README.md`: timestep 0.00025, implicitfast, elliptic cones, impratio 100; the motor's control to hold."""
+    notes = readme(robot)
+    assert model.opt.timestep == pytest.approx(0.00025)
+    assert "`timestep` to 0.00025" in notes
+    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    assert model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+    assert model.opt.impratio == 100.0
+    assert model.opt.gravity.tolist() == [0.0, 0.0, -9.81]
+    assert f"Its control {-1.25 * robot.spring.peak_torque_nm:.3g} N·m holds" in notes
+    rubs = coefficients(robot, Settings())
+    assert f"{rubs.contact('foot'):g} under the feet, {rubs.contact('body'):g}" in notes
+
+
+def test_collisions_have_the_robots_friction_and_priority(robot: Robot, model: Any) -> None:
+    """The foot's are those of its pads; capsules along the links, spheres where it stands, a box round the body."""
+    rubs = coefficients(robot, Settings())
+    count = 0
+    for index in range(model.ngeom):
+        geom = model.geom(index)
+        assert geom.group[0] == 3
+        assert geom.priority[0] == 1
+        surface = "foot" if model.body(geom.bodyid[0]).name == FOOT else "body"
+        assert geom.friction[0] == pytest.approx(rubs.contact(surface))
+    for name, body in robot.bodies.items():
+        for contact in body.contacts:
+            sphere = model.geom(f"{name}_{contact.name}_collision")
+            assert sphere.pos.tolist() == pytest.approx(contact.centre_m.tolist(), abs=1e-9)
+            assert sphere.size[0] == pytest.approx(contact.radius_m)
+            count += 1
+        for number, link in enumerate(capsules(robot, name), start=1):
+            capsule = model.geom(f"{name}_{number}_collision")
+            assert capsule.pos == pytest.approx((link.start_m + link.end_m) / 2.0, abs=1e-9)
+            assert capsule.size[:2] == pytest.approx([link.radius_m, math.dist(link.start_m, link.end_m) / 2.0])
+            count += 1
+    assert count == model.ngeom
+
+
+def test_bodies_do_not_touch_each_other(model: Any) -> None:
+    """Of six pairs three have a joint in common, and the others are excluded: nothing but a scene is touched."""
+    assert model.nexclude == 3
+    for key in ("home", "wound"):
+        assert at_key(model, key).ncon == 0
+
+
+def test_sensors_are_on_the_body_the_joints_and_under_the_foot(robot: Robot, model: Any) -> None:
+    """A foot's sensors reach 1.2 times as far as the spheres in them; the centre of mass is the whole robot's."""
+    names = [model.sensor(index).name for index in range(model.nsensor)]
+    touching = [contact for contact in robot.bodies[FOOT].contacts if contact.surface == "foot"]
+    assert names == [
+        "accelerometer", "gyro", "attitude", *(f"{contact.name}_touch" for contact in touching),
+        *(f"{joint}_angle" for joint in JOINTS), "cam_torque", "com", "com_velocity",
+    ]  # fmt: skip
+    for contact in touching:
+        site = model.site(contact.name)
+        assert site.size[0] == pytest.approx(1.2 * contact.radius_m)
+        assert site.pos == pytest.approx(contact.centre_m, abs=1e-9)
+    data = at_key(model, "wound")
+    moment = sum(
+        body.mass_kg * (pose[:3, 3] + pose[:3, :3] @ body.com_m)
+        for body, pose in ((robot.bodies[name], pose) for name, pose in body_poses(robot, 1.0).items())
+    )
+    np.testing.assert_allclose(data.sensor("com").data, moment / robot.mass_kg, atol=1e-7)
+    assert data.sensor("leg_angle").data[0] == pytest.approx(-robot.spring.wind_rad)
+    np.testing.assert_allclose(data.site("imu").xpos, data.body(BODY).xpos)
+
+
+def test_what_is_seen_hangs_on_its_body_in_its_colour(robot: Robot) -> None:
+    """Meshes in millimetres from beside the URDF, each once; a material for every colour, by its hexadecimal name."""
+    root = ET.fromstring(write_robot(robot, visuals(robot)))
+    seen = {}
+    for body in root.iter("body"):
+        for geom in body.findall("geom"):
+            if geom.get("class") == "visual":
+                seen[geom.get("name")] = (body.get("name"), geom.get("mesh"), geom.get("material"))
+    expected = {
+        shape.name: (shape.body, shape.mesh_name, "colour_" + bytes(round(255 * part) for part in shape.colour).hex())
+        for shape in visuals(robot)
+    }
+    assert seen == expected
+    files = {mesh.get("name"): (mesh.get("file"), mesh.get("scale")) for mesh in root.iter("mesh")}
+    assert files == {
+        name: (f"{name}.stl", "0.001 0.001 0.001") for name in {shape.mesh_name for shape in visuals(robot)}
+    }
+    paints = {one.get("name"): [float(part) for part in one.get("rgba").split()] for one in root.iter("material")}
+    for shape in visuals(robot):
+        assert paints[expected[shape.name][2]] == pytest.approx([*shape.colour, 1.0])
+    (visual,) = (one for one in root.iter("default") if one.get("class") == "visual")
+    assert visual.find("geom").attrib == {"type": "mesh", "contype": "0", "conaffinity": "0", "group": "2"}
