@@ -54,7 +54,7 @@ from jumpcad.search.pool import local_pool
 from jumpcad.search.posterior import VERDICT, constraint_margins, forwards, warped
 from jumpcad.search.rehearsal import Rehearsal
 from jumpcad.search.space import Space
-from jumpcad.search.start import first_points, ranked_points
+from jumpcad.search.start import first_points
 from jumpcad.search.store import StudyStore
 from jumpcad.search.trial import Trial
 from jumpcad.transforms import Array
@@ -143,8 +143,7 @@ class Search:
         rehearsal = Rehearsal.of(evaluator, "bo", task)
         assert rehearsal is not None
         generator = np.random.default_rng([seed, 1])  # as `bo` does
-        ranked = ranked_points(evaluator, generator)
-        self.evaluate(first_points(self.space, task.initial, generator, ranked, rehearsal.starts_with))
+        self.evaluate(first_points(self.space, task.initial, generator, rehearsal.ranked, rehearsal.starts_with))
 
     @property
     def left(self) -> int:

@@ -150,7 +150,7 @@ def missed(limits: CamLimits, margin: Array) -> str:
 def _short(name: str, room: float) -> str:
     unit = next(checked.unit for checked in LIMITS if checked.name == name)
     shown, factor = SHOWN_AS.get(unit, (unit, 1.0))
-    return f"{-factor * room:.2g} {shown}"
+    return f"{-factor * room:.2g}{'' if shown == '°' else ' '}{shown}"
 
 
 def _found(name: str, room: float, limits: CamLimits) -> str:

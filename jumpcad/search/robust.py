@@ -125,7 +125,7 @@ def plan_rounds(evaluations: int) -> list[tuple[int, int]]:
 def rank_candidates(
     evaluator: Evaluator, trials: Sequence[Trial], seed: int, making: Making, evaluations: int
 ) -> list[Candidate]:
-    """Evaluate neighbours of the best of some trials, and return these, most robust first.
+    """Evaluate neighbours of the best of some trials, and return these, those that got farthest first.
 
     Successive halving: the more robust half of the candidates gets more neighbours, until one is left. The best often
     lies on a constraint; if one of its first neighbours is rejected, a few designs at a distance from the constraint

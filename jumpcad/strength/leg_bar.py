@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.catalogue import LegBar
+from jumpcad.strength import stress
 from jumpcad.transforms import Array
 
 STATIONS = 65
@@ -62,13 +63,12 @@ def bar_sideways_mpa(bar: LegBar, moment_nmm: float) -> float:
 def bar_shear_mpa(bar: LegBar, force_n: float, twist_nmm: float) -> float:
     """Return the shear stress of a bar: 2·F/A of a force across a tube, 1.5·F/A of a strip, and that of its torsion.
 
-    Torsion: 16·T·D/(pi·(D⁴ - d⁴)) of a tube, T/(b·c²)·(3 + 1.8·c/b) of a strip.
+    Torsion: 16·T·D/(pi·(D⁴ - d⁴)) of a tube.
     """
     if bar.round:
         torsion = 16.0 * twist_nmm * bar.width_mm / (math.pi * (bar.width_mm**4 - bar.bore_mm**4))
     else:
-        short, long = sorted((bar.width_mm, bar.height_mm))
-        torsion = twist_nmm / (long * short**2) * (3.0 + 1.8 * short / long)
+        torsion = float(stress.bar_shear_mpa(twist_nmm, bar.width_mm, bar.height_mm))
     return (2.0 if bar.round else 1.5) * force_n / bar.area_mm2 + torsion
 
 
