@@ -195,3 +195,13 @@ def test_a_part_that_is_left_out_leaves_the_others_connected(gone: str) -> None:
     if gone == "switch":
         assert f"driver {next(iter(chosen.driver.supply_v))}" in reached("battery +", wires(wiring))
     assert {"controller GND", "driver GND"} <= reached("battery -", wires(wiring))
+
+
+@pytest.mark.parametrize(("function", "net"), [("forward", "motor"), ("motor+", "motor+")])
+def test_a_terminal_alone_is_no_net(function: str, net: str) -> None:
+    """A driver whose pins do not say which of them turns the motor, or where it is soldered."""
+    chosen = parts("light-1s")
+    pins = {pin: tuple(f for f in able if f != function) for pin, able in chosen.driver.pins.items()}
+    unsaid = replace(chosen, driver=chosen.driver.model_copy(update={"pins": pins}))
+    whole, wiring = wiring_of(chosen, {}), wiring_of(unsaid, {})
+    assert [one.name for one in wiring.nets] == [one.name for one in whole.nets if one.name != net]
