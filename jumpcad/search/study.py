@@ -13,7 +13,7 @@ from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.methods import METHODS, STEPS, Task
-from jumpcad.search.models import versions
+from jumpcad.search.models import NEIGHBOURS, versions
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
@@ -88,6 +88,11 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 store.note_once(warning)
             watch(trial, computed)
 
+        def room() -> float:
+            """Return how many more designs fit if each takes all its neighbours, rounded up."""
+            left = allowance - evaluator.spent
+            return math.ceil(left / (1 + NEIGHBOURS)) if request.aim.neighbours_of else math.inf
+
         evaluator = Evaluator(
             request.space,
             request.aim,
@@ -97,6 +102,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             prior,
             watched,
             lambda: clock.is_over() or evaluator.spent >= allowance,
+            room,
         )
         for number, stage in enumerate(stages):
             converged = False
