@@ -113,7 +113,8 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                     first_step = number * STEPS
                     widened += widen(evaluator, first_step)
                 # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
-                least_gain = request.until_percent / 100.0 if number == len(stages) - 1 else 0.0
+                may_end = number == len(stages) - 1 and METHODS[stage.method].ends
+                least_gain = request.until_percent / 100.0 if may_end else 0.0
                 task = Task(
                     stage.evaluations - (len(evaluator.trials) - before), request.seed, stage.initial, request.batch,
                     request.preset, least_gain, first_step, request.screen,

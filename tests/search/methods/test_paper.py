@@ -55,6 +55,15 @@ def test_it_resumes_and_its_study_is_read(tmp_path):
         assert plot_study(store, tmp_path / "a")
 
 
+def test_the_gain_at_which_other_searches_end_does_not_apply_to_it():
+    with local_pool(0) as pool:
+        default, none = (
+            run_study(Request(SMALL, Hill(), method="paper", evaluations=200, **until), None, pool)
+            for until in ({}, {"until_percent": 0.0})
+        )
+    assert [trial.key for trial in default.trials] == [trial.key for trial in none.trials]
+
+
 def test_without_a_jumper_it_ends():
     class Never(Hill):
         def __call__(self, design):
