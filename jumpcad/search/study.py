@@ -111,7 +111,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 before, first_step = len(evaluator.trials), 0
                 if stage.widen:
                     first_step = number * STEPS
-                    widened += widen(evaluator, first_step)
+                    widened += widen(evaluator, first_step, stage.evaluations)
                 # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
                 may_end = number == len(stages) - 1 and METHODS[stage.method].ends
                 least_gain = request.until_percent / 100.0 if may_end else 0.0
