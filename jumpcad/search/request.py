@@ -208,7 +208,8 @@ class Request:
 
     def default_name(self) -> str:
         """Return a file name that is the same for equal requests and different for others."""
-        record = [self.identity([]), str(self.prior), self.evaluations if self.method in SEQUENCES else 0]
+        shared = self.method in SEQUENCES or METHODS[self.method].shares
+        record = [self.identity([]), str(self.prior), self.evaluations if shared else 0]
         digest = hashlib.sha256(json.dumps(record, sort_keys=True).encode()).hexdigest()
         return f"study-{self.method.replace('+', '-')}-{digest[:8]}.db"
 

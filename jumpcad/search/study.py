@@ -151,6 +151,11 @@ def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
                 f"{store.path}: evaluations = {request.evaluations} leave {request.searched} for its search, which is "
                 f"planned for {held}: ask for more, or name another file"
             )
+        if more > 0 and METHODS[stages[-1].method].shares:
+            raise JumpcadError(
+                f"{store.path}: its search by {request.method} is planned for {held} evaluations and does not go on "
+                f"with {request.searched}: name another file"
+            )
         stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more)
     store.remember("stages", [asdict(stage) for stage in stages])
     return stages
