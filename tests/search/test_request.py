@@ -62,7 +62,7 @@ def test_a_fixed_value_of_the_workshop_leaves_one_workshop_to_guess_in():
 )
 def test_numbers_of_a_request_have_ends_that_are_told(name, least, most, step):
     """A seed is one of 2^32: numpy's generators take no other."""
-    plain = Request(SMALL, Hill(), method="ga", evaluations=40)
+    plain = Request(SMALL, Hill(), method="bo", evaluations=40)
     for value in (least, most):
         assert getattr(replace(plain, **{name: value}), name) == value
     for value, words in ((least - step, f"at least {least:g}"), (most + step, "at most")):
