@@ -68,3 +68,11 @@ def test_numbers_of_a_request_have_ends_that_are_told(name, least, most, step):
     for value, words in ((least - step, f"at least {least:g}"), (most + step, "at most")):
         with pytest.raises(JumpcadError, match=f"{name} = .* must be {words}"):
             replace(plain, **{name: value})
+
+
+@pytest.mark.parametrize("given", [{"until_percent": 1.0}, {"batch": 3}])
+def test_what_applies_to_bayesian_optimisation_alone_applies_to_every_search_that_goes_on_with_it(given):
+    """A widened search ends by it, whatever it began with."""
+    assert Request(SMALL, Hill(), method="ga", widen=True, **given).widen
+    with pytest.raises(JumpcadError, match=r"does not apply to ga, only to ga\+bo, bo"):
+        Request(SMALL, Hill(), method="ga", **given)
