@@ -205,7 +205,9 @@ def _print_result(result: "Result", design_file: Path) -> None:
     for key, value in result.winner.workshop.items():
         print(f"  {key:24s}" + (f"{value or repr(value):>12s}" if isinstance(value, str) else f"{value:12.5g}"))
     for wider in result.widened:
-        change = f"{wider.worth:+.4f}" if wider.worth is not None else f"rejected by {wider.reason}"
+        change = wider.reason if wider.unknown else f"rejected by {wider.reason}"
+        if wider.worth is not None:
+            change = f"{wider.worth:+.4f}"
         moved = (
             f"{wider.name}, {wider.side} bound {wider.value:g} to {wider.beyond:g}" if wider.side else "all together"
         )

@@ -1,5 +1,6 @@
 """`Evaluator`: the evaluations of one search, each read from the study file if it is there, computed if not."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -41,6 +42,8 @@ class Evaluator:
         Called with every trial.
     expired
         Whether the time of the search is over; methods ask before every step.
+    room
+        How many more designs may be evaluated, where that depends on what each one takes; asked again after so many.
     """
 
     @typed
@@ -54,12 +57,14 @@ class Evaluator:
         prior: Sequence[Trial] = (),
         watch: Watch = ignore,
         expired: Callable[[], bool] = lambda: False,
+        room: Callable[[], float] = lambda: math.inf,
     ) -> None:
         self.space = space
         self.objective = objective
         self.store = store
         self.model = model
         self.expired = expired
+        self._room = room
         self._pool = pool
         self._watch = watch
         held = store.trials()
@@ -131,32 +136,43 @@ class Evaluator:
             raise JumpcadError(
                 f"{self.store.path}: this search proposes other designs than the study holds; start a new study"
             )
-        new = [key for key in fresh if key not in self._finished]
-        left_out = left_out or {}
+        waiting = list(fresh)
+        while count := max(0, int(min(len(waiting), self._room()))):
+            part, waiting = waiting[:count], waiting[count:]
+            notes = {key: {} if proposals is None else proposals[fresh[key]] for key in part}
+            self._evaluate({key: variants[fresh[key]] for key in part}, places, notes, left_out or {})
+        return [self._seen.get(variant.key) for variant in variants]
+
+    def _evaluate(
+        self,
+        variants: Mapping[Key, Variant],
+        places: Mapping[Key, tuple[str, int, int]],
+        proposals: Mapping[Key, Mapping[str, Any]],
+        left_out: Mapping[Key, Evaluation],
+    ) -> None:
+        """Add the trials of variants, computing those that are neither finished nor left out."""
+        new = [key for key in variants if key not in self._finished]
         missing = [key for key in new if key not in left_out]
         computed = [
-            Trial(*places[key], variants[fresh[key]].design, left_out[key], None, self.model.digest, 0.0, {},
-                  variants[fresh[key]].workshop)
+            Trial(*places[key], variants[key].design, left_out[key], None, self.model.digest, 0.0, {},
+                  variants[key].workshop)
             for key in new if key in left_out
         ]  # fmt: skip
         try:
-            for outcome in self._pool.evaluate(self.model, [variants[fresh[key]] for key in missing]):
+            for outcome in self._pool.evaluate(self.model, [variants[key] for key in missing]):
                 key = missing[outcome.index]
-                variant = variants[fresh[key]]
-                proposal = {} if proposals is None else proposals[fresh[key]]
                 score = self.objective.score(outcome.evaluation)
                 computed.append(
-                    Trial(*places[key], variant.design, outcome.evaluation.bare, score, self.model.digest,
-                        outcome.duration_s, proposal, variant.workshop)
+                    Trial(*places[key], variants[key].design, outcome.evaluation.bare, score, self.model.digest,
+                        outcome.duration_s, proposals[key], variants[key].workshop)
                 )  # fmt: skip
         except BaseException:
             self._commit(computed)
             raise
         self._require_a_working_model(computed)
         self._commit(computed)
-        for key in fresh:
+        for key in variants:
             self._add(self._finished[key], computed=key in new)
-        return [self._seen.get(variant.key) for variant in variants]
 
     def _commit(self, trials: list[Trial]) -> None:
         if trials:

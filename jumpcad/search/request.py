@@ -25,8 +25,8 @@ MOST_EVALUATIONS = 1_000_000
 """About six days at two evaluations per second."""
 MOST_FIRST = 50
 """Most evaluations of the first of two methods: with 190 of 240, the second found the best design in 10 (measured)."""
-WIDENINGS, WIDENING_SHARE = 3, 0.5
-"""How often active bounds are moved, and the share of the search that follows; judgement."""
+WIDENINGS, WIDENING_SHARE, WIDER = 3, 0.5, "bo"
+"""How often active bounds are moved, and the share of the search that follows, by which method; judgement."""
 LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 """Packages that decide what is proposed next, in addition to those that decide an evaluation."""
 
@@ -134,13 +134,13 @@ class Request:
             raise JumpcadError(f"widen: does not apply to {self.method}, which has no best design")
         if self.is_front and any(one.name == "bought.spring" for one in self.space.of_workshop):
             raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
-        stages = SEQUENCES.get(self.method, (self.method,))
+        stages = [*_methods(self.method), *([WIDER] if self.widen else [])]
         if self.until_percent not in (0.0, UNTIL_PERCENT) and not METHODS[stages[-1]].ends:
-            ending = ", ".join(name for name in NAMES if METHODS[SEQUENCES.get(name, (name,))[-1]].ends)
+            ending = ", ".join(name for name in NAMES if METHODS[_methods(name)[-1]].ends)
             percent = shown(self.until_percent)
             raise JumpcadError(f"until_percent = {percent}: does not apply to {self.method}, only to {ending}")
         if self.batch > 1 and not any(METHODS[name].learns for name in stages):
-            learning = ", ".join(name for name, method in METHODS.items() if method.learns)
+            learning = ", ".join(name for name in NAMES if any(METHODS[one].learns for one in _methods(name)))
             raise JumpcadError(f"batch = {self.batch}: does not apply to {self.method}, only to {learning}")
 
     def _require_screen(self) -> None:
@@ -208,7 +208,8 @@ class Request:
 
     def default_name(self) -> str:
         """Return a file name that is the same for equal requests and different for others."""
-        record = [self.identity([]), str(self.prior), self.evaluations if self.method in SEQUENCES else 0]
+        shared = self.method in SEQUENCES or METHODS[self.method].shares
+        record = [self.identity([]), str(self.prior), self.evaluations if shared else 0]
         digest = hashlib.sha256(json.dumps(record, sort_keys=True).encode()).hexdigest()
         return f"study-{self.method.replace('+', '-')}-{digest[:8]}.db"
 
@@ -226,6 +227,11 @@ class Stage:
     widen: bool = False
 
 
+def _methods(name: str) -> tuple[str, ...]:
+    """Return the methods that run one after the other under a name."""
+    return SEQUENCES.get(name, (name,))
+
+
 def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     """Return the stages of a request that learns from `prior` earlier trials.
 
@@ -233,7 +239,7 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     from them as from evenly spread designs, and more of them are wasted.
     """
     if request.widen:
-        wider = [Stage("bo", int(WIDENING_SHARE * request.searched / WIDENINGS), widen=True)] * WIDENINGS
+        wider = [Stage(WIDER, int(WIDENING_SHARE * request.searched / WIDENINGS), widen=True)] * WIDENINGS
         narrow = replace(request, widen=False)
         return [*_plan(narrow, request.searched - sum(stage.evaluations for stage in wider), prior), *wider]
     return _plan(request, request.searched, prior)

@@ -13,7 +13,7 @@ from jumpcad.arguments import typed
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator, Watch, ignore
 from jumpcad.search.methods import METHODS, STEPS, Task
-from jumpcad.search.models import versions
+from jumpcad.search.models import NEIGHBOURS, versions
 from jumpcad.search.pool import Pool
 from jumpcad.search.request import LEARNING_VERSIONS, Request, Stage, plan_stages
 from jumpcad.search.result import Result
@@ -88,6 +88,11 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 store.note_once(warning)
             watch(trial, computed)
 
+        def room() -> float:
+            """Return how many more designs fit if each takes all its neighbours, rounded up."""
+            left = allowance - evaluator.spent
+            return math.ceil(left / (1 + NEIGHBOURS)) if request.aim.neighbours_of else math.inf
+
         evaluator = Evaluator(
             request.space,
             request.aim,
@@ -97,6 +102,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
             prior,
             watched,
             lambda: clock.is_over() or evaluator.spent >= allowance,
+            room,
         )
         for number, stage in enumerate(stages):
             converged = False
@@ -105,9 +111,10 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 before, first_step = len(evaluator.trials), 0
                 if stage.widen:
                     first_step = number * STEPS
-                    widened += widen(evaluator, first_step)
+                    widened += widen(evaluator, first_step, stage.evaluations)
                 # Only the last stage goes on when less is asked: what came before would have led it elsewhere.
-                least_gain = request.until_percent / 100.0 if number == len(stages) - 1 else 0.0
+                may_end = number == len(stages) - 1 and METHODS[stage.method].ends
+                least_gain = request.until_percent / 100.0 if may_end else 0.0
                 task = Task(
                     stage.evaluations - (len(evaluator.trials) - before), request.seed, stage.initial, request.batch,
                     request.preset, least_gain, first_step, request.screen,
@@ -143,6 +150,11 @@ def _stages(request: Request, store: StudyStore, prior: int) -> list[Stage]:
             raise JumpcadError(
                 f"{store.path}: evaluations = {request.evaluations} leave {request.searched} for its search, which is "
                 f"planned for {held}: ask for more, or name another file"
+            )
+        if more > 0 and METHODS[stages[-1].method].shares:
+            raise JumpcadError(
+                f"{store.path}: its search by {request.method} is planned for {held} evaluations and does not go on "
+                f"with {request.searched}: name another file"
             )
         stages[-1] = replace(stages[-1], evaluations=stages[-1].evaluations + more)
     store.remember("stages", [asdict(stage) for stage in stages])

@@ -77,6 +77,8 @@ class Surrogate:
         Whether to improve them by maximum likelihood, as without `theta` too.
     categories
         Number of names of each axis; 0 for an axis of numbers. Empty: all are numbers.
+    units
+        What counts as 0 and as 1 of the values; their mean and standard deviation if None.
     """
 
     def __init__(
@@ -86,12 +88,13 @@ class Surrogate:
         theta: Sequence[float] | None = None,
         fit: bool = True,
         categories: Sequence[int] = (),
+        units: tuple[float, float] | None = None,
     ) -> None:
         self.categories = tuple(categories) or (0,) * x.shape[1]
         self._axes = Axes(self.categories)
         seen = self._axes.expand(x)
         spread = float(np.std(y))
-        self._centre, self._spread = float(np.mean(y)), spread if spread > ALL_EQUAL else 1.0
+        self._centre, self._spread = units or (float(np.mean(y)), spread if spread > ALL_EQUAL else 1.0)
         values = (y - self._centre) / self._spread
         start = None if theta is None else self._axes.unfold(np.array(theta))
         logarithms = _likeliest(seen, values, start, self._axes) if fit or start is None else start
@@ -126,9 +129,13 @@ class Surrogate:
         return along
 
     def condition_on(self, point: Array) -> Self:
-        """Return the process with its own mean at a point (d,) added as a measurement (kriging believer)."""
+        """Return the process with its own mean at a point (d,) added as a measurement (kriging believer).
+
+        In the same units: its mean stays the same everywhere.
+        """
         mean, _ = self.predict(point[None])
-        return type(self)(np.vstack([self.x, point]), np.append(self.y, mean), self.theta, False, self.categories)
+        x, y, units = np.vstack([self.x, point]), np.append(self.y, mean), (self._centre, self._spread)
+        return type(self)(x, y, self.theta, False, self.categories, units)
 
     def _covariance(self, points: Array) -> Array:
         """Return the covariance (m, n) of points with the data."""

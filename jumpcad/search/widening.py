@@ -20,8 +20,8 @@ ACTIVE = 1e-3
 class Widened:
     """A bound that was moved, and the change of the score if the best design goes there with it.
 
-    ``worth`` is None where that design is rejected, for ``reason``. The ``name`` of all moved bounds together is
-    `TOGETHER`.
+    ``worth`` is None where that design is rejected, for ``reason``, or `unknown`. The ``name`` of all moved bounds
+    together is `TOGETHER`.
     """
 
     name: str
@@ -31,16 +31,24 @@ class Widened:
     worth: float | None = None
     reason: str = ""
 
+    @property
+    def unknown(self) -> bool:
+        """Whether the design was not evaluated; the reason says why."""
+        return self.reason == NOT_EXAMINED
+
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
         return asdict(self)
 
 
 TOGETHER = "together"
+NOT_EXAMINED = "not examined: the search has no evaluations left"
 
 
-def widen(evaluator: Evaluator, step: int) -> list[Widened]:
+def widen(evaluator: Evaluator, step: int, evaluations: int | None = None) -> list[Widened]:
     """Move the bounds on which the best design lies, evaluate it there, and widen the evaluator's space.
+
+    At most so many `evaluations` are made; what they do not reach is only moved.
 
     Returns
     -------
@@ -58,7 +66,7 @@ def widen(evaluator: Evaluator, step: int) -> list[Widened]:
         moved = [*moved, Widened(TOGETHER, "", 0.0, 0.0)]
         changes.append({name: value for change in changes for name, value in change.items()})
     evaluator.space = _wider(evaluator.space, moved)
-    trials = evaluator.evaluate([best.variant.changed(change) for change in changes], "widen", step)
+    trials = evaluator.evaluate([best.variant.changed(change) for change in changes], "widen", step, limit=evaluations)
     return [_judged(one, best, trial) for one, trial in zip(moved, trials, strict=True)]
 
 
@@ -107,7 +115,8 @@ def _wider(space: Space, moved: list[Widened]) -> Space:
 
 
 def _judged(one: Widened, best: Trial, trial: Trial | None) -> Widened:
-    if trial is None or trial.score is None:
-        reasons = trial.evaluation.reasons if trial is not None else ("not examined",)
-        return replace(one, reason=", ".join(reasons))
+    if trial is None:
+        return replace(one, reason=NOT_EXAMINED)
+    if trial.score is None:
+        return replace(one, reason=", ".join(trial.evaluation.reasons))
     return replace(one, worth=trial.score - (best.score or 0.0))

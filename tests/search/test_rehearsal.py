@@ -171,7 +171,9 @@ def test_a_start_that_has_no_room_is_passed_over_and_learned():
 def test_what_had_room_but_would_not_jump_is_a_failure_too(monkeypatch):
     """Of three points that were tried, one is refused, one is guessed to stay on the ground, and one holds."""
     rehearsal = Rehearsal.__new__(Rehearsal)
-    vars(rehearsal).update(_space=SPACE, _phase="bo", _task=TASK, _prior=set(), _passed_over={}, _refusals={})
+    vars(rehearsal).update(
+        _space=SPACE, _phase="bo", _task=TASK, _prior=set(), _passed_over={}, _refusals={}, _variants={}
+    )
     points = [np.full(SPACE.dimension, share) for share in (0.1, 0.5, 0.9)]
     refused, grounded, _ = (SPACE.to_variant(point).key for point in points)
     outcome = {refused: Evaluation("no_room")}

@@ -62,9 +62,17 @@ def test_a_fixed_value_of_the_workshop_leaves_one_workshop_to_guess_in():
 )
 def test_numbers_of_a_request_have_ends_that_are_told(name, least, most, step):
     """A seed is one of 2^32: numpy's generators take no other."""
-    plain = Request(SMALL, Hill(), method="ga", evaluations=40)
+    plain = Request(SMALL, Hill(), method="bo", evaluations=40)
     for value in (least, most):
         assert getattr(replace(plain, **{name: value}), name) == value
     for value, words in ((least - step, f"at least {least:g}"), (most + step, "at most")):
         with pytest.raises(JumpcadError, match=f"{name} = .* must be {words}"):
             replace(plain, **{name: value})
+
+
+@pytest.mark.parametrize("given", [{"until_percent": 1.0}, {"batch": 3}])
+def test_what_applies_to_bayesian_optimisation_alone_applies_to_every_search_that_goes_on_with_it(given):
+    """A widened search ends by it, whatever it began with."""
+    assert Request(SMALL, Hill(), method="ga", widen=True, **given).widen
+    with pytest.raises(JumpcadError, match=r"does not apply to ga, only to ga\+bo, bo"):
+        Request(SMALL, Hill(), method="ga", **given)

@@ -258,7 +258,7 @@ def test_a_prior_study_whose_model_had_other_values_in_another_program_is_said_t
     [
         ({"evaluations": 0}, "evaluations = 0 must be at least 1"),
         ({"batch": 0}, "batch = 0"),
-        ({"method": "ga", "batch": 4}, "batch = 4: does not apply to ga, only to bo"),
+        ({"method": "ga", "batch": 4}, "batch = 4: does not apply to ga, only to ga[+]bo, bo"),
         ({"seed": -1}, "seed = -1"),
         ({"seed": 2**32}, "must be at most 4294967295"),
         ({"until_percent": -1.0}, "until_percent = -1.0 must be at least 0"),

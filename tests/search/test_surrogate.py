@@ -31,11 +31,16 @@ def test_fitting_finds_the_axis_that_does_not_matter(data):
     assert lengths[2] > 5.0 > lengths[0]
 
 
-def test_conditioning_on_the_own_mean_does_not_change_it(data):
-    before = Surrogate(*data)
+@pytest.mark.parametrize("count", [2, 5, 40])
+def test_conditioning_on_the_own_mean_changes_it_nowhere_and_makes_nothing_less_sure(data, count):
+    x, y = data
+    before = Surrogate(x[:count], y[:count])
     point = np.array([0.5, 0.5, 0.5])
     after = before.condition_on(point)
-    assert after.predict(point[None])[0] == pytest.approx(before.predict(point[None])[0], abs=1e-3)
+    points = np.random.default_rng(3).random((200, 3))
+    (mean, deviation), (same, surer) = before.predict(points), after.predict(points)
+    assert same == pytest.approx(mean, abs=1e-9)
+    assert (surer <= deviation * (1.0 + 1e-9)).all()
     assert after.predict(point[None])[1] < 0.3 * before.predict(point[None])[1]
 
 

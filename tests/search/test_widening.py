@@ -124,6 +124,20 @@ def test_its_share_is_planned_within_the_evaluations():
     assert [stage.widen for stage in stages] == [False, False, True, True, True]
 
 
+def test_where_its_evaluations_do_not_reach_bounds_are_only_moved(evaluator):
+    one = evaluator(space=BELOW)
+    one.evaluate([BELOW.to_design([0.5, 1.0, 1.0])], "bo", 0)  # of compression, rest angle and stiffness
+    first, second, together = widen(one, 0, 1)
+    assert len(one.trials) == 2
+    assert (first.name, first.unknown, first.worth is None) == ("rest_angle_deg", False, False)
+    assert [(moved.unknown, moved.worth) for moved in (second, together)] == [(True, None)] * 2
+    assert next(p.upper for p in one.space.free if p.name == second.name) == second.beyond
+
+
+def test_a_search_of_few_keeps_to_them():
+    assert searched(evaluations=8).evaluations == 8
+
+
 def test_a_front_has_no_best_design_to_widen_for():
     with pytest.raises(JumpcadError, match="widen: does not apply to pareto"):
         Request(BELOW, Hill(), method="pareto", widen=True)

@@ -69,6 +69,8 @@ class Method:
         hyperparameters (`theta`) with which the next step starts.
     ends
         Whether it ends where its proposals promise less than a task's `least_gain`.
+    shares
+        Whether its parts have shares of the evaluations: a search with more of them is another one.
     """
 
     name: str
@@ -77,6 +79,7 @@ class Method:
     front: bool = False
     learns: bool = False
     ends: bool = False
+    shares: bool = False
 
     def run(self, evaluator: "Evaluator", task: Task) -> bool:
         """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
@@ -90,7 +93,7 @@ METHODS = {
         Method("ga", "genetic.run_genetic", "genetic algorithm"),
         Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True, ends=True),
         Method("pareto", "pareto.run_pareto", "front of range against spring energy", front=True, learns=True),
-        Method("paper", "paper.run_paper", "the published study's stages"),
+        Method("paper", "paper.run_paper", "the published study's stages", shares=True),
         Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
     )
 }

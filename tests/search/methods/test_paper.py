@@ -1,9 +1,12 @@
 """The published study's stages."""
 
+from dataclasses import replace
+
 import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.design import PARAMETERS, load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.search.methods import STEPS, Task
 from jumpcad.search.methods.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper
 from jumpcad.search.objective import Evaluation
@@ -53,6 +56,26 @@ def test_it_resumes_and_its_study_is_read(tmp_path):
     assert rows(tmp_path / "a.db", 80) == whole
     with StudyStore.read(tmp_path / "a.db") as store:
         assert plot_study(store, tmp_path / "a")
+
+
+def test_its_stages_share_the_evaluations_so_a_longer_search_is_another_one(tmp_path):
+    short, path = Request(SMALL, Hill(), method="paper", evaluations=20), tmp_path / "a.db"
+    longer = replace(short, evaluations=40)
+    with local_pool(0) as pool:
+        first = run_study(short, path, pool)
+        with pytest.raises(JumpcadError, match="planned for 20 evaluations and does not go on with 30: name another"):
+            run_study(longer, path, pool)
+        assert [one.key for one in run_study(short, path, pool).trials] == [one.key for one in first.trials]
+    assert longer.default_name() != short.default_name()
+
+
+def test_the_gain_at_which_other_searches_end_does_not_apply_to_it():
+    with local_pool(0) as pool:
+        default, none = (
+            run_study(Request(SMALL, Hill(), method="paper", evaluations=200, **until), None, pool)
+            for until in ({}, {"until_percent": 0.0})
+        )
+    assert [trial.key for trial in default.trials] == [trial.key for trial in none.trials]
 
 
 def test_without_a_jumper_it_ends():
