@@ -146,7 +146,7 @@ class Surrogate:
         """Return the distances (m, n) of points (m, k) from the data: √5·r, in length scales of the kernel.
 
         By |a − b|² = |a|² − 2·a·b + |b|², with the middle of the data as origin: one product of matrices. What rounding
-        leaves of a distance, 1e-7, is far below a length scale.
+        leaves of a distance, 1e-6, is far below a length scale.
         """
         scaled = (points - self._middle) / self._lengths
         squares = scaled @ self._scaled
