@@ -105,11 +105,11 @@ def limit(
     name: str, margin: float, unit: str, message: str, remedy: str, violated: Severity = "error", *,
     value: float | None = None, allowed: float | None = None, grows: str = "",
 ) -> Finding:  # fmt: skip
-    """Return the finding of a limit that is violated where its margin is negative.
+    """Return the finding of a limit that is violated where its margin is negative, or not a number.
 
     For a limit that is not one number against another; see `at_most` and `at_least` for those that are.
     """
-    severity: Severity = violated if margin < 0 else "info"
+    severity: Severity = "info" if margin >= 0 else violated
     return Finding(name, severity, float(margin), unit, message, remedy, _number(value), _number(allowed), grows)
 
 

@@ -1,6 +1,7 @@
 """A finding's margin and use follow from its value and limit."""
 
 import math
+from collections.abc import Callable
 
 import pytest
 
@@ -42,6 +43,13 @@ def test_use_is_a_minimum_over_the_value(
 ) -> None:
     finding = at_least("gap", value, needed, "mm", "found", "remedy", "warning")
     assert (finding.margin, finding.use, finding.severity) == (margin, use, severity)
+
+
+@pytest.mark.parametrize("make", [at_most, at_least])
+def test_what_is_not_a_number_keeps_no_limit(make: Callable[..., Finding]) -> None:
+    """A computation that failed says nothing about the robot: no comparison with it is true."""
+    assert make("stress", math.nan, 40.0, "MPa", "found", "remedy").severity == "error"
+    assert make("stress", 10.0, math.nan, "MPa", "found", "remedy").severity == "error"
 
 
 def test_a_margin_alone_has_no_use() -> None:

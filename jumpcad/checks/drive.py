@@ -18,4 +18,4 @@ def drive_findings(robot: Robot) -> list[Finding]:
 def _judged(found: Finding) -> Finding:
     """Return a finding with its severity; the cam's search ends on its limits, within about 1e-9."""
     margin = 0.0 if abs(found.margin) < ROUND_OFF else found.margin
-    return replace(found, margin=margin, severity="error" if margin < 0.0 else "info")
+    return replace(found, margin=margin, severity="info" if margin >= 0.0 else "error")

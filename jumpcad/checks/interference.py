@@ -39,7 +39,8 @@ INTENDED = (
     ("standoff", "standoff", "thread"),
     ("toe", "foot", "thread"),
     ("motor_pinion", "motor_shaft", "crush ribs"),
-    ("spring", "spring", "coil and arm are one wire"),
+    ("spring_left", "spring_left_leg_arm", "coil and arm are one wire"),
+    ("spring_right", "spring_right_leg_arm", "coil and arm are one wire"),
     ("stop_pad", "main_leg", "the pad is compressed"),
 )
 """Pairs of name prefixes that may share volume, and why."""

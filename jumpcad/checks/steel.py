@@ -158,8 +158,9 @@ def _fatigue(case: LoadCase) -> Iterator[Finding]:
         f"{'infinite' if math.isinf(lasts) else f'about {float(rounded):.0f} jumps'}",
         "lower stiffness_nmm_per_deg or compression_ratio", "warning",
     )  # fmt: skip
-    name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / case.bars[item[0]].yield_mpa)
-    allowed = pin_limit_mpa(case.bars[name].yield_mpa / YIELD_SHARE, safety.jumps) / safety.load_factor
+    limits = {name: pin_limit_mpa(bar.yield_mpa / YIELD_SHARE, safety.jumps) for name, bar in case.bars.items()}
+    name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / limits[item[0]])
+    allowed = limits[name] / safety.load_factor
     yield at_most(
         "axle_fatigue", stress, allowed, "MPa",
         f"the {name.replace('_', ' ')}: {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",

@@ -21,6 +21,7 @@ from jumpcad.dimensions import (
 from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.drive_places import (
+    idler_obstacles,
     require_gear_room,
     require_shaft,
     spring_boss_mm,
@@ -259,7 +260,9 @@ def moving_obstacles(layout: Layout) -> list[Obstacle]:
     """Return the room that links, cam and gears sweep, without a clearance."""
     drive, lateral = layout.drive, layout.lateral
     found = _moving(layout.linkage, layout.sections, drive, lateral, layout.stop.reach_rad, 0.0)
-    found += [o for o in _cam_obstacles(layout.cam_axis_mm, drive, lateral) if o.name != "cam axle"]
+    turning = _cam_obstacles(layout.cam_axis_mm, drive, lateral)
+    turning += [] if layout.idler_mm is None else idler_obstacles(layout.idler_mm, drive, lateral)
+    found += [o for o in turning if o.name not in ("cam axle", "idler axle")]
     pinion = drive.train.stages[0].pinion.tip_radius_mm
     return [*found, disc("pinion", layout.motor_mm, pinion, lateral.gears[-1])]
 

@@ -1,5 +1,6 @@
 """The drive's findings: those of its synthesis, an error where a limit is violated."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -27,6 +28,13 @@ def test_drive_reports_what_its_synthesis_found(kenan: Robot) -> None:
         "gear_strength_1",
         "motor_torque",
     } < names
+
+
+def test_a_margin_that_is_not_a_number_is_an_error(kenan: Robot) -> None:
+    lost = replace(kenan.release.findings[0], margin=math.nan)
+    release = replace(kenan.release, findings=(lost, *kenan.release.findings[1:]))
+    (error,) = errors(drive_findings(replace(kenan, release=release)))
+    assert error.name == lost.name
 
 
 @pytest.mark.parametrize("name", sorted({finding.name for finding in built("kenan-2.0").layout.drive.findings}))

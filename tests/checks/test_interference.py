@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 from support.built import body_in_plane, checked
 
-from jumpcad.checks.interference import Component, Moment, interference_findings, moments, pose_of, shared_volume_mm3
+from jumpcad.checks.interference import (
+    Component,
+    Moment,
+    components,
+    interference_findings,
+    moments,
+    pose_of,
+    shared_volume_mm3,
+)
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.robot import Robot
@@ -32,6 +40,19 @@ def test_fires_on_a_lever_that_meets_a_misplaced_motor(kenan: Robot) -> None:
     found = errors(interference_findings(replace(kenan, hardware=tuple(hardware))))
     assert any("motor" in finding.message and "main_leg" in finding.message for finding in found)
     assert all(finding.margin < 0 for finding in found)
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_fires_on_a_plates_pin_in_the_way_of_the_legs_arm(kenan: Robot, side: str) -> None:
+    """The pin that holds the springs' other arms stands in the middle of a leg's arm as it is at rest."""
+    arm = next(one for one in components(kenan) if one.name == f"spring_{side}_leg_arm")
+    pin = next(item for item in kenan.hardware if item.name == "spring_pin")
+    middle = pose_of(arm, kenan.layout, kenan.linkage, Moment("at rest", 0.0, 0.0)) @ arm.corners.mean(axis=0)
+    pose = pin.T_body_part.copy()
+    pose[[0, 2], 3] += middle[[0, 2]] - kenan.layout.spring_pin_mm
+    hardware = tuple(replace(item, T_body_part=pose) if item is pin else item for item in kenan.hardware)
+    found = errors(interference_findings(replace(kenan, hardware=hardware)))
+    assert any("spring_pin" in finding.message and arm.name in finding.message for finding in found)
 
 
 @pytest.mark.parametrize("turned", [False, True])

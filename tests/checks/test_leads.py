@@ -1,11 +1,12 @@
 """Leads of sensor and motor: clear of what moves; as much wire is bought as is cut."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
-from support.built import built
+from support.built import built, geared
 
 from jumpcad.bundle.wiring import wires
 from jumpcad.checks import leads
@@ -62,6 +63,17 @@ def test_what_moves_anywhere_along_a_lead_is_found(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.1, y + 0.1))])
     (finding,) = lead_findings(robot)
     assert (finding.severity, finding.message.split("'")[0]) == ("error", f"the {part}")
+
+
+def test_an_idler_is_among_what_moves() -> None:
+    """The leads of the sensor come in through a hole in front of the idler's axle: they pass through its wheel."""
+    robot = geared()
+    layout = robot.layout
+    (silent,) = lead_findings(robot)
+    assert silent.severity == "info"
+    hole = replace(layout.fittings, left_mm=layout.idler_mm)
+    (finding,) = lead_findings(replace(robot, layout=replace(layout, fittings=hole)))
+    assert (finding.severity, finding.message.split("'")[0]) == ("error", "the sensor")
 
 
 def test_the_bill_has_the_wire_that_is_cut() -> None:

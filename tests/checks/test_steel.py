@@ -131,3 +131,13 @@ def test_the_axle_or_pin_nearest_to_its_yield_stress_tires_first(robot: str, req
         (axle,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
         assert axle.message.startswith(f"the {worst.replace('_', ' ')}: ")
         assert axle.value == case.steel_stresses_mpa[worst]
+
+
+def test_the_axle_nearest_to_its_own_fatigue_limit_counts(kenan: Robot) -> None:
+    """Hard steel loses more of its yield stress to a million jumps than soft steel does."""
+    case = LoadCase(changed(kenan, "safety", jumps=1e6))
+    hard, soft = (case.bars[name].yield_mpa for name in ("leg_axle", "leg_pin"))
+    assert hard > 2.0 * soft
+    vars(case)["steel_stresses_mpa"] = {"leg_axle": 0.49 * hard, "leg_pin": 0.50 * soft}
+    (finding,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
+    assert (finding.severity, finding.value) == ("warning", pytest.approx(0.49 * hard))

@@ -271,7 +271,10 @@ def test_what_moves_occupies_its_share_across_the_robot() -> None:
         layout = plans()[name]
         lateral, half = layout.lateral, layout.sections.thickness_mm / 2.0
         found = {one.name: one for one in moving_obstacles(layout)}
-        assert found.keys() == {"main leg", "lever", "front link", "foot", "cam", "cam's dog", "cam gear", "pinion"}
+        idler = {} if layout.idler_mm is None else {"idler wheel": lateral.gears[1], "idler pinion": lateral.gears[0]}
+        always = {"main leg", "lever", "front link", "foot", "cam", "cam's dog", "cam gear", "pinion"}
+        assert found.keys() == always | idler.keys()
+        assert {one: found[one].y_mm for one in idler} == idler
         assert found["lever"].y_mm == pytest.approx((-half - 4.5, lateral.cam[1] + 1.7))
         assert found["main leg"].y_mm == found["front link"].y_mm == (-half, half)
         assert found["cam"].y_mm == lateral.cam
