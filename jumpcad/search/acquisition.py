@@ -28,8 +28,8 @@ REHEARSED = 0.2
 _STEP = 1e-6
 """Of the numerical gradient."""
 _FIRST_STEPS, _STEPS = 8, 40
-"""Most iterations of each local maximisation, and of the best one when it goes on. If all six went on, a proposal took
-twice the time, and of 46 proposals few were better."""
+"""Most iterations of each local maximisation, and of the best one when it goes on. Where all six go on, they take 1.8
+times the evaluations, and nine of ten maxima are higher by less than 0.0002 in the logarithm (46 proposals)."""
 
 
 @dataclass(frozen=True)

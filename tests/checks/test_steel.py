@@ -119,8 +119,8 @@ def test_a_pin_that_is_too_weak_is_answered_with_what_is_strong_enough() -> None
 
 
 @pytest.mark.parametrize("robot", ["kenan", "strongest"])
-def test_the_axle_or_pin_nearest_to_its_yield_stress_tires_first(robot: str, request: pytest.FixtureRequest) -> None:
-    """Not the one with the largest stress: pins of 400 MPa beside axles of 1370 MPa, here a tenth as strong."""
+def test_what_tires_first_is_not_what_bears_the_largest_stress(robot: str, request: pytest.FixtureRequest) -> None:
+    """Pins of 400 MPa beside axles of 1370 MPa, here a tenth as strong: the nearest to its yield stress."""
     strong = request.getfixturevalue(robot)
     for pins_mpa in (1370.0, 137.0):
         case = LoadCase(strong)
