@@ -12,6 +12,7 @@ from typing import Any
 
 from jumpcad.checks import (
     assembly,
+    blocked,
     drive,
     electronics,
     engraving,
@@ -62,6 +63,7 @@ CHECKS = (
     Check(strength.strength_findings, strength.BASIS, cheap=True),
     Check(stop.stop_findings, stop.BASIS, cheap=True),
     Check(drive.drive_findings, drive.BASIS, cheap=True),
+    Check(blocked.blocked_findings, blocked.BASIS, cheap=True),
     Check(electronics.electronics_findings, electronics.BASIS, cheap=True),
     Check(sensor.sensor_findings, sensor.BASIS, cheap=True),
     Check(holding.holding_findings, holding.BASIS, cheap=True),

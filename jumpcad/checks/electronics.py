@@ -84,12 +84,15 @@ def _currents(robot: Robot, chosen: Chosen, supply: Supply) -> Iterator[Finding]
     bears |= {role: (part.name, part.rated_a) for role in ("switch", "plug", "wire")
               if (part := chosen.components.get(role))}  # fmt: skip
     for role, (name, allowed) in bears.items():
-        if allowed is not None:
-            yield at_most(
-                f"motor_current_{role}", stall, allowed, "A",
-                f"{name} carries {stall:.2f} A while the motor is blocked; {allowed:g} A are allowed",
-                f"another bought.{role}, or a motor with a larger resistance",
-            )  # fmt: skip
+        carries = f"{name} carries {stall:.2f} A while the motor is blocked"
+        if allowed is None:
+            message, remedy = f"{carries}; what it bears is not known", f"give the current that this {role} bears"
+            yield Finding(f"motor_current_{role}", "warning", 0.0, "A", message, remedy)
+            continue
+        yield at_most(
+            f"motor_current_{role}", stall, allowed, "A", f"{carries}; {allowed:g} A are allowed",
+            f"another bought.{role}, or a motor with a larger resistance",
+        )  # fmt: skip
 
 
 def _charging(chosen: Chosen) -> Iterator[Finding]:
@@ -114,7 +117,7 @@ def _gearbox(robot: Robot, supply: Supply) -> Finding:
     torque = supply.driven(motor, supply.full_v, allowed).stall_torque_nm
     cap = f", with PWM of at most {100.0 * duty:.0f} %, which the firmware keeps" if duty < 1.0 else ""
     return at_most(
-        "gearbox_torque", min(torque, allowed) if duty < 1.0 else torque, allowed, "N·m",
+        "gearbox_torque", torque, allowed, "N·m",
         f"{motor.name} stalls with {1000.0 * torque:.0f} mN·m on a full battery{cap}; {1000.0 * allowed:.0f} mN·m are "
         "allowed",
         "a weaker motor, or a battery of fewer cells",

@@ -6,24 +6,31 @@ from functools import cached_property
 
 import numpy as np
 
+from jumpcad.checks.axle_loads import axle_beams
 from jumpcad.dimensions import GAP_MM, GRAVITY_M_S2
+from jumpcad.drive.dog import JAWS
 from jumpcad.findings import Finding, at_most
 from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
+from jumpcad.strength.axle_beam import AxleBeam
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM, RoundBar, axle_bar, pin_bar
 from jumpcad.strength.bearings import loaded_forces_n
 from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_reach_mm
-from jumpcad.strength.stress import Shell, pin_stress_mpa
-from jumpcad.transforms import Array, direction
+from jumpcad.strength.sizing import dog_inside_mm
+from jumpcad.strength.stress import VON_MISES, Shell, jaw_stress_mpa, pin_stress_mpa, tube_shear_mpa
+from jumpcad.transforms import Array, direction, turned_about_y
 from jumpcad.workshop import Workshop
 
 IN_PLANE = "strength_in_plane_mpa/s (MPa)"
 INTERLAYER = "strength_interlayer_mpa/s (MPa)"
 """What stresses of printed parts are compared with."""
 LANDING = "F = m·g + U/safety.landing_stop_mm, a fall from the height to which U could lift the robot"
-ONE_TOE = "F landing force/(1 + (x/k_y)² + (y/k_x)²) on one tip at x, y, with the body's radii of gyration k"
+ONE_TOE = (
+    "F landing force/(1 + (x/k_y)² + (y/k_x)²) on one tip at x, y from the body's centre of mass in the rest pose, "
+    "with its radii of gyration k"
+)
 """Loads, for formulas."""
 
 
@@ -63,7 +70,7 @@ class LoadCase:
     def bars(self) -> dict[str, RoundBar]:
         """What axles and pins are, by the names of `steel_stresses_mpa`."""
         axle, pin = axle_bar(self.workshop), pin_bar(self.workshop)
-        return {"leg_axle": axle, "cam_axle": axle, "spring_pin": axle, "foot_pin": pin, "leg_pin": pin}
+        return dict.fromkeys(self.beams, axle) | {"foot_pin": pin, "leg_pin": pin}
 
     @cached_property
     def forces(self) -> PushOff:
@@ -91,43 +98,47 @@ class LoadCase:
         """Force on a toe's tip that lands first (N): less than the landing force, since the body turns."""
         body = self.robot.bodies[BODY]
         about_x, about_y = 1000.0 * np.sqrt(np.diag(body.inertia_kg_m2)[:2] / body.mass_kg)
-        return self.landing_n * reflected_share(toe_reach_mm(self.robot.design), (float(about_x), float(about_y)))
+        rest = self.robot.linkage.pose(np.zeros(1))
+        centre = turned_about_y(1000.0 * body.com_m[[0, 2]] - rest.ankle_mm, -rest.foot_rad)
+        back, aside = toe_reach_mm(self.robot.design)
+        return self.landing_n * reflected_share((float(centre[0, 0]) + back, aside), (float(about_x), float(about_y)))
 
     @cached_property
     def steel_stresses_mpa(self) -> dict[str, float]:
-        """Bending stresses of axles and pins: the leg's and the cam's axle, the springs' two pins, the foot's pins."""
+        """Bending stresses of what is on the plates, `beams`, and of the pins of leg and foot."""
         layout, lateral = self.layout, self.layout.lateral
-        span = (sum(lateral.left_plate) - sum(lateral.right_plate)) / 2.0
-        arms, cam = self.wound_forces_n
-        at = sum(lateral.cam) / 2.0 - sum(lateral.right_plate) / 2.0
         thickness, lug = layout.sections.thickness_mm, layout.sections.lug_thickness_mm
         lever = lateral.lug_left[0] - thickness / 2.0 + lug / 2.0 + thickness / 4.0
-        moments = {
-            "leg_axle": leg_axle_moment_nmm(arms, cam, span, sum(lateral.spring_left) / 2.0),
-            "cam_axle": layout.drive.cam.peak_contact_n * at * (span - at) / span,
-            "spring_pin": layout.drive.spring.pin_force_n * (span / 2.0 - lateral.spring_left[1]),
+        moments = {name: beam.largest_nmm() for name, beam in self.beams.items()} | {
             "leg_pin": layout.drive.spring.pin_force_n * (GAP_MM + layout.drive.spring.wire_mm / 2.0 + thickness / 4.0),
             "foot_pin": max(self.ankle_n, self.front_n, self.landing_n) / 2.0 * lever,
         }
         stresses = {name: self.bars[name].stress_mpa(moment) for name, moment in moments.items()}
         if layout.retention == "nuts":
-            self._threads(stresses, moments, span)
+            self._threads(stresses)
         return stresses
 
-    def _threads(self, stresses: dict[str, float], moments: dict[str, float], span_mm: float) -> None:
-        """Raise the stresses of screws used as axles to those of their thread, near the right plate.
+    def _threads(self, stresses: dict[str, float]) -> None:
+        """Raise the stresses of screws used as axles to those of their thread, near the right plate."""
+        head = self.workshop.catalogue.screws["M3 long"].cylinder_head_height_mm
+        lengths = {item.name: float(np.ptp(item.shape.bounds_mm[:, 2])) - head for item in self.robot.hardware}
+        for name, beam in self.beams.items():
+            begins = self.layout.lateral.left_plate[1] - (lengths[name] - SCREW_THREAD_MM)
+            stresses[name] = max(stresses[name], pin_stress_mpa(beam.largest_nmm(begins), SCREW_CORE_MM))
 
-        The moment falls evenly from the middle to the plates; in the springs' pin it is the same between the arms.
-        """
-        lateral = self.layout.lateral
-        leg = next(item for item in self.robot.hardware if item.name == "leg_axle")
-        length = (
-            float(np.ptp(leg.shape.bounds_mm[:, 2])) - self.workshop.catalogue.screws["M3 long"].cylinder_head_height_mm
-        )
-        from_plate = max(0.0, lateral.left_plate[1] - (length - SCREW_THREAD_MM) - sum(lateral.right_plate) / 2.0)
-        share = min(1.0, 2.0 * from_plate / span_mm)
-        for name, part in (("leg_axle", share), ("cam_axle", share), ("spring_pin", 1.0)):
-            stresses[name] = max(stresses[name], pin_stress_mpa(part * moments[name], SCREW_CORE_MM))
+    @cached_property
+    def beams(self) -> dict[str, AxleBeam]:
+        """Axles and springs' pin between the plates; the front one bears the front link at release or at landing."""
+        front = np.array([0.0, max(self.front_n, self.landing_n)])
+        return axle_beams(self.layout, *self.wound_forces_n, front)
+
+    def dog_stress_mpa(self, torque_nm: float) -> float:
+        """Return the stress in the cam's dog under a torque: that of a jaw, or of the boss that carries them."""
+        layout, dog, torque = self.layout, self.layout.drive.dog, 1000.0 * torque_nm
+        inside = dog_inside_mm(self.holes.fits, layout.axle_mm)
+        length = layout.lateral.gears[0][1] - layout.lateral.gears[0][0]
+        jaw = jaw_stress_mpa(torque, dog.jaw_rad, JAWS, inside, dog.outer_mm, length)
+        return max(jaw, VON_MISES * tube_shear_mpa(torque, dog.outer_mm, self.holes.running(layout.axle_mm)))
 
     @cached_property
     def axial_n(self) -> float:
@@ -150,17 +161,3 @@ def stress_finding(name: str, what: str, stress: float, allowable: float, remedy
     """Return the finding of a stress against its limit (MPa); `grows` is the section that grows where it fails."""
     message = f"{what}: {stress:.1f} of {allowable:.1f} MPa"
     return at_most(name, stress, allowable, "MPa", message, remedy, grows=grows)
-
-
-def leg_axle_moment_nmm(arms_n: tuple[Array, Array], cam_n: Array, span_mm: float, coil_mm: float) -> float:
-    """Return the largest bending moment in the leg's axle, a simple beam between the plates.
-
-    The leg pushes on its middle with arm and cam forces; each coil, `coil_mm` beside it, pushes back with half of the
-    force of its arms.
-    """
-    on_leg, on_pin = arms_n
-    support = (cam_n - on_pin) / 2.0
-    coil = -(on_leg + on_pin) / 2.0
-    middle = support * span_mm / 2.0 - coil * coil_mm
-    beside = support * (span_mm / 2.0 - coil_mm)
-    return float(max(np.linalg.norm(middle), np.linalg.norm(beside)))

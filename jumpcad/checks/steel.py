@@ -21,19 +21,32 @@ BENDING = "32·M·d/(π·(d⁴ - b⁴)) ≤ yield stress/s (MPa), d diameter, b 
 ROUND = (
     "bending of a round bar: Shigley 3-10; yield stress: templates/hardware/axles.toml, at most safety.steel_yield_mpa"
 )
+TEETH = "forces of teeth: Shigley 13-14"
 FRICTION = "friction of the feet·(m·g + U/safety.landing_stop_mm)"
 BASIS = {
     "leg_axle_strength": Basis(
-        f"{BENDING}; M of a simple beam between the plates: the leg pushes on its middle with the forces of arms and "
-        "cam, each coil beside it pushes back with half of its arms' forces",
+        f"{BENDING}; M of a simple beam between the plates: the leg pushes with the forces of arms and cam where its "
+        "bearings are (without, a third of its width beside its middle), each coil beside it pushes back with half of "
+        "its arms' forces",
+        ROUND,
+    ),
+    "front_axle_strength": Basis(
+        f"{BENDING}; M of a simple beam between the plates, F the front link's largest force in the push-off or the "
+        "landing force, halves of it a third of the link's width beside its middle",
         ROUND,
     ),
     "cam_axle_strength": Basis(
-        f"{BENDING}; M = N·a·(l - a)/l, N the cam's largest force at a from one plate, l between the plates' middles",
-        ROUND,
+        f"{BENDING}; M of a simple beam between the plates under the cam's largest force and the force of the cam "
+        "gear's teeth",
+        f"{ROUND}; {TEETH}",
+    ),
+    "idler_axle_strength": Basis(
+        f"{BENDING}; M of a simple beam between the plates under the forces of both its gears' teeth",
+        f"{ROUND}; {TEETH}",
     ),
     "spring_pin_strength": Basis(
-        f"{BENDING}; M = F·x, F of one arm, x from the spring's end to the plate's middle", ROUND
+        f"{BENDING}; M of a simple beam between the plates under the force of one arm at each spring's outer end",
+        ROUND,
     ),
     "leg_pin_strength": Basis(
         f"{BENDING}; M = F·(gap + half the wire + a quarter of the leg's thickness), F of one arm", ROUND
@@ -85,7 +98,9 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     layout, lateral = case.layout, case.layout.lateral
     names = {
         "leg_axle": "the leg's axle, springs loaded",
+        "front_axle": "the front link's axle at release or landing",
         "cam_axle": "the cam's axle, springs loaded",
+        "idler_axle": "the idler's axle, springs loaded",
         "spring_pin": "the pin that holds the springs' arms",
         "foot_pin": "the foot's pins",
         "leg_pin": "the leg's pin that the springs' arms push",

@@ -9,11 +9,14 @@ The seats of axles and pins that transmit the impact are not checked.
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from jumpcad.checks.load_case import LoadCase, stress_finding
 from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.layout.stop import EAR_MM, GIVE_ROOM_RAD
 from jumpcad.robot import Robot
+from jumpcad.strength.axle_beam import AxleBeam
 from jumpcad.strength.stop import BLOW_FACTOR
 from jumpcad.strength.stress import Beam
 
@@ -30,9 +33,9 @@ BASIS = {
         f"beams: Roark, ch. 8; {TWICE}",
     ),
     "stop_plates": Basis(
-        f"max(6·F·x/(t·w²), 6·F·y·a/(t·(a³ - d³))) ≤ the body's strength_in_plane_mpa (MPa); t plate, w = {EAR_MM:g} "
-        "mm its ear, x from the pad to the hub, y from the pad to the end of the hole d nearest to the hub, a hole "
-        f"and edges; {BLOW}",
+        f"max(12·s·F·x/(t·w²), 12·s_l·F·y·a/(t·(a³ - d³))) ≤ the body's strength_in_plane_mpa (MPa); t plate, w = "
+        f"{EAR_MM:g} mm its ear, s and s_l shares of the force on the more loaded and on the left plate, x from the "
+        f"pad to the hub, y from the pad to the end of the hole d nearest to the hub, a hole and edges; {BLOW}",
         f"cantilever: Roark, ch. 8; {TWICE}",
     ),
     "stop_leg": Basis(
@@ -66,8 +69,10 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
         "stop_strength", "the rest stop's bar at twice the impact force", stress, strength, remedy, "stop"
     )
     plate = robot.layout.lateral.left_plate
-    thickness, share = plate[1] - plate[0], BLOW_FACTOR * blow.force_n / 2.0
-    stress = max(float(Beam(thickness, EAR_MM).stress_mpa(share * stop.radius_mm)), share * _at_hole(robot, thickness))
+    thickness, twice = plate[1] - plate[0], np.array([0.0, BLOW_FACTOR * blow.force_n])
+    left, right = AxleBeam.of(robot.layout.lateral.plates_mm, (0.0, twice)).on_plates_n()[:, 1]
+    ear = float(Beam(thickness, EAR_MM).stress_mpa(max(left, right) * stop.radius_mm))
+    stress = max(ear, float(left) * _at_hole(robot, thickness))
     strength = robot.workshop.material("body").strength_in_plane_mpa
     yield stress_finding("stop_plates", "plates' ears at twice the impact force", stress, strength, remedy, "plate")
     sections, share = robot.layout.sections, stop.radius_mm / robot.design.l2_mm

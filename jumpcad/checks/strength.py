@@ -15,20 +15,16 @@ import numpy as np
 from jumpcad.checks import foot, leg_bar, steel
 from jumpcad.checks.load_case import IN_PLANE, INTERLAYER, LANDING, LoadCase, stress_finding
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
-from jumpcad.drive.dog import JAWS
 from jumpcad.findings import Basis, Finding, at_most, limit
 from jumpcad.robot import Robot
-from jumpcad.strength.sizing import dog_inside_mm, leg_flex_share
+from jumpcad.strength.sizing import leg_flex_share
 from jumpcad.strength.stress import (
     STATIONS,
-    VON_MISES,
     Beam,
     bored_stress_mpa,
     buckling_load_n,
     eye_stress_mpa,
-    jaw_stress_mpa,
     tapered_stress_mpa,
-    tube_shear_mpa,
 )
 
 WEAKER = foot.WEAKER
@@ -75,9 +71,9 @@ BASIS = {
     **foot.BASIS,
     **steel.BASIS,
     "plate_seat": Basis(
-        f"F/(2·d·t) ≤ the body's {IN_PLANE}; F springs loaded, of the leg's axle, the cam's axle or the springs' pin, "
-        "d axle, t depth of its seat in one plate",
-        "bearing pressure (Shigley 8-12)",
+        f"F/(d·t) ≤ the body's {IN_PLANE}; F what the more loaded plate carries of an axle or the springs' pin, a "
+        "simple beam loaded as for `leg_axle_strength` and its like, d axle, t depth of its seat in one plate",
+        "statics of two supports; bearing pressure (Shigley 8-12)",
     ),
     "cam_dog_strength": Basis(
         f"max(√(σ² + 3·τ²) of a jaw, √3·16·T·D/(π·(D⁴ - d⁴)) of its boss) ≤ the gears' {INTERLAYER}; T larger of "
@@ -174,22 +170,17 @@ def _eyes(case: LoadCase) -> Iterator[Finding]:
 def _seats(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of the plates around axles and pins, and of the cam's dog, loaded and at the impact."""
     safety, body = case.workshop.safety, case.workshop.material("body")
-    arms, cam = case.wound_forces_n
     seat = case.layout.lateral.left_plate[1] - case.layout.lateral.left_plate[0] - case.layout.floor_mm
-    loads = ((cam - arms[1], seat + case.layout.boss_mm), (cam, seat), (arms[1], seat))
-    worst = max(float(np.linalg.norm(force)) / depth for force, depth in loads) / 2.0
+    longer = {"leg_axle": case.layout.boss_mm}
+    worst = max(beam.plate_load_n / (seat + longer.get(name, 0.0)) for name, beam in case.beams.items())
     stress = worst / case.layout.axle_mm
     allowable = body.strength_in_plane_mpa / safety.printed_factor
     yield stress_finding("plate_seat", "plates under axles and pins", stress, allowable, "raise body.plate_mm", "plate")
     gears = case.workshop.material("gears")
-    dog, layout = case.layout.drive.dog, case.layout
-    torque = 1000.0 * max(layout.drive.cam.peak_torque_nm, case.robot.release.blow_nm)
-    inside = dog_inside_mm(case.holes.fits, layout.axle_mm)
-    length = layout.lateral.gears[0][1] - layout.lateral.gears[0][0]
-    jaw = jaw_stress_mpa(torque, dog.jaw_rad, JAWS, inside, dog.outer_mm, length)
-    boss = VON_MISES * tube_shear_mpa(torque, dog.outer_mm, case.holes.running(layout.axle_mm))
+    torque = max(case.layout.drive.cam.peak_torque_nm, case.robot.release.blow_nm)
     allowable = gears.strength_interlayer_mpa / safety.printed_factor
     remedy = "lower stiffness_nmm_per_deg or compression_ratio, or choose a stronger material for the gears"
+    stress = case.dog_stress_mpa(torque)
     yield stress_finding(
-        "cam_dog_strength", "the cam's dog, across its layers at release", max(jaw, boss), allowable, remedy, "dog"
+        "cam_dog_strength", "the cam's dog, across its layers at release", stress, allowable, remedy, "dog"
     )

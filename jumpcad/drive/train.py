@@ -60,6 +60,8 @@ class GearTrain:
     ----------
     ratio, efficiency
         Motor turns per cam turn; share of the motor's work that reaches the springs while they are loaded.
+    wheel_torques_nm
+        Largest torque on the wheel of each pair.
     cam_speed_rad_s
         Speed of the unloaded cam with a full battery.
     motor_torque_nm, stall_margin
@@ -73,6 +75,7 @@ class GearTrain:
     stages: tuple[GearPair, ...]
     ratio: float
     efficiency: float
+    wheel_torques_nm: tuple[float, ...]
     cam_speed_rad_s: float
     motor_torque_nm: float
     stall_margin: float
@@ -123,6 +126,7 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     efficiency = limits.efficiency(len(stages))
     peak, allowed = law.peak_torque_nm / (ratio * efficiency), allowed_nm(motor, limits)
     cam_speed = free_speed_rad_s(limits.fastest(motor)) / ratio
+    torques = _wheel_torques_nm(law, stages, limits)
     turn = winding(law, limits.driven(motor), ratio, efficiency)
     boards_j = limits.supply.boards_w * turn.seconds if limits.supply else 0.0
     return GearTrain(
@@ -130,6 +134,7 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
         stages=stages,
         ratio=ratio,
         efficiency=efficiency,
+        wheel_torques_nm=torques,
         cam_speed_rad_s=cam_speed,
         motor_torque_nm=peak,
         stall_margin=(allowed - peak) / motor.stall_torque_nm,
@@ -140,7 +145,7 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
         boards_j=boards_j,
         findings=(
             *_motor_findings(motor, cam_speed, peak, limits),
-            *_gear_findings(law, stages, limits),
+            *_gear_findings(stages, torques, limits),
             _room_finding(stages[-1], limits),
         ),
     )
@@ -163,12 +168,21 @@ def _motor_findings(motor: Motor, cam_speed: float, torque_nm: float, limits: Tr
     ]  # fmt: skip
 
 
-def _gear_findings(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimits) -> list[Finding]:
+def _wheel_torques_nm(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimits) -> tuple[float, ...]:
+    """Return the largest torque on the wheel of each pair, from the motor to the cam."""
+    torques = [law.peak_torque_nm / limits.cam_efficiency]
+    for pair in stages[:0:-1]:
+        torques.append(torques[-1] / (pair.ratio * limits.pair_efficiency))
+    return tuple(reversed(torques))
+
+
+def _gear_findings(
+    stages: tuple[GearPair, ...], wheel_torques_nm: tuple[float, ...], limits: TrainLimits
+) -> list[Finding]:
     """Return strength and mesh of every pair, from the cam to the motor."""
     findings = []
-    wheel_torque = law.peak_torque_nm / limits.cam_efficiency
-    for number, pair in reversed(list(enumerate(stages, start=1))):
-        stress = pair.pinion.lewis_stress_mpa(wheel_torque / pair.ratio)
+    for number, pair, torque in reversed([*zip(range(1, len(stages) + 1), stages, wheel_torques_nm, strict=True)]):
+        stress = pair.pinion.lewis_stress_mpa(torque / pair.ratio)
         findings += [
             at_most(
                 f"gear_strength_{number}", stress, limits.stress_mpa, "MPa",
@@ -183,7 +197,6 @@ def _gear_findings(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimit
                 "more teeth",
             ),
         ]  # fmt: skip
-        wheel_torque /= pair.ratio * limits.pair_efficiency
     return findings
 
 

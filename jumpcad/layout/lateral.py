@@ -51,6 +51,11 @@ class Lateral:
         """Interval over both plates."""
         return self.right_plate[0], self.left_plate[1]
 
+    @property
+    def plates_mm(self) -> tuple[float, float]:
+        """Middles of the left and of the right plate: the supports of axles."""
+        return sum(self.left_plate) / 2.0, sum(self.right_plate) / 2.0
+
 
 def lateral_stack(
     leg_mm: float,

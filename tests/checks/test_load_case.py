@@ -1,29 +1,22 @@
-"""What strength checks share: the leg's axle as a simple beam."""
+"""What strength checks share: loads of landing and loaded springs, and the axles and pins that they bend."""
 
+import io
 import math
 
 import numpy as np
 import pytest
+import yourdfpy
 from support.built import built
 
 from jumpcad.building import build
-from jumpcad.checks.load_case import LoadCase, leg_axle_moment_nmm
+from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import load_design
 from jumpcad.dimensions import GAP_MM
+from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.robot import Robot
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM
 from jumpcad.workshop import load_workshop
-
-
-def test_leg_axle_is_a_simple_beam() -> None:
-    # without springs: M = F·L/4 (Shigley, table A-9); arms that pull in one line only shear the axle beside the leg
-    none = np.zeros(2)
-    assert leg_axle_moment_nmm((none, none), np.array([0.0, 80.0]), 40.0, 8.0) == pytest.approx(80.0 * 40.0 / 4.0)
-    up = np.array([0.0, 50.0])
-    assert leg_axle_moment_nmm((up, -up), none, 40.0, 8.0) == pytest.approx(50.0 * 40.0 / 4.0)
-    # both arms push the coil the same way: the leg's half goes straight back into the axle, 8 mm beside it
-    sideways = leg_axle_moment_nmm((up, none), none, 40.0, 8.0)
-    assert sideways == pytest.approx(25.0 * 8.0)
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -55,13 +48,20 @@ def test_axles_and_pins_are_beams_between_what_holds_them(name: str) -> None:
     cam = float(roller.look.copy().apply_transform(roller.T_body_part).bounds[:, 1].mean())
     coil = robot.layout.lateral.spring_left
     thickness = sections.thickness_mm
+    (_, on_pin), _ = case.wound_forces_n
+    eye = max(case.front_n, case.landing_n) / 2.0
     by_hand = {
-        "cam_axle": robot.layout.drive.cam.peak_contact_n * (cam - right) * (left - cam) / span,
-        "spring_pin": arm_n * (left - (left + right) / 2.0 - coil[1]),
+        # the spring that is nearer to its plate loads that plate more; the other plate's share bends over a longer arm
+        "spring_pin": 2.0 * arm_n / span * max(-right * (left - coil[1]), left * (-right - coil[1])),
+        "front_axle": 2.0 * eye / span * max(-right * (left - thickness / 3.0), left * (-right - thickness / 3.0)),
         "leg_pin": arm_n * (GAP_MM + spring.wire_mm / 2.0 + thickness / 4.0),
         "foot_pin": max(case.ankle_n, case.front_n, case.landing_n) / 2.0
         * (robot.layout.lateral.lug_left[0] + sections.lug_thickness_mm / 2.0 - thickness / 4.0),
     }  # fmt: skip
+    assert math.hypot(*on_pin) == pytest.approx(2.0 * arm_n)
+    # the cam gear's teeth push back on the cam's axle, less than the cam and nearer to the plate
+    alone = robot.layout.drive.cam.peak_contact_n * (cam - right) * (left - cam) / span
+    assert 0.9 * alone < case.steel_stresses_mpa["cam_axle"] * math.pi * robot.layout.axle_mm**3 / 32.0 < 1.3 * alone
     for pin, moment in by_hand.items():
         diameter = case.bars[pin].diameter_mm
         least = 32.0 * moment / (math.pi * diameter**3)
@@ -80,37 +80,37 @@ def test_a_landing_is_stopped_over_the_workshops_distance() -> None:
     assert case.landing_n == pytest.approx(joules / stop_m + weight, rel=2e-3)
     body = robot.bodies["body"]
     k_x, k_y = (1000.0 * math.sqrt(body.inertia_kg_m2[i, i] / body.mass_kg) for i in (0, 1))
-    x, y = toe_tip_mm(robot.design)
+    x, y = _toe_from_body_mm(robot)
     share = 1.0 / (1.0 + (x / k_y) ** 2 + (y / k_x) ** 2)
     assert case.toe_blow_n == pytest.approx(share * case.landing_n)
     assert case.axial_n == pytest.approx(robot.workshop.ground.foot_friction * case.landing_n)
 
 
 def test_the_thread_of_a_screw_that_is_an_axle_bears_less_than_its_shank() -> None:
-    """Near the right plate the moment is as much less as the thread is nearer to the plate than the middle.
+    """Near the right plate, whose reaction bends it; the springs' pin has the same moment all along between its arms.
 
-    The springs' pin has the same moment all along between its arms. M3's core: 2.39 mm; thread of at least 6 mm.
+    M3's core: 2.39 mm; thread of at least 6 mm.
     """
     shop = load_workshop()
     bought = shop.bought.model_copy(update={"retention": "nuts"})
     robot = build(load_design("kenan-2.0"), shop.model_copy(update={"bought": bought}))
     case, lateral = LoadCase(robot), robot.layout.lateral
     plates = [sum(plate) / 2.0 for plate in (lateral.left_plate, lateral.right_plate)]
-    half = (plates[0] - plates[1]) / 2.0
     screw = next(item for item in robot.hardware if item.name == "leg_axle")
     points = screw.look.copy().apply_transform(screw.T_body_part).bounds[:, 1]
     thread = points[0] + SCREW_THREAD_MM  # its end towards the head, which is on the left
-    share = min(1.0, max(0.0, thread - plates[1]) / half)
     spring = robot.layout.drive.spring
-    pin = spring.torque_nmm / spring.arms.lever_mm * (half - lateral.spring_left[1] + (plates[0] + plates[1]) / 2.0)
+    pin = spring.torque_nmm / spring.arms.lever_mm * (lateral.spring_right[0] - plates[1])
     in_thread = 32.0 * pin / (math.pi * SCREW_CORE_MM**3)
     assert case.steel_stresses_mpa["spring_pin"] == pytest.approx(in_thread, rel=0.1)
-    roller = next(item for item in robot.hardware if item.name == "roller")
-    cam = float(roller.look.copy().apply_transform(roller.T_body_part).bounds[:, 1].mean())
-    moment = robot.layout.drive.cam.peak_contact_n * (cam - plates[1]) * (plates[0] - cam) / (2.0 * half)
-    shank = case.bars["cam_axle"].stress_mpa(moment)
-    thread_mpa = share * 32.0 * moment / (math.pi * SCREW_CORE_MM**3)
-    assert case.steel_stresses_mpa["cam_axle"] == pytest.approx(max(shank, thread_mpa), rel=0.06)
+    for axle in ("leg_axle", "front_axle", "cam_axle"):
+        beam = case.beams[axle]
+        assert beam.supports_mm == pytest.approx(plates)
+        within = np.array([thread, *(place for place in beam.places_mm if place < thread)])
+        thread_mpa = 32.0 * beam.moments_nmm(within).max() / (math.pi * SCREW_CORE_MM**3)
+        assert case.steel_stresses_mpa[axle] == pytest.approx(
+            max(case.bars[axle].stress_mpa(beam.largest_nmm()), thread_mpa), rel=0.03
+        )
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
@@ -126,6 +126,15 @@ def test_a_blow_on_one_toe_meets_less_than_the_whole_mass(name: str) -> None:
     """A body struck at x, y: 1/(1 + x²/k_y² + y²/k_x²) of it, with radii of gyration from its tensor."""
     case = LoadCase(built(name))
     body = case.robot.bodies["body"]
-    x, y = toe_tip_mm(case.robot.design) / 1000.0
+    x, y = (mm / 1000.0 for mm in _toe_from_body_mm(case.robot))
     turned = 1.0 + body.mass_kg * (x**2 / body.inertia_kg_m2[1, 1] + y**2 / body.inertia_kg_m2[0, 0])
     assert case.toe_blow_n == pytest.approx(case.landing_n / turned)
+
+
+def _toe_from_body_mm(robot: Robot) -> tuple[float, float]:
+    """How far a toe's tip is from the body's centre of mass, along the sole and across, at rest: by the URDF's tree."""
+    model = yourdfpy.URDF.load(io.BytesIO(write_urdf(robot).encode()), load_meshes=False, build_scene_graph=True)
+    ankle_to_body = np.linalg.inv(model.get_transform("foot", "body"))
+    centre = 1000.0 * (ankle_to_body @ np.append(robot.bodies["body"].com_m, 1.0))
+    x, y = toe_tip_mm(robot.design)
+    return float(centre[0] - x), float(y)

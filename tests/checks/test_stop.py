@@ -75,8 +75,13 @@ def test_the_pad_lies_in_the_seat_of_the_printed_bar(name: str) -> None:
 
 
 def test_ears_are_bent_like_a_cantilever() -> None:
+    """The plate that is nearer to the leg carries more: as much as the other one is farther."""
     robot = built("best-bo")
-    moment = 2.0 * robot.stop_blow.force_n / 2.0 * robot.layout.stop.radius_mm
+    lateral = robot.layout.lateral
+    left, right = (abs(sum(plate)) / 2.0 for plate in (lateral.left_plate, lateral.right_plate))
+    share = max(left, right) / (left + right)
+    assert 0.5 < share < 0.6
+    moment = 2.0 * robot.stop_blow.force_n * share * robot.layout.stop.radius_mm
     assert found(robot)["stop_plates"].value == pytest.approx(6.0 * moment / (2.4 * 16.0**2))
 
 
@@ -89,7 +94,9 @@ def test_ears_with_a_hole_near_the_hub_are_weakest_beside_it() -> None:
     width = hole + 2.0 * 2.0
     (outer, inner), pad = (width / 2.0, hole / 2.0), layout.stop.radius_mm
     second_moment = 2.4 * 2.0 * (outer**3 - inner**3) / 3.0
-    moment = robot.stop_blow.force_n * (pad - (layout.leg_pin_mm - 6.0 - inner))  # of each ear, at twice the force
+    left, right = (abs(sum(plate)) / 2.0 for plate in (layout.lateral.left_plate, layout.lateral.right_plate))
+    force = 2.0 * robot.stop_blow.force_n * right / (left + right)  # on the left ear, which has the hole
+    moment = force * (pad - (layout.leg_pin_mm - 6.0 - inner))
     assert found(nearer)["stop_plates"].value == pytest.approx(moment * outer / second_moment)
 
 

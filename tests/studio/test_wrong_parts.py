@@ -1,6 +1,6 @@
 """The parts that are red are those that a violated limit is about."""
 
-from support.built import built, checked
+from support.built import built, checked, geared
 
 from jumpcad.findings import bare
 from jumpcad.scene.visuals import visuals
@@ -8,13 +8,13 @@ from jumpcad.studio.wrong_parts import LIMITS_OF, wrong_parts
 
 ELSEWHERE = {
     "foot_clearance", "leg_bar_strength", "leg_socket_strength", "leg_bar_bond", "leg_bar_flex", "front_bar_buckling",
-    "toe_bar_strength", "toe_joint_strength", "spring_rate",
+    "toe_bar_strength", "toe_joint_strength", "spring_rate", "idler_axle_strength",
 }  # fmt: skip
-"""Limits that best-bo has only with other legs, toes, springs."""
+"""Limits that best-bo has only with other legs, toes, springs, gears."""
 
 
 def test_every_part_and_limit_exists() -> None:
-    parts = {one.mesh_name for one in visuals(built("best-bo"))}
+    parts = {one.mesh_name for robot in (built("best-bo"), geared()) for one in visuals(robot)}
     limits = {one.name for one in checked("best-bo")}
     assert {part for parts in LIMITS_OF for part in parts} <= parts
     named = [limit for limits in LIMITS_OF.values() for limit in limits]
