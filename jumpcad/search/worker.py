@@ -1,5 +1,6 @@
 """The code of a worker process: tasks of evaluations, each with a timeout."""
 
+import atexit
 import contextlib
 import os
 import pickle
@@ -33,6 +34,7 @@ def start_worker(parent: int) -> None:
     # Engines print a banner; the parent may be printing one JSON document.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     threading.Thread(target=_end_with_parent, args=(parent,), daemon=True).start()
+    atexit.register(os._exit, 0)  # else libraries that count leaks when Python ends print them into the parent's lines
 
 
 def _end_with_parent(parent: int) -> None:
