@@ -45,7 +45,7 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
     robot = assembled(design, workshop, name, growth)
     findings = constraint_findings(robot)
     for _ in range(GROWTH_ROUNDS):
-        weak = {finding.grows for finding in errors(findings) if finding.grows}
+        weak = [finding for finding in errors(findings) if finding.grows]
         if not weak:
             break
         growth = growth.more(weak)

@@ -1,11 +1,14 @@
-"""The blocked motor: what its torque does to teeth and dog, if nothing lets the cam turn (N·m, MPa)."""
+"""The blocked motor: what its torque does to teeth and dog, if nothing lets the cam turn (N·m, MPa).
+
+Warnings: it takes a fault to block the motor, and neither part grows for it.
+"""
 
 from collections.abc import Iterator
 
-from jumpcad.checks.load_case import LoadCase, stress_finding
+from jumpcad.checks.load_case import LoadCase
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
-from jumpcad.findings import Basis, Finding
+from jumpcad.findings import Basis, Finding, at_most
 from jumpcad.robot import Robot
 
 BLOCKED_FACTOR = 1.5
@@ -34,7 +37,11 @@ def blocked_findings(robot: Robot) -> Iterator[Finding]:
     for pair in train.stages:
         worst = max(worst, pair.pinion.lewis_stress_mpa(torque))
         torque *= pair.ratio
-    limit = gears.strength_in_plane_mpa / BLOCKED_FACTOR
-    yield stress_finding("gear_blocked", "teeth of the gears, motor blocked", worst, limit, WEAKER)
-    stress, limit = case.dog_stress_mpa(torque), gears.strength_interlayer_mpa / BLOCKED_FACTOR
-    yield stress_finding("cam_dog_blocked", "the cam's dog, motor blocked", stress, limit, WEAKER, "dog")
+    dog = case.dog_stress_mpa(torque)
+    for name, what, stress, strength in (
+        ("gear_blocked", "teeth of the gears", worst, gears.strength_in_plane_mpa),
+        ("cam_dog_blocked", "the cam's dog", dog, gears.strength_interlayer_mpa),
+    ):
+        allowed = strength / BLOCKED_FACTOR
+        message = f"{what}, motor blocked: {stress:.1f} of {allowed:.1f} MPa"
+        yield at_most(name, stress, allowed, "MPa", message, WEAKER, "warning")

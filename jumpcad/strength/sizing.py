@@ -14,6 +14,7 @@ import numpy as np
 from jumpcad.design import Design
 from jumpcad.dimensions import STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_MM
 from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
 from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
@@ -54,8 +55,9 @@ STOP_MIN_MM = 6.0
 """Least depth of the rest stop's bar in the direction of the impact; judgement."""
 DOG_FACETS_MM = 0.05
 """Thickness that a jaw loses because its two circles are drawn as polygons."""
-GROWTH_STEP = 1.1
-"""Factor by which a section grows at a time; judgement: few rounds, little mass more than needed."""
+GROWTH_STEP, GROWTH_MORE = 1.1, 1.002
+"""Largest factor by which a section grows at a time, and factor beyond what it lacks; judgement: few rounds, little
+mass more than needed, and designs that differ a little stay robots that differ a little."""
 STIFF_ROUNDS, STIFF_MORE = 12, 1.01
 """Most steps, and factor beyond each, in which the leg's height is raised until it flexes little enough; judgement."""
 
@@ -127,9 +129,17 @@ class Growth:
     dog: float = 1.0
     stop: float = 1.0
 
-    def more(self, weak: Iterable[str]) -> "Growth":
-        """Return the factors with those of weak sections one step larger."""
-        return replace(self, **{what: GROWTH_STEP * getattr(self, what) for what in weak})
+    def more(self, weak: Iterable[Finding]) -> "Growth":
+        """Return the factors with those of weak sections larger.
+
+        By what a finding lacks: stresses fall at least as fast as their section grows. By a whole step where that is
+        not known.
+        """
+        steps: dict[str, float] = {}
+        for finding in weak:
+            step = min(GROWTH_STEP, GROWTH_MORE * (finding.use or GROWTH_STEP))
+            steps[finding.grows] = max(step, steps.get(finding.grows, 1.0))
+        return replace(self, **{what: step * getattr(self, what) for what, step in steps.items()})
 
 
 def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
