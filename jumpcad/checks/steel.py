@@ -26,8 +26,8 @@ FRICTION = "friction of the feet·(m·g + U/safety.landing_stop_mm)"
 BASIS = {
     "leg_axle_strength": Basis(
         f"{BENDING}; M of a simple beam between the plates: the leg pushes with the forces of arms and cam where its "
-        "bearings are (without, a third of its width beside its middle), each coil beside it pushes back with half of "
-        "its arms' forces",
+        "bearings are (without, a third of its width beside its middle), each coil beside it pushes back, in its "
+        "middle, with the forces of its own two arms",
         ROUND,
     ),
     "front_axle_strength": Basis(

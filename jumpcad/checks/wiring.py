@@ -65,7 +65,8 @@ def wiring_findings(chosen: Chosen, wiring: Wiring) -> Iterator[Finding]:
 def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
     """Return whether every signal has a pin of its own at controller and driver."""
     have = [signal for signal in SIGNALS if signal in wiring.pins]
-    missing = [s for s in ("motor", "ready") if s not in wiring.pins]
+    needed = ("motor", *(["sleep"] if chosen.driver.with_function("sleep") else []), "ready")
+    missing = [signal for signal in needed if signal not in wiring.pins]
     if "sensor" not in chosen.components:
         return _yes_or_no("wiring_pins", False, "error", "no sensor reports that the springs are loaded",
                           "name one in bought.sensor")  # fmt: skip

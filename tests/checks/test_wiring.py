@@ -67,11 +67,23 @@ def test_too_few_pins_and_a_driver_that_cannot_be_driven() -> None:
     few = {name: chosen.controller.pins[name] for name in ("BAT-", "GND", "3V3", "D1", "D2")}
     finding = found(board(chosen, "controller", pins=few))["wiring_pins"]
     assert finding.severity == "error"
-    assert "no pin left for ready: 2 of 3 suit" in finding.message
+    assert "no pin left for sleep and ready: 2 of 4 suit" in finding.message
     for lost in ("forward", "motor+", "motor-"):
         pins = {name: does for name, does in chosen.driver.pins.items() if lost not in does}
         finding = found(board(chosen, "driver", pins=pins))["wiring_pins"]
         assert (finding.severity, finding.message) == ("error", f"driver {chosen.driver.name} has no pin {lost}")
+
+
+def test_a_driver_that_nothing_wakes_is_missed() -> None:
+    """A DRV8833 sleeps while its nSLEEP is open, since it pulls it down: a named pin may leave none for it."""
+    chosen = parts("light-1s")
+    few = {name: chosen.controller.pins[name] for name in ("BAT-", "GND", "3V3", "D1", "D3", "D4")}
+    short = board(chosen, "controller", pins=few)
+    finding = found(short, {"ready": "D4"})["wiring_pins"]
+    assert (finding.severity, finding.margin) == ("error", -1.0)
+    assert "no pin left for sleep: 3 of 4 suit" in finding.message
+    awake = {name: does for name, does in chosen.driver.pins.items() if "sleep" not in does}
+    assert found(board(short, "driver", pins=awake), {"ready": "D4"})["wiring_pins"].severity == "info"
 
 
 @pytest.mark.parametrize(

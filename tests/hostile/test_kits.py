@@ -33,7 +33,7 @@ REFUSED = {
     ),
     "a board with too few pins": (
         own("controller", NO_PINS),
-        r"^own has no pin left for motor and ready: 1 of 3 suit: choose a controller with more pins",
+        r"^own has no pin left for motor and sleep and ready: 1 of 4 suit: choose a controller with more pins",
     ),
     "a driver without outputs": (
         own("driver", 'pins = { GND = ["ground"], AIN1 = ["forward"] }'),
