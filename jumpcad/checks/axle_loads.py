@@ -23,14 +23,15 @@ def axle_beams(layout: Layout, arms_n: tuple[Array, Array], cam_n: Array, front_
     """
     lateral, (on_leg, on_pin) = layout.lateral, arms_n
     plates = lateral.plates_mm
-    cam, coil, arm = sum(lateral.cam) / 2.0, sum(lateral.spring_left) / 2.0, lateral.spring_left[1]
+    cam, wire = sum(lateral.cam) / 2.0, layout.drive.spring.wire_mm
+    inner, outer = lateral.spring_left[0] + wire / 2.0, lateral.spring_left[1] - wire / 2.0
     width, bearing = layout.sections.thickness_mm, layout.hub_bearing
     hub = (width - bearing.width_mm) / 2.0 if bearing else PLAIN_HUB * width
-    coils = -(on_leg + on_pin) / 2.0
+    coils = [(side * end, -force / 2.0) for side in (1.0, -1.0) for end, force in ((inner, on_leg), (outer, on_pin))]
     return {
-        "leg_axle": AxleBeam.of(plates, *on_hub(on_leg, hub), *on_hub(cam_n, hub, cam), (coil, coils), (-coil, coils)),
+        "leg_axle": AxleBeam.of(plates, *on_hub(on_leg, hub), *on_hub(cam_n, hub, cam), *coils),
         "front_axle": AxleBeam.of(plates, *on_hub(front_n, PLAIN_HUB * width)),
-        "spring_pin": AxleBeam.of(plates, (arm, on_pin / 2.0), (-arm, on_pin / 2.0)),
+        "spring_pin": AxleBeam.of(plates, (outer, on_pin / 2.0), (-outer, on_pin / 2.0)),
         **_train_beams(layout, plates, (cam, -cam_n)),
     }
 

@@ -28,8 +28,8 @@ INTERLAYER = "strength_interlayer_mpa/s (MPa)"
 """What stresses of printed parts are compared with."""
 LANDING = "F = m·g + U/safety.landing_stop_mm, a fall from the height to which U could lift the robot"
 ONE_TOE = (
-    "F landing force/(1 + (x/k_y)² + (y/k_x)²) on one tip at x, y from the body's centre of mass in the rest pose, "
-    "with its radii of gyration k"
+    "F landing force/(1 + (x/k_y)² + (y/k_x)²) on the nearer tip, x, y from the body's centre of mass in the rest "
+    "pose, with its radii of gyration k"
 )
 """Loads, for formulas."""
 
@@ -101,7 +101,8 @@ class LoadCase:
         rest = self.robot.linkage.pose(np.zeros(1))
         centre = turned_about_y(1000.0 * body.com_m[[0, 2]] - rest.ankle_mm, -rest.foot_rad)
         back, aside = toe_reach_mm(self.robot.design)
-        return self.landing_n * reflected_share((float(centre[0, 0]) + back, aside), (float(about_x), float(about_y)))
+        arm = float(centre[0, 0]) + back, aside - 1000.0 * abs(float(body.com_m[1]))  # of the nearer toe
+        return self.landing_n * reflected_share(arm, (float(about_x), float(about_y)))
 
     @cached_property
     def steel_stresses_mpa(self) -> dict[str, float]:

@@ -26,8 +26,8 @@ FRICTION = "friction of the feet·(m·g + U/safety.landing_stop_mm)"
 BASIS = {
     "leg_axle_strength": Basis(
         f"{BENDING}; M of a simple beam between the plates: the leg pushes with the forces of arms and cam where its "
-        "bearings are (without, a third of its width beside its middle), each coil beside it pushes back, in its "
-        "middle, with the forces of its own two arms",
+        "bearings are (without, a third of its width beside its middle), each coil beside it pushes back, at its "
+        "ends, with the forces of its own two arms",
         ROUND,
     ),
     "front_axle_strength": Basis(
@@ -45,7 +45,8 @@ BASIS = {
         f"{ROUND}; {TEETH}",
     ),
     "spring_pin_strength": Basis(
-        f"{BENDING}; M of a simple beam between the plates under the force of one arm at each spring's outer end",
+        f"{BENDING}; M of a simple beam between the plates under the force of one arm at each spring's outer end, in "
+        "the wire's middle",
         ROUND,
     ),
     "leg_pin_strength": Basis(

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from support.built import built, geared
 
+from jumpcad.checks.axle_loads import axle_beams
 from jumpcad.checks.load_case import LoadCase
 from jumpcad.checks.strength import strength_findings
 from jumpcad.transforms import Array
@@ -21,6 +22,21 @@ def test_the_plates_carry_what_the_mechanism_pushes(name: str) -> None:
     # springs and leg stand in the middle, the roller beside it: what tilts the leg's axle is the cam's push alone
     beam = case.beams["leg_axle"]
     assert beam.places_mm @ beam.forces_n == pytest.approx(sum(case.layout.lateral.cam) / 2.0 * on_lever)
+
+
+def test_arms_in_line_bend_the_axle_between_hub_and_coils() -> None:
+    """Each coil passes on its arms' forces where they leave it, half a wire within its ends; no cam pushes.
+
+    In the middle M is the reaction's moment less those of outer end, inner end and bearing, of F/2 each.
+    """
+    layout, force, none = built("best-bo").layout, np.array([0.0, 80.0]), np.zeros(2)
+    beam = axle_beams(layout, (force, -force), none, none)["leg_axle"]
+    left, right = (abs(float(np.mean(plate))) for plate in (layout.lateral.left_plate, layout.lateral.right_plate))
+    wire, (inner, outer) = layout.drive.spring.wire_mm, layout.lateral.spring_left
+    bearing = (8.0 - 3.0) / 2.0  # 683: 3 mm wide, in a hub of 8 mm
+    arms = (outer - wire / 2.0) - (inner + wire / 2.0) + bearing
+    by_hand = 80.0 * left / (left + right) * right - 40.0 * arms
+    assert beam.moments_nmm(np.zeros(1)) == pytest.approx([by_hand])
 
 
 @pytest.mark.parametrize("pairs", [1, 2])

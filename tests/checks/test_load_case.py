@@ -46,13 +46,13 @@ def test_axles_and_pins_are_beams_between_what_holds_them(name: str) -> None:
     span, arm_n = left - right, spring.torque_nmm / spring.arms.lever_mm
     roller = next(item for item in robot.hardware if item.name == "roller")
     cam = float(roller.look.copy().apply_transform(roller.T_body_part).bounds[:, 1].mean())
-    coil = robot.layout.lateral.spring_left
+    end = robot.layout.lateral.spring_left[1] - spring.wire_mm / 2.0
     thickness = sections.thickness_mm
     (_, on_pin), _ = case.wound_forces_n
     eye = max(case.front_n, case.landing_n) / 2.0
     by_hand = {
         # the spring that is nearer to its plate loads that plate more; the other plate's share bends over a longer arm
-        "spring_pin": 2.0 * arm_n / span * max(-right * (left - coil[1]), left * (-right - coil[1])),
+        "spring_pin": 2.0 * arm_n / span * max(-right * (left - end), left * (-right - end)),
         "front_axle": 2.0 * eye / span * max(-right * (left - thickness / 3.0), left * (-right - thickness / 3.0)),
         "leg_pin": arm_n * (GAP_MM + spring.wire_mm / 2.0 + thickness / 4.0),
         "foot_pin": max(case.ankle_n, case.front_n, case.landing_n) / 2.0
@@ -100,7 +100,7 @@ def test_the_thread_of_a_screw_that_is_an_axle_bears_less_than_its_shank() -> No
     points = screw.look.copy().apply_transform(screw.T_body_part).bounds[:, 1]
     thread = points[0] + SCREW_THREAD_MM  # its end towards the head, which is on the left
     spring = robot.layout.drive.spring
-    pin = spring.torque_nmm / spring.arms.lever_mm * (lateral.spring_right[0] - plates[1])
+    pin = spring.torque_nmm / spring.arms.lever_mm * (lateral.spring_right[0] + spring.wire_mm / 2.0 - plates[1])
     in_thread = 32.0 * pin / (math.pi * SCREW_CORE_MM**3)
     assert case.steel_stresses_mpa["spring_pin"] == pytest.approx(in_thread, rel=0.1)
     for axle in ("leg_axle", "front_axle", "cam_axle"):
@@ -132,9 +132,9 @@ def test_a_blow_on_one_toe_meets_less_than_the_whole_mass(name: str) -> None:
 
 
 def _toe_from_body_mm(robot: Robot) -> tuple[float, float]:
-    """How far a toe's tip is from the body's centre of mass, along the sole and across, at rest: by the URDF's tree."""
+    """How far the nearer toe's tip is from the body's centre of mass, along the sole and across: by the URDF's tree."""
     model = yourdfpy.URDF.load(io.BytesIO(write_urdf(robot).encode()), load_meshes=False, build_scene_graph=True)
     ankle_to_body = np.linalg.inv(model.get_transform("foot", "body"))
     centre = 1000.0 * (ankle_to_body @ np.append(robot.bodies["body"].com_m, 1.0))
     x, y = toe_tip_mm(robot.design)
-    return float(centre[0] - x), float(y)
+    return float(centre[0] - x), float(y - abs(centre[1]))
