@@ -85,6 +85,9 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
         signals = " and ".join(s for s in have if wiring.pins[s] in twice)
         message = f"{chosen.controller.name}: {', '.join(twice)} is used twice, by {signals}"
         return _yes_or_no("wiring_pins", False, "error", message, "name another pin in [bought.pins]")
+    if "battery" not in have and chosen.controller.adc_max_v is not None:
+        message = f"{chosen.controller.name} has no pin left that measures the battery, so that it may run down"
+        return _yes_or_no("wiring_pins", False, "warning", message, "leave a pin with adc free in [bought.pins]")
     used = ", ".join(f"{wiring.pins[s]} {s}" for s in have)
     return _yes_or_no("wiring_pins", True, "error", f"pins of {chosen.controller.name}: {used}", "[bought.pins]")
 

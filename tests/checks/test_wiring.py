@@ -102,6 +102,16 @@ def test_pins_that_cannot_do_it_are_named(pins: dict[str, str], name: str, words
     assert words in finding.message
 
 
+def test_a_battery_that_no_pin_measures_is_told() -> None:
+    """The pins with an analogue input are taken by other signals; nothing else is wrong."""
+    chosen = parts("light-1s")
+    free = [pin for pin, does in chosen.controller.pins.items() if "adc" in does and "strapping" not in does]
+    assert len(free) == 2
+    finding = found(chosen, dict(zip(("motor", "ready"), free, strict=True)))["wiring_pins"]
+    assert (finding.severity, finding.margin) == ("warning", -1.0)
+    assert "measures the battery" in finding.message
+
+
 def test_a_contact_gets_the_current_of_its_pull_up_or_of_the_pins_own() -> None:
     """Ohm: 3.3 V over the resistor at the supply's pin, or over 45 kOhm in a controller without such a pin."""
     chosen = parts("light-1s")
