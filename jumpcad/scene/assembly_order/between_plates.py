@@ -102,7 +102,8 @@ BETWEEN_PLATES: tuple[Plan, ...] = (
                   "the bar's edge that is nearer to the leg's axle, and the pad then lies in line with the leg; turned "
                   "end for end the bar goes in too, and the pad misses the leg."),
             Words("Grease the jaws, the roller's path and the teeth thinly (silicone or lithium grease). Keep the "
-                  "cam's bore and its axle dry: their friction brakes the cam when it is released. On the cam axle go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
+                  "cam's bore and its axle dry: their friction brakes the cam when it is released. On the cam axle "
+                  "go the cam, jaws up, and over its jaws the gear. The roller lies on the cam."),
             Words("The gear's face with the pockets goes towards the cam, the face with the sensor's ring groove to "
                   "the left, up. It fits the jaws in one position only: where its pockets do not take both jaws, turn "
                   "it by half a turn."),
