@@ -80,7 +80,12 @@ class Rehearsal:
         return refusal is None
 
     def learn(self, trials: Sequence[Trial]) -> None:
-        """Fit the figures of the robots that were built, if there are enough new ones."""
+        """Fit the figures of the robots that were built, if there are enough new ones.
+
+        What was tried for any of the trials, which may be more than the processes learn from, is tried no more.
+        """
+        for variant in self._tried(trials, ()):
+            self._refusal(variant)
         rows = learned_rows(len(trials), LEAST, GROWTH)
         if rows == 0 or self._space.varies_workshop or (self._fit is not None and self._fit.rows == rows):
             return
@@ -140,10 +145,10 @@ class Rehearsal:
         return self._variants[key]
 
     def _failure(self, variant: Variant) -> Trial | None:
-        """Return what a variant that does not hold is learned as; the guess is quicker than the layout."""
-        guess = self._guess(variant)
+        """Return what a variant that does not hold is learned as; the margins of its statics say more than no room."""
+        refusal, guess = self._refusal(variant), self._guess(variant)
         if guess is None or guess.score is not None:
-            return self._refusal(variant)
+            return refusal
         statics = {name: guess.margins[name] for name in STATICS if name in guess.margins}
         findings = [bare(name, "error" if margin < 0.0 else "info", margin, "") for name, margin in statics.items()]
         return _stayed(variant, Evaluation("no_takeoff", findings=tuple(findings)))
