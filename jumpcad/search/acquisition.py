@@ -41,9 +41,14 @@ class Proposal:
     log_improvement: float
     log_feasible: float
 
+    @property
+    def log_value(self) -> float:
+        """The logarithm of the acquisition."""
+        return self.log_improvement + self.log_feasible
+
     def promised_gain(self, best: float) -> float:
         """Return what it promises to gain, as a share of the best score; infinite where no score is above 0."""
-        return promised_gain(self.log_improvement + self.log_feasible, best)
+        return promised_gain(self.log_value, best)
 
     def note(self) -> dict[str, float]:
         """Return both logarithms, for the study file."""
@@ -100,15 +105,14 @@ def propose(
         for axis in np.flatnonzero(space.categories):
             near[:, axis] = np.where(generator.random(LOCAL) < REDRAWN, generator.random(LOCAL), point[axis])
         candidates.append(space.snap(near))
-    points = np.vstack(candidates)
+    points = space.snap(np.vstack(candidates).round(DIGITS))
     values = log_acquisition(points)
     order = np.argsort(-values, kind="stable")
     starts = points[_apart(points, order, STARTS)]
     climbed = np.array([_climb(space, log_acquisition, start, _FIRST_STEPS) for start in starts])
     highest = climbed[log_acquisition(climbed).argmax()]
-    points = np.vstack([_climb(space, log_acquisition, highest, _STEPS), climbed, points[order]])
-    points = space.snap(points.round(DIGITS))
-    values = log_acquisition(points)
+    tops = space.snap(np.vstack([_climb(space, log_acquisition, highest, _STEPS), climbed]).round(DIGITS))
+    points, values = np.vstack([tops, points[order]]), np.concatenate([log_acquisition(tops), values[order]])
     if rehearsed:
         points = np.vstack([*rehearsed, points])
         values = np.concatenate([log_acquisition(np.array(rehearsed)) + REHEARSED, values])

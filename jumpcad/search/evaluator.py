@@ -73,6 +73,7 @@ class Evaluator:
         self._seen: dict[Key, Trial] = {}
         self._spent = 0
         self.prior = list(prior)
+        self._known = {trial.key for trial in self.prior}
         pool.notice = store.note
 
     @property
@@ -86,9 +87,9 @@ class Evaluator:
         return self._spent
 
     def admits(self, one: Design | Variant) -> bool:
-        """Whether a design or variant is new, and the model admits it without an evaluation."""
-        variant = Variant.of(one)
-        return variant.key not in self._seen and self.model.admits(variant.design)
+        """Whether a design or variant is new, also to the prior, and the model admits it without an evaluation."""
+        key = (variant := Variant.of(one)).key
+        return key not in self._seen and key not in self._known and self.model.admits(variant.design)
 
     def holds(self, variant: Variant) -> bool:
         """Whether a trial of a variant is there, in this run or in the study file."""

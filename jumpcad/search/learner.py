@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.search.acquisition import Proposal
+from jumpcad.search.acquisition import REHEARSED, Proposal
 from jumpcad.search.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.rehearsal import Rehearsal
 from jumpcad.search.space import Space
@@ -72,11 +72,15 @@ class Learner:
                 proposal = _best_of(held, posterior, best)
                 break
             self.tried.append(proposal.unit)
-            if self._rehearsal.holds(proposal.variant):
+            holds = self._rehearsal.holds(proposal.variant)
+            posterior = self._learned()
+            if holds:
                 held.append(proposal)
+                before, proposal = proposal.log_value, _best_of([proposal], posterior, best)
+                if proposal.log_value + REHEARSED >= before:
+                    break
             else:
                 self._failed.add(proposal.variant.key)
-            posterior = self._learned()
             proposal = ask(posterior, rehearsed=[one.unit for one in held])
         else:
             proposal = _best_of(held, posterior, best) if held else proposal

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any, Protocol
 
 from jumpcad.arguments import typed
@@ -42,11 +43,29 @@ class Evaluation:
         """Whether the design jumps and no finding is an error."""
         return self.verdict == "jump" and not errors(self.findings)
 
-    @property
+    @cached_property
     def reasons(self) -> tuple[str, ...]:
         """Names of the findings that reject the design; the verdict if there is none."""
         names = tuple(dict.fromkeys(finding.name for finding in errors(self.findings)))
         return names or (() if self.feasible else (self.verdict,))
+
+    @cached_property
+    def margins(self) -> Mapping[str, float]:
+        """The least margin of each limit, by name."""
+        found: dict[str, float] = {}
+        for one in self.findings:
+            found[one.name] = min(found.get(one.name, one.margin), one.margin)
+        return found
+
+    @cached_property
+    def met(self) -> frozenset[str]:
+        """Names of limits that some part meets."""
+        return frozenset(one.name for one in self.findings if one.severity != "error")
+
+    @cached_property
+    def missed(self) -> frozenset[str]:
+        """Names of limits that some part does not meet."""
+        return frozenset(one.name for one in errors(self.findings))
 
     @property
     def cost(self) -> int:

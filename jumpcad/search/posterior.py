@@ -166,18 +166,13 @@ def constraint_margins(trials: Sequence[Trial]) -> dict[str, Array]:
     left to `VERDICT`.
     """
     rejections = Counter(reason for trial in trials for reason in trial.evaluation.reasons)
-    findings = [finding for trial in trials for finding in trial.evaluation.findings if finding.name != NO_TAKEOFF]
-    met = {finding.name for finding in findings if finding.severity != "error"}
-    errors = {finding.name for finding in findings if finding.severity == "error"} & met
-    ranked = sorted(errors & set(rejections), key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
-    margins = {name: np.array([_margin(trial, name) for trial in trials]) for name in ranked}
+    met = set[str]().union(*(trial.evaluation.met for trial in trials)) - {NO_TAKEOFF}
+    missed = set[str]().union(*(trial.evaluation.missed for trial in trials)) & met
+    ranked = sorted(missed, key=lambda name: (-rejections[name], name))[: MAX_CONSTRAINTS - 1]
+    margins = {name: np.array([trial.evaluation.margins.get(name, np.nan) for trial in trials]) for name in ranked}
     if rejections:
         margins[VERDICT] = np.array([1.0 if trial.evaluation.feasible else -1.0 for trial in trials])
     return margins
-
-
-def _margin(trial: Trial, name: str) -> float:
-    return min((f.margin for f in trial.evaluation.findings if f.name == name), default=np.nan)
 
 
 def _scaled(margins: Array) -> Array:

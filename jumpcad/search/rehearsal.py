@@ -8,13 +8,15 @@ All of it follows from the trials and from the points that are kept with them, s
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Self
 
 import numpy as np
 
+from jumpcad.findings import bare
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.guess import MARK, Fit, Guess, Guesser, Table, learned_rows
+from jumpcad.search.guess import MARK, STATICS, Fit, Guess, Guesser, Table, learned_rows
 from jumpcad.search.methods import Task
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Evaluation
@@ -78,7 +80,12 @@ class Rehearsal:
         return refusal is None
 
     def learn(self, trials: Sequence[Trial]) -> None:
-        """Fit the figures of the robots that were built, if there are enough new ones."""
+        """Fit the figures of the robots that were built, if there are enough new ones.
+
+        What was tried for any of the trials, which may be more than the processes learn from, is tried no more.
+        """
+        for variant in self._tried(trials, ()):
+            self._refusal(variant)
         rows = learned_rows(len(trials), LEAST, GROWTH)
         if rows == 0 or self._space.varies_workshop or (self._fit is not None and self._fit.rows == rows):
             return
@@ -87,7 +94,8 @@ class Rehearsal:
         if first is None:
             return
         if self._guesser is None:
-            self._guesser = Guesser(self._space, self._model, self._evaluator.objective, self._model.engine, first)
+            quick = replace(self._model, settings=self._model.guess_settings)
+            self._guesser = Guesser(self._space, quick, self._evaluator.objective, quick.guess_engine, first)
             self._first = [self._variant(point) for point in self.ranked[:SPREAD]]
         centre = self._space.to_unit((best_trial(known) or first).variant)
         self._fit = Fit(rows, Table(self._space, known, centre).coefficients(), {})
@@ -98,28 +106,20 @@ class Rehearsal:
         return self._refusals.get(variant.key) is not None
 
     def holds(self, variant: Variant) -> bool:
-        """Whether a variant has room, and as far as can be guessed jumps."""
-        if self._refusal(variant) is not None:
-            return False
-        guess = self._guess(variant)
-        return guess is None or guess.score is not None
+        """Whether a variant jumps, as far as can be guessed, and has room."""
+        return self._failure(variant) is None
 
     def failures(self, trials: Sequence[Trial], tried: Sequence[Array]) -> list[Trial]:
         """Return the last that were tried for `trials` and since then and did not hold, as if they were trials."""
         found = list(self._passed_over.values())
-        for variant in self._tried(trials, tried):
-            refusal = self._refusal(variant)
-            if refusal is not None:
-                found.append(refusal)
-            elif not self.holds(variant):
-                found.append(_stayed(variant, Evaluation("no_takeoff")))
+        found += [one for one in map(self._failure, self._tried(trials, tried)) if one is not None]
         return found[-FAILED:]
 
     def guesses(self, trials: Sequence[Trial], tried: Sequence[Array]) -> Mapping[Key, tuple[Array, float]]:
         """Return points (d,) and guessed scores, by key, of what was tried and of the trials that jumped."""
         if self._fit is None:
             return {}
-        before = [*self._first, *(one for one in self._tried(trials, tried) if self._refusal(one) is None)][-GUESSED:]
+        before = [*self._first, *filter(self.holds, self._tried(trials, tried))][-GUESSED:]
         jumped = [trial.variant for trial in trials if trial.score is not None]
         found = {}
         for variant in (*before, *jumped):
@@ -143,6 +143,15 @@ class Rehearsal:
         if key not in self._variants:
             self._variants[key] = self._space.to_variant(point)
         return self._variants[key]
+
+    def _failure(self, variant: Variant) -> Trial | None:
+        """Return what a variant that does not hold is learned as; the margins of its statics say more than no room."""
+        refusal, guess = self._refusal(variant), self._guess(variant)
+        if guess is None or guess.score is not None:
+            return refusal
+        statics = {name: guess.margins[name] for name in STATICS if name in guess.margins}
+        findings = [bare(name, "error" if margin < 0.0 else "info", margin, "") for name, margin in statics.items()]
+        return _stayed(variant, Evaluation("no_takeoff", findings=tuple(findings)))
 
     def _refusal(self, variant: Variant) -> Trial | None:
         if variant.key not in self._refusals:

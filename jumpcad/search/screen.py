@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from jumpcad.search.guess import FOLDS, MARK, Fit, Guess, Guesser, Table, learned_rows
 from jumpcad.search.models import RobotModel
@@ -52,7 +53,8 @@ class Screen:
         if kept is not None and kept["rows"] == rows:
             self.fit = Fit.from_record(kept)
             return False
-        self.fit = replace(self._fitted(known, best), rows=rows)
+        with threadpool_limits(1):  # sums in a fixed order give the same bits however many cores there are
+            self.fit = replace(self._fitted(known, best), rows=rows)
         return True
 
     def guess(self, one: Variant) -> Guess | None:

@@ -121,6 +121,9 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
                 )  # fmt: skip
                 converged = METHODS[stage.method].run(evaluator, task)
         trials = evaluator.trials
+        timed = []
+        if clock.is_over() and not converged and evaluator.spent < request.searched:
+            timed = [f"ended after {request.hours:g} h, before {request.searched} designs: the same command goes on"]
         best = best_trial(trials)
         candidates, bounds = [], []
         if request.pick and best is not None:
@@ -129,7 +132,8 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         if candidates:
             left = request.pick - (len(evaluator.trials) - len(trials))
             bounds = active_bounds(evaluator, candidates[0].trial, _bounds_step(request, trials), left)
-        return Result(request, trials, best, candidates, bounds, store.notes(), evaluator.spent, widened, converged)
+        notes = [*store.notes(), *timed]
+        return Result(request, trials, best, candidates, bounds, notes, evaluator.spent, widened, converged)
 
 
 def _bounds_step(request: Request, trials: list[Trial]) -> int:

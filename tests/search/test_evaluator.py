@@ -34,6 +34,15 @@ def test_a_budget_is_kept(evaluator):
     assert len(one.trials) == 4
 
 
+def test_a_design_of_an_earlier_study_is_not_new(evaluator):
+    first, second, third = designs(3)
+    earlier = evaluator()
+    earlier.evaluate([first], "ga", 0)
+    later = evaluator(prior=earlier.trials)
+    later.evaluate([second], "ga", 0)
+    assert [later.admits(design) for design in (first, second, third)] == [False, False, True]
+
+
 def test_an_interrupt_keeps_what_is_finished(evaluator, tmp_path):
     class Interrupting(Hill):
         def __call__(self, design):

@@ -45,16 +45,31 @@ class Rehearsal:
 
 
 class Asked:
-    """Proposes given points one after the other, then the last that was rehearsed."""
+    """Proposes given points one after the other, then the last that was rehearsed; promises what none can keep."""
 
-    def __init__(self, *points):
-        self.points, self.posteriors, self.rehearsed = list(points), [], []
+    def __init__(self, *points, promised=50.0):
+        self.points, self.posteriors, self.rehearsed, self.promised = list(points), [], [], promised
 
     def __call__(self, posterior, rehearsed):
         self.posteriors.append(posterior)
         self.rehearsed.append(list(rehearsed))
         unit = np.array(self.points.pop(0)) if self.points else rehearsed[-1]
-        return Proposal(SMALL.to_variant(unit), unit, 0.0, 0.0)
+        return Proposal(SMALL.to_variant(unit), unit, self.promised, 0.0)
+
+
+def test_what_keeps_its_promise_in_its_rehearsal_is_taken_at_once():
+    """A fifth less, in logarithms, is kept; more is not, and another is asked for."""
+    unit = np.array([[0.2, 0.5, 0.5]])
+    for less, asked in ((0.19, 1), (0.21, 2)):
+        learner = Learner(SMALL, TRIALS, Rehearsal(), {}, refit=True)
+        posterior = learner._learned()
+        value = float((posterior.log_improvement(unit, 1.0) + posterior.log_feasible(unit))[0])
+        ask = Asked(unit[0].tolist(), promised=value + less)
+        found = learner.propose(ask, 1.0)
+        assert found.unit.tolist() == unit[0].tolist()
+        assert len(ask.posteriors) == asked
+        if asked == 1:
+            assert found.log_value == pytest.approx(value, abs=1e-3)  # hyperparameters are rounded after a fit
 
 
 def test_without_rehearsals_the_first_proposal_is_taken():
@@ -108,7 +123,7 @@ def test_none_is_passed_on():
 
 
 def test_what_promises_little_is_not_rehearsed_once_one_holds():
-    """Gains of 2·e^0/√1, then of 0.08 %: the second is not tried."""
+    """A large gain, then one of 0.08 %: the second is not tried."""
 
     class Little(Asked):
         def __call__(self, posterior, rehearsed):

@@ -56,3 +56,11 @@ def test_an_objective_that_the_model_cannot_give_is_named():
 def test_unknown_objective():
     with pytest.raises(JumpcadError, match="did you mean fitness"):
         find_objective("fitnes")
+
+
+def test_of_a_limit_of_several_parts_the_least_margin_counts():
+    """One axle holds and one does not: the limit is both met and missed, and rejects."""
+    findings = (finding("axle", "info", 2.0), finding("axle", "error", -1.0), finding("room", "warning", 0.5))
+    found = Evaluation("jump", findings=findings)
+    assert found.margins == {"axle": -1.0, "room": 0.5}
+    assert (found.met, found.missed, found.reasons) == ({"axle", "room"}, {"axle"}, ("axle",))

@@ -21,6 +21,7 @@ from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 from jumpcad.search.variant import Variant
+from jumpcad.simulation import simulate
 
 TASK = Task(17, 0, initial=10)
 WHOLE = Space.default()
@@ -183,3 +184,37 @@ def test_what_had_room_but_would_not_jump_is_a_failure_too(monkeypatch):
     assert [(one.key, one.evaluation.verdict, one.score) for one in found] == [
         (refused, "no_room", None), (grounded, "no_takeoff", None),
     ]  # fmt: skip
+
+
+def test_what_stands_too_badly_is_learned_with_its_margins(monkeypatch):
+    rehearsal = Rehearsal.__new__(Rehearsal)
+    vars(rehearsal).update(
+        _space=SPACE, _phase="bo", _task=TASK, _prior=set(), _passed_over={}, _refusals={}, _variants={}
+    )
+    monkeypatch.setattr(Rehearsal, "_guess", lambda *_: Guess(None, {"tips": -3.0, "too_weak": 0.2, "stop_room": 1.0}))
+    vars(rehearsal)["_model"] = SimpleNamespace(refusal=lambda one: Evaluation("no_room"))
+    (found,) = rehearsal.failures([], [np.full(SPACE.dimension, 0.5)])
+    assert found.evaluation.reasons == ("tips",)
+    assert found.evaluation.margins == {"tips": -3.0, "too_weak": 0.2}
+
+
+def test_guesses_take_the_planar_engine_with_long_steps_where_it_has_what_the_settings_ask_for():
+    model = robot_model()
+    assert (model.guess_engine, model.guess_settings.dt_s) == ("planar", 0.002)
+    slow = replace(model, settings=model.settings.model_copy(update={"dt_s": 0.004, "restitution": 0.1}))
+    assert (slow.guess_engine, slow.guess_settings.dt_s) == (slow.engine, 0.004)
+    jump = simulate(LIKE)
+    quick_jump = simulate(LIKE, model.guess_settings, model.guess_engine)
+    assert quick_jump.ballistic_range_m == pytest.approx(jump.ballistic_range_m, rel=0.02)
+
+
+def test_what_was_refused_for_any_trial_is_not_proposed_again_also_after_a_restart(trials):
+    """Whatever of the trials the processes learn from."""
+    model = robot_model()
+    points = [WHOLE.to_variant(point) for point in HARD]
+    hard = next(one for one in points if model.admits(one.design))
+    note = {TRIED: [WHOLE.to_unit(hard).tolist()]}
+    restarted = rehearsal_of(model, WHOLE)
+    assert not restarted.is_refused(hard)
+    restarted.learn([replace(trials[-1], step=1, proposal=note)])
+    assert restarted.is_refused(hard)

@@ -7,10 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.quick import BEST, FIGURES, LIKE, SPACE, quick
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.guess import Guess
+from jumpcad.search.guess import Fit, Guess
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.genetic import run_genetic
 from jumpcad.search.models import robot_model
@@ -73,6 +74,20 @@ def test_a_guess_is_as_good_as_its_error_says_and_what_is_left_out_is_worse_than
     assert np.mean(exact - guessed <= 2.0 * error) > 0.9  # the search moves on between two fits
     assert left_out.sum() > 10
     assert np.mean(exact[left_out] < best) > 0.95
+
+
+def test_it_is_fitted_in_one_thread(model, trials, monkeypatch):
+    seen = []
+
+    def fitted(self, known, best):
+        seen.extend(pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas")
+        return Fit(0, {}, {})
+
+    monkeypatch.setattr(Screen, "_fitted", fitted)
+    with threadpool_limits(2):
+        Screen(SPACE, model, find_objective("body_lengths")).learn(trials[:80])
+    assert seen
+    assert set(seen) == {1}
 
 
 def test_nothing_is_left_out_before_enough_is_known_and_no_guess_is_a_score(trials):

@@ -164,7 +164,10 @@ def test_it_ends_when_its_time_is_over_and_the_same_request_goes_on(tmp_path):
         request = replace(REQUEST, method=method, evaluations=evaluations)
         begun = run(replace(request, hours=1e-12), tmp_path / f"{method}.db")
         assert least <= len(begun.trials) < evaluations
+        said = [f"ended after 1e-12 h, before {request.searched} designs: the same command goes on"]
+        assert (method, begun.notes) == (method, said if len(begun.trials) < request.searched else [])
         whole = run(request, tmp_path / f"{method}.db")
+        assert not any("ended after" in note for note in whole.notes)
         assert [trial.key for trial in whole.trials] == [trial.key for trial in run(request).trials]
 
 

@@ -30,8 +30,12 @@ POPULATION = 40
 
 
 def energy_caps_j(space: Space) -> Array:
-    """Return the caps (CAPS,) in equal steps up to the largest energy at the corners of the space (J)."""
-    corners = np.array(list(itertools.product((0.0, 1.0), repeat=space.dimension)))
+    """Return the caps (CAPS,) in equal steps up to the largest energy at the corners of the space (J).
+
+    At those of the designs: values of the workshop do not change the energy.
+    """
+    ends = [(0.0, 0.0) if parameter in space.of_workshop else (0.0, 1.0) for parameter in space.free]
+    corners = np.array(list(itertools.product(*map(dict.fromkeys, ends))))
     energies = energies_j(space.values(corners)[:, : len(PARAMETERS)])
     largest = float(energies[np.isfinite(energies)].max())
     return largest * np.arange(1, CAPS + 1) / CAPS

@@ -5,11 +5,12 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.search.fronts import hypervolume
-from jumpcad.search.methods import Task
+from jumpcad.search.methods import Task, pareto
 from jumpcad.search.methods.pareto import ParetoFitness, energy_caps_j, run_nsga2, run_pareto
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
+from jumpcad.workshop import load_workshop
 
 
 def test_caps_end_at_the_largest_energy():
@@ -18,6 +19,18 @@ def test_caps_end_at_the_largest_energy():
     largest = 0.5 * 30e-3 * np.degrees(1.0) * np.radians(0.8 * 70.0) ** 2
     assert energy_caps_j(plain)[-1] == pytest.approx(largest, rel=1e-12)
     assert energy_caps_j(Space.default())[-1] > 1.1 * largest
+
+
+def test_values_of_the_workshop_add_no_corners(monkeypatch):
+    """Of eleven free parameters, 2⁸ corners, and the same caps."""
+    bounds = {"body.plate_mm": (1.6, 2.4), "body.stop_deg": (4.0, 6.0), "process.infill": (0.1, 0.5)}
+    wide = Space.make(bounds=bounds, workshop=load_workshop())
+    assert wide.dimension == 11
+    rows = []
+    energies = pareto.energies_j
+    monkeypatch.setattr(pareto, "energies_j", lambda values: rows.append(len(values)) or energies(values))
+    assert energy_caps_j(wide) == pytest.approx(energy_caps_j(Space.default()))
+    assert rows == [256, 256]
 
 
 def dominated_share(evaluator):
