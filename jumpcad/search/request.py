@@ -27,7 +27,7 @@ MOST_FIRST = 50
 """Most evaluations of the first of two methods: with 190 of 240, the second found the best design in 10 (measured)."""
 WIDENINGS, WIDENING_SHARE, WIDER = 3, 0.5, "bo"
 """How often active bounds are moved, and the share of the search that follows, by which method; judgement."""
-LEARNING_VERSIONS = ("scipy", "pygad")
+LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 """Packages that decide what is proposed next, in addition to those that decide an evaluation."""
 
 

@@ -1,8 +1,10 @@
 """A Gaussian process over the unit cube, of numbers and of names."""
 
 import math
-from collections.abc import Sequence
-from typing import Self
+import warnings
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, Self
 
 import numpy as np
 from scipy.linalg import cho_solve, cholesky
@@ -10,13 +12,13 @@ from scipy.linalg.lapack import dtrtrs
 from scipy.optimize import minimize
 from scipy.spatial.distance import pdist, squareform
 
-from jumpcad.search.likelihood import JITTER, LENGTH, NOISE, START, VARIANCE, Likelihood
 from jumpcad.transforms import Array
 
+JITTER = 1e-8
+"""Added to the variance of every measurement, besides its noise, in units of that of the values."""
 ALL_EQUAL = 10.0 * float(np.finfo(float).eps)
 """Standard deviation of values below which they are equal."""
 _FIT_STEPS = 30
-"""Most steps of a fit; the next one starts where it ends."""
 
 
 class Axes:
@@ -163,15 +165,41 @@ def _matern(distance: Array) -> Array:
 def _likeliest(x: Array, y: Array, start: Array | None, axes: Axes) -> Array:
     """Return the logarithms of the hyperparameters (k + 2,) with the largest likelihood near a start.
 
-    Few steps are made; the next fit starts where this one ends. All names of an axis have one length scale.
+    Few steps are made; the next fit starts where this one ends.
     """
-    likelihood = Likelihood(x, y)
-    first = axes.folded(np.log([START[0], *[START[1]] * x.shape[1], START[2]]) if start is None else start)
+    from sklearn.exceptions import ConvergenceWarning
+    from sklearn.gaussian_process import GaussianProcessRegressor
+
+    regressor = GaussianProcessRegressor(
+        _kernel(x.shape[1], start), alpha=JITTER, optimizer=partial(_improve, axes=axes)
+    )
+    with warnings.catch_warnings():
+        # a length scale at its upper bound: the axis has no effect
+        warnings.simplefilter("ignore", ConvergenceWarning)
+        regressor.fit(x, y)
+    theta: Array = regressor.kernel_.theta
+    return theta
+
+
+def _kernel(dimension: int, theta: Array | None) -> Any:
+    from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
+
+    kernel = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * dimension, (0.05, 10.0), nu=2.5) + WhiteKernel(
+        1e-4, (1e-6, 1e-1)
+    )
+    return kernel if theta is None else kernel.clone_with_theta(theta)
+
+
+def _improve(objective: Callable[..., Any], start: Array, bounds: Array, axes: Axes) -> tuple[Array, float]:
+    """Maximise the likelihood with few steps; the next fit starts where this one ends."""
 
     def of_axes(theta: Array) -> tuple[float, Array]:
-        value, slopes = likelihood.negative(axes.unfold(theta))
+        value, slopes = objective(axes.unfold(theta))
         return value, axes.fold(slopes)
 
-    bounds = np.log([VARIANCE, *[LENGTH] * (len(first) - 2), NOISE])
-    found = minimize(of_axes, first, method="L-BFGS-B", jac=True, bounds=bounds, options={"maxiter": _FIT_STEPS})
-    return axes.unfold(found.x)
+    limits = np.column_stack([axes.folded(side) for side in np.asarray(bounds).T])
+    found = minimize(
+        of_axes, axes.folded(start), method="L-BFGS-B", jac=True, bounds=list(map(tuple, limits)),
+        options={"maxiter": _FIT_STEPS},
+    )  # fmt: skip
+    return axes.unfold(found.x), found.fun

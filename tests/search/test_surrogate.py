@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 from sklearn.gaussian_process import GaussianProcessRegressor
-from support.kernels import matern
 
-from jumpcad.search.likelihood import JITTER
-from jumpcad.search.surrogate import Surrogate
+from jumpcad.search.surrogate import JITTER, Surrogate, _kernel
 
 
 @pytest.fixture
@@ -19,7 +17,7 @@ def data():
 def test_predictions_are_those_of_scikit_learn(data):
     x, y = data
     ours = Surrogate(x, y)
-    theirs = GaussianProcessRegressor(matern(3, ours.theta), alpha=JITTER, normalize_y=True, optimizer=None).fit(x, y)
+    theirs = GaussianProcessRegressor(_kernel(3, ours.theta), alpha=JITTER, normalize_y=True, optimizer=None).fit(x, y)
     points = np.random.default_rng(1).random((50, 3))
     mean, deviation = theirs.predict(points, return_std=True)
     our_mean, our_deviation = ours.predict(points)
