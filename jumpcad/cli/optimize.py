@@ -48,7 +48,7 @@ FromOption = Annotated[
 UntilOption = Annotated[
     float,
     typer.Option(
-        help="End when five BO proposals in a row promise to gain less than this share of the best score; 0: never.",
+        help="End when seven BO proposals in a row promise to gain less than this share of the best score; 0: never.",
         metavar="PERCENT",
     ),
 ]

@@ -31,7 +31,7 @@ ELITE = 4
 LEARNED, LEARNED_BEST = 400, 100
 """Most trials that the processes are fitted to, and how many of them are the best ones; the others are the nearest to
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
-PATIENCE = 5
+PATIENCE = 7
 """The search ends when so many proposals in a row promise too little; judgement: one or two do now and then."""
 
 Proposer = Callable[[Learner, Sequence[Trial], int, np.random.Generator], list[Proposal]]
