@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.search.acquisition import REHEARSED, Proposal
+from jumpcad.search.acquisition import DIGITS, REHEARSED, Proposal
 from jumpcad.search.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.rehearsal import Rehearsal
 from jumpcad.search.space import Space
@@ -18,6 +18,10 @@ ROUNDS = 20
 """Most rehearsals of a proposal."""
 HELD = 6
 """Of which so many hold; the best of them is evaluated."""
+AROUND, LEAP = 0.2, 0.02
+"""How far beside a best its neighbours along the axes are rehearsed, in the unit cube, and the share by which it must
+be better than the last one whose neighbours were; judgement. A search that follows small gains along a bound does not
+see what another axis is worth: see docs/decisions/default-search.md."""
 WORTH = 0.001
 """Least gain, as a share of the best score, that a further rehearsal must promise once one holds; judgement."""
 
@@ -59,6 +63,7 @@ class Learner:
         improved.
         """
         held: list[Proposal] = []
+        self._look_around()
         posterior = self._learned()
         proposal = ask(posterior, rehearsed=[])
         for _ in range(ROUNDS if self._rehearsal else 0):
@@ -88,6 +93,19 @@ class Learner:
             self._proposed.append(proposal.unit)
         return proposal
 
+    def _look_around(self) -> None:
+        """Rehearse the neighbours of what the last step found, if it is a leap."""
+        if self._rehearsal is None or not self._rehearsal.guessing or self.tried:
+            return
+        found, last = _last_leap(self._trials), self._trials[-1]
+        if found is None or (found.phase, found.step) != (last.phase, last.step):
+            return
+        centre = self._space.to_unit(found.variant)
+        numbers = np.eye(self._space.dimension)[np.array(self._space.categories) == 0]
+        beside = np.clip(centre + AROUND * np.vstack([-numbers, numbers]), 0.0, 1.0)
+        apart = np.abs(beside - centre).max(axis=1) > 0.5 * AROUND  # else a bound is too near
+        self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
+
     def may_hold(self, variant: Variant) -> bool:
         """Whether a variant may be proposed: it has not failed in a rehearsal of this step, nor was refused in any."""
         return variant.key not in self._failed and not (self._rehearsal and self._rehearsal.is_refused(variant))
@@ -103,6 +121,15 @@ class Learner:
         for point in self._proposed:
             posterior = posterior.condition_on(point)
         return posterior
+
+
+def _last_leap(trials: Sequence[Trial]) -> Trial | None:
+    """Return the last trial whose score was better than the leap before it by a share of `LEAP`."""
+    best, found = 0.0, None
+    for trial in trials:
+        if trial.score is not None and trial.score > best * (1.0 + LEAP):
+            best, found = trial.score, trial
+    return found
 
 
 def _best_of(proposals: Sequence[Proposal], posterior: SearchPosterior, best: float) -> Proposal:

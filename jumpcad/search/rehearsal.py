@@ -101,6 +101,11 @@ class Rehearsal:
         self._fit = Fit(rows, Table(self._space, known, centre).coefficients(), {})
         self._guesses.clear()
 
+    @property
+    def guessing(self) -> bool:
+        """Whether enough robots were built to guess the jump of others."""
+        return self._fit is not None
+
     def is_refused(self, variant: Variant) -> bool:
         """Whether a variant was tried and has no room."""
         return self._refusals.get(variant.key) is not None

@@ -26,6 +26,8 @@ TRIALS = [trial_of(point) for point in SMALL.spread(16, np.random.default_rng(0)
 class Rehearsal:
     """Only what is left of a half holds; of what was tried, nothing else is known."""
 
+    guessing = False
+
     def __init__(self, half=0.5):
         self.half = half
 
@@ -120,6 +122,36 @@ def test_what_was_proposed_is_believed_in_the_rest_of_the_step():
 
 def test_none_is_passed_on():
     assert Learner(SMALL, TRIALS, Rehearsal(), {}, refit=False).propose(lambda *_, **__: None, 1.0) is None
+
+
+def found_in(*steps):
+    """Return trials at the same place, one or more in each step, with scores."""
+    unit = np.array([0.5, 0.9, 1.0])
+    return [replace(trial_of(unit), step=step, score=score) for step, scores in enumerate(steps) for score in scores]
+
+
+@pytest.mark.parametrize(
+    ("trials", "looks"),
+    [
+        (found_in([1.0], [1.03]), True),
+        (found_in([1.0], [0.5, 1.03]), True),
+        (found_in([1.0], [1.03, 0.5]), True),  # of a batch, the best need not be the last
+        (found_in([1.0], [1.01]), False),
+        (found_in([1.0], [1.015], [1.03]), True),  # small gains add up
+        (found_in([1.0], [1.03], [0.9]), False),  # once
+        (found_in([1.0], [1.03], [1.04]), False),
+        (found_in([None], [None]), False),
+    ],
+)  # fmt: skip
+def test_beside_a_leap_all_axes_are_rehearsed(trials, looks):
+    """A fifth to either side, less at a bound, nothing beyond it: 1.0 has one side, 0.9 the other one halfway."""
+    rehearsal = Rehearsal()
+    rehearsal.guessing = True
+    learner = Learner(SMALL, trials, rehearsal, {}, refit=False)
+    learner.propose(Asked([0.2, 0.2, 0.2]), 1.0)
+    beside = [[0.3, 0.9, 1.0], [0.5, 0.7, 1.0], [0.5, 0.9, 0.8], [0.7, 0.9, 1.0]]
+    expected = [*(beside if looks else []), [0.2, 0.2, 0.2]]
+    assert np.array(learner.tried) == pytest.approx(np.array(expected))
 
 
 def test_what_promises_little_is_not_rehearsed_once_one_holds():
