@@ -20,15 +20,19 @@ from support.kept import plate_key, robot_key
 from support.robots import make_small_robot
 
 from jumpcad import checks
+from jumpcad.building import growth
 from jumpcad.bundle import export as bundle_export
 from jumpcad.bundle.export import export
 from jumpcad.checks import Check, printability
+from jumpcad.design import Design
 from jumpcad.exporters import threemf
 from jumpcad.findings import Finding
 from jumpcad.parts.part import Drawing, Shape
 from jumpcad.robot import Robot
 from jumpcad.solids import finish
 from jumpcad.solids.stack import Stack
+from jumpcad.strength.sizing import Growth
+from jumpcad.workshop import Workshop
 
 KEPT = 600
 """Shapes kept, those of some 20 robots."""
@@ -104,6 +108,22 @@ def checked_once(costly_findings: dict[object, list[Finding]], monkeypatch: pyte
         return one if one.cheap else replace(one, find=find)
 
     monkeypatch.setattr(checks, "CHECKS", tuple(map(once, checks.CHECKS)))
+
+
+@pytest.fixture(scope="session")
+def assembled_robots() -> dict[object, Robot]:
+    """What `built_once` has assembled."""
+    return {}
+
+
+@pytest.fixture
+def built_once(assembled_robots: dict[object, Robot], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a robot be assembled once for all tests that ask for this: they show what becomes of robots."""
+
+    def asked(design: Design, workshop: Workshop, name: str, grown: Growth) -> object:
+        return design.to_toml(), workshop.to_toml(), name, grown
+
+    monkeypatch.setattr(growth, "assembled", once_of(assembled_robots, growth.assembled, asked))
 
 
 @pytest.fixture(scope="session")

@@ -42,8 +42,8 @@ def contents() -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True)
-def findings(checked_once: None) -> None:
-    """Let a robot be checked once: these tests show what commands do with its findings."""
+def findings(built_once: None, checked_once: None) -> None:
+    """Let a robot be built once and checked once: these tests show what commands do with it and its findings."""
 
 
 @pytest.fixture(autouse=True)

@@ -135,8 +135,8 @@ def slicer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True)
-def findings(checked_once: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a robot be checked once, and a jump be drawn in few pictures: what is tried here is what becomes of them."""
+def findings(built_once: None, checked_once: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Build a robot once, check it once, draw a jump in few pictures: what is tried here is what becomes of them."""
     with_few_pictures(monkeypatch)
 
 
