@@ -16,7 +16,7 @@ import support.threads  # noqa: F401  # before numpy
 from support.built import built
 from support.costs import Costs
 from support.kept import once as once_of
-from support.kept import plate_key, robot_key
+from support.kept import plate_key, robot_key, threemf_key
 from support.robots import make_small_robot
 
 from jumpcad import checks
@@ -45,7 +45,8 @@ sys.dont_write_bytecode = False
 def shapes() -> Iterator[None]:
     """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before.
 
-    So are a report's hundred jumps and its pictures: of equal robots they are the same. So are thumbnails of plates.
+    So are a report's hundred jumps and its pictures: of equal robots they are the same. So are files of plates, with
+    their thumbnails.
     """
     known: dict[Shape, dict[str, Any]] = {}
 
@@ -76,6 +77,7 @@ def shapes() -> Iterator[None]:
             patch.setattr(module, "faults", faults)
         patch.setattr(printability, "_undersides", undersides)
         patch.setattr(threemf, "thumbnail", once_of(seen, threemf.thumbnail, plate_key))
+        patch.setattr(threemf, "write_threemf", once_of(seen, threemf.write_threemf, threemf_key))
         for name in ("uncertainty_of", "renders"):
             patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
         patch.setattr(Stack, "solid", once("solid", Stack.solid, lambda stack: stack))
