@@ -38,6 +38,12 @@ def test_cuts_leave_the_rest():
         stack.minus([(0, 5, rectangle((30, 30)))])
 
 
+def test_what_is_cut_through_at_half_height_is_two_slabs_with_nothing_between():
+    stack = Stack.of([(0, 5, rectangle((10, 10)))]).minus([(2, 3, rectangle((20, 20)))])
+    assert [(slab.z0_mm, slab.z1_mm) for slab in stack.slabs] == [(0, 2), (3, 5)]
+    assert stack.volume_mm3 == pytest.approx(400.0)
+
+
 def test_a_moved_turned_part_keeps_its_mass_and_turns_its_tensor():
     stack = Stack.of([(0, 3, tapered_bar((0, 0), (40, 0), 12, 6)), (3, 7, disc(8, (40, 0)))])
     before, after = stack.mass_properties(1.27), stack.rotated(90).moved(5, 6, 7).mass_properties(1.27)
