@@ -39,6 +39,16 @@ def test_every_template_keeps_its_energy_and_its_motor(name: str) -> None:
     assert release.window_rad[0] < release.free_play_rad < release.window_rad[1]
 
 
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_a_quick_motor_turns_the_cam_as_it_does_on_a_full_battery(name: str) -> None:
+    """Speed is proportional to voltage: of a full cell's 4.2 V the motor's driver takes less than half a volt."""
+    robot = built(name)
+    train = robot.layout.drive.train
+    free_rad_s = train.motor.no_load_rpm * 2.0 * math.pi / 60.0 / train.ratio
+    volts = robot.release.parts[0].cam_rad_s / free_rad_s * train.motor.voltage_v
+    assert 3.7 < volts < 4.2
+
+
 @pytest.mark.parametrize("name", ["best-bo", "best-ga"])
 def test_the_bent_lever_costs_its_own_share(name: str) -> None:
     """The leg is wound less by kδ/K, K the stiffness of lever and contact: 2·k/K of the energy, less for its weight."""
