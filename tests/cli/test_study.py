@@ -1,5 +1,7 @@
 """`jumpcad study`, with the capsule robot."""
 
+import re
+
 from support.searches import QUICK, data, refusal, run
 
 
@@ -13,4 +15,6 @@ def test_studies_compare_and_export(folder):
     assert rows >= 20
     summary = data("study", "0.db")
     assert summary["evaluations"] + summary["other_evaluations"] == rows
+    ranks = re.findall(r"^ *(\d+)\. ", run("study", "0.db", "--list", 3), re.M)
+    assert ranks == ["1", "2", "3"]
     assert "one study" in refusal("study", "0.db", "1.db", "--export", "u.csv")

@@ -59,6 +59,8 @@ def test_slopes_are_those_of_the_path(name: str) -> None:
     path = roll_over(geometry(name))
     middle = slice(5, 200)
     assert path.slope[middle] == pytest.approx(np.gradient(path.wind_rad, path.cam_rad)[middle], abs=1e-3)
+    bend = np.gradient(np.gradient(path.wind_rad, path.cam_rad), path.cam_rad)
+    assert path.bend[middle] == pytest.approx(bend[middle], rel=0.02)
     assert path.wind_rad[0] == pytest.approx(geometry(name).law.compression_rad, abs=1e-9)
     assert path.slope[0] == pytest.approx(
         float(geometry(name).law.derivatives(geometry(name).law.lift_rad)[1]), rel=1e-6
