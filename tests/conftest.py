@@ -16,19 +16,23 @@ import support.threads  # noqa: F401  # before numpy
 from support.built import built
 from support.costs import Costs
 from support.kept import once as once_of
-from support.kept import plate_key, robot_key
+from support.kept import plate_key, robot_key, threemf_key
 from support.robots import make_small_robot
 
 from jumpcad import checks
+from jumpcad.building import growth
 from jumpcad.bundle import export as bundle_export
 from jumpcad.bundle.export import export
 from jumpcad.checks import Check, printability
+from jumpcad.design import Design
 from jumpcad.exporters import threemf
 from jumpcad.findings import Finding
 from jumpcad.parts.part import Drawing, Shape
 from jumpcad.robot import Robot
 from jumpcad.solids import finish
 from jumpcad.solids.stack import Stack
+from jumpcad.strength.sizing import Growth
+from jumpcad.workshop import Workshop
 
 KEPT = 600
 """Shapes kept, those of some 20 robots."""
@@ -41,7 +45,8 @@ sys.dont_write_bytecode = False
 def shapes() -> Iterator[None]:
     """Draw and judge equal shapes once, and keep them: most parts of a robot are those of the robot before.
 
-    So are a report's hundred jumps and its pictures: of equal robots they are the same. So are thumbnails of plates.
+    So are a report's hundred jumps and its pictures: of equal robots they are the same. So are files of plates, with
+    their thumbnails.
     """
     known: dict[Shape, dict[str, Any]] = {}
 
@@ -72,6 +77,7 @@ def shapes() -> Iterator[None]:
             patch.setattr(module, "faults", faults)
         patch.setattr(printability, "_undersides", undersides)
         patch.setattr(threemf, "thumbnail", once_of(seen, threemf.thumbnail, plate_key))
+        patch.setattr(threemf, "write_threemf", once_of(seen, threemf.write_threemf, threemf_key))
         for name in ("uncertainty_of", "renders"):
             patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
         patch.setattr(Stack, "solid", once("solid", Stack.solid, lambda stack: stack))
@@ -104,6 +110,22 @@ def checked_once(costly_findings: dict[object, list[Finding]], monkeypatch: pyte
         return one if one.cheap else replace(one, find=find)
 
     monkeypatch.setattr(checks, "CHECKS", tuple(map(once, checks.CHECKS)))
+
+
+@pytest.fixture(scope="session")
+def assembled_robots() -> dict[object, Robot]:
+    """What `built_once` has assembled."""
+    return {}
+
+
+@pytest.fixture
+def built_once(assembled_robots: dict[object, Robot], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a robot be assembled once for all tests that ask for this: they show what becomes of robots."""
+
+    def asked(design: Design, workshop: Workshop, name: str, grown: Growth) -> object:
+        return design.to_toml(), workshop.to_toml(), name, grown
+
+    monkeypatch.setattr(growth, "assembled", once_of(assembled_robots, growth.assembled, asked))
 
 
 @pytest.fixture(scope="session")

@@ -12,7 +12,7 @@ from types import ModuleType
 import pytest
 import typer
 from support.calibrations import with_coarse_calibration
-from support.pictures import with_few_pictures
+from support.pictures import with_few_pictures, with_plain_figures
 from support.places import ROOT
 from support.proposals import with_less_work
 
@@ -44,7 +44,7 @@ def test_reference_is_what_the_program_gives(reference: ModuleType, page: str) -
     assert (DOCS / name).read_text(encoding="utf-8") == reference.PAGES[name]()
 
 
-@pytest.mark.usefixtures("checked_once")
+@pytest.mark.usefixtures("built_once", "checked_once")
 @pytest.mark.parametrize("page", ["checks.md", "files.md"])
 def test_reference_is_what_the_program_gives_figures_aside(
     reference: ModuleType, page: str, monkeypatch: pytest.MonkeyPatch
@@ -54,6 +54,7 @@ def test_reference_is_what_the_program_gives_figures_aside(
         pytest.importorskip("emcee", reason="the extra calibrate is not installed")
         with_coarse_calibration(monkeypatch)
         with_less_work(monkeypatch)
+    with_plain_figures(monkeypatch)
     name = f"reference/{page}"
     written, given = (DOCS / name).read_text(encoding="utf-8"), reference.PAGES[name]()
     assert without_figures(written) == without_figures(given)
@@ -100,7 +101,7 @@ def vars_of(constraint: object) -> list[float]:
     return [getattr(constraint, type(constraint).__name__.lower())]
 
 
-@pytest.mark.usefixtures("checked_once")
+@pytest.mark.usefixtures("built_once", "checked_once")
 @pytest.mark.parametrize("chapter", BLOCKS)
 def test_examples_run(
     chapter: str, bundle_of: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -109,6 +110,8 @@ def test_examples_run(
     if any("import mujoco" in block for _, block in BLOCKS[chapter]):
         pytest.importorskip("mujoco")
     with_few_pictures(monkeypatch)
+    with_plain_figures(monkeypatch)
+    with_less_work(monkeypatch)
     monkeypatch.chdir(tmp_path)
     if "exports/kenan-2.0" in CHAPTERS[chapter]:
         (tmp_path / "exports").mkdir()

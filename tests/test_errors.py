@@ -14,3 +14,8 @@ def test_errors_pass_from_worker_to_worker() -> None:
     for kind in (JumpcadError, CannotBuildError):
         again = pickle.loads(pickle.dumps(kind("too\tlong")))
         assert (type(again), str(again), again.exit_code) == (kind, r"too\tlong", kind.exit_code)
+
+
+def test_a_wrong_request_is_two_and_a_design_that_cannot_be_built_is_one() -> None:
+    """The exit codes that docs/commands.md names."""
+    assert (JumpcadError("x").exit_code, CannotBuildError("x").exit_code) == (2, 1)

@@ -12,7 +12,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from support.pictures import with_plain_figures
 from support.places import ROOT
+from support.proposals import with_less_work
 
 EXAMPLES = {
     "paper_pipeline": ["--model", "capsule", "--evaluations", "20", "--points", "3", "--folder", "out"],
@@ -28,7 +30,12 @@ def test_every_example_is_run():
 
 @pytest.fixture
 def run(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Callable[[str], str]:
-    """Return a function that runs an example here and returns what it prints; designs are evaluated here, too."""
+    """Return a function that runs an example here and returns what it prints; designs are evaluated here, too.
+
+    Proposals and plots are made with less work.
+    """
+    with_less_work(monkeypatch)
+    with_plain_figures(monkeypatch)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(os, "sched_getaffinity", lambda process: set(), raising=False)  # no core for a worker
 

@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support.pictures import with_plain_figures
 from support.places import ROOT
+from support.proposals import with_less_work
 
 NOTEBOOKS = sorted((ROOT / "examples").glob("*.ipynb"))
 
@@ -24,7 +26,12 @@ def test_notebook_is_kept_without_results(path: Path) -> None:
 
 @pytest.fixture
 def shell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
-    """The shell that a notebook's kernel has, in this process, where imports are paid for; nothing of it stays."""
+    """The shell that a notebook's kernel has, in this process, where imports are paid for; nothing of it stays.
+
+    Proposals and plots are made with less work.
+    """
+    with_less_work(monkeypatch)
+    with_plain_figures(monkeypatch)
     module = pytest.importorskip("IPython.core.interactiveshell")
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)

@@ -23,6 +23,7 @@ from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.parts.lead_ways import plate_of
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import chained
@@ -110,6 +111,20 @@ def test_drawn_leads_pass_the_plates_but_do_not_run_in_them(robot: Robot) -> Non
         for low, high in (lateral.left_plate, lateral.right_plate):
             y = lead.points_mm[:, 1]
             assert ((y < low - 0.6) | (y > high + 0.6)).all(), (lead.number, lead.parts)
+
+
+def test_drawn_leads_of_a_plate_turn_a_millimetre_apart_inside_of_it(robot: Robot) -> None:
+    """At either plate alike, so that no line covers another."""
+    near_right, near_left = robot.layout.lateral.inside
+    turns = {}
+    for plate, face, inwards in (("left", near_left, -1.0), ("right", near_right, 1.0)):
+        of_plate = [lead for lead in leads_of(robot) if plate in {plate_of(robot.layout, part) for part in lead.parts}]
+        away = [inwards * (lead.points_mm[:, 1] - face) for lead in of_plate]
+        turns[plate] = sorted(float(one[one > 0.0].min()) for one in away)
+    assert min(map(len, turns.values())) > 1
+    assert turns["left"][0] == pytest.approx(turns["right"][0])
+    for found in turns.values():
+        assert np.diff(found) == pytest.approx(1.0)
 
 
 def test_the_front_is_where_the_leads_drawing_points_to(robot: Robot) -> None:

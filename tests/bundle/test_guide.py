@@ -403,3 +403,13 @@ def test_a_contact_that_opens_when_pressed_has_contact_while_it_is_free(robot: R
     words = expected(robot, [])
     assert words["contact"] == "NC"
     assert (words["free"], words["pressed"]) == ("contact", "no contact")
+
+
+def test_only_what_is_pushed_on_comes_from_a_side(robot: Robot) -> None:
+    """What a step begins with, and what is laid, bound or soldered, has no side; what is threaded onto an axle has."""
+    things = re.findall(r"^- \d+ × .*\(([^()]*)\)$", write_guide(robot), re.M)
+    sided = {words.partition(", from ")[0] for words in things if ", from the " in words}
+    others = {re.split("[,;]", words)[0] for words in things if ", from " not in words}
+    assert sided >= {"front axle", "cam", "cam gear", "roller", "motor", "spring pin"}
+    assert others >= {"main leg", "foot", "electronics tray lower", "electronics tray upper", "tie controller", "plug"}
+    assert not sided & others

@@ -111,3 +111,8 @@ def test_the_cord_holds_what_both_springs_pull_at_the_legs_end(robot: Robot) -> 
     assert found is not None
     both_nmm = 2.0 * robot.layout.drive.spring.rate_nmm_per_deg * np.degrees(robot.layout.drive.spring.wound_rad)
     assert float(found[1]) == pytest.approx(both_nmm / robot.design.l2_mm, abs=0.51)
+
+
+def test_the_spare_battery_has_as_many_cells_as_the_kits(robot: Robot) -> None:
+    cells = len(re.findall("2s", robot.workshop.bought.battery)) + 1
+    assert f"({'one cell' if cells == 1 else '2 cells'});" in stuck_items(robot)[1]

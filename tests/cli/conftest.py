@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from support.commands import Run, exit_code_of
 from support.kept import once, robot_key
+from support.pictures import with_plain_figures
 from support.places import ROOT
 from support.proposals import with_less_work
 
@@ -42,14 +43,15 @@ def contents() -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True)
-def findings(checked_once: None) -> None:
-    """Let a robot be checked once: these tests show what commands do with its findings."""
+def findings(built_once: None, checked_once: None) -> None:
+    """Let a robot be built once and checked once: these tests show what commands do with it and its findings."""
 
 
 @pytest.fixture(autouse=True)
-def quick_proposals(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let searches make proposals with less work: these tests show what commands do with them."""
+def quick_searches(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let searches make proposals and plots with less work: these tests show what commands do with them."""
     with_less_work(monkeypatch)
+    with_plain_figures(monkeypatch)
 
 
 @pytest.fixture(scope="session")

@@ -1,5 +1,7 @@
 """`jumpcad study`, with the capsule robot."""
 
+import re
+
 from support.searches import QUICK, data, refusal, run
 
 
@@ -9,5 +11,10 @@ def test_studies_compare_and_export(folder):
     assert len(run("study", "0.db", "1.db").strip().splitlines()) == 2
     assert [one["identity"]["seed"] for one in data("study", "0.db", "1.db")["studies"]] == [0, 1]
     run("study", "0.db", "--export", "t.csv")
-    assert (folder / "t.csv").read_text().count("\n") > 20
+    rows = (folder / "t.csv").read_text().count("\n") - 1
+    assert rows >= 20
+    summary = data("study", "0.db")
+    assert summary["evaluations"] + summary["other_evaluations"] == rows
+    ranks = re.findall(r"^ *(\d+)\. ", run("study", "0.db", "--list", 3), re.M)
+    assert ranks == ["1", "2", "3"]
     assert "one study" in refusal("study", "0.db", "1.db", "--export", "u.csv")

@@ -228,7 +228,9 @@ class Contact:
             low, high = (middle, high) if self.gap_mm(middle, cam)[0] < 0.0 else (low, middle)
         return high
 
-    def run(self, motor: dict[str, float], play: float | None = None, longest_s: float = 0.3) -> Outcome:
+    def run(
+        self, motor: dict[str, float], play: float | None = None, longest_s: float = 0.3, step_s: float = STEP_S
+    ) -> Outcome:
         """Simulate a release with one of the manifest's assumed motors; `play` (rad) replaces the measured one.
 
         It ends when roller and cam have parted and the cam has struck its gear, after `longest_s` at the latest.
@@ -260,8 +262,8 @@ class Contact:
         damp = [2.0 * share * math.sqrt(train * a * b / (a + b)) for a, b in itertools.pairwise(masses)]
         damp_roller = 2.0 * DAMPING * math.sqrt(contact * tip_inertia) / arm_m
         damp_lever = 0.04 * math.sqrt(lever * tip_inertia)
-        for step in range(int(longest_s / STEP_S)):
-            if step * STEP_S > max(parted, struck) + AFTER_S:
+        for step in range(int(longest_s / step_s)):
+            if step * step_s > max(parted, struck) + AFTER_S:
                 break
             gap, normal, point = self.gap_mm(roller, float(turn[0]))
             force = 0.0
@@ -274,22 +276,22 @@ class Contact:
                 force = max(-contact * gap / 1000.0 + damp_roller * closing, 0.0)
             inertia, bend, weight = self.leg.at(wind)
             if force > 0.0:
-                left = step * STEP_S
+                left = step * step_s
                 kept = 0.5 * rate * wind**2 + 0.5 * inertia * wind_rate**2 + raised
             bent = lever * (roller - wind) + damp_lever * (roller_rate - wind_rate)
-            wind_rate += STEP_S * (bent - rate * max(wind, 0.0) - weight - 0.5 * bend * wind_rate**2) / inertia
-            roller_rate += STEP_S * (force * arm - bent) / tip_inertia
+            wind_rate += step_s * (bent - rate * max(wind, 0.0) - weight - 0.5 * bend * wind_rate**2) / inertia
+            roller_rate += step_s * (force * arm - bent) / tip_inertia
             friction = motor["friction_mm"] / 1000.0 * force * math.tanh(speed[0] / 0.05)
             dog = _flanks(turn[0] - turn[1], speed[0] - speed[1], play, train, damp[0])
             head = _flanks(turn[1] - turn[2], speed[1] - speed[2], backlash, train, damp[1])
-            speed[0] += STEP_S * (force * cam_arm - friction - dog) / masses[0]
-            speed[1] += STEP_S * (dog - head) / masses[1]
-            speed[2] = max(speed[2] + STEP_S * head / masses[2], motor["cam_rad_s"])  # the motor still runs
+            speed[0] += step_s * (force * cam_arm - friction - dog) / masses[0]
+            speed[1] += step_s * (dog - head) / masses[1]
+            speed[2] = max(speed[2] + step_s * head / masses[2], motor["cam_rad_s"])  # the motor still runs
             blow, kick = max(blow, dog), max(kick, head)
-            parted = min(parted, step * STEP_S) if gap > 0.0 and step * STEP_S > left + APART_S else parted
-            struck = min(struck, step * STEP_S) if dog > 0.0 else struck
-            raised += STEP_S * weight * wind_rate  # what lifted the body is not lost
-            wind, roller, turn = wind + STEP_S * wind_rate, roller + STEP_S * roller_rate, turn + STEP_S * speed
+            parted = min(parted, step * step_s) if gap > 0.0 and step * step_s > left + APART_S else parted
+            struck = min(struck, step * step_s) if dog > 0.0 else struck
+            raised += step_s * weight * wind_rate  # what lifted the body is not lost
+            wind, roller, turn = wind + step_s * wind_rate, roller + step_s * roller_rate, turn + step_s * speed
         ratio = self.files.manifest["drive"]["release"]["gear_ratio"]
         return Outcome(kept / (0.5 * rate * wound**2), kick / ratio, blow, math.degrees(play), left)
 

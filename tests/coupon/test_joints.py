@@ -82,6 +82,15 @@ def holes_of(region: CrossSection) -> list[np.ndarray]:
     return [np.ptp(box, axis=0) for box in sorted(boxes, key=lambda box: box[0, 0]) if box is not whole]
 
 
+@pytest.mark.parametrize(("allowed", "first"), [(("n20-50", "n20-298"), "n20-50"), ((), None)])
+def test_the_motor_is_the_first_that_is_allowed(allowed: tuple[str, ...], first: str | None) -> None:
+    """Without a list every motor is."""
+    shop = load_workshop()
+    bought = shop.bought.model_copy(update={"motors": allowed})
+    found = joints._motor(shop.model_copy(update={"bought": bought}))
+    assert found == shop.catalogue.motors[first or next(iter(shop.catalogue.motors))]
+
+
 def test_openings_are_what_they_hold_with_the_engraved_offset_on_every_side(pieces: dict[str, Piece]) -> None:
     """Taps for M2 by their diameters; a tab of 10 x 1.6 mm, motor and bearing by the sizes of the catalogue."""
     shop = load_workshop()

@@ -107,6 +107,8 @@ def test_pinions_play_by_the_backlash_engraved_on_them() -> None:
     _, ends = contours(reread(PIECES["gear_holder"]).slice(3.0))
     distance = float(np.ptp([polygon.mean(axis=0)[0] for polygon in ends]))
     assert [width(polygon) for polygon in ends] == pytest.approx([3.2, 3.2], abs=2e-3)  # press 0.10 per side
+    bar = PIECES["gear_holder"].shape.bounds_mm
+    assert np.ptp(bar, axis=0)[1] == pytest.approx(3.2 + 4.0 * WORKSHOP.fits.wall_mm)  # two walls on each side
     wheel = reread(PIECES["gear_wheel"]).slice(2.5).rotate(180.0 + 360.0 / 40.0)
     played = {}
     for name in (name for name in PIECES if name.startswith("pinion")):

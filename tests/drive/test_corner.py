@@ -1,6 +1,7 @@
 """The roller on the cam's corner, and the window in which its way is free, against shapely's distances."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -58,10 +59,22 @@ def test_slopes_are_those_of_the_path(name: str) -> None:
     path = roll_over(geometry(name))
     middle = slice(5, 200)
     assert path.slope[middle] == pytest.approx(np.gradient(path.wind_rad, path.cam_rad)[middle], abs=1e-3)
+    bend = np.gradient(np.gradient(path.wind_rad, path.cam_rad), path.cam_rad)
+    assert path.bend[middle] == pytest.approx(bend[middle], rel=0.02)
     assert path.wind_rad[0] == pytest.approx(geometry(name).law.compression_rad, abs=1e-9)
     assert path.slope[0] == pytest.approx(
         float(geometry(name).law.derivatives(geometry(name).law.lift_rad)[1]), rel=1e-6
     )
+
+
+@pytest.mark.parametrize("turn_deg", [-150.0, -60.0, 45.0, 170.0])
+def test_cam_and_leg_turned_about_the_hub_move_alike(turn_deg: float) -> None:
+    """The path over the corner says nothing of directions: it is the same whichever way the axis lies."""
+    cam = geometry("kenan-2.0")
+    here = roll_over(cam, 0.5)
+    there = roll_over(replace(cam, axis_rad=cam.axis_rad + math.radians(turn_deg)), 0.5)
+    for name in ("cam_rad", "wind_rad", "slope", "arm_mm"):
+        assert getattr(there, name) == pytest.approx(getattr(here, name), abs=1e-9)
 
 
 @pytest.mark.parametrize("name", TEMPLATES)

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.built import built
+from support.built import built, geared
 
 from jumpcad import build, load_design, load_workshop
+from jumpcad.building.limits import release_limits
 from jumpcad.drive.corner import roll_over
-from jumpcad.drive.release import Release
+from jumpcad.drive.release import Release, _kick_limit_nm
 from jumpcad.drive.rolling import ReleaseParts, Rolled, _Release, roll
 from jumpcad.errors import JumpcadError
 from jumpcad.robot import Robot
@@ -37,6 +38,27 @@ def test_every_template_keeps_its_energy_and_its_motor(name: str) -> None:
     assert 1.1 * release.kick_nm <= release.kick_limit_nm
     assert math.degrees(release.free_play_rad) == pytest.approx(math.degrees(release.roll_over_rad) + 3.0, abs=1e-3)
     assert release.window_rad[0] < release.free_play_rad < release.window_rad[1]
+
+
+def test_the_kick_is_limited_by_the_teeth_of_the_pinion_that_bears_least() -> None:
+    """At the limit, without one of the motor, the worst pinion has the allowed stress; each gets what is before it."""
+    robot = geared()
+    limits, drive = release_limits(robot.workshop), robot.layout.drive
+    limit = _kick_limit_nm(drive, replace(limits, motor_nm=1e6))
+    first, second = drive.train.stages
+    stresses = [first.pinion.lewis_stress_mpa(limit), second.pinion.lewis_stress_mpa(limit * first.ratio)]
+    assert max(stresses) == pytest.approx(limits.teeth_mpa)
+    assert _kick_limit_nm(drive, replace(limits, motor_nm=0.9 * limit)) == pytest.approx(0.9 * limit)
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_a_quick_motor_turns_the_cam_as_it_does_on_a_full_battery(name: str) -> None:
+    """Speed is proportional to voltage: of a full cell's 4.2 V the motor's driver takes less than half a volt."""
+    robot = built(name)
+    train = robot.layout.drive.train
+    free_rad_s = train.motor.no_load_rpm * 2.0 * math.pi / 60.0 / train.ratio
+    volts = robot.release.parts[0].cam_rad_s / free_rad_s * train.motor.voltage_v
+    assert 3.7 < volts < 4.2
 
 
 @pytest.mark.parametrize("name", ["best-bo", "best-ga"])

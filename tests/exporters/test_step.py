@@ -1,12 +1,15 @@
 """STEP files read back: volume, box, faces, one valid solid."""
 
 import math
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from support.places import ROOT, TESTS
+from support.stacks import HOLED
 
 from jumpcad.bundle.export import export
 from jumpcad.bundle.manifest import verify
@@ -15,13 +18,11 @@ from jumpcad.exporters import step
 from jumpcad.parts.part import Drawing
 from jumpcad.robot import Robot
 from jumpcad.solids.blocks import Blocks, Finger
-from jumpcad.solids.outline import disc, hole, rectangle
+from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.text import text
 
 needs_step = pytest.mark.skipif(not step.is_installed(), reason="build123d is not installed (the extra `step`)")
-
-PLATE = Stack.of([(0, 3, rectangle((40, 30), (5, 0)) - hole(3.4, (-8, 6)))]).plus([(0, 9, disc(12, (12, 2)))])
 
 
 def drawn(shape: Stack | Blocks, name: str = "plate") -> Drawing:
@@ -40,7 +41,7 @@ def read(data: bytes, folder: Path):
 
 @needs_step
 def test_outlines_become_planes_and_true_cylinders(tmp_path: Path) -> None:
-    solid = read(step.write_step(drawn(PLATE)), tmp_path)
+    solid = read(step.write_step(drawn(HOLED)), tmp_path)
     volume = 3.0 * (40.0 * 30.0 - math.pi * 1.7**2) + 6.0 * math.pi * 6.0**2
     assert solid.volume == pytest.approx(volume, rel=1e-5)
     kinds = sorted(face.geom_type.name for face in solid.faces())
@@ -85,18 +86,18 @@ def test_engraved_plates_close(tmp_path: Path) -> None:
 
 @needs_step
 def test_the_same_bytes_in_another_process(tmp_path: Path) -> None:
-    here = step.write_step(drawn(PLATE))
+    here = step.write_step(drawn(HOLED))
     code = (
-        "import sys; from pathlib import Path; from jumpcad.exporters.step import write_step\n"
-        "from test_step import PLATE, drawn\n"
-        "write_step(drawn(PLATE, 'other')); Path(sys.argv[1]).write_bytes(write_step(drawn(PLATE)))"
+        "import sys; from pathlib import Path; from support.stacks import HOLED\n"
+        "from jumpcad.exporters.step import write_step; from jumpcad.parts.part import Drawing\n"
+        "other, plate = (write_step(Drawing(name, 'body', HOLED, ())) for name in ('other', 'plate'))\n"
+        "Path(sys.argv[1]).write_bytes(plate)"
     )
+    paths = os.pathsep.join([str(TESTS), str(ROOT)])
     subprocess.run(
-        [sys.executable, "-c", f"import sys; sys.path[:0] = {[str(Path(__file__).parent), *sys.path]!r}\n{code}",
-         str(tmp_path / "there.step")],
-        check=True,
-    )  # fmt: skip
-    assert (tmp_path / "there.step").read_bytes() == here == step.write_step(drawn(PLATE))
+        [sys.executable, "-c", code, str(tmp_path / "there.step")], check=True, env=os.environ | {"PYTHONPATH": paths}
+    )
+    assert (tmp_path / "there.step").read_bytes() == here == step.write_step(drawn(HOLED))
 
 
 @needs_step

@@ -19,6 +19,12 @@ def test_python_callers_get_the_same_words_without_a_file() -> None:
         Printer(name="x", nozzle_mm=0.01, bed=Bed(width_mm=1.0))
 
 
+@pytest.mark.parametrize("value", [float("nan"), float("inf")])
+def test_a_number_is_finite(value: float) -> None:
+    with pytest.raises(JumpcadError, match="must be a finite number"):
+        Printer(name="x", nozzle_mm=value, bed=Bed(width_mm=1.0))
+
+
 def test_a_record_that_was_changed_behind_its_back_is_found_out() -> None:
     printer = Printer(name="x", bed=Bed(width_mm=1.0))
     assert printer.revalidated() == printer

@@ -19,7 +19,7 @@ import matplotlib.font_manager  # writes its list of fonts, if there is none
 import pytest
 from support.commands import exit_code_of
 from support.kept import once, robot_key
-from support.pictures import with_few_pictures
+from support.pictures import with_few_pictures, with_plain_figures
 from support.robots import make_small_robot
 from support.sandbox import Sandbox
 from support.slicers import OBEDIENT
@@ -135,9 +135,10 @@ def slicer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True)
-def findings(checked_once: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a robot be checked once, and a jump be drawn in few pictures: what is tried here is what becomes of them."""
+def findings(built_once: None, checked_once: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Build a robot once, check it once, draw a jump in few pictures: what is tried here is what becomes of them."""
     with_few_pictures(monkeypatch)
+    with_plain_figures(monkeypatch)
 
 
 @pytest.fixture

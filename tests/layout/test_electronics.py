@@ -18,6 +18,8 @@ from jumpcad.layout.room import EVERYWHERE, box_obstacle, disc
 CATALOGUE = load_catalogue()
 CARRIED = Electronics(CATALOGUE.batteries["lipo-2s-180"], CATALOGUE.boards["xiao-esp32c3"], CATALOGUE.boards["drv8833"])
 INSIDE = (-20.0, 20.0)
+GAP_BETWEEN = {"controller": 1.0, "driver": -1.0}
+"""The boards beside the gap, with the end that each turns towards it: the controller is behind."""
 
 
 def test_sizes_are_those_of_what_lies_on_the_trays() -> None:
@@ -145,6 +147,8 @@ def test_resistors_lie_two_by_two_apart_from_each_other_and_from_ties_and_boards
     taken = [box(seats[role]) for role in ("controller", "driver", "plug", "capacitor")]
     for seat in small:
         assert seat.size_mm == (2.3, 6.3, 2.3)
+        behind, ahead = (seats[role].x_mm + end * seats[role].size_mm[0] / 2.0 for role, end in GAP_BETWEEN.items())
+        assert behind < seat.x_mm - 2.3 / 2.0 < seat.x_mm + 2.3 / 2.0 < ahead
         assert abs(seat.y_mm) + 6.3 / 2.0 <= half_mm - 1.0
         assert seat.bottom_mm == pytest.approx(full.upper_tray_mm + 1.6)
     for one, other in itertools.combinations(map(box, small), 2):

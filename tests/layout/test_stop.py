@@ -142,6 +142,16 @@ def test_the_stop_is_as_far_past_rest_as_asked_for_or_as_the_loop_closes() -> No
     assert closes(far)
 
 
+def test_a_gap_that_leg_and_front_link_have_moves_no_stop_and_one_that_they_lack_is_refused(robot: Robot) -> None:
+    """They are nearest to each other with loaded springs: a stop nearer to rest would not help."""
+    given, wanted = (robot.linkage, robot.layout.sections), math.radians(9.0)
+    apart = legs_apart_mm(*given, math.radians(12.0))
+    assert apart == legs_apart_mm(*given)
+    assert stop_angle_rad(*given, wanted, apart - 0.01) == wanted
+    with pytest.raises(CannotBuildError, match=r"front link is 0\.0 mm less than"):
+        stop_angle_rad(*given, wanted, apart + 0.01)
+
+
 def test_links_that_are_too_short_beyond_the_least_stop_are_refused(robot: Robot) -> None:
     """At 3°, and 3° more for the pad, the ankle is no farther from the front pivot than foot and front link reach."""
     linkage, sections = robot.linkage, robot.layout.sections

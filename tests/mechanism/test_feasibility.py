@@ -89,6 +89,15 @@ def test_design_without_assembled_pose_is_a_loop_finding(c_coef: float, d_coef: 
     assert "short of closing" in finding.message
 
 
+def test_legs_that_hardly_close_at_rest_fall_short_in_the_travel() -> None:
+    """Parallel at rest with half a millimetre to spare: it is the travel over which they do not reach each other."""
+    design = load_design("kenan-2.0").model_copy(update={"c_coef": 1.295, "d_coef": 0.3})
+    assert design.assembly_margin_mm == pytest.approx(0.5)
+    (finding,) = geometry_findings(design)
+    assert finding.margin < 0.0
+    assert finding.message.endswith("must reach each other over the whole travel")
+
+
 @pytest.mark.parametrize("change", [{"c_coef": 0.8}, {"d_coef": 1.2}])
 def test_a_body_tilted_by_more_than_its_legs_stand_off_cannot_be_wound(change: dict[str, float]) -> None:
     """tilt = asin((l3 - l2)·sin(rest)/l4): -69.3° here, where 53.6° would have to be left; the remedies help."""

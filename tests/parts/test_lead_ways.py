@@ -198,6 +198,15 @@ def test_only_leads_near_a_screw_go_round_it_and_below(above_mm: float, passes_m
         assert _beside(layout, "sensor", start + aside, end + aside) == []
 
 
+def test_a_lead_along_both_screws_passes_them_one_after_the_other() -> None:
+    layout = built("kenan-2.0").layout
+    one, other = sorted((np.array([x, 30.0, z]) for x, z in layout.standoffs_mm), key=lambda screw: float(screw[0]))
+    beyond = 0.1 * (other - one)
+    for start, end in ((one - beyond, other + beyond), (other + beyond, one - beyond)):
+        passed = [float(point[0]) for point in _beside(layout, "sensor", start, end)]
+        assert passed == sorted((one[0], other[0]), reverse=bool(start[0] > end[0]))
+
+
 @pytest.mark.parametrize(("above_mm", "side"), [(3.0, 1.0), (-3.0, -1.0)])
 def test_leads_go_round_the_opening_for_usb_on_the_nearer_side(above_mm: float, side: float) -> None:
     layout = built("kenan-2.0").layout

@@ -15,6 +15,7 @@ from jumpcad.checks.load_case import LoadCase
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.layout.leg_bars import BarPlace
+from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.links import leg_bar_place
 from jumpcad.robot import Robot
 from jumpcad.strength.leg_bar import Socket, bar_bending_mpa, bar_shear_mpa, bent_energy_nmm, buckling_n
@@ -59,6 +60,16 @@ def test_bars_sit_in_the_sockets_of_both_ends(leg: str) -> None:
         assert bar[1] > end[0] + 7.5
         height, width = np.ptp(sizes["bar"][:, 2]), np.ptp(sizes["bar"][:, 1])
         assert (width, height) == pytest.approx((BARS[leg].width_mm, BARS[leg].height_mm), abs=0.1)
+
+
+def test_the_whole_heel_is_printed() -> None:
+    """However far from the hub the stop is: the socket's mouth is not before the pad's end and half a millimetre."""
+    found = robot("carbon-tube-4x2")
+    layout = found.layout
+    far = replace(layout, stop=replace(layout.stop, radius_mm=40.0))
+    place = leg_bar_place(far, HoleSizes.of(found.workshop, layout.hub_bearing))
+    assert place is not None
+    assert place.mouth_mm == pytest.approx(40.0 + 8.0 / 2.0 + 0.5)
 
 
 @pytest.mark.parametrize("leg", ["carbon-tube-4x2", "carbon-strip-3x6"])

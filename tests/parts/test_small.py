@@ -59,6 +59,21 @@ def test_spacers_turn_on_their_axles(kenan: Robot) -> None:
         assert inscribed_diameter(segments, np.zeros(2)) == pytest.approx(RUNNING, abs=TOLERANCE_MM)
 
 
+def test_front_link_and_cam_gear_have_half_a_millimetre_beside_what_is_pushed_away(kenan: Robot) -> None:
+    """The axial gap between parts that move past each other, shared by both ends of a spacer, and by cam and gear."""
+    low, high = kenan.layout.lateral.inside
+    right, link, left = (
+        placed(kenan, one).bounds[:, 1] for one in ("front_spacer_right", "front_link", "front_spacer_left")
+    )
+    assert high - np.ptp(left) - link[1] == pytest.approx(0.5, abs=1e-3)
+    assert link[0] - np.ptp(right) - low == pytest.approx(0.5, abs=1e-3)
+    gear, cam, spacer = (placed(kenan, one) for one in ("cam_gear", "cam", "cam_spacer_right"))
+    levels = np.unique(cam.vertices[:, 1].round(6))
+    shoulder = levels[levels < gear.bounds[0, 1]].max()
+    assert gear.bounds[0, 1] - shoulder == pytest.approx(0.25, abs=1e-3)
+    assert cam.bounds[0, 1] - spacer.bounds[1, 1] == pytest.approx(0.25, abs=1e-3)
+
+
 def test_the_motors_cap_has_its_boss_between_two_screws(kenan: Robot) -> None:
     """An N20's boss, and screws M2 on either side of the case, 2.4 mm wide, their heads 3.8 mm, sunk by 1.6 mm."""
     y0, y1 = kenan.layout.lateral.motor_cap

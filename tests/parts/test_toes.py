@@ -12,7 +12,7 @@ from support.built import LONG_TOES, built, part, placed
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.toes import lying_hole, toes, toes_apart
+from jumpcad.parts.toes import joint_height_mm, lying_hole, toes, toes_apart
 
 
 def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
@@ -37,6 +37,16 @@ def test_a_lying_hole_holds_its_shaft_under_a_roof_of_45_degrees(diameter: float
     assert np.ptp(flat[:, 0]) == pytest.approx(0.264 * diameter, rel=0.01)
     assert above[:, 1].max() == pytest.approx(1.15 * radius)
     np.testing.assert_allclose(np.abs(above[:, 0]) + above[:, 1], math.sqrt(2.0) * radius, atol=0.02 * radius)
+
+
+def test_a_joint_of_toes_is_as_high_as_the_toe_or_as_its_screw_needs() -> None:
+    """The screw's hole with two walls above it and two below."""
+    robot = built(LONG_TOES)
+    layout, holes = robot.layout, HoleSizes.of(robot.workshop, robot.layout.hub_bearing)
+    needed = holes.m3_clearance_mm + 4.0 * robot.workshop.fits.wall_mm
+    for root, height in ((needed - 1.0, needed), (needed + 1.0, needed + 1.0)):
+        sized = replace(layout, sections=replace(layout.sections, toe_root_mm=root))
+        assert joint_height_mm(sized, holes) == pytest.approx(height)
 
 
 def test_pads_lie_under_the_toes_tips_and_not_beyond() -> None:

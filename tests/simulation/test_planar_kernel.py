@@ -389,6 +389,21 @@ def test_the_stop_in_the_air_takes_no_momentum_from_a_leg_with_friction_either(k
     assert losses.stop_j > 1e-4
 
 
+def test_what_a_flat_fall_takes_is_the_impact(kenan: Robot) -> None:
+    """Both ends of the foot strike at once, the springs loaded: the energy that is missing is the impact's alone."""
+    model = model_of(kenan, replace_damping(FINE))
+    high = moving(model, -0.5)._replace(foot_rad=0.0, speed=Motion(0.0 - 0.8j, 0.0, 0.0))
+    drop = 1j * (kernel.gap_m(model, high) - 1e-5)
+    world = world_at(kenan, high._replace(ankle_m=high.ankle_m - drop), replace_damping(FINE))
+    energy = kernel.energy(world.model, world.moment)
+    world.advance(1)
+    contact, losses = world.moment.contact, world.moment.losses
+    assert min(contact.first_ns, contact.second_ns) > 0.0
+    lost = energy - kernel.energy(world.model, world.moment)
+    assert lost > 0.5 * kenan.mass_kg * 0.5**2
+    assert losses.impact_j + losses.slip_j == pytest.approx(lost, rel=0.01)
+
+
 def test_the_bodys_gap_and_rise_are_those_of_the_robot_in_space(either: Robot) -> None:
     """Its lowest sphere above the ground, sphere by sphere; the sign of the centre of mass's velocity."""
     model, mechanics = model_of(either), Mechanics(either, 9.81)

@@ -117,6 +117,7 @@ def test_the_budget_of_a_slipping_robot_with_a_cam_adds_up(kenan: Robot, engine:
     """What is left for impacts and rounding, when all else has been measured by itself, is hardly anything.
 
     The foot slides, but does not fall: slip takes more than a hundredth of the springs' energy, impacts next to none.
+    Energies forwards and upwards are those of a mass thrown with the take-off's speed and angle.
     """
     robot = let_go(kenan)
     jump = simulate(robot, Settings(ground_friction=0.4), engine)
@@ -125,5 +126,10 @@ def test_the_budget_of_a_slipping_robot_with_a_cam_adds_up(kenan: Robot, engine:
     assert sum(vars(budget).values()) == pytest.approx(robot.spring.energy_j, rel=1e-9)
     assert budget.slip_j > 0.01 * robot.spring.energy_j
     assert abs(budget.contact_j) < 0.02 * budget.slip_j
+    assert jump.takeoff_speed_m_s is not None
+    assert jump.takeoff_angle_deg is not None
+    thrown, angle = 0.5 * robot.mass_kg * jump.takeoff_speed_m_s**2, np.radians(jump.takeoff_angle_deg)
+    assert budget.forward_j == pytest.approx(thrown * np.cos(angle) ** 2, rel=1e-7)
+    assert budget.upward_j == pytest.approx(thrown * np.sin(angle) ** 2, rel=1e-7)
     assert jump.energy_account_j is not None
     assert sum(jump.energy_account_j.values()) == pytest.approx(robot.spring.energy_j, rel=1e-9)

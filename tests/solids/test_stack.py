@@ -38,6 +38,12 @@ def test_cuts_leave_the_rest():
         stack.minus([(0, 5, rectangle((30, 30)))])
 
 
+def test_what_is_cut_through_at_half_height_is_two_slabs_with_nothing_between():
+    stack = Stack.of([(0, 5, rectangle((10, 10)))]).minus([(2, 3, rectangle((20, 20)))])
+    assert [(slab.z0_mm, slab.z1_mm) for slab in stack.slabs] == [(0, 2), (3, 5)]
+    assert stack.volume_mm3 == pytest.approx(400.0)
+
+
 def test_a_moved_turned_part_keeps_its_mass_and_turns_its_tensor():
     stack = Stack.of([(0, 3, tapered_bar((0, 0), (40, 0), 12, 6)), (3, 7, disc(8, (40, 0)))])
     before, after = stack.mass_properties(1.27), stack.rotated(90).moved(5, 6, 7).mass_properties(1.27)
@@ -69,6 +75,13 @@ def test_a_chamfer_is_the_slope_sampled_in_the_middle_of_each_layer():
     assert max(np.hypot(*contour.T).min() for contour in bored.slabs[0].region.to_polygons()[1:]) > 3.24
     with pytest.raises(JumpcadError, match=r"bottom slab of 0\.3 mm is too thin"):
         Stack.of([(0, 0.3, disc(9))]).chamfered(0.35, 0.2)
+
+
+def test_a_chamfer_as_deep_as_the_bottom_slab_leaves_nothing_of_it():
+    block = Stack.of([(0, 0.4, rectangle((20, 20))), (0.4, 3, disc(10))]).chamfered(0.4, 0.2)
+    np.testing.assert_allclose([(slab.z0_mm, slab.z1_mm) for slab in block.slabs], [(0.0, 0.2), (0.2, 0.4), (0.4, 3.0)])
+    below = 0.2 * ((20.0 - 2 * 0.3) ** 2 + (20.0 - 2 * 0.1) ** 2)
+    assert block.volume_mm3 == pytest.approx(below + 2.6 * disc(10).area(), rel=1e-4)
 
 
 def test_steps_of_a_chamfer_are_one_outline_set_back():

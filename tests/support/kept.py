@@ -1,7 +1,7 @@
 """Functions that are called once for each of their cases: for tests of what becomes of the results."""
 
 import hashlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from jumpcad.printing.plates import PrintPlate
@@ -36,3 +36,14 @@ def plate_key(plate: PrintPlate, bed_mm: Sequence[float]) -> object:
         for numbers in (look.vertices, look.faces, placed.T_bed_part):
             seen.update(numbers.tobytes())
     return seen.digest()
+
+
+def threemf_key(plate: PrintPlate, settings: Mapping[str, str], picture: bytes) -> object:
+    """Return what a plate's file holds: names, meshes and places of its parts, settings, and its picture."""
+    seen = hashlib.sha256(picture)
+    for placed in plate.items:
+        mesh = placed.part.mesh
+        seen.update(repr((placed.part.name, mesh.vertices.shape, mesh.faces.shape)).encode())
+        for numbers in (mesh.vertices, mesh.faces, placed.T_bed_part):
+            seen.update(numbers.tobytes())
+    return plate.name, plate.material, tuple(settings.items()), seen.digest()

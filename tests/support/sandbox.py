@@ -202,8 +202,10 @@ class Sandbox:
             allowed = self._places([*leaves] if outcome.code == 2 else [*writes, *leaves])
             kept = self._places(keeps)
             after = snapshot(self.root)
-            if any(changes(before, after, allowed, kept)):
-                gc.collect()  # closes what the end of the process would close
+            for generation in (1, 2):  # closes what the end of the process would close; what is young is soon seen
+                if not any(changes(before, after, allowed, kept)):
+                    break
+                gc.collect(generation)
                 after = snapshot(self.root)
             wrong = [
                 *stream_faults(outcome, exits, arguments),

@@ -2,8 +2,11 @@
 
 import numpy as np
 
-from jumpcad.solids.outline import disc, hole, polygon, stadium, tapered_bar
+from jumpcad.solids.outline import disc, hole, polygon, rectangle, stadium, tapered_bar
 from jumpcad.solids.stack import Stack
+
+HOLED = Stack.of([(0, 3, rectangle((40, 30), (5, 0)) - hole(3.4, (-8, 6)))]).plus([(0, 9, disc(12, (12, 2)))])
+"""A plate with a hole, and a round boss three times as high."""
 
 
 def random_stack(rng: np.random.Generator) -> Stack:
