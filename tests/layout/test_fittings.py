@@ -9,6 +9,7 @@ import shapely
 from support.built import built, geared
 
 from jumpcad.layout.fittings import fittings_of, switch_half_mm
+from jumpcad.layout.room import disc
 from jumpcad.robot import Robot
 
 
@@ -94,3 +95,16 @@ def test_without_a_socket_or_a_known_switch_there_is_no_opening_for_them() -> No
     for given in (switch, None):
         found = fittings_of([], layout.lateral, carried, layout.tray_mm, given, [], 4.5)
         assert (found.usb_mm, found.usb_size_mm, found.switch, found.switch_mm) == (None, (0.0, 0.0), None, None)
+
+
+@pytest.mark.parametrize(("behind_mm", "stays"), [(5.1, True), (4.9, False)])
+def test_5_mm_behind_the_switch_are_for_its_wires(behind_mm: float, stays: bool) -> None:
+    layout = built("kenan-2.0").layout
+    switch = layout.fittings.switch
+    given = (layout.lateral, layout.electronics, layout.tray_mm, switch, [], 4.5)
+    free = fittings_of([], *given)
+    assert switch is not None
+    assert free.switch_mm is not None
+    start = layout.lateral.inside[0] + switch.height_mm + behind_mm
+    moved = fittings_of([disc("post", free.switch_mm, 1.0, (start, start + 3.0))], *given)
+    assert np.array_equal(moved.switch_mm, free.switch_mm) == stays

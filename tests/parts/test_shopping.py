@@ -22,7 +22,7 @@ from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.body_plate import ear_places
 from jumpcad.parts.fittings import wire_hole_mm
 from jumpcad.parts.purchased import BoughtPart
-from jumpcad.parts.shopping import _electronics, _standoffs
+from jumpcad.parts.shopping import _d_shaft, _electronics, _standoffs
 from jumpcad.robot import Robot
 from jumpcad.strength.sizing import Growth
 from jumpcad.workshop import load_workshop
@@ -385,3 +385,11 @@ def test_the_balance_lead_of_two_cells_lies_under_its_tie_ahead_of_the_battery()
     assert np.ptp(tie, axis=0) == pytest.approx([2.5, 10.0, 1.1], abs=2e-3)
     assert tie[0, 0] > battery[1, 0]
     assert "tie_balance_lead" not in {item.name for item in robot.hardware}
+
+
+@pytest.mark.parametrize(("diameter", "across"), [(3.0, 2.5), (4.0, 3.5)])
+def test_a_d_shaft_is_a_disc_without_a_segment(diameter: float, across: float) -> None:
+    """Area of a segment beyond a chord at h from the middle: r²·acos(h/r) - h·√(r² - h²)."""
+    r, h = diameter / 2.0, across - diameter / 2.0
+    segment = r**2 * math.acos(h / r) - h * math.sqrt(r**2 - h**2)
+    assert _d_shaft(diameter, across).area() == pytest.approx(math.pi * r**2 - segment, rel=5e-3)
