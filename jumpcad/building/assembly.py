@@ -31,7 +31,7 @@ from jumpcad.parts.purchased import BoughtPart
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
 from jumpcad.strength.axles import pin_head_mm
-from jumpcad.strength.sizing import Growth
+from jumpcad.strength.sizing import Growth, grown_mm
 from jumpcad.strength.stop import StopBlow, stop_blow
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
@@ -141,7 +141,7 @@ def _laid_out(
         toes_apart=not foot.in_one_piece(
             design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm
         ),
-        plate_mm=growth.plate * workshop.body.plate_mm,
+        plate_mm=grown_mm(workshop.body.plate_mm, growth.plate),
         roller_width_mm=settled.roller.width_mm,
         axle_mm=chosen.axle_mm,
         stop_rad=math.radians(workshop.body.stop_deg),

@@ -28,6 +28,7 @@ from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.electronics.supply import supply_of
 from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
 from jumpcad.scene.assembly_steps import Step
 from jumpcad.scene.step_views import motor_sense
@@ -39,9 +40,10 @@ FREE = ("no contact", "contact")
 """At the free sensor, by its pin's level at the ready position."""
 PRESS_N = 50.0
 """Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
-PRONG_MM, PRONG_ENDS_MM = 6.0, -1.0
-"""Width of the block on either side of the window, and length over the window's; judgement: a standoff's screw head,
-which may stand beside a corner of the block, stays free by half a millimetre."""
+PRONG_MM, PRONG_ENDS_MM, PRONG_FREE_MM = 6.0, -1.0, 0.5
+"""Most width of the block on either side of the window, its length over the window's, and what stays free between it
+and what stands beside it, such as a standoff's screw head; judgement."""
+ROUND_OFF_MM = 1e-3
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
 
@@ -166,10 +168,27 @@ def _sizes(robot: Robot) -> dict[str, str]:
         "press_n": f"{PRESS_N:.0f}",
         "clamp": f"{MOTOR_CLAMP_MM:g}",
         "window": f"{window[0]:g} x {window[1]:g}",
-        "block": f"{window[0] + 2.0 * PRONG_MM:g} x {window[1] + PRONG_ENDS_MM:g}",
+        "block": f"{window[0] + 2.0 * _prong_mm(robot):g} x {window[1] + PRONG_ENDS_MM:g}",
         "groove": f"{window[0]:g}",
         "strap": f"{strap_mm(robot):.0f}",
     }
+
+
+def _prong_mm(robot: Robot) -> float:
+    """Return the width of the block on either side of the motor's window, in halves of a millimetre (down)."""
+    layout, window = robot.layout, window_mm(robot.layout.drive.train.motor)
+    angle, plate = layout.motor_angle_rad, layout.lateral.right_plate[0]
+    axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    reach, width = (window[1] + PRONG_ENDS_MM) / 2.0 + PRONG_FREE_MM, window[0] / 2.0 + PRONG_MM
+    for item in robot.hardware:
+        points = item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
+        outside = (points[points[:, 1] < plate - ROUND_OFF_MM][:, ::2] - layout.motor_mm) @ axes
+        if item.body != BODY or not len(outside):
+            continue
+        across, along = np.maximum(outside.min(axis=0), -outside.max(axis=0))  # from the window's middle to the item
+        if along < reach:
+            width = min(width, float(across) - PRONG_FREE_MM)
+    return math.floor(2.0 * (width - window[0] / 2.0)) / 2.0
 
 
 def _jump(robot: Robot) -> dict[str, str]:

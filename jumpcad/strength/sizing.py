@@ -149,12 +149,12 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     shell = Shell.of(workshop.process)
     allowable = material.strength_in_plane_mpa / safety.printed_factor
     eye = workshop.bought.axle_mm / 2.0 + EYE_PLAY_MM + 2.0 * fits.wall_mm
-    lug = growth.lug * LUG_MM
+    lug = grown_mm(LUG_MM, growth.lug)
     springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
     torque = RESERVE * 1000.0 * springs.peak_torque_nm
     around, across = _socket_mm(workshop)
     least = THICKNESS_MM if torque < THICK_FROM_NMM else THICK_MM
-    thickness = growth.thickness * max(least, hub_width_mm, across)
+    thickness = grown_mm(max(least, hub_width_mm, across), growth.thickness)
     bending = height_for_mm(torque, thickness, allowable, shell)
     root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, bending)
     stiff = root
@@ -174,7 +174,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         thickness_mm=thickness,
         leg_root_mm=leg_root,
         leg_tip_mm=leg_tip,
-        front_mm=max(growth.front * HEIGHT_MIN_MM, around),
+        front_mm=max(grown_mm(HEIGHT_MIN_MM, growth.front), around),
         lever_root_mm=_in_hundredths(growth.lever * max(root, LEVER_MORE * bending)),
         eye_radius_mm=eye,
         lug_thickness_mm=lug,
@@ -247,6 +247,11 @@ def _least_dog_mm(workshop: Workshop) -> float:
     """Return the diameter at which the jaws are as thick as the thinnest column that can be printed."""
     jaw = workshop.fits.pin_min_mm + DOG_FACETS_MM
     return dog_inside_mm(workshop.fits, workshop.bought.axle_mm) + 2.0 * jaw
+
+
+def grown_mm(size_mm: float, factor: float) -> float:
+    """Return a size as it is, or grown and rounded up to 0.01 mm."""
+    return size_mm if factor == 1.0 else _in_hundredths(factor * size_mm)
 
 
 def _in_hundredths(height_mm: float) -> float:

@@ -59,12 +59,8 @@ def test_two_of_them_are_the_robots_stiffness_and_a_finding_says_both(robot: Rob
 
 
 def test_a_stock_spring_can_be_built_in(robot: Robot) -> None:
-    """Nearly six times as stiff as Kenan's, it bends the leg's axle too far; one of the advised rate does not."""
-    (weak,) = errors(constraint_findings(robot))
-    assert weak.name == "leg_axle_strength"
-    rate = float(weak.remedy.partition("bought.spring of ")[2].partition(" ")[0])
-    softer = STOCK.model_copy(update={"name": "softer", "rate_nmm_per_deg": rate})
-    assert wrong(build(KENAN, with_stock("softer", softer=softer))) == []
+    """Nearly six times as stiff as Kenan's, it breaks nothing; in a softer axle it would."""
+    assert errors(constraint_findings(robot)) == []
     assert {item.article.split(",")[0] for item in robot.hardware if "spring_l" in item.name} == {
         "torsion spring 9271K589"
     }

@@ -107,7 +107,7 @@ def test_it_ends_with_the_rows_of_an_uninterrupted_search(tmp_path):
 
 def test_a_search_that_ended_early_goes_on_alike(tmp_path):
     """Only its last stage ends early: one before would lead the others elsewhere if it went on."""
-    request = Request(BELOW, Hill(), method="bo", evaluations=60, widen=True, until_percent=50.0)
+    request = Request(BELOW, Hill(), method="bo", evaluations=70, widen=True, until_percent=50.0)
     with local_pool(0) as pool:
         early = run_study(request, tmp_path / "s.db", pool)
         longer = run_study(replace(request, until_percent=0.0), tmp_path / "s.db", pool)
