@@ -40,9 +40,9 @@ FREE = ("no contact", "contact")
 """At the free sensor, by its pin's level at the ready position."""
 PRESS_N = 50.0
 """Judgement: makers give no axial load for gear heads of the N20 size; that of a thumb."""
-PRONG_MM, PRONG_ENDS_MM, PRONG_FREE_MM = 6.0, -1.0, 0.5
-"""Most width of the block on either side of the window, its length over the window's, and what stays free between it
-and what stands beside it, such as a standoff's screw head; judgement."""
+PRONG_MM, PRONG_ENDS_MM, PRONG_FREE_MM = (3.0, 6.0), -1.0, 0.5
+"""Least and most width of the block on either side of the window, its length over the window's, and what stays free
+between it and what stands beside it, such as a standoff's screw head; judgement."""
 ROUND_OFF_MM = 1e-3
 ROOM_AHEAD = 2.0
 """Free floor over the computed range, and height over the rise; judgement."""
@@ -179,7 +179,7 @@ def _prong_mm(robot: Robot) -> float:
     layout, window = robot.layout, window_mm(robot.layout.drive.train.motor)
     angle, plate = layout.motor_angle_rad, layout.lateral.right_plate[0]
     axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    reach, width = (window[1] + PRONG_ENDS_MM) / 2.0 + PRONG_FREE_MM, window[0] / 2.0 + PRONG_MM
+    reach, width = (window[1] + PRONG_ENDS_MM) / 2.0 + PRONG_FREE_MM, window[0] / 2.0 + PRONG_MM[1]
     for item in robot.hardware:
         points = item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
         outside = (points[points[:, 1] < plate - ROUND_OFF_MM][:, ::2] - layout.motor_mm) @ axes
@@ -188,7 +188,7 @@ def _prong_mm(robot: Robot) -> float:
         across, along = np.maximum(outside.min(axis=0), -outside.max(axis=0))  # from the window's middle to the item
         if along < reach:
             width = min(width, float(across) - PRONG_FREE_MM)
-    return math.floor(2.0 * (width - window[0] / 2.0)) / 2.0
+    return max(PRONG_MM[0], math.floor(2.0 * (width - window[0] / 2.0)) / 2.0)
 
 
 def _jump(robot: Robot) -> dict[str, str]:
