@@ -60,14 +60,14 @@ def robot(request: pytest.FixtureRequest) -> Robot:
 def test_masses_and_centres_are_near_those_of_the_built_robot(robot: Robot) -> None:
     """A link's centre, between its eyes, is exact; what statics make of all is within what refusals allow for."""
     guess = quick_robot(robot.design, robot.workshop)
-    assert guess.mass_kg == pytest.approx(robot.mass_kg, rel=0.2)
+    assert -0.22 < guess.mass_kg / robot.mass_kg - 1.0 < 0.1  # lighter is safe: it refuses less
     for name, body in robot.bodies.items():
         assert 0.65 < guess.bodies[name].mass_kg / body.mass_kg < 1.2, name
         assert guess.bodies[name].com_m[[0, 2]] == pytest.approx(body.com_m[[0, 2]], abs=0.012), name
         assert guess.bodies[name].com_m[1] == 0.0
     link = guess.bodies[FRONT_LINK].com_m[0]
     assert link == pytest.approx(robot.bodies[FRONT_LINK].com_m[0], abs=2e-4)
-    assert guess.bodies[BODY].com_m[2] == pytest.approx(robot.bodies[BODY].com_m[2], abs=0.0015)
+    assert guess.bodies[BODY].com_m[2] == pytest.approx(robot.bodies[BODY].com_m[2], abs=0.0025)
     quick, exact = statics_findings(guess), statics_findings(robot)
     assert exact[0].margin - quick[0].margin < AHEAD_MM
     assert quick[1].limit is not None
