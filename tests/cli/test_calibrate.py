@@ -54,6 +54,9 @@ def test_people_read_what_the_data_leave_open(run: Run) -> None:
     assert code == 0
     assert "stays at its prior" in out
     assert "likeliest as" in out
+    # what the study measured
+    assert "kenan-2.0: distance 350 mm, calibrated model" in out
+    assert "kenan-2.0: height 120 mm, calibrated model" in out
     assert "the chains have not converged" in out
     code, out, _ = run("simulate", "kenan-2.0", "--engine", "planar", "--uncertain")
     assert code == 0
