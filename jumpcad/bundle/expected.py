@@ -180,10 +180,10 @@ def _prong_mm(robot: Robot) -> float:
     angle, plate = layout.motor_angle_rad, layout.lateral.right_plate[0]
     axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     reach, width = (window[1] + PRONG_ENDS_MM) / 2.0 + PRONG_FREE_MM, window[0] / 2.0 + PRONG_MM[1]
-    for item in robot.hardware:
+    for item in (item for item in robot.hardware if item.body == BODY):
         points = item.look.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
         outside = (points[points[:, 1] < plate - ROUND_OFF_MM][:, ::2] - layout.motor_mm) @ axes
-        if item.body != BODY or not len(outside):
+        if not len(outside):
             continue
         across, along = np.maximum(outside.min(axis=0), -outside.max(axis=0))  # from the window's middle to the item
         if along < reach:
