@@ -19,7 +19,7 @@ from jumpcad.bundle.ordering import order_lines, strap_mm
 from jumpcad.bundle.spring_sheet import spring_sheets
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.bundle.stuck import stuck_items
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot import Robot
@@ -271,10 +271,14 @@ def test_springs_are_accepted_by_their_torque_where_the_robot_loads_them(name: s
     assert percent in guide
 
 
-@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"])
+NEAR_SCREW = [100.0, 0.96812, 0.5, 1.07992, 0.8, 70.0, 30.0, 15.404]
+"""A design with a standoff's screw beside the motor's window: a block of 20 mm would stand on its head."""
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable", ""])
 def test_the_block_under_the_motor_meets_the_plate_alone(name: str) -> None:
     """No screw's head, tie or bent end outside of the right plate stands where the guide puts the wooden block."""
-    robot = built(name)
+    robot = built(name) if name else build(Design.from_vector(NEAR_SCREW))
     block = re.search(r"piece of wood of ([\d.]+) x (\d+) mm with a groove (\d+) mm wide", write_guide(robot))
     assert block is not None
     size, groove = np.array([float(block[1]), float(block[2])]), float(block[3])
