@@ -1,9 +1,9 @@
 """The smallest cam that meets every limit.
 
 A coarse grid over the three numbers of a cam's shape gives the start, sequential quadratic programming the optimum,
-without random numbers; the direction of the cam's axis follows from the free room. The optimum is rounded to
-tenths of a micrometre and ten-thousandths of a degree, so that differences between processors in
-the linear algebra underneath, some 1e-10 of it, do not reach the robot.
+without random numbers; the direction of the cam's axis follows from the free room. Of the points of a grid around the
+optimum the smallest cam that meets the limits is taken, so that differences between processors in the linear algebra
+underneath do not reach the robot: where the best cam lies on a kink, the optimum differs by 2e-6 of it.
 """
 
 import itertools
@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 from scipy import optimize
+from threadpoolctl import ThreadpoolController
 
 from jumpcad.drive.cam import Cam, CamGeometry
 from jumpcad.drive.cam_findings import SCALES, cam_findings, missed
@@ -36,16 +37,19 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
     """
     search = _Shapes(law, limits)
     for _ in range(4):
-        shape, fits = search.best()
-        outer, margins, numbers = measure(law, limits, shape[None], samples=181)
-        fine = bool((margins[:, 0] > -1e-9).all())
-        if fine or not fits:
+        logs, fits = search.best()
+        shapes = search.around(logs)
+        outer, margins, numbers = measure(law, limits, shapes, samples=181)
+        fine = (margins > -1e-9).all(axis=0)
+        chosen = int(np.where(fine, _size(outer, shapes), np.inf).argmin())
+        if fine.any() or not fits:
             break
-        search.allow_for(shape, margins[:, 0])
-    margin = np.minimum.reduceat(margins[:, 0], FIRST_ROWS)
-    if not fine:
+        search.allow_for(shapes[0], margins[:, 0])
+    margin = np.minimum.reduceat(margins[:, chosen], FIRST_ROWS)
+    if not fine.any():
         raise CannotBuildError(_refusal(law, limits, margin), "cam", (margin / SCALES[FIRST_ROWS]).min(), "")
-    geometry = _geometry(law, limits, shape, outer)
+    numbers = {name: values[[chosen]] for name, values in numbers.items()}
+    geometry = _geometry(law, limits, shapes[chosen], outer[[chosen]])
     outline = geometry.outline_mm()
     radii = np.hypot(*outline.T)
     return Cam(
@@ -74,14 +78,18 @@ class _Shapes:
 
     STEP = 1e-6
     STEPS = STEP * np.eye(4, 3, -1)  # none, and one along each axis
-    ROUND_TO = np.array([1e-4, 1e-4, math.radians(1e-4)])
-    ROUNDING = 3e-4  # of a margin's scale: more than rounding costs, so that adding it leads to another shape
+    PAST_RAD = 1e-4  # of the lead beyond the overshoot: without any the outline has no hollow
+    GRID = np.array([1e-2, 1e-2, math.radians(1e-2)])
+    CORNERS = np.array(list(itertools.product((0.0, 1.0), repeat=3)))
+    RESERVE = 3e-3  # of a margin's scale: about what grid and coarse samples cost, so that most cams are found at once
+    ROUNDING = 1e-2  # of a margin's scale: what a step of the grid costs, so that adding it leads to other shapes
 
     def __init__(self, law: CamLaw, limits: CamLimits) -> None:
         self.law, self.limits = law, limits
-        self.reserve = np.full(len(ROWS), 1e-4)
+        self.reserve = np.full(len(ROWS), self.RESERVE)
         lever_min = limits.hub_radius_mm + limits.roller_radius_mm + limits.clearance_mm
-        self.lower = np.log([lever_min, max(limits.gap_min_mm, limits.core_radius_mm), limits.overshoot_rad])
+        gap_min, lead_min = max(limits.gap_min_mm, limits.core_radius_mm), limits.overshoot_rad + self.PAST_RAD
+        self.lower = np.log([lever_min, gap_min, lead_min])
         self.upper = np.log([limits.lever_max_mm, limits.gap_max_mm, limits.lead_max_rad])
         if (self.lower >= self.upper).any():
             fits = 2.0 * (limits.lever_max_mm - lever_min + limits.roller_radius_mm)
@@ -94,7 +102,7 @@ class _Shapes:
         self.known: dict[bytes, tuple[float, Array, Array, Array]] = {}
 
     def best(self) -> tuple[Array, bool]:
-        """Return the rounded shape (3,), and whether it meets every limit with the reserve; if none does, the nearest.
+        """Return logarithms of the best shape (3,), and if it meets all limits with the reserve; if none, the nearest.
 
         Sequential quadratic programming from the best point of a coarse grid; where that ends outside the limits, it
         starts again from where the largest violation is smallest.
@@ -107,12 +115,17 @@ class _Shapes:
                 starts[0] = start = self._least_bad(start)
                 shape = self._smallest(start) if self._fits(start) else start
             if self._fits(shape):
-                return self._rounded(shape), True
+                return shape, True
         nearest = max(starts, key=lambda logs: float(self._at(logs)[2].min()))
-        return self._rounded(nearest), False
+        return nearest, False
 
-    def _rounded(self, logs: Array) -> Array:
-        return np.asarray(np.round(np.exp(logs) / self.ROUND_TO) * self.ROUND_TO)
+    def around(self, logs: Array) -> Array:
+        """Return the shapes (n, 3) of the grid around one within the bounds, the nearest first."""
+        steps = np.exp(logs) / self.GRID
+        corners = np.floor(steps + 0.01) + self.CORNERS  # a bound may be on the grid, but for its last digits
+        low, high = np.exp(self.lower) / self.GRID - 1e-6, np.exp(self.upper) / self.GRID + 1e-6
+        inside = corners[((corners >= low) & (corners <= high)).all(axis=1)]
+        return np.asarray(inside[np.abs(inside - steps).sum(axis=1).argsort(kind="stable")] * self.GRID)
 
     def allow_for(self, shape: Array, margin: Array) -> None:
         """Add the cost of coarse samples and rounding at a shape (3,) of known true margins to the reserve."""
@@ -166,7 +179,12 @@ class _Shapes:
     def _size_and_margins(self, logs: Array, samples: int) -> tuple[Array, Array]:
         shapes = np.exp(logs)
         outer, margins, _ = measure(self.law, self.limits, shapes, samples)
-        return outer + 0.1 * (2 * shapes[:, 0] + shapes[:, 1]), margins / SCALES[:, None] - self.reserve[:, None]
+        return _size(outer, shapes), margins / SCALES[:, None] - self.reserve[:, None]
+
+
+def _size(outer_mm: Array, shapes: Array) -> Array:
+    """Return what the search makes small (n,): the outer radius first, then lever and distance of the axis."""
+    return outer_mm + 0.1 * (2 * shapes[:, 0] + shapes[:, 1])
 
 
 def _constrained_minimum(
@@ -177,11 +195,18 @@ def _constrained_minimum(
 ) -> Array:
     """Return where a function is least with every margin positive; both come with their gradients."""
     constraints: Any = {"type": "ineq", "fun": lambda x: margins(x)[0], "jac": lambda x: margins(x)[1]}
-    found = optimize.minimize(
-        objective, start, jac=True, bounds=bounds, constraints=constraints, method="SLSQP",
-        options={"maxiter": 60, "ftol": 1e-9},
-    )  # fmt: skip
+    with _libraries().limit(limits=1):
+        found = optimize.minimize(
+            objective, start, jac=True, bounds=bounds, constraints=constraints, method="SLSQP",
+            options={"maxiter": 60, "ftol": 1e-9},
+        )  # fmt: skip
     return np.asarray(found.x)
+
+
+@lru_cache(maxsize=1)
+def _libraries() -> ThreadpoolController:
+    """Return the linear algebra underneath: the order of its sums depends on the number of its threads."""
+    return ThreadpoolController()
 
 
 def _geometry(law: CamLaw, limits: CamLimits, shape: Array, outer: Array) -> CamGeometry:

@@ -16,8 +16,8 @@ from jumpcad.transforms import Array
 
 TURN_STEPS = 72
 """Candidates on a ring, one every 5°; judgement."""
-BATCH = 24
-"""Candidates measured at once, the cheapest first."""
+BATCH, LARGER = 24, 2
+"""Candidates measured at once, the cheapest first, and how many times more after every failure."""
 THINNED = 8
 """One in so many of the discs in the way is looked at first."""
 ROUND_OFF_MM = 1e-6
@@ -61,8 +61,10 @@ def best_place(
     order = np.argsort(cost(centres_mm), kind="stable")
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
     cloud = Cloud.of(obstacles, y_mm)
-    for first in range(0, len(order), BATCH):
-        batch = order[first : first + BATCH]
+    first, size = 0, BATCH
+    while first < len(order):
+        batch = order[first : first + size]
+        first, size = first + size, LARGER * size
         near = cloud.near(centres_mm[batch], half_mm)
         for discs in (near.thinned(THINNED), near):  # most places collide with one of few discs
             batch = batch[discs.clearance(centres_mm[batch], half_mm, angles[batch]) >= -ROUND_OFF_MM]

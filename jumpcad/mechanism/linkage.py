@@ -7,6 +7,7 @@ axis: angle a points along (cos a, -sin a), so that a grows with a positive turn
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -123,9 +124,11 @@ class Linkage:
         The closure of the loop, differentiated, times the vectors of front link and foot (Norton, ch. 6).
         """
         leg, foot = complex(self._ankle(leg_rad)), complex(self._foot(leg_rad))
-        front = leg + foot - self.l1
-        cross = (front.conjugate() * foot).imag
-        return -(front.conjugate() * leg).imag / cross, -(foot.conjugate() * leg).imag / cross, -1j * leg
+        return (*_turning(leg, foot, self.l1), -1j * leg)
+
+    def turning(self, leg_rad: Array) -> tuple[Array, Array]:
+        """Return d(foot angle, front joint)/d(leg angle) at leg angles (n,), as `rates`."""
+        return _turning(self._ankle(leg_rad), self._foot(leg_rad), self.l1)
 
     def transmission_angle_rad(self, leg_rad: npt.ArrayLike) -> Array:
         """Return the angle (n,) between foot and front link at the front eye, folded into 0…π/2."""
@@ -159,6 +162,13 @@ def toe_tip_mm(design: Design) -> Array:
     """Return the tip (2,) of the left toe, x and y in the foot's frame, whose origin is the ankle."""
     angle = math.radians(design.ground_link_angle_deg)
     return design.l5_mm * np.array([-math.cos(angle), math.sin(angle)])
+
+
+def _turning(leg: Any, foot: Any, l1_mm: float) -> tuple[Any, Any]:
+    """Return the rates of foot and front link by the leg's, from the vectors x + iz of leg and foot, one or (n,)."""
+    front = leg + foot - l1_mm
+    cross = (front.conjugate() * foot).imag
+    return -(front.conjugate() * leg).imag / cross, -(foot.conjugate() * leg).imag / cross
 
 
 def _points(vector: Complex) -> Array:

@@ -27,7 +27,8 @@ class State:
 
 def loaded_state(mechanism: Mechanism) -> State:
     """Return the state of a robot that stands still with its springs loaded."""
-    poses = [body_poses(mechanism, 1.0)[name] for name in BODY_NAMES]
+    placed = body_poses(mechanism, 1.0)
+    poses = [placed[name] for name in BODY_NAMES]
     com = [mechanism.bodies[name].com_m for name in BODY_NAMES]
     still = np.zeros((len(poses), 3))
     return State(

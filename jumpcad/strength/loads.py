@@ -78,9 +78,9 @@ def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float, springs: 
         return np.gradient(values, leg, axis=0, edge_order=2)
 
     hub, front, com = on_foot(linkage.back_pivot_mm), on_foot(linkage.front_pivot_mm), on_foot(mass.com_mm)
-    turn_1 = by_leg(-pose.foot_rad)
-    com_1 = by_leg(com)
-    com_2, turn_2 = by_leg(com_1), by_leg(turn_1)
+    first = by_leg(np.column_stack([com, -pose.foot_rad]))
+    second = by_leg(first)
+    com_1, turn_1, com_2, turn_2 = first[:, :2], first[:, 2], second[:, :2], second[:, 2]
     arm_square = mass.gyration_mm**2
     reflected = (com_1**2).sum(axis=1) + arm_square * turn_1**2
     loaded = springs.preload_rad - leg

@@ -26,9 +26,8 @@ def pin_torque_nm(mechanism: Mechanism, coefficient: float) -> float:
     mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], float(gyration_mm))
     loads = push_off(linkage, mass, 1000.0 * mechanism.foot_depth_m, mechanism.spring)
     leg, front, ankle, eye = friction.pin_radius_m
-    torque = []
-    for at, on_leg, on_front in zip(loads.leg_rad, np.hypot(*loads.ankle_n.T), np.abs(loads.front_n), strict=True):
-        foot_rate, front_rate, _ = linkage.rates(float(at))
-        main = on_leg * (leg + ankle * abs(foot_rate - 1.0))
-        torque.append(main + on_front * (front * abs(front_rate) + eye * abs(front_rate - foot_rate)))
+    foot_rate, front_rate = linkage.turning(loads.leg_rad)
+    on_leg, on_front = np.hypot(*loads.ankle_n.T), np.abs(loads.front_n)
+    torque = on_leg * (leg + ankle * np.abs(foot_rate - 1.0))
+    torque += on_front * (front * np.abs(front_rate) + eye * np.abs(front_rate - foot_rate))
     return round(TILTING * coefficient * float(np.trapezoid(torque, loads.leg_rad)) / mechanism.spring.wind_rad, 6)
