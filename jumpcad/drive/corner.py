@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -64,17 +65,18 @@ def roll_over(geometry: CamGeometry, rounding_mm: float = 0.0) -> Corner:
     return Corner(cam, wind, slope, np.gradient(slope, cam[1] - cam[0]), np.maximum(arm, 1e-3))
 
 
-def clear_window_rad(geometry: CamGeometry, outline_mm: Array) -> tuple[float, float]:
+@lru_cache(maxsize=8)
+def clear_window_rad(geometry: CamGeometry) -> tuple[float, float]:
     """Return the range of cam angles, from the end of the lift, in which the roller can fall freely to past rest (rad).
 
-    There every corner of the outline (n, 2; mm) is at least a roller's radius from the arc of the roller's centre. NaN
-    if there is no such angle.
+    There every corner of the cam's outline is at least a roller's radius from the arc of the roller's centre. NaN if
+    there is no such angle.
     """
     start, lift = geometry.lever_start_rad, geometry.law.lift_rad
     ends = geometry.roller_mm([-geometry.overshoot_rad, geometry.law.compression_rad])
     span = geometry.law.compression_rad + geometry.overshoot_rad
     turns = np.linspace(0.0, 2.0 * math.pi - lift, WINDOW_POSITIONS)
-    outline = geometry.in_body(outline_mm[None], lift + turns[:, None])
+    outline = geometry.in_body(geometry.outline_mm()[None], lift + turns[:, None])
     x, z = outline[..., 0], outline[..., 1]
     beside = np.mod(np.arctan2(z, x) - start + geometry.overshoot_rad, 2.0 * math.pi) <= span
     off_arc = np.abs(np.hypot(x, z) - geometry.lever_mm)

@@ -161,7 +161,7 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
     ratios = first.kept_j / first.held_j, second.kept_j / second.held_j
     kick = max(rolled.kick_nm for rolled in printed + rounded) / train.ratio
     push_off = moving.leg.push_off_s(moving.spring, geometry.overshoot_rad)
-    allowed, window = _kick_limit_nm(drive, limits), clear_window_rad(geometry, drive.cam.profile_mm)
+    allowed, window = _kick_limit_nm(drive, limits), clear_window_rad(geometry)
     return Release(
         off=_roller_off(first, moving.spring),
         energy_ratio=ratios[0],

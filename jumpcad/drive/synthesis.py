@@ -184,7 +184,7 @@ def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
     """Return the limits of motor and gears beside a cam."""
     room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
     around = cam.outer_radius_mm + limits.gap_mm
-    _, window = clear_window_rad(cam.geometry, cam.profile_mm)
+    _, window = clear_window_rad(cam.geometry)
     play = float(free_play_rad(cam.roll_over_rad, limits.cam.play_rad))
     turn = max(window - play - PLAY_MORE_RAD, LEAST_TURN_RAD)
     return replace(

@@ -81,7 +81,7 @@ def test_cam_and_leg_turned_about_the_hub_move_alike(turn_deg: float) -> None:
 def test_the_window_is_where_the_roller_s_way_is_free(name: str) -> None:
     cam, law = geometry(name), geometry(name).law
     way = shapely.LineString(cam.roller_mm(np.linspace(-cam.overshoot_rad, law.compression_rad, 800)))
-    begin, end = clear_window_rad(cam, cam.outline_mm())
+    begin, end = clear_window_rad(cam)
 
     def gap(turn: float) -> float:
         return standing(name, law.lift_rad + turn).distance(way) - cam.roller_radius_mm

@@ -44,7 +44,7 @@ def check(design, drive):
         assert idler >= LIMITS.axle_radius_mm + LIMITS.gap_mm - 1e-6, "the idler's axle crosses the cam"
     assert train.electrical_j * train.efficiency > design.spring_energy_j
     ahead = train.motor.no_load_rpm * math.pi / 30 / train.ratio * LIMITS.fall_s + drive.dog.play_rad
-    assert ahead + math.radians(3.0) <= clear_window_rad(cam.geometry, cam.profile_mm)[1] + 1e-4
+    assert ahead + math.radians(3.0) <= clear_window_rad(cam.geometry)[1] + 1e-4
 
 
 def test_the_searched_box_is_drivable_nearly_everywhere():
