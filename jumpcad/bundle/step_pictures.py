@@ -20,8 +20,8 @@ MARGIN = 190
 INSET_SIZE = (420, 360)
 ROOM = 1.12
 """Size of the picture's frame over that of the view's."""
-COLOURS = 96
-"""Of the PNG files' palettes."""
+COMPRESSION = 6
+"""Of the PNG files: 9 takes four times as long, for files 6 % smaller."""
 
 
 def step_pictures(robot: Robot, things: tuple[Visual, ...], scene: Renderer) -> dict[str, bytes]:
@@ -61,5 +61,14 @@ def _picture(view: StepView, number: dict[str, int], scene: Renderer, size: tupl
     turns = [np.round(camera.seen(curve, size)[0], 2) for curve in view.turns_m]
     sheet = labelled(picture, names, seen[:, 0], seen[:, 1], MARGIN, turns)
     stream = io.BytesIO()
-    sheet.quantize(COLOURS, dither=Image.Dither.NONE).save(stream, "PNG", optimize=True)
+    paletted(sheet).save(stream, "PNG", compress_level=COMPRESSION)
     return stream.getvalue()
+
+
+def paletted(picture: Image.Image) -> Image.Image:
+    """Return a picture with a palette of at most 256 colours; the colour of its first pixel stays as it is."""
+    found = picture.quantize(method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    palette, ground = found.getpalette() or [], 3 * int(np.asarray(found)[0, 0])
+    palette[ground : ground + 3] = np.asarray(picture)[0, 0].tolist()
+    found.putpalette(palette)
+    return found

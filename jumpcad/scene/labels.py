@@ -63,7 +63,7 @@ def labelled(
         start = (x + EDGE_PX, y) if left else (x - EDGE_PX, y)
         draw.line([tuple(FINE * np.array(start)), tuple(FINE * end)], fill=LINE, width=FINE)
         _dot(draw, end)
-    return large.resize(size, Image.Resampling.BOX)
+    return large.reduce(FINE)
 
 
 def _rows(

@@ -103,7 +103,7 @@ class Renderer:
         inked = np.flatnonzero(ink)
         image[inked] = image[inked] + EDGE_STRENGTH * (EDGE_COLOUR - image[inked])
         image = image.reshape(*ink.shape, 3)
-        return Image.fromarray(image).resize(size, Image.Resampling.BOX)
+        return Image.fromarray(image).reduce(SUPERSAMPLING)
 
 
 def creases(mesh: "trimesh.Trimesh") -> Array:
