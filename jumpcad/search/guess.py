@@ -22,13 +22,13 @@ from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Evaluation, Objective, find_objective
 from jumpcad.search.space import Space
-from jumpcad.search.stand_in import stand_in
+from jumpcad.search.stand_in import EXTENTS, LAID, stand_in
 from jumpcad.search.trial import Trial
-from jumpcad.search.variant import Variant
+from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.simulation import simulate
 from jumpcad.transforms import Array
 
-MARK = "release_turn_rad"
+MARK = "laid_coil_mm"
 """A figure that only robots have that were built to be guessed from."""
 FITTED = 300
 """Most robots that figures are fitted to: the nearest to the best."""
@@ -95,9 +95,10 @@ class Fit:
     def _matrix(self) -> Array:
         return np.array(list(self.coefficients.values()))
 
-    def predict(self, unit: Array) -> dict[str, float]:
-        """Return figures and margins at a point (d,) of the unit cube."""
-        values = (self._matrix * features(unit[None])).sum(axis=1)
+    def predict(self, unit: Array, laid: Mapping[str, float] = NOTHING) -> dict[str, float]:
+        """Return figures and margins at a point (d,) of the unit cube, of a robot with these figures of its layout."""
+        row = np.append(features(unit[None])[0], _of_layout(laid) if laid else [])
+        values = (self._matrix * row).sum(axis=1)
         pairs = zip(self._names, values.tolist(), strict=True)
         return {n.removeprefix(LOG): math.exp(value) if n.startswith(LOG) else value for n, value in pairs}
 
@@ -120,10 +121,10 @@ class Guesser:
         self.objective = find_objective(objective.neighbours_of) if objective.neighbours_of else objective
         self.like = build(first.design, model.varied(first.workshop).workshop)
 
-    def __call__(self, one: Variant, fit: Fit) -> Guess | None:
-        """Return what a variant would do; None where its jump cannot be guessed."""
+    def __call__(self, one: Variant, fit: Fit, laid: Mapping[str, float] = NOTHING) -> Guess | None:
+        """Return what a variant would do; None where its jump cannot be guessed. `laid`: figures of its layout."""
         try:
-            return self._guessed(one.design, fit.predict(self.space.to_unit(one)), fit.bias)
+            return self._guessed(one.design, fit.predict(self.space.to_unit(one), laid), fit.bias)
         except (JumpcadError, OverflowError):  # a dead point, or figures far from all that was built
             return None
 
@@ -136,14 +137,21 @@ class Guesser:
         if jump.verdict != "jump":
             return Guess(None, margins)
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
-        found = {**figures, **found} | {"body_lengths": found["ballistic_range_m"] / figures["size_m"]}
+        size = max(design.l_max_mm / 1000.0, *(figures[name] for name in EXTENTS))
+        found = {**figures, **found, "size_m": size, "body_lengths": found["ballistic_range_m"] / size}
         return Guess(bias * (self.objective.score(Evaluation("jump", found)) or 0.0), margins)
 
 
 class Table:
-    """What is fitted: figures of robots that were built, and margins of limits."""
+    """What is fitted: figures of robots that were built, and margins of limits.
 
-    def __init__(self, space: Space, trials: Sequence[Trial], centre: Array) -> None:
+    With figures of their layouts, no limits: a robot that was laid out has met those that reject before, and what was
+    not built has no figures.
+    """
+
+    def __init__(self, space: Space, trials: Sequence[Trial], centre: Array, laid: bool = False) -> None:
+        if laid:
+            trials = [trial for trial in trials if MARK in trial.evaluation.metrics]
         units = np.array([space.to_unit(trial.variant) for trial in trials])
         distance = np.abs(units - centre).max(axis=1)
         order = np.sort(np.argsort(distance, kind="stable")[:FITTED])
@@ -151,7 +159,12 @@ class Table:
         self._units = units[order]
         self._features = features(self._units)
         self._weights = 1.0 / (1.0 + (distance[order] / REACH) ** 2)
-        self._columns = dict(self._figures()) | dict(self._margins())
+        self._columns = dict(self._figures())
+        if laid:
+            more = np.array([_of_layout(trial.evaluation.metrics) for trial in self.trials])
+            self._features = np.hstack([self._features, more])
+        else:
+            self._columns |= dict(self._margins())
 
     def coefficients(self, left_out: int | None = None) -> dict[str, Array]:
         """Return the coefficients of every column, fitted without the trials of a fold."""
@@ -171,7 +184,7 @@ class Table:
         held = [trial.evaluation.metrics for trial in self.trials]
         marked = [MARK in metrics for metrics in held]
         common = set.intersection(*(set(metrics) for metrics, has in zip(held, marked, strict=True) if has))
-        for name in sorted(common):
+        for name in sorted(common - LAID.keys()):
             values = np.array([m[name] if has else np.nan for m, has in zip(held, marked, strict=True)])
             positive = np.nanmin(values) > 0.0
             yield (LOG + name, np.log(values)) if positive else (name, values)
@@ -193,11 +206,22 @@ def features(units: Array) -> Array:
     return np.hstack([np.ones((len(x), 1)), x, x[:, first] * x[:, second]])
 
 
+def _of_layout(laid: Mapping[str, float]) -> Array:
+    """Return the features (k,) of a layout."""
+    return np.array([laid[name] / unit for name, unit in LAID.items()])
+
+
 def _solver(features_: Array, weights: Array, dimension: int) -> Array:
     """Return the matrix (k, n) that takes values to the coefficients of weighted ridge regression."""
     weighted = features_ * weights[:, None]
     second = RIDGE if len(features_) >= FEW else FEW_RIDGE
-    ridge = [1e-9, *[RIDGE] * dimension, *[second] * (features_.shape[1] - 1 - dimension)]
+    products = dimension * (dimension + 1) // 2
+    ridge = [
+        1e-9,
+        *[RIDGE] * dimension,
+        *[second] * products,
+        *[RIDGE] * (features_.shape[1] - 1 - dimension - products),
+    ]
     found: Array = np.linalg.solve(weighted.T @ features_ + weights.sum() * np.diag(ridge), weighted.T)
     return found
 

@@ -1,5 +1,6 @@
 """What one step of a search learns from its trials, and again from each rehearsal of a proposal."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -7,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from jumpcad.search.acquisition import DIGITS, REHEARSED, Proposal
+from jumpcad.search.polling import WITHIN, neighbours
 from jumpcad.search.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.rehearsal import Rehearsal
 from jumpcad.search.space import Space
-from jumpcad.search.trial import Trial
+from jumpcad.search.trial import Trial, best_trial
 from jumpcad.search.variant import Key, Variant
 from jumpcad.transforms import Array
 
@@ -92,6 +94,29 @@ class Learner:
         if proposal is not None:
             self._proposed.append(proposal.unit)
         return proposal
+
+    def beside(
+        self, trials: Sequence[Trial], admits: Callable[[Variant], bool], generator: np.random.Generator
+    ) -> Proposal | None:
+        """Return the neighbour of the best of some trials with the best guess; None where none is about as good.
+
+        `admits` tells which variants are new. All neighbours are rehearsed.
+        """
+        best, rehearsal = best_trial(trials), self._rehearsal
+        if rehearsal is None or not rehearsal.guessing or best is None:
+            return None
+        offers = []
+        for point in neighbours(self._space, best, generator):
+            variant = self._space.to_variant(point)
+            if admits(variant):
+                self.tried += [] if rehearsal.knows(variant) else [point]
+                offers.append((rehearsal.guess(variant) or 0.0, Proposal(variant, point, 0.0, 0.0)))
+        guess, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
+        if found is None or guess < (1.0 - WITHIN) * (rehearsal.guess(best.variant) or math.inf):
+            return None
+        found = _best_of([found], self._learned(), best.score or 0.0)
+        self._proposed.append(found.unit)
+        return found
 
     def _look_around(self) -> None:
         """Rehearse the neighbours of what the last step found, if it is a leap."""

@@ -21,7 +21,7 @@ from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.search.objective import CANNOT_BUILD, COST, QUANTILE, Evaluation, Objective, find_objective
 from jumpcad.search.refusal import refusal_findings, room_findings
-from jumpcad.search.stand_in import figures_of
+from jumpcad.search.stand_in import figures_of, laid_out
 from jumpcad.search.tolerances import PREFIX, Making, as_made, tenth
 from jumpcad.search.variant import NOTHING, Variant
 from jumpcad.settings import Settings, load_settings
@@ -196,23 +196,20 @@ class RobotModel:
 
         return not errors(statics_findings(capsule_robot(design)))
 
-    def refusal(self, variant: Variant) -> Evaluation | None:
-        """Return the outcome of a variant whose printed parts have no room; None of one that can be laid out.
+    def laid_out(self, variant: Variant) -> Mapping[str, float] | Evaluation:
+        """Return figures of the layout of a printed robot, or the outcome of one whose parts have no room.
 
         A sixth of an evaluation. What is refused here would be refused by the evaluation too.
         """
         from jumpcad.building import layout_of
 
-        if self.name != "printed":
-            return None
         try:
             model = self.varied(variant.workshop) if variant.workshop else self
-            layout_of(variant.design, model.workshop or load_workshop())
+            return laid_out(layout_of(variant.design, model.workshop or load_workshop())[0])
         except CannotBuildError as error:
             return Evaluation(CANNOT_BUILD, findings=refusal_findings(error), detail=str(error))
         except JumpcadError as error:  # the values of the workshop do not go together
             return Evaluation("workshop", detail=str(error))
-        return None
 
     def quick_score(self, design: Design, objective: Objective) -> float:
         """Return about what the capsule robot of a printed design scores; -inf where it does not jump, or is no guide.

@@ -123,7 +123,8 @@ class SearchPosterior:
         mean, deviation = self.score.predict(points)
         if self.guess is not None:
             guessed, unsure = self.guess.predict(points)
-            mean, deviation = mean + guessed, np.hypot(deviation, unsure)
+            # what scores scatter by: their steps, which no smooth function has, may be gained too
+            mean, deviation = mean + guessed, np.hypot(np.hypot(deviation, unsure), self.score.scatter)
         return np.log(deviation) + _log_h((mean - warped(best)) / deviation)
 
     def condition_on(self, point: Array) -> "SearchPosterior":

@@ -28,7 +28,7 @@ from jumpcad.transforms import Array
 
 TRIED = "tried"
 """What the note of a trial calls the points that were rehearsed for its step."""
-SPREAD = 64
+SPREAD = 32
 """Designs that are guessed first: the best by the capsule robot."""
 GUESSED, FAILED = 160, 160
 """Most guesses that are learned from besides those of trials, and most failures: the last ones. Guesses are made anew
@@ -52,7 +52,7 @@ class Rehearsal:
         assert isinstance(evaluator.model, RobotModel)
         self._evaluator, self._model, self._phase, self._task = evaluator, evaluator.model, phase, task
         self._space: Space = evaluator.space
-        self._refusals: dict[Key, Trial | None] = {}
+        self._laid: dict[Key, Mapping[str, float] | Trial] = {}
         self._fit: Fit | None = None
         self._guesser: Guesser | None = None
         self._guesses: dict[Key, Guess | None] = {}
@@ -98,7 +98,7 @@ class Rehearsal:
             self._guesser = Guesser(self._space, quick, self._evaluator.objective, quick.guess_engine, first)
             self._first = [self._variant(point) for point in self.ranked[:SPREAD]]
         centre = self._space.to_unit((best_trial(known) or first).variant)
-        self._fit = Fit(rows, Table(self._space, known, centre).coefficients(), {})
+        self._fit = Fit(rows, Table(self._space, known, centre, laid=True).coefficients(), {})
         self._guesses.clear()
 
     @property
@@ -106,9 +106,18 @@ class Rehearsal:
         """Whether enough robots were built to guess the jump of others."""
         return self._fit is not None
 
+    def knows(self, variant: Variant) -> bool:
+        """Whether a variant was tried."""
+        return variant.key in self._laid
+
+    def guess(self, variant: Variant) -> float | None:
+        """Return the guessed score of a variant; None where it has no room or does not jump."""
+        guess = self._guess(variant)
+        return None if guess is None else guess.score
+
     def is_refused(self, variant: Variant) -> bool:
         """Whether a variant was tried and has no room."""
-        return self._refusals.get(variant.key) is not None
+        return isinstance(self._laid.get(variant.key), Trial)
 
     def holds(self, variant: Variant) -> bool:
         """Whether a variant jumps, as far as can be guessed, and has room."""
@@ -159,16 +168,23 @@ class Rehearsal:
         return _stayed(variant, Evaluation("no_takeoff", findings=tuple(findings)))
 
     def _refusal(self, variant: Variant) -> Trial | None:
-        if variant.key not in self._refusals:
-            outcome = self._model.refusal(variant)
-            self._refusals[variant.key] = None if outcome is None else _stayed(variant, outcome)
-        return self._refusals[variant.key]
+        laid = self._layout(variant)
+        return laid if isinstance(laid, Trial) else None
+
+    def _layout(self, variant: Variant) -> Mapping[str, float] | Trial:
+        """Return figures of a variant's layout, or what is learned of one that has no room."""
+        if variant.key not in self._laid:
+            found = self._model.laid_out(variant)
+            self._laid[variant.key] = _stayed(variant, found) if isinstance(found, Evaluation) else found
+        return self._laid[variant.key]
 
     def _guess(self, variant: Variant) -> Guess | None:
+        """Return what a variant would do; None where it has no room, or its jump cannot be guessed."""
         if self._guesser is None or self._fit is None:
             return None
         if variant.key not in self._guesses:
-            self._guesses[variant.key] = self._guesser(variant, self._fit)
+            laid = self._layout(variant)
+            self._guesses[variant.key] = None if isinstance(laid, Trial) else self._guesser(variant, self._fit, laid)
         return self._guesses[variant.key]
 
 

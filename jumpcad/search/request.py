@@ -56,8 +56,8 @@ class Request:
     own
         An own objective, which has the name `objective`; none if None.
     until_percent
-        Bayesian optimisation, if it comes last, ends when each proposal of `PATIENCE` steps in a row promised to gain
-        less than this share of the best score; 0 spends all evaluations.
+        Bayesian optimisation, if it comes last, ends when `PATIENCE` proposals in a row promised and gained less than
+        this share of the best score, where robots are guessed when `IDLE` steps gained less; 0 spends all evaluations.
     hours
         The search ends after this time (h), the robust pick follows; 0 for no limit. The same request goes on later.
     widen

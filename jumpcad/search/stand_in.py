@@ -11,12 +11,31 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.layout.layout import Layout
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
 from jumpcad.robot import Robot
+from jumpcad.scene.extent import extent_m
+
+EXTENTS = ("extent_x_m", "extent_y_m", "extent_z_m")
+"""Figures of a standing robot, of which the largest is its size."""
 
 
-def figures_of(robot: Mechanism) -> dict[str, float]:
+LAID = {
+    "laid_spring_g": 10.0, "laid_coil_mm": 10.0, "laid_cam_x_mm": 10.0, "laid_cam_z_mm": 10.0, "laid_motor_x_mm": 10.0,
+    "laid_motor_z_mm": 10.0, "laid_tray_x_mm": 10.0,
+}  # fmt: skip
+"""Figures of a layout on which masses depend, and what counts as 1 of each in a fit; judgement."""
+
+
+def laid_out(layout: Layout) -> dict[str, float]:
+    """Return figures of a layout on which masses depend, to six digits: they leap where it takes another wire."""
+    spring = layout.drive.spring
+    values = (spring.mass_g, spring.arms.mean_mm, *layout.cam_axis_mm, *layout.motor_mm, layout.tray_mm[0])
+    return {name: float(f"{value:.6g}") for name, value in zip(LAID, values, strict=True)}
+
+
+def figures_of(robot: Robot) -> dict[str, float]:
     """Return the figures that `stand_in` needs, to six digits, but for the masses; x and z in the bodies' frames."""
     assert robot.stop is not None
     assert robot.roller_off is not None
@@ -24,6 +43,7 @@ def figures_of(robot: Mechanism) -> dict[str, float]:
     for name, body in robot.bodies.items():
         found |= {f"{name}_com_x_m": float(body.com_m[0]), f"{name}_com_z_m": float(body.com_m[2])}
         found[f"{name}_inertia_kg_m2"] = float(body.inertia_kg_m2[1, 1])
+    found |= laid_out(robot.layout) | dict(zip(EXTENTS, extent_m(robot).tolist(), strict=True))
     found |= {
         "foot_depth_m": robot.foot_depth_m,
         "toe_radius_m": robot.bodies[FOOT].contacts[-1].radius_m,

@@ -101,6 +101,8 @@ class Surrogate:
         self.x, self.y, self._seen = x, y, seen
         self.theta: list[float] = self._axes.folded(logarithms).tolist()
         self._variance, *lengths, noise = np.exp(logarithms).tolist()
+        self.scatter = self._spread * math.sqrt(noise)
+        """Standard deviation of a value about the function."""
         self._lengths = np.array(lengths)
         self._middle = seen.mean(axis=0)
         self._scaled = np.ascontiguousarray(((seen - self._middle) / self._lengths).T)

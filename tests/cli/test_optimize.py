@@ -74,7 +74,7 @@ def test_says_that_all_designs_of_a_small_space_were_tried(folder):
 def test_says_that_it_ended_early_and_how_it_goes_on(folder):
     asked = ("optimize", *QUICK, *NARROW, "--evaluations", 60, "--study", "s.db", "-o", "best.toml")
     said = run(*asked, "--until", 20)
-    assert "ended before 45: the last proposals promise to gain less than 20 % of the best score" in said
+    assert "ended before 45: in its last steps less than 20 % of the best score was gained or promised" in said
     longer = run(*asked, "--until", 0, "--force")
     assert "45 designs evaluated" in longer
     assert "ended before" not in longer

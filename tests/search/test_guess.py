@@ -9,7 +9,7 @@ from support.quick import BEST, FIGURES, LIKE, SPACE, quick
 
 from jumpcad.search.guess import MARK, Fit, Guesser, Table, features, learned_rows
 from jumpcad.search.objective import Evaluation, find_objective
-from jumpcad.search.stand_in import stand_in
+from jumpcad.search.stand_in import EXTENTS, LAID, laid_out, stand_in
 from jumpcad.search.trial import Trial
 from jumpcad.search.variant import Variant
 from jumpcad.simulation import simulate
@@ -86,16 +86,16 @@ def test_what_the_gate_refuses_does_not_jump(monkeypatch):
 
 
 def test_what_an_objective_cannot_take_is_not_guessed(monkeypatch):
-    """A figure of a built robot keeps an identity; a fitted one need not."""
+    """A figure of a built robot keeps an identity; a fitted one need not. The size is that of the largest extent."""
     monkeypatch.setattr("jumpcad.search.guess.build", lambda *_: LIKE)
 
     def careful(figures):
         return 1.0 / figures["size_m"] if figures["size_m"] > 1.0 else math.log(-1.0)
 
     guesser = Guesser(SPACE, quick(), find_objective(careful), "pybullet", first_trial())
-    fit = Fit(0, {name: value * np.eye(45)[0] for name, value in (FIGURES | {"size_m": 0.1}).items()}, {})
+    fit = Fit(0, {name: value * np.eye(45)[0] for name, value in (FIGURES | dict.fromkeys(EXTENTS, 0.1)).items()}, {})
     assert guesser(Variant(BEST), fit) is None
-    known = {**fit.coefficients, "size_m": 2.0 * np.eye(45)[0]}
+    known = {**fit.coefficients, EXTENTS[1]: 2.0 * np.eye(45)[0]}
     assert guesser(Variant(BEST), Fit(0, known, {})).score == pytest.approx(0.5)
     far = {**fit.coefficients, "log body_mass_kg": 1e4 * np.eye(45)[0]}
     assert guesser(Variant(BEST), Fit(0, far, {})) is None
@@ -139,3 +139,34 @@ def test_a_robot_a_quarter_of_the_ranges_from_the_best_counts_half():
     kept = Table(SPACE, many, centre)
     away = np.abs(np.array([SPACE.to_unit(one.variant) for one in many]) - centre).max(axis=1)
     assert [one.place for one in kept.trials] == sorted(np.argsort(away, kind="stable")[:300].tolist())
+
+
+def test_what_masses_leap_with_is_told_by_the_layout():
+    """Masses of which half follow a figure of the layout, that no polynomial of the parameters does."""
+    wire = dict.fromkeys(LAID, 0.0)
+
+    def robot(design):
+        x = 2.0 * SPACE.to_unit(design) - 1.0
+        laid = wire | {"laid_coil_mm": 20.0 * float(math.sin(40.0 * x[0]) > 0.0)}
+        return Evaluation("jump", laid | {"body_mass_kg": math.exp(0.1 * x[1] + 0.02 * laid["laid_coil_mm"])})
+
+    points = SPACE.spread(64, np.random.default_rng(2))
+    trials = [Trial("bo", 0, 0, SPACE.to_design(one), robot(SPACE.to_design(one)), 1.0, "m", 0.0) for one in points]
+    fits = [Fit(0, Table(SPACE, trials[:40], points[0], laid).coefficients(), {}) for laid in (True, False)]
+    errors = []
+    for point, trial in zip(points[40:], trials[40:], strict=True):
+        metrics = trial.evaluation.metrics
+        guesses = fits[0].predict(point, metrics)["body_mass_kg"], fits[1].predict(point)["body_mass_kg"]
+        errors.append([abs(one / metrics["body_mass_kg"] - 1.0) for one in guesses])
+    assert np.max(errors, axis=0)[0] < 0.05
+    assert np.max(errors, axis=0)[1] > 0.2
+
+
+def test_figures_of_a_layout_are_those_of_the_built_robot():
+    spring, found = LIKE.layout.drive.spring, laid_out(LIKE.layout)
+    assert found == {name: FIGURES[name] for name in LAID}
+    assert found["laid_spring_g"] == pytest.approx(spring.mass_g, rel=1e-5)
+    steel_g = 0.00785 * math.pi / 4.0 * spring.wire_mm**2 * math.pi * found["laid_coil_mm"] * spring.turns
+    assert 0.5 < steel_g / spring.mass_g < 1.0  # the coil without its arms
+    motor = next(item for item in LIKE.hardware if item.name == "motor")
+    assert [found["laid_motor_x_mm"], found["laid_motor_z_mm"]] == pytest.approx(motor.T_body_part[[0, 2], 3], abs=1e-3)

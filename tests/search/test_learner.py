@@ -10,6 +10,7 @@ from support.hills import SMALL, Hill
 from jumpcad.search.acquisition import Proposal
 from jumpcad.search.learner import HELD, ROUNDS, Learner
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.polling import DRAWN, STEP, WITHIN
 from jumpcad.search.trial import Trial
 
 
@@ -36,6 +37,13 @@ class Rehearsal:
 
     def holds(self, variant):
         return SMALL.to_unit(variant)[0] < self.half
+
+    def knows(self, variant):
+        return False
+
+    def guess(self, variant):
+        """The sum of its coordinates."""
+        return float(SMALL.to_unit(variant).sum())
 
     def failures(self, trials, tried):
         for unit in tried:
@@ -195,3 +203,27 @@ def test_what_failed_is_not_asked_for_again_and_what_held_is_taken_where_nothing
     nothing = Learner(SMALL, TRIALS, Rehearsal(half=-1.0), {}, refit=True)
     learner = nothing  # of which `ask` asks
     assert nothing.propose(ask, 1.0) is None
+
+
+def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as_the_best():
+    """Guesses grow with all coordinates, so that a step forwards along some axis is better, whatever is drawn."""
+    best = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0)
+    rehearsal = Rehearsal()
+    learner = Learner(SMALL, TRIALS, rehearsal, {}, refit=False)
+    assert learner.beside([best], lambda _: True, np.random.default_rng(0)) is None  # nothing can be guessed yet
+    rehearsal.guessing = True
+    found = learner.beside([best], lambda _: True, np.random.default_rng(0))
+    assert len(learner.tried) == 6 + DRAWN
+    assert found.unit.sum() == pytest.approx(max(point.sum() for point in learner.tried))
+    assert found.unit.sum() >= 1.5 + STEP
+    new = {SMALL.to_variant(point).key for point in learner.tried} - {found.variant.key}
+    other = learner.beside([best], lambda one: one.key in new, np.random.default_rng(0))
+    assert 1.5 * (1.0 - WITHIN) < other.unit.sum() < found.unit.sum()
+    lesser = {key for key in new if rehearsal.guess(variant_of(learner, key)) < 1.5 * (1.0 - WITHIN)}
+    assert lesser
+    assert learner.beside([best], lambda one: one.key in lesser, np.random.default_rng(0)) is None
+    assert learner.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
+
+
+def variant_of(learner, key):
+    return next(one for one in map(SMALL.to_variant, learner.tried) if one.key == key)

@@ -186,7 +186,8 @@ def test_guesses_that_are_wrong_by_a_constant_tell_the_scores_elsewhere():
     assert error(guided) < 0.05 < 0.5 < error(alone)
     assert set(guided.thetas) == {"guess", "more"}
     parts = [one.predict(points) for one in (guided.score, guided.guess)]
-    mean, deviation = parts[0][0] + parts[1][0], np.hypot(parts[0][1], parts[1][1])
+    mean = parts[0][0] + parts[1][0]
+    deviation = np.sqrt(parts[0][1] ** 2 + parts[1][1] ** 2 + guided.score.scatter**2)
     z = (mean - 2.0) / deviation
     promised = deviation * (norm.pdf(z) + z * norm.cdf(z))  # over a score of 4
     assert np.exp(guided.log_improvement(points, 4.0)) == pytest.approx(promised, rel=1e-6, abs=1e-12)

@@ -19,6 +19,7 @@ from jumpcad.search.pool import local_pool
 from jumpcad.search.rehearsal import FAILED, TRIED, Rehearsal
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
+from jumpcad.search.stand_in import LAID
 from jumpcad.search.store import StudyStore
 from jumpcad.search.variant import Variant
 from jumpcad.simulation import simulate
@@ -79,20 +80,19 @@ def test_a_design_is_refused_as_its_evaluation_refuses_it():
     model, refused = robot_model(), 0
     for point in HARD:
         variant = WHOLE.to_variant(point)
-        outcome = model.refusal(variant) if model.admits(variant.design) else None
-        if outcome is not None:
+        outcome = model.laid_out(variant) if model.admits(variant.design) else None
+        if isinstance(outcome, Evaluation):
             exact = model(variant.design)
             assert (outcome.verdict, outcome.reasons) == (exact.verdict, exact.reasons)
             assert [one.margin for one in outcome.findings] == [one.margin for one in exact.findings]
             refused += 1
     assert refused >= 4
-    assert robot_model("capsule").refusal(WHOLE.to_variant(np.full(8, 0.5))) is None
 
 
 def test_the_room_is_that_of_the_variants_workshop():
     model, design = robot_model(), LIKE.design
-    assert model.refusal(Variant(design, {"bought.axle_mm": 3.0})) is None
-    assert model.refusal(Variant(design, {"body.plate_mm": -1.0})).verdict == "workshop"
+    assert set(model.laid_out(Variant(design, {"bought.axle_mm": 3.0}))) == set(LAID)
+    assert model.laid_out(Variant(design, {"body.plate_mm": -1.0})).verdict == "workshop"
 
 
 def rehearsal_of(model=None, space=SPACE, phase="bo", task=TASK):
@@ -174,14 +174,12 @@ def test_a_start_that_has_no_room_is_passed_over_and_learned():
 def test_what_had_room_but_would_not_jump_is_a_failure_too(monkeypatch):
     """Of three points that were tried, one is refused, one is guessed to stay on the ground, and one holds."""
     rehearsal = Rehearsal.__new__(Rehearsal)
-    vars(rehearsal).update(
-        _space=SPACE, _phase="bo", _task=TASK, _prior=set(), _passed_over={}, _refusals={}, _variants={}
-    )
+    vars(rehearsal).update(_space=SPACE, _phase="bo", _task=TASK, _prior=set(), _passed_over={}, _laid={}, _variants={})
     points = [np.full(SPACE.dimension, share) for share in (0.1, 0.5, 0.9)]
     refused, grounded, _ = (SPACE.to_variant(point).key for point in points)
     outcome = {refused: Evaluation("no_room")}
     monkeypatch.setattr(Rehearsal, "_guess", lambda _, one: Guess(None if one.key == grounded else 1.0, {}))
-    vars(rehearsal)["_model"] = SimpleNamespace(refusal=lambda one: outcome.get(one.key))
+    vars(rehearsal)["_model"] = SimpleNamespace(laid_out=lambda one: outcome.get(one.key, {}))
     found = rehearsal.failures([], points)
     assert [(one.key, one.evaluation.verdict, one.score) for one in found] == [
         (refused, "no_room", None), (grounded, "no_takeoff", None),
@@ -190,11 +188,9 @@ def test_what_had_room_but_would_not_jump_is_a_failure_too(monkeypatch):
 
 def test_what_stands_too_badly_is_learned_with_its_margins(monkeypatch):
     rehearsal = Rehearsal.__new__(Rehearsal)
-    vars(rehearsal).update(
-        _space=SPACE, _phase="bo", _task=TASK, _prior=set(), _passed_over={}, _refusals={}, _variants={}
-    )
+    vars(rehearsal).update(_space=SPACE, _phase="bo", _task=TASK, _prior=set(), _passed_over={}, _laid={}, _variants={})
     monkeypatch.setattr(Rehearsal, "_guess", lambda *_: Guess(None, {"tips": -3.0, "too_weak": 0.2, "stop_room": 1.0}))
-    vars(rehearsal)["_model"] = SimpleNamespace(refusal=lambda one: Evaluation("no_room"))
+    vars(rehearsal)["_model"] = SimpleNamespace(laid_out=lambda one: {})
     (found,) = rehearsal.failures([], [np.full(SPACE.dimension, 0.5)])
     assert found.evaluation.reasons == ("tips",)
     assert found.evaluation.margins == {"tips": -3.0, "too_weak": 0.2}

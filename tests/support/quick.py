@@ -5,7 +5,7 @@ from jumpcad.design import load_design
 from jumpcad.search.models import RobotModel, robot_model
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
-from jumpcad.search.stand_in import figures_of, stand_in
+from jumpcad.search.stand_in import EXTENTS, figures_of, stand_in
 from jumpcad.simulation import simulate
 
 BEST = load_design("best-printable")
@@ -26,6 +26,7 @@ class Quick(RobotModel):
         jump = simulate(stand_in(design, figures, LIKE), self.settings, "pybullet")
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
         size = max(0.1, design.l_max_mm / 1000.0)
+        figures |= dict.fromkeys(EXTENTS, 0.1)
         metrics = figures | found | {"size_m": size, "body_lengths": (jump.ballistic_range_m or 0.0) / size}
         return Evaluation(jump.verdict, metrics, jump.findings)
 

@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from jumpcad.search.acquisition import Proposal, promised_gain, propose
+from jumpcad.search.acquisition import Proposal, propose
 from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.objective import SCREENED
+from jumpcad.search.polling import STALLED, Progress
 from jumpcad.search.rehearsal import TRIED, Rehearsal
 from jumpcad.search.space import Space
 from jumpcad.search.start import first_points
@@ -32,7 +33,9 @@ LEARNED, LEARNED_BEST = 400, 100
 """Most trials that the processes are fitted to, and how many of them are the best ones; the others are the nearest to
 the best. The time of a fit grows with the cube of their number: 0.65 s of 250, 4 s of 1,000 (measured)."""
 PATIENCE = 7
-"""The search ends when so many proposals in a row promise too little; judgement: one or two do now and then."""
+"""The search ends after so many proposals in a row that promise and gain too little; judgement: one or two often do."""
+IDLE = 10
+"""Where robots are guessed, it ends after so many steps in a row that gain too little; judgement."""
 
 Proposer = Callable[[Learner, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
@@ -48,7 +51,7 @@ def default_initial(space: Space, evaluations: int, prior: int = 0, guessed: boo
     return max(0, min(math.ceil(each * space.dimension), evaluations // 2) - prior)
 
 
-def run_bayesian(evaluator: Evaluator, task: Task) -> bool:
+def run_bayesian(evaluator: Evaluator, task: Task, polls: bool = True) -> bool:
     """Search for the highest score; return whether the search ended because its proposals promised too little.
 
     Parameters
@@ -57,55 +60,47 @@ def run_bayesian(evaluator: Evaluator, task: Task) -> bool:
         Its trials so far, and those of its prior study, are learned from.
     task
         `initial` designs are evaluated before the first fit; the proposals of a batch are made without each other's
-        results. With a `least_gain`, the search ends when each proposal of `PATIENCE` steps in a row promised less.
+        results. With a `least_gain`, the search ends where less is promised and gained.
+    polls
+        Whether neighbours of the best printed robot are evaluated where proposals gain nothing.
     """
+    start = len(evaluator.trials)
+
+    def progress() -> Progress:
+        # what earlier searches in another space promised says nothing
+        known = max((trial.score or 0.0 for trial in [*evaluator.prior, *evaluator.trials[:start]]), default=0.0)
+        return Progress.of(evaluator.trials[start:], known, task.least_gain)
 
     def proposer(
         learner: Learner, trials: Sequence[Trial], count: int, generator: np.random.Generator
     ) -> list[Proposal]:
         best, elite = incumbent(evaluator.space, trials)
+        stalled = polls and progress().idle >= STALLED
         proposals: list[Proposal] = []
         while len(proposals) < count:
-            ask = partial(
-                propose, evaluator.space, best=best, elite=elite, generator=generator,
-                admits=unproposed(evaluator, proposals, learner.may_hold),
-            )  # fmt: skip
-            proposal = learner.propose(ask, best)
+            admits = unproposed(evaluator, proposals, learner.may_hold)
+            ask = partial(propose, evaluator.space, best=best, elite=elite, generator=generator, admits=admits)
+            beside = learner.beside(trials, admits, generator) if stalled else None
+            proposal = beside or learner.propose(ask, best)
             if proposal is None:
                 break
             proposals.append(proposal)
         return proposals
 
-    start = len(evaluator.trials)
-
-    def ended() -> bool:
-        # what earlier searches in another space promised says nothing
-        known = max((trial.score or 0.0 for trial in [*evaluator.prior, *evaluator.trials[:start]]), default=0.0)
-        gains = promised_gains(evaluator.trials[start:], known)
-        return len(gains) >= PATIENCE and max(gains[-PATIENCE:]) < task.least_gain
+    def ended(rehearsal: Rehearsal | None) -> bool:
+        if not task.least_gain:
+            return False
+        idle, low = progress()
+        guessed = polls and rehearsal is not None and not evaluator.space.varies_workshop
+        return idle >= IDLE if guessed else low >= PATIENCE
 
     return run_steps(evaluator, "bo", task, proposer, ended)
 
 
-def promised_gains(trials: Sequence[Trial], best: float = 0.0) -> list[float]:
-    """Return the most that a proposal of each step of `bo` promised to gain, as a share of the best score before it.
-
-    `best` is the best score before the first of the trials.
-    """
-    gains = []
-    for (phase, _), step in itertools.groupby(trials, key=lambda trial: (trial.phase, trial.step)):
-        together = list(step)
-        notes = [trial.proposal for trial in together if phase == "bo" and "theta" in trial.proposal]
-        logarithms = [float(note["log_improvement"]) + float(note["log_feasible"]) for note in notes]
-        if logarithms:
-            gains.append(promised_gain(max(logarithms), best))
-        best = max(best, *(trial.score or 0.0 for trial in together))
-    return gains
-
-
 def run_steps(
-    evaluator: Evaluator, phase: str, task: Task, proposer: Proposer, ended: Callable[[], bool] = lambda: False
-) -> bool:
+    evaluator: Evaluator, phase: str, task: Task, proposer: Proposer,
+    ended: Callable[[Rehearsal | None], bool] = lambda _rehearsal: False,
+) -> bool:  # fmt: skip
     """Evaluate the initial designs, then what `proposer` proposes, one batch per step.
 
     Return whether the search has `ended` before its evaluations, time or proposals were spent.
@@ -126,7 +121,7 @@ def run_steps(
     for step in itertools.count(task.first_step + 1):
         if left <= 0 or evaluator.expired():
             return False
-        if ended():
+        if ended(rehearsal):
             return True
         count = min(task.batch, left)
         finished = evaluator.finished(phase, step, count)

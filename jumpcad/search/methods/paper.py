@@ -54,7 +54,9 @@ def run_paper(evaluator: Evaluator, task: Task) -> None:
         with _inside(evaluator, space.near(centre.variant, names, percent)) as inner:
             if inner is not None and share > 0:
                 initial = default_initial(inner, share)
-                run_bayesian(evaluator, replace(task, evaluations=share, initial=initial, first_step=first))
+                run_bayesian(
+                    evaluator, replace(task, evaluations=share, initial=initial, first_step=first), polls=False
+                )
                 centre = best_trial([centre, *(one for one in evaluator.trials if inner.contains(one.variant))])
         assert centre is not None
 

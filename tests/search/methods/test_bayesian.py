@@ -1,13 +1,11 @@
 """Bayesian optimisation: few evaluations, batches, resumption."""
 
-import math
-
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.bayesian import default_initial, incumbent, learned_trials, promised_gains, run_bayesian
+from jumpcad.search.methods.bayesian import default_initial, incumbent, learned_trials, run_bayesian
 from jumpcad.search.objective import Evaluation
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
@@ -139,17 +137,3 @@ def test_half_as_many_first_designs_where_scores_are_guessed():
     assert [default_initial(Space.default(), 100, guessed=guessed) for guessed in (False, True)] == [24, 12]
     assert default_initial(SMALL, 100, guessed=True) == 5
     assert default_initial(Space.default(), 20, guessed=True) == 10
-
-
-def test_a_promise_is_twice_the_expected_gain_of_the_score_s_root():
-    """Over the root of the best before it; times the chance of a jump; of a batch the largest; failures raise none."""
-    promise = {"theta": {}, "log_improvement": math.log(0.4), "log_feasible": math.log(0.5)}
-    first = scored(None, None, phase="bo", step=0)
-    steps = [*first, *scored(4.0, step=1), *scored(None, step=2, **promise), *scored(0.5, step=3, **promise)]
-    assert promised_gains(steps) == pytest.approx([0.2, 0.2])
-    assert promised_gains(steps, best=16.0) == pytest.approx([0.1, 0.1])
-    better = [*steps, *scored(25.0, step=4, **promise), *scored(1.0, step=5, **promise)]
-    assert promised_gains(better) == pytest.approx([0.2, 0.2, 0.2, 0.08])
-    few = [*first, *scored(0.25, step=1), *scored(0.25, step=2, **promise)]
-    assert promised_gains(few) == pytest.approx([0.8])
-    assert promised_gains(scored(1.0, phase="ga", **promise)) == []
