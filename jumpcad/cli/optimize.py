@@ -178,8 +178,8 @@ def _print_result(result: "Result", design_file: Path) -> None:
     print(f"{len(result.trials)} designs evaluated{around}; rejected: {_counted(result.rejected)}")
     if result.converged:
         print(
-            f"ended before {request.searched}: in its last steps less than {request.until_percent:g} % of the best score"
-            " was gained or promised; --until 0 goes on"
+            f"ended before {request.searched}: in its last steps less than {request.until_percent:g} % of the best "
+            "score was gained or promised; --until 0 goes on"
         )
     if len(result.trials) >= request.space.size:
         print("these are all designs of the space")
