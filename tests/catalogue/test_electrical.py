@@ -28,3 +28,18 @@ def test_a_motor_gives_no_more_power_than_it_draws() -> None:
     for motor in load_catalogue().motors.values():
         in_nmm = motor.model_copy(update={"stall_torque_nm": 1000.0 * motor.stall_torque_nm})
         assert [place for place, *_ in in_nmm.contradictions()] == [("stall_torque_nm",)]
+
+
+def test_a_pin_at_two_places_is_named_once_at_the_side_where_it_is_first() -> None:
+    """Supply, ground and outputs may stand at several places; others are told apart by theirs."""
+    board = load_catalogue().boards["xiao-esp32c3"]
+    pins = {"A": ("gpio1",), "B": ("gpio2",), "G": ("ground",), "V": ("out",)}
+    plain = board.model_copy(update={"pins": pins, "supply_v": {"5V": (4.0, 6.0)}, "diode_at": (), "button": ""})
+    for left, right, found in (
+        (("A", "G", "5V", "V"), ("B", "G", "5V", "V"), []),
+        (("A", "B"), ("B", "A"), [("left", "A"), ("left", "B")]),
+        (("A", "A"), ("B", "B", "A"), [("left", "A"), ("right", "B")]),
+        (("NC",), ("NC",), []),
+    ):
+        twice = plain.model_copy(update={"left": left, "right": right})
+        assert [(*place, value) for place, value, _ in twice.contradictions()] == found

@@ -40,11 +40,10 @@ def test_a_printer_that_narrows_holes_gets_fits_that_fit(shrinkage_mm: float) ->
 def test_pegs_foretell_the_play_of_gears_that_spread_likewise(growth_mm: float) -> None:
     pegs = [round(peg + growth_mm, 3) for peg in (4.0, 6.0, 8.0)]
     fits = read(f"[gauge.PETG]\npegs_mm = {pegs}\n[gauge.PLA]\npegs_mm = [4.2, 6.2, 8.2]").fits
+    play = fits.backlash_circumferential_mm
+    assert play == round(play, 3)  # as a file has it: a caliper reads hundredths
     pair = coupon_pair()
-    printed = [
-        polygon(gear.profile_mm).offset(growth_mm / 2.0, JoinType.Miter)
-        for gear in (pair.wheel, pinion(fits.backlash_circumferential_mm))
-    ]
+    printed = [polygon(gear.profile_mm).offset(growth_mm / 2.0, JoinType.Miter) for gear in (pair.wheel, pinion(play))]
     turn = turning_play_deg(printed[0].rotate(9.0), printed[1], pair.centre_distance_mm, 24.0)
     assert math.radians(turn) * pair.pinion.pitch_radius_mm == pytest.approx(LEAST_PLAY_MM, abs=0.008)
 

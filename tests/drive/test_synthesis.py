@@ -8,7 +8,7 @@ import pytest
 from support.limits import default_limits
 
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
-from jumpcad.drive import synthesise
+from jumpcad.drive import DriveLimits, synthesise
 from jumpcad.drive.corner import clear_window_rad
 from jumpcad.errors import CannotBuildError
 
@@ -173,3 +173,13 @@ def test_the_cams_axis_makes_room_for_one_pair_at_the_least_gap_that_is_enough(n
     found = synthesise(design, limits)
     assert found.train == first.train
     assert found.cam.cam_axis_mm.tolist() == first.cam.cam_axis_mm.tolist()
+
+
+def test_a_drive_of_which_little_is_said_has_slack_springs_and_the_usual_clearances():
+    """Springs that rest on their pins, 0.8 mm around spacers of 6.4 mm, 50 ms in which the leg falls."""
+    plain = DriveLimits(LIMITS.spring, LIMITS.cam, LIMITS.train, LIMITS.motors, LIMITS.dog_mm)
+    assert (plain.gap_mm, plain.axle_radius_mm, plain.fall_s) == (0.8, 6.4 / 2.0, 0.05)
+    drive = synthesise(load_design("kenan-2.0"), plain)
+    check(load_design("kenan-2.0"), drive)
+    assert drive.spring.preload_rad == drive.cam.law.preload_rad == 0.0
+    assert drive.spring.stock == ""

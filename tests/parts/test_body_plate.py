@@ -23,8 +23,10 @@ from jumpcad.parts.body_plate import (
     socket_about_axis,
     tray_slots,
 )
+from jumpcad.parts.fittings import fitting_pads
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
+from jumpcad.parts.sensor import plate_pad
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.text import engravable, text
@@ -236,7 +238,8 @@ def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -
         letters, flat = inside - outside, text("Fy R", TEXT_HEIGHTS_MM[0]).mirror((1.0, 0.0))
         box, at = flat.bounds(), letters.bounds()
         assert low < at[1] < at[3] < high
-        assert abs(at[0] + at[2]) / 2.0 < 1.0  # in the middle of the plate, on a raster of 1 mm
+        nearest = 0.0 if cover is None else math.ceil(5.0 + 0.8 + (box[3] - box[1]) / 2.0)
+        assert [at[0] + at[2], at[1] + at[3]] == pytest.approx([0.0, 2.0 * nearest])  # on a raster of 1 mm
         moved = flat.translate((at[0] - box[0], at[1] - box[1]))
         assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
 
@@ -303,3 +306,19 @@ def test_pockets_come_as_near_to_the_strut_as_3_mm_beside_a_bore(name: str) -> N
     (edge,) = (shapely.Polygon(contour) for contour in covers.whole.to_polygons())
     assert pockets.distance(edge.exterior) == pytest.approx(3.2, abs=0.05)
     assert pockets.buffer(-1.45).buffer(1.45).symmetric_difference(pockets).area < 0.01 * pockets.area
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
+def test_ribs_join_every_pad_to_its_neighbours(name: str) -> None:
+    """As Delaunay's triangles by GEOS join the pads' middles; where four are on one circle, either diagonal will do."""
+    layout = built(name).layout
+    assert layout.sensor is not None
+    middles = [*layout.axles.values(), *layout.standoffs_mm, layout.spring_pin_mm, layout.motor_mm]
+    middles += [np.array(place) for level in tray_slots(layout, "left") for place in level]
+    rows = [pad.bounds() for pad in [*fitting_pads(layout.fittings, 0.0), plate_pad(layout.sensor)]]
+    middles += [np.array([(row[0] + row[2]) / 2.0, (row[1] + row[3]) / 2.0]) for row in rows]
+    pockets = shapely.union_all([shapely.Polygon(contour) for contour in _covers(layout).pockets.to_polygons()])
+    ribs = shapely.delaunay_triangles(shapely.MultiPoint(middles), only_edges=True).geoms
+    broken = [rib for rib in ribs if rib.buffer(1.59, cap_style="flat").intersection(pockets).area > 0.05]
+    assert len(ribs) > 20
+    assert broken == []

@@ -134,3 +134,15 @@ def test_preloaded_springs_ask_for_thicker_dogs_and_legs() -> None:
     assert more.thickness_mm == usual.thickness_mm
     assert more.dog_mm / usual.dog_mm == pytest.approx(times ** (1.0 / 3.0), abs=2e-3)
     assert more.lever_root_mm / usual.lever_root_mm == pytest.approx(math.sqrt(times), abs=2e-3)
+
+
+def test_a_robot_with_hardly_any_spring_has_the_least_sections() -> None:
+    """Links 6 mm high and thick; the leg's root, which a pin's hole weakens, and the lever have 2 mm more."""
+    weak = load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 0.05})
+    sizes = sections(Linkage(weak), load_workshop())
+    assert (sizes.thickness_mm, sizes.front_mm, sizes.leg_tip_mm) == (6.0, 6.0, 6.0)
+    assert sizes.leg_root_mm == sizes.lever_root_mm == 6.0 + 2.0
+    assert (sizes.rail_root_mm, sizes.rail_tip_mm, sizes.toe_root_mm) == (3.2, 3.2, 3.2)  # 16 layers of 0.2 mm
+    assert (sizes.toe_tip_height_mm, sizes.stop_mm) == (2.4, 6.0)
+    eye = max(sizes.eye_radius_mm, sizes.leg_tip_mm / 2.0)
+    assert sizes.foot_depth_mm == pytest.approx(eye + 1.0)  # the links are 1 mm above the ground
