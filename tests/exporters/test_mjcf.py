@@ -17,6 +17,7 @@ from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.scene.visuals import visuals
+from jumpcad.settings import Settings
 
 
 def without_meshes(document: str) -> str:
@@ -72,3 +73,16 @@ def test_the_bodys_box_is_as_low_as_its_parts_or_as_the_ground_lets_it(name: str
     assert lowest > 0.0008
     assert raised > -1e-4
     assert raised < 1e-4 or lowest == pytest.approx(0.001, abs=2e-4)
+
+
+@pytest.mark.parametrize("dt_s", [0.0005, 0.002])
+def test_contacts_and_the_loop_are_as_stiff_as_mujoco_allows(dt_s: float) -> None:
+    """Its time constants are at least two of its steps ("solref", XML reference), here a quarter of the settings'."""
+    root = ET.fromstring(write_mjcf(capsule_robot(load_design("kenan-2.0")), Settings(dt_s=dt_s)))
+    option = root.find("option")
+    assert option is not None
+    step = float(option.attrib["timestep"])
+    assert step == pytest.approx(dt_s / 4.0)
+    soft = np.array([node.attrib["solref"].split() for node in root.iter() if "solref" in node.attrib], dtype=float)
+    assert len(soft) > 2
+    assert soft == pytest.approx(np.tile([2.0 * step, 1.0], (len(soft), 1)))

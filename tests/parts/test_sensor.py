@@ -12,7 +12,7 @@ from support.built import built, cut, hole_centres, placed, region
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.sensor import EAR_MM, ear_height_mm, screw_mm, sensor_mount
+from jumpcad.parts.sensor import EAR_MM, THREAD_MIN_MM, ear_height_mm, screw_mm, sensor_mount
 from jumpcad.robot import Robot
 
 
@@ -139,6 +139,7 @@ def test_the_shortest_screw_that_holds_goes_through_the_ear_and_four_threads() -
     """M2 has a pitch of 0.4 mm (ISO 261), so four are 1.6 mm; with 2 mm of ear a screw of 4 mm is long enough."""
     assert screw_mm() == 4.0
     assert screw_mm() >= EAR_MM + 4 * 0.4
+    assert pytest.approx(4 * 0.4) == THREAD_MIN_MM
     thin = built("kenan-2.0").layout
     plate = thin.lateral.left_plate
     for thickness, height in ((plate[1] - plate[0], 2.0), (1.6, 2.6)):
