@@ -70,7 +70,7 @@ def test_joints_are_read_too() -> None:
     assert (fits.m2_tap_mm, fits.rib_mm, fits.lying_mm, fits.sliding_mm) == (1.7, 0.1, 0.15, 0.25)
     assert fits.press_mm == 0.05
     weak = read("[joints]\nfloor_n = 100").materials["PLA"].strength_in_plane_mpa
-    assert weak == pytest.approx(100.0 * math.sqrt(3.0) / (math.pi * 3.0 * 0.8), abs=0.06)
+    assert weak == round(100.0 * math.sqrt(3.0) / (math.pi * 3.0 * 0.8), 1)
     assert read("[joints]\nfloor_n = 1000").materials == WORKSHOP.materials
 
 
