@@ -1,5 +1,7 @@
 """Electrical articles: voltages of lithium cells, and figures of motors that energy forbids."""
 
+import math
+
 import pytest
 
 from jumpcad.catalogue import Battery, load_catalogue
@@ -43,3 +45,30 @@ def test_a_pin_at_two_places_is_named_once_at_the_side_where_it_is_first() -> No
     ):
         twice = plain.model_copy(update={"left": left, "right": right})
         assert [(*place, value) for place, value, _ in twice.contradictions()] == found
+
+
+def test_a_motor_is_refused_by_its_figures_from_just_beyond_what_can_be() -> None:
+    """A steel rod's mass by 7.85 g/cm³; at half speed half the torque, with the mean of both currents."""
+    motor = next(iter(load_catalogue().motors.values()))
+    steel = 7.85e-3 * math.pi / 4.0 * motor.shaft_mm**2 * motor.shaft_length_mm
+    watts = motor.voltage_v * (motor.no_load_current_a + motor.stall_current_a) / 2.0
+    torque = 4.0 * watts / (2.0 * math.pi * motor.no_load_rpm / 60.0)
+    narrow = min(motor.width_mm, motor.height_mm)
+    for key, value, inwards in (
+        ("shaft_flat_mm", motor.shaft_mm / 2.0, 1.0), ("shaft_flat_mm", motor.shaft_mm, -1.0),
+        ("boss_mm", motor.shaft_mm - 1e-9, 1.0), ("boss_mm", narrow + 1e-9, -1.0),
+        ("shaft_length_mm", motor.boss_length_mm, 1.0), ("mass_g", steel, 1.0),
+        ("no_load_current_a", motor.stall_current_a, -1.0), ("stall_torque_nm", torque * (1.0 + 1e-9), -1.0),
+    ):  # fmt: skip
+        beyond = [place for place, *_ in motor.model_copy(update={key: value}).contradictions()]
+        assert (key,) in beyond, key
+        inside = motor.model_copy(update={key: value + inwards * 1e-6 * value})
+        assert (key,) not in [place for place, *_ in inside.contradictions()], key
+
+
+def test_a_battery_is_refused_whose_voltage_is_not_between_empty_and_full() -> None:
+    battery = next(iter(load_catalogue().batteries.values()))
+    low, high = battery.range_v
+    for volts, refused in ((low, True), (low + 1e-6, False), (high - 1e-6, False), (high, True)):
+        own = battery.model_copy(update={"voltage_v": volts, "empty_v": low, "full_v": high})
+        assert [place for place, *_ in own.contradictions()] == ([("voltage_v",)] if refused else [])

@@ -105,3 +105,19 @@ def test_the_same_plate_gives_the_same_bytes_without_a_date(plate):
     with zipfile.ZipFile(io.BytesIO(data)) as package:
         assert {entry.date_time for entry in package.infolist()} == {(1980, 1, 1, 0, 0, 0)}
         assert not re.search(rb"20\d\d-\d\d-\d\d", package.read("3D/3dmodel.model"))
+
+
+def test_prusaslicers_list_has_every_object_with_its_copies_and_triangles(plate, model):
+    """By the objects' own numbers; each is one volume from its first triangle to its last."""
+    with zipfile.ZipFile(io.BytesIO(write_threemf(plate, SETTINGS, PICTURE))) as package:
+        config = ElementTree.fromstring(package.read("Metadata/Slic3r_PE_model.config"))
+    objects = {one.get("id"): one for one in model.iter(f"{CORE}object")}
+    items = [item.get("objectid") for item in model.iter(f"{CORE}item")]
+    listed = {one.get("id"): one for one in config.iter("object")}
+    assert listed.keys() == objects.keys()
+    for number, one in listed.items():
+        assert {node.get("value") for node in one.iter("metadata")} == {objects[number].get("name")}
+        assert int(one.get("instances_count")) == items.count(number)
+        (volume,) = one.iter("volume")
+        triangles = sum(1 for _ in objects[number].iter(f"{CORE}triangle"))
+        assert (int(volume.get("firstid")), int(volume.get("lastid"))) == (0, triangles - 1)

@@ -1,5 +1,6 @@
 """Places of spring pin, motor and idler, with nothing in the way and with something."""
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -149,8 +150,9 @@ def test_an_idler_stands_where_its_wheel_and_its_axle_are_free() -> None:
     drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
     tip, distance = drive.train.stages[0].wheel.tip_radius_mm, drive.train.stages[-1].centre_distance_mm
     beside = (lateral.inside[0], lateral.gears[1][0] - 0.5)
-    for interval, reach in ((beside, 3.2), (lateral.gears[1], tip)):
-        post = disc("post", axis + np.array([distance + 1.0, 2.0]), 4.0, interval)
+    away = [(distance + 1.0, 2.0), (2.0, distance + 1.0), (-distance - 1.0, 2.0), (2.0, -distance - 1.0)]
+    for (interval, reach), place in itertools.product(((beside, 3.2), (lateral.gears[1], tip)), away):
+        post = disc("post", axis + np.array(place), 4.0, interval)
         found = drive_places._idler_places([post], drive, lateral, axis)
         turns = 2.0 * math.pi * np.arange(72) / 72.0
         ring = axis + distance * np.column_stack([np.cos(turns), np.sin(turns)])
