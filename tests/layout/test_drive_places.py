@@ -150,15 +150,19 @@ def test_an_idler_stands_where_its_wheel_and_its_axle_are_free() -> None:
     drive, axis, lateral = layout.drive, layout.cam_axis_mm, layout.lateral
     tip, distance = drive.train.stages[0].wheel.tip_radius_mm, drive.train.stages[-1].centre_distance_mm
     beside = (lateral.inside[0], lateral.gears[1][0] - 0.5)
-    away = [(distance + 1.0, 2.0), (2.0, distance + 1.0), (-distance - 1.0, 2.0), (2.0, -distance - 1.0)]
-    for (interval, reach), place in itertools.product(((beside, 3.2), (lateral.gears[1], tip)), away):
-        post = disc("post", axis + np.array(place), 4.0, interval)
+    for interval, reach in ((beside, 3.2), (lateral.gears[1], tip)):
+        post = disc("post", axis + np.array([distance + 1.0, 2.0]), 4.0, interval)
         found = drive_places._idler_places([post], drive, lateral, axis)
         turns = 2.0 * math.pi * np.arange(72) / 72.0
         ring = axis + distance * np.column_stack([np.cos(turns), np.sin(turns)])
         free = np.hypot(*(ring - post.points_mm[0]).T) >= 4.0 + reach
         assert 0 < free.sum() < 72
         np.testing.assert_allclose(found, ring[free], atol=2e-6)
+        for number, way in itertools.product((0, 18, 36, 54), ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))):
+            for room, kept in ((0.02, True), (-0.02, False)):
+                post = disc("post", ring[number] + (reach + 1.0 + room) * np.array(way), 1.0, interval)
+                places = drive_places._idler_places([post], drive, lateral, axis)
+                assert bool((np.hypot(*(places - ring[number]).T) < 1e-5).any()) == kept
     gear = disc("cam gear", axis, 5.0, lateral.inside)
     assert len(drive_places._idler_places([gear], drive, lateral, axis)) in (0, 72)
 
