@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from support.documented import documented_ranges, wrongly_taken
 
 from jumpcad.catalogue import Battery, load_catalogue
 
@@ -72,3 +73,9 @@ def test_a_battery_is_refused_whose_voltage_is_not_between_empty_and_full() -> N
     for volts, refused in ((low, True), (low + 1e-6, False), (high - 1e-6, False), (high, True)):
         own = battery.model_copy(update={"voltage_v": volts, "empty_v": low, "full_v": high})
         assert [place for place, *_ in own.contradictions()] == ([("voltage_v",)] if refused else [])
+
+
+@pytest.mark.parametrize(("kind", "ranges"), [("motors", 16), ("batteries", 11), ("boards", 14)])
+def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
+    assert len(documented_ranges(f"{kind}.NAME")) == ranges
+    assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []

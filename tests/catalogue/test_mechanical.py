@@ -1,6 +1,7 @@
 """Mechanical articles: the stiffness of rubber blocks, the turns of springs with tangent arms, room in a bearing."""
 
 import pytest
+from support.documented import documented_ranges, wrongly_taken
 
 from jumpcad.catalogue import load_catalogue
 
@@ -52,3 +53,9 @@ def test_turns_may_be_a_tenth_off_and_wire_is_thinner_than_the_coil_is_wide() ->
     pad = next(iter(load_catalogue().pads.values()))
     for most, places in ((pad.friction_min, []), (pad.friction_min - 1e-6, [("friction_max",)])):
         assert [place for place, *_ in pad.model_copy(update={"friction_max": most}).contradictions()] == places
+
+
+@pytest.mark.parametrize(("kind", "ranges"), [("bearings", 5), ("springs", 6), ("pads", 5)])
+def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
+    assert len(documented_ranges(f"{kind}.NAME")) == ranges
+    assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []
