@@ -164,3 +164,11 @@ def test_a_tool_stands_on_the_middle_of_its_fasteners_face(side: tuple[float, fl
     np.testing.assert_allclose(shaft.T_body_part[:3, 2], side, atol=1e-9)
     np.testing.assert_allclose(shaft.T_body_part[:3, :3].T @ shaft.T_body_part[:3, :3], np.eye(3), atol=1e-9)
     assert shaft.shape.volume_mm3 == pytest.approx(50.0 * np.pi * 4.0, rel=0.01)
+
+
+@pytest.mark.parametrize(("length", "blocked"), [(0.0, False), (0.4, False), (1.0, True), (2.0, True)])
+def test_what_does_not_move_is_not_in_the_way(length: float, blocked: bool) -> None:
+    """A cube of 2 mm comes from 1 mm away at least past a block that begins 0.5 mm behind it."""
+    cube, behind = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), block("behind", (3.0, 2.0, 2.0), (-3.5, 0.0, 0.0))
+    found = _in_the_way(way_past(behind), cube, np.array([length, 0.0, 0.0]))
+    assert (found is not None) == blocked

@@ -95,6 +95,7 @@ def test_an_axle_weighs_its_rod() -> None:
     hollow = build(load_design("kenan-2.0"), workshop(axle="steel-tube"))
     tube = next(item for item in hollow.hardware if item.name == "cam_axle")
     assert np.isclose(tube.shape.volume_mm3 / (np.ptp(tube.shape.bounds_mm[:, 2])), math.pi / 4 * (9 - 4), rtol=0.01)
+    assert 1e6 * tube.mass_kg / tube.shape.volume_mm3 == pytest.approx(7.9, rel=0.01)  # 1.4301, g/cm³
 
 
 @pytest.mark.parametrize(

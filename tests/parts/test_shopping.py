@@ -261,6 +261,12 @@ def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
     robot = built("kenan-2.0")
     x, z = robot.layout.fittings.switch_mm
     low, _ = robot.layout.lateral.outside
+    (switch,) = (one for one in robot.hardware if one.name == "switch")
+    box, inside = switch.look.copy().apply_transform(switch.T_body_part).bounds, robot.layout.lateral.inside[0]
+    assert box.mean(axis=0)[[0, 2]] == pytest.approx([x, z], abs=1e-3)
+    known = robot.layout.fittings.switch
+    assert np.ptp(box, axis=0) == pytest.approx([known.length_mm, known.height_mm, known.width_mm], abs=1e-3)
+    assert box[0, 1] == pytest.approx(inside, abs=1e-3)
     for number, side in ((1, -1.0), (2, 1.0)):
         (item,) = (one for one in robot.hardware if one.name == f"switch_screw_{number}")
         bounds = item.look.copy().apply_transform(item.T_body_part).bounds
