@@ -1,12 +1,17 @@
 """What a study knows of the program that made it."""
 
+import math
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
+from jumpcad.design import load_design
 from jumpcad.search import models
-from jumpcad.search.models import PRESENTATION, RobotModel, code_digest
+from jumpcad.search.models import PRESENTATION, RobotModel, code_digest, robot_model
+from jumpcad.search.objective import find_objective
+from jumpcad.search.tolerances import Making
 
 
 @pytest.fixture
@@ -55,3 +60,32 @@ print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.split() == [], done.stderr
+
+
+def test_only_a_printed_robot_has_a_workshop_a_size_and_a_quick_score():
+    """Its links are 0.4 mm off (sliding fits of 0.2 mm at both ends), others 0.2 mm; its springs by half of ±10 %."""
+    printed, capsule, published = robot_model(), robot_model("capsule"), robot_model("published")
+    assert [one.default_objective for one in (printed, capsule, published)] == ["body_lengths", "fitness", "fitness"]
+    assert [one.tolerance_mm for one in (printed, capsule, published)] == pytest.approx([0.4, 0.2, 0.2])
+    assert (printed.making.length_mm, printed.making.rate, printed.making.printed) == pytest.approx((0.4, 0.05, True))
+    assert capsule.making == published.making == Making(0.2)
+    design, score = load_design("kenan-2.0"), find_objective("fitness")
+    assert 0.0 < printed.quick_score(design, score) < 10.0
+    assert [one.quick_score(design, score) for one in (capsule, published)] == [-math.inf] * 2
+    flat = design.model_copy(update={"c_coef": 0.3, "d_coef": 0.6, "rest_angle_deg": 40.0})
+    assert printed.quick_score(flat, score) == -math.inf
+    assert [one.admits(flat) for one in (printed, capsule, published)] == [False] * 3
+    assert [one.admits(design) for one in (printed, capsule, published)] == [True] * 3
+
+
+def test_a_model_says_what_decides_its_evaluations():
+    """The capsule robot is simulated by an engine, the published one by PyBullet alone; versions follow."""
+    printed, capsule, published = robot_model(), robot_model("capsule"), robot_model("published")
+    assert [one.describe()["engine"] for one in (printed, capsule, published)] == ["pybullet"] * 3
+    assert replace(capsule, engine="planar").describe()["engine"] == "planar"
+    assert replace(published, engine="planar").describe()["engine"] == "pybullet"
+    assert [one.describe()["workshop"] is None for one in (printed, capsule, published)] == [False, True, True]
+    assert {"manifold3d", "trimesh"} < set(printed.versions())
+    assert not {"manifold3d", "trimesh"} & set(capsule.versions())
+    digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
+    assert len(digests) == 4
