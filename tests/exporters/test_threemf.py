@@ -127,7 +127,7 @@ def test_prusaslicers_list_has_every_object_with_its_copies_and_triangles(plate,
 
 @pytest.mark.parametrize("corner", [(-1, -1), (1, -1), (-1, 1), (1, 1)])
 def test_a_thumbnail_is_seen_from_the_printers_front(corner):
-    """A slicer's bed has x to the right and y to the back: what lies on the left is on the left, what in front below."""
+    """A slicer's bed has x to the right and y to the back: what lies on its left is on the left, in front below."""
     (plate,) = packed([Part("sheet", trimesh.creation.box((40, 40, 0.2)))], (180.0, 180.0, 180.0), 5.0)
     pose = plate.items[0].T_bed_part.copy()
     pose[:2, 3] += 90.0 + 60.0 * np.array(corner) - plate.items[0].part.mesh.bounds.mean(axis=0)[:2] - pose[:2, 3]
