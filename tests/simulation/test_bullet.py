@@ -79,7 +79,7 @@ def test_the_body_moves_as_the_roller_leaves_the_cam() -> None:
     body = replace(uneven.bodies[BODY], com_m=np.array([0.012, 0.0, -0.007]))  # the links' are elsewhere
     robot = let_go(replace(uneven, bodies={**uneven.bodies, BODY: body}))
     release = release_pose(robot)
-    assert abs(release.body_rad_s) > 0.1
+    assert abs(release.body_rad_s) > 0.05
     with engine_named("pybullet").world(robot, Settings()) as world:
         velocity, spin = bullet.getBaseVelocity(world.robot_id, physicsClientId=world._client)
         place, _ = bullet.getBasePositionAndOrientation(world.robot_id, physicsClientId=world._client)
