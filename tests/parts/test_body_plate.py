@@ -19,6 +19,7 @@ from jumpcad.parts.body_plate import (
     TEXT_HEIGHTS_MM,
     _covers,
     _drawing,
+    _letters,
     ear_reach_mm,
     socket_about_axis,
     tray_slots,
@@ -322,3 +323,16 @@ def test_ribs_join_every_pad_to_its_neighbours(name: str) -> None:
     broken = [rib for rib in ribs if rib.buffer(1.59, cap_style="flat").intersection(pockets).area > 0.05]
     assert len(ribs) > 20
     assert broken == []
+
+
+@pytest.mark.parametrize(("more_mm", "high"), [((0.02, 0.02), True), ((-0.02, 0.02), False), ((0.02, -0.02), False)])
+def test_a_label_has_0_8_mm_around_it_on_either_side(more_mm: tuple[float, float], high: bool) -> None:
+    """In a window just so wide and high; in one that is a little smaller the letters are lower."""
+    large, small = (text("Fy R", height) for height in TEXT_HEIGHTS_MM)
+    low_x, low_z, high_x, high_z = large.bounds()
+    window = (high_x - low_x + 2.0 * (0.8 + more_mm[0]), high_z - low_z + 2.0 * (0.8 + more_mm[1]))
+    plate = rectangle((60.0, 40.0))  # the raster of places begins at its corner
+    face = rectangle(window) + (plate - rectangle((59.0, 39.0)))
+    letters = _letters("Fy R", face, mirrored=False)
+    assert letters is not None
+    assert letters.area() == pytest.approx((large if high else small).area(), rel=1e-6)
