@@ -95,3 +95,12 @@ def test_what_is_not_said_is_the_same_in_python_and_on_the_command_line():
     assert {name: typed[name] for name in common} == {name: usual[name] for name in common}
     assert typed["limit"] == called["limit_s"] == 60.0
     assert typed["model"] == called["model"] == "printed"
+
+
+def test_half_of_a_search_that_widens_goes_on_in_three_steps_from_moved_bounds():
+    """Of 240 evaluations 180 are the search's: 90, then three times 30 by `bo`, whatever came before."""
+    for method in ("bo", "ga"):
+        stages = plan_stages(Request(SMALL, Hill(), method=method, evaluations=240, widen=True))
+        assert [stage.method for stage in stages] == [method, "bo", "bo", "bo"]
+        assert [stage.evaluations for stage in stages] == [90, 30, 30, 30]
+        assert [stage.widen for stage in stages] == [False, True, True, True]

@@ -307,3 +307,25 @@ def test_a_study_of_an_earlier_format_is_read(tmp_path, version):
         made.commit()
     with StudyStore.read(path) as store:
         assert store.trials() == [replace(trial, workshop=held)]
+
+
+def test_a_file_that_was_made_for_a_wrong_request_is_gone_again_unless_it_holds_an_evaluation(tmp_path):
+    """What was there before stays, as does what another fault leaves."""
+
+    def left(path, error, rows=0):
+        with pytest.raises(type(error)), StudyStore.write(path, IDENTITY) as store:
+            if rows:
+                store.append(trials(rows))
+            raise error
+        return sorted(one.name for one in path.parent.iterdir() if one.name.startswith(path.name))
+
+    wrong = JumpcadError("wrong")
+    assert left(tmp_path / "a.db", wrong) == []
+    assert left(tmp_path / "b.db", wrong, rows=2) == ["b.db"]
+    assert left(tmp_path / "c.db", ValueError("a fault")) == ["c.db"]
+    assert left(tmp_path / "c.db", wrong) == ["c.db"]  # of before
+    with pytest.raises(JumpcadError), StudyStore.read(tmp_path / "c.db"):
+        raise wrong
+    assert (tmp_path / "c.db").exists()
+    with StudyStore.read(tmp_path / "b.db") as store:
+        assert len(store.trials()) == 2
