@@ -85,6 +85,7 @@ def test_a_model_says_what_decides_its_evaluations():
     assert replace(capsule, engine="planar").describe()["engine"] == "planar"
     assert replace(published, engine="planar").describe()["engine"] == "pybullet"
     assert [one.describe()["workshop"] is None for one in (printed, capsule, published)] == [False, True, True]
+    assert [one.describe()["settings"] is None for one in (printed, capsule, published)] == [False, False, True]
     assert {"manifold3d", "trimesh"} < set(printed.versions())
     assert not {"manifold3d", "trimesh"} & set(capsule.versions())
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}

@@ -312,11 +312,14 @@ def test_a_study_of_an_earlier_format_is_read(tmp_path, version):
 def test_a_file_that_was_made_for_a_wrong_request_is_gone_again_unless_it_holds_an_evaluation(tmp_path):
     """What was there before stays, as does what another fault leaves."""
 
-    def left(path, error, rows=0):
-        with pytest.raises(type(error)), StudyStore.write(path, IDENTITY) as store:
-            if rows:
-                store.append(trials(rows))
+    def attempt(path, error, rows):
+        with StudyStore.write(path, IDENTITY) as store:
+            store.append(trials(rows))
             raise error
+
+    def left(path, error, rows=0):
+        with pytest.raises(type(error)):
+            attempt(path, error, rows)
         return sorted(one.name for one in path.parent.iterdir() if one.name.startswith(path.name))
 
     wrong = JumpcadError("wrong")

@@ -13,6 +13,7 @@ from support.hills import SMALL, Hill
 from support.places import TESTS
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search import study
 from jumpcad.search.methods.bayesian import promised_gains
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
@@ -276,3 +277,12 @@ def test_a_prior_study_whose_model_had_other_values_in_another_program_is_said_t
 def test_wrong_requests(change, message):
     with pytest.raises(JumpcadError, match=message):
         run(replace(REQUEST, **change))
+
+
+@pytest.mark.parametrize(("evaluations", "kept"), [(240, 8), (80, 5)])
+def test_a_pick_leaves_a_quarter_for_bounds_or_one_evaluation_a_parameter(monkeypatch, evaluations, kept):
+    """Of 60 evaluations eight for the eight parameters, of 20 five."""
+    shares = []
+    monkeypatch.setattr(study, "rank_candidates", lambda *given: shares.append(given[-1]) or [])
+    run(Request(Space.default(), Hill(), method="ga", evaluations=evaluations))
+    assert shares == [evaluations // 4 - kept]
