@@ -19,6 +19,9 @@ def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
 ) -> None:
     pretend_slicer(OBEDIENT.replace("TAMPER", ""), tmp_path, monkeypatch)
     found = slice_bundle(export(three_parts(small_robot), tmp_path / "frog", pictures=False).folder)
+    files = {f"print/{plate.name}.3mf" for plate in found.plates}
+    assert files == {name for name in found.bundle.files if name.endswith(".3mf")}
+    assert all(plate.name.endswith(f"-{plate.material}") for plate in found.plates)
     parts = {part.name: part for part in small_robot.parts}
     for part in found.parts:
         density = found.workshop.materials[part.material].density_g_cm3

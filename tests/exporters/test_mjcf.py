@@ -86,3 +86,11 @@ def test_contacts_and_the_loop_are_as_stiff_as_mujoco_allows(dt_s: float) -> Non
     soft = np.array([node.attrib["solref"].split() for node in root.iter() if "solref" in node.attrib], dtype=float)
     assert len(soft) > 2
     assert soft == pytest.approx(np.tile([2.0 * step, 1.0], (len(soft), 1)))
+
+
+@pytest.mark.parametrize("gravity_m_s2", [9.81, 1.62])
+def test_weight_pulls_straight_down(gravity_m_s2: float) -> None:
+    root = ET.fromstring(write_mjcf(capsule_robot(load_design("kenan-2.0")), Settings(gravity_m_s2=gravity_m_s2)))
+    option = root.find("option")
+    assert option is not None
+    assert list(map(float, option.attrib["gravity"].split())) == [0.0, 0.0, -gravity_m_s2]

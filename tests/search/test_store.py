@@ -332,3 +332,16 @@ def test_a_file_that_was_made_for_a_wrong_request_is_gone_again_unless_it_holds_
     assert (tmp_path / "c.db").exists()
     with StudyStore.read(tmp_path / "b.db") as store:
         assert len(store.trials()) == 2
+
+
+def test_progress_counts_phases_and_has_the_best_of_what_the_search_proposed(tmp_path):
+    """Neighbours of the pick and designs beyond the bounds may be better; they are not what was searched."""
+    found = [replace(one, score=float(place)) for place, one in enumerate(trials(6))]
+    found[3] = replace(found[3], score=None)
+    around = [replace(one, phase="robust", score=50.0) for one in trials(3, "robust", 1)]
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        assert store.progress() == ({}, None)
+        store.append(around)
+        assert store.progress() == ({"robust": 3}, None)
+        store.append(found)
+        assert store.progress() == ({"ga": 6, "robust": 3}, 5.0)

@@ -286,3 +286,15 @@ def test_a_pick_leaves_a_quarter_for_bounds_or_one_evaluation_a_parameter(monkey
     monkeypatch.setattr(study, "rank_candidates", lambda *given: shares.append(given[-1]) or [])
     run(Request(Space.default(), Hill(), method="ga", evaluations=evaluations))
     assert shares == [evaluations // 4 - kept]
+
+
+def test_bounds_get_what_the_neighbours_leave_of_the_pick(monkeypatch):
+    given, look = [], study.active_bounds
+    monkeypatch.setattr(study, "active_bounds", lambda *asked: given.append(asked) or look(*asked))
+    request = replace(REQUEST, method="ga", evaluations=80)
+    result = run(request)
+    ((evaluator, winner, _, left),) = given
+    around = [trial for trial in evaluator.trials if trial.phase == "robust"]
+    assert winner is result.winner
+    assert left == request.pick - len(around) > 0
+    assert result.evaluations <= 80
