@@ -127,6 +127,18 @@ def test_under_the_bars_of_wide_toes_pads_lie_from_tip_to_end(name: str) -> None
         assert bar[:, 2].max() == pytest.approx(layout.sections.toe_tip_height_mm, abs=1e-3)
 
 
+@pytest.mark.parametrize("more_mm", [0.5, 3.0])
+def test_a_bar_however_short_has_its_pad(more_mm: float) -> None:
+    """From the tip's middle to 1.5 mm before the bar's end; without a bar the pad lies along the toe."""
+    robot = built("kenan-2.0")
+    tip_y = robot.design.l5_mm * np.sin(np.radians(robot.design.ground_link_angle_deg))
+    layout = replace(robot.layout, toe_half_width_mm=tip_y + more_mm)
+    assert robot.workshop.foot_pad is not None
+    for pad in (item for item in pads(layout, robot.workshop.foot_pad) if item.name.startswith("toe")):
+        low, high = pad.look.copy().apply_transform(pad.T_body_part).bounds[:, 1]
+        assert sorted((abs(low), abs(high))) == pytest.approx([tip_y, tip_y + more_mm + 1.5], abs=1e-3)
+
+
 @pytest.mark.parametrize(("under", "stop"), [(True, False), (False, True), (None, True), (True, True), (None, False)])
 def test_a_pad_is_printed_where_its_kind_is(under: bool | None, stop: bool) -> None:
     """Under nose and toes of one kind, or of none where the feet are bare; on the rest stop of another."""

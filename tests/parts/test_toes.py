@@ -22,7 +22,8 @@ def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
         angle = math.radians(layout.design.ground_link_angle_deg)
         reach = layout.design.l5_mm * np.array([-math.cos(angle), sign * math.sin(angle)])
         np.testing.assert_allclose(tip[:2], reach, atol=1e-9)
-        assert toe.root_mm[1] * sign > layout.sections.thickness_mm / 2.0
+        beside = layout.sections.thickness_mm / 2.0 + 0.5 + layout.sections.toe_width_mm / 2.0  # leg, gap, half a toe
+        assert toe.root_mm.tolist() == pytest.approx([0.0, sign * beside])
 
 
 @pytest.mark.parametrize("diameter", [2.9, 3.4])
