@@ -20,6 +20,7 @@ from jumpcad.parts.body_plate import (
     _covers,
     _drawing,
     _letters,
+    _pads,
     ear_reach_mm,
     socket_about_axis,
     tray_slots,
@@ -336,3 +337,21 @@ def test_a_label_has_0_8_mm_around_it_on_either_side(more_mm: tuple[float, float
     letters = _letters("Fy R", face, mirrored=False)
     assert letters is not None
     assert letters.area() == pytest.approx((large if high else small).area(), rel=1e-6)
+
+
+@pytest.mark.parametrize("more_mm", [0.0, 1.5])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_pads_are_as_wide_as_what_they_hold_needs(name: str, more_mm: float) -> None:
+    """3 mm around axles of 3 mm, 9 mm under standoffs, 8 mm round the springs' pin, 2.5 mm around tabs of trays."""
+    layout, more = built(name).layout, 2.0 * more_mm
+    pads = [pad.bounds() for pad in _pads(layout, more_mm)]
+    found = [(*np.round([(row[0] + row[2]) / 2.0, (row[1] + row[3]) / 2.0], 2), row[2] - row[0], row[3] - row[1])
+             for row in pads]  # fmt: skip
+    expected = [(*place, 9.0, 9.0) for place in (*layout.axles.values(), *layout.standoffs_mm)]
+    expected.append((*layout.spring_pin_mm, 8.0, 8.0))
+    expected += [(*place, 10.0 + 5.0, 1.6 + 5.0) for level in tray_slots(layout, "left") for place in level]
+    for row, (x, z, width, height) in zip(found, expected, strict=False):
+        assert row == pytest.approx((x, z, width + more, height + more), abs=0.03)
+    assert (
+        len(found) == len(expected) + len([*fitting_pads(layout.fittings, 0.0)]) + 2
+    )  # and the motor's and the sensor's
