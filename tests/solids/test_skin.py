@@ -121,7 +121,7 @@ def test_edges_meet_in_their_ends_alone_and_pass_no_point_within_half_a_step(see
 
 def test_the_grid_is_a_micrometre_that_32_bit_floats_hold_up_to_16_metres():
     """They have 24 bits: a power of two below a micrometre and 16 m over it, no finer."""
-    assert GRID_MM == pytest.approx(1e-3, rel=0.03)
+    assert pytest.approx(1e-3, rel=0.03) == GRID_MM
     for far in (0.0, 300.0, 16000.0):
         points = far + GRID_MM * np.arange(-50, 51)
         assert np.array_equal(points.astype(np.float32).astype(float), points)
