@@ -78,7 +78,14 @@ def test_fires_alone_with_its_margin(kenan: Robot, name: str, slabs: Slabs, marg
     ],
 )
 def test_silent_on_what_prints(kenan: Robot, slabs: Slabs) -> None:
-    assert not errors(found(kenan, Stack.of(slabs)).values())
+    findings = found(kenan, Stack.of(slabs))
+    assert not errors(findings.values())
+    for name, least_mm in (("walls", 0.8), ("holes", 1.6), ("pins", 3.0)):
+        if findings[name].value is None:  # nothing as narrow as twice the least was found
+            assert f"is under {2.0 * least_mm:.2f} mm" in findings[name].message
+            assert findings[name].margin == pytest.approx(least_mm)
+        else:
+            assert findings[name].margin == pytest.approx(findings[name].value - least_mm)
 
 
 def test_steps_of_45_degrees_are_no_overhang_and_steeper_ones_are(kenan: Robot) -> None:
