@@ -1,6 +1,7 @@
 """A robot's numbers for its firmware: times by a DC machine's line, rounded to the safe side, and fixed ones."""
 
 import math
+import re
 from dataclasses import replace
 
 import pytest
@@ -96,10 +97,24 @@ def test_without_a_sensor_a_quarter_of_a_turn_is_a_release(robot: Robot) -> None
 def test_the_module_is_python_with_every_number_and_what_it_means(robot: Robot) -> None:
     files = dict(firmware_files(robot))
     assert set(files) == {f"firmware/{name}" for name in ("main.py", "winder.py", "robot.py", "README.md")}
+    assert all(text.endswith("\n") for text in files.values())
     space: dict[str, object] = {}
     exec(files["firmware/robot.py"], space)
     assert {key: value for key, value in space.items() if key.isupper()} == numbers(robot)
     for key, words in WORDS.items():
         assert any(line.startswith(f"{key} = ") and line.endswith(f"  # {words}")
                    for line in files["firmware/robot.py"].splitlines())  # fmt: skip
-    assert "{" not in files["firmware/README.md"].replace("{}", "")
+    readme = files["firmware/README.md"]
+    assert re.search(r"\{[A-Z_]+\}", readme) is None
+    measured = numbers(robot)["PIN_BATTERY"] is not None
+    assert ("multiply `BATTERY_DIVIDER` in `robot.py`" in readme) == measured
+    assert ("battery's voltage is not measured" in readme) == (not measured)
+
+
+def test_a_motor_that_hardly_turns_is_given_ten_times_as_long_as_without_a_load(robot: Robot) -> None:
+    """At 0.9 of the stall torque a DC machine has a tenth of its idle speed; time is not without an end."""
+    drive, battery = robot.layout.drive, chosen_parts(robot.workshop).battery
+    train = replace(drive.train, motor_torque_nm=10.0 * drive.train.motor.stall_torque_nm)
+    weak = replace(robot, layout=replace(robot.layout, drive=replace(drive, train=train)))
+    idle_ms = 1000.0 * seconds_a_turn(robot, battery.range_v[0], 0.0)
+    assert numbers(weak)["WIND_MAX_MS"] == pytest.approx(1.5 * 10.0 * idle_ms, rel=0.01)

@@ -139,3 +139,12 @@ def test_a_robot_a_quarter_of_the_ranges_from_the_best_counts_half():
     kept = Table(SPACE, many, centre)
     away = np.abs(np.array([SPACE.to_unit(one.variant) for one in many]) - centre).max(axis=1)
     assert [one.place for one in kept.trials] == sorted(np.argsort(away, kind="stable")[:300].tolist())
+
+
+@pytest.mark.parametrize(("guessed", "ratio"), [(0.95, 0.95), (1.02, 1.0)])
+def test_a_stand_in_releases_no_more_than_was_loaded(guessed, ratio):
+    """Where the roller leaves the cam: short of the whole travel by the turn that was guessed."""
+    found = stand_in(LIKE.design, FIGURES | {"release_ratio": guessed, "release_turn_rad": 0.04}, LIKE)
+    assert found.roller_off.energy_ratio == ratio
+    assert found.roller_off.leg_rad == pytest.approx(0.04 - LIKE.design.compression_rad)
+    assert found.roller_off.leg_rad_s == FIGURES["release_rad_s"]
