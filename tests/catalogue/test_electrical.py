@@ -8,7 +8,10 @@ from support.documented import documented_ranges, wrongly_taken
 from jumpcad.catalogue import Battery, load_catalogue
 
 
-@pytest.mark.parametrize(("voltage_v", "cells", "empty_v", "full_v"), [(3.7, 1, 3.3, 4.2), (7.4, 2, 6.6, 8.4)])
+@pytest.mark.parametrize(
+    ("voltage_v", "cells", "empty_v", "full_v"),
+    [(3.6, 1, 3.3, 4.2), (3.7, 1, 3.3, 4.2), (7.4, 2, 6.6, 8.4), (22.2, 6, 19.8, 25.2)],
+)
 def test_a_pack_has_the_voltage_of_its_cells(voltage_v: float, cells: int, empty_v: float, full_v: float) -> None:
     pack = Battery(
         name="own", source="a label", description="pack", length_mm=30.0, width_mm=20.0, height_mm=8.0, mass_g=9.0,

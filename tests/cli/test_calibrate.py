@@ -32,6 +32,8 @@ def test_calibrated_settings_are_what_uncertain_takes(run: Run, tmp_path: Path) 
     assert {row["what"] for row in document["residuals"]} == {"distance", "height", "battery"}
     assert {row["as"] for row in document["predictions"]["kenan-1.0"]["beside"]} >= {"resting-place", "absolute"}
     assert document["sampler"]["converged"] is False
+    error = document["model_error"]["kenan-2.0"]
+    assert 0.0 <= error["median"] < error["largest"]
     assert sorted(path.name for path in (tmp_path / "pictures").iterdir()) == [
         "measurements.png",
         "measurements.svg",

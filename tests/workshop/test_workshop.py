@@ -103,3 +103,12 @@ def test_values_at_the_limit_go_together(table: str, values: dict[str, object]) 
     if values.get("line_width_mm") == 0.8:
         data["fits"] = data["fits"] | {"wall_mm": 1.6}
     Workshop.model_validate(data | {table: data[table] | values})
+
+
+@pytest.mark.parametrize(("play_deg", "taken"), [(0.0, True), (0.5, False), (1.0, False), (11.9, False), (12.0, True)])
+def test_a_dogs_play_that_ends_on_the_corner_is_refused(play_deg: float, taken: bool) -> None:
+    """None at all is a rigid key; between that and 12° it is worse than none."""
+    shop = load_workshop()
+    release = shop.release.model_copy(update={"play_deg": play_deg})
+    found = [place for place, *_ in shop.model_copy(update={"release": release}).contradictions()]
+    assert (("release", "play_deg") in found) == (not taken)
