@@ -8,9 +8,10 @@ from dataclasses import replace
 import pytest
 
 from jumpcad.design import load_design
+from jumpcad.findings import Finding
 from jumpcad.search import models
 from jumpcad.search.models import PRESENTATION, RobotModel, code_digest, robot_model
-from jumpcad.search.objective import find_objective
+from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.tolerances import Making
 
 
@@ -90,3 +91,30 @@ def test_a_model_says_what_decides_its_evaluations():
     assert not {"manifold3d", "trimesh"} & set(capsule.versions())
     digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
     assert len(digests) == 4
+
+
+class Slope(RobotModel):
+    """Fitness is the compression ratio; above a limit it tips."""
+
+    limit = 1.0
+
+    def _alone(self, design):
+        if design.compression_ratio > self.limit:
+            return Evaluation("tips", findings=(Finding("tips", "error", -1.0, "", "", ""),))
+        return Evaluation("jump", {"fitness": design.compression_ratio})
+
+
+def test_the_margin_of_neighbours_is_how_many_of_ten_jump_before_one_does_not(monkeypatch):
+    """Less one, so that it is 0 where all do but the last; each costs its evaluation, as the design itself does."""
+    design, looked = load_design("best-ga"), []
+    look = Slope._alone
+    monkeypatch.setattr(Slope, "_alone", lambda self, one: looked.append(one) or look(self, one))
+    found = Slope("capsule", neighbours_of="fitness")(design)
+    assert found.margins["neighbours"] == pytest.approx(1.0 / models.NEIGHBOURS)
+    assert found.metrics["evaluations"] == len(looked) == 1 + models.NEIGHBOURS
+    around = looked[1:]
+    higher = [place for place, one in enumerate(around) if one.compression_ratio > design.compression_ratio]
+    monkeypatch.setattr(Slope, "limit", design.compression_ratio)
+    rejected = Slope("capsule", neighbours_of="fitness")(design)
+    assert rejected.margins["neighbours"] == pytest.approx(higher[0] / models.NEIGHBOURS - 1.0)
+    assert rejected.metrics["evaluations"] == 2.0 + higher[0]

@@ -8,8 +8,9 @@ from support.fits import LOADS
 
 from jumpcad.design import load_design
 from jumpcad.dimensions import STOP_SEAT_MM
+from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.strength.sizing import leg_flex_share, sections
+from jumpcad.strength.sizing import Growth, leg_flex_share, sections
 from jumpcad.strength.stress import Beam
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -146,3 +147,16 @@ def test_a_robot_with_hardly_any_spring_has_the_least_sections() -> None:
     assert (sizes.toe_tip_height_mm, sizes.stop_mm) == (2.4, 6.0)
     eye = max(sizes.eye_radius_mm, sizes.leg_tip_mm / 2.0)
     assert sizes.foot_depth_mm == pytest.approx(eye + 1.0)  # the links are 1 mm above the ground
+
+
+def test_a_weak_section_grows_by_what_it_lacks_at_most_by_a_tenth() -> None:
+    """And by two thousandths more; by a whole step where the lack is not known, by the most of what is asked."""
+
+    def weak(grows: str, use: float | None) -> Finding:
+        value = None if use is None else 100.0 * use
+        return Finding("f", "error", -1.0, "MPa", "", "", value, None if use is None else 100.0, grows)
+
+    grown = Growth(leg=1.2).more([weak("leg", 1.05), weak("toe", 1.5), weak("rail", None), weak("toe", 1.01)])
+    assert (grown.leg, grown.toe, grown.rail) == pytest.approx((1.2 * 1.002 * 1.05, 1.1, 1.1))
+    assert (grown.lever, grown.front, grown.plate, grown.dog, grown.stop) == (1.0,) * 5
+    assert Growth().more([]) == Growth()
