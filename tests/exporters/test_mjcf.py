@@ -94,3 +94,26 @@ def test_weight_pulls_straight_down(gravity_m_s2: float) -> None:
     option = root.find("option")
     assert option is not None
     assert list(map(float, option.attrib["gravity"].split())) == [0.0, 0.0, -gravity_m_s2]
+
+
+@pytest.mark.parametrize("preload_rad", [0.0, 0.1])
+@pytest.mark.parametrize("one_sided", [True, False])
+def test_springs_push_by_hooke_from_where_they_are_relaxed(one_sided: bool, preload_rad: float) -> None:
+    """Those that only push are a tendon, slack beyond its length; those that also pull are the leg joint's own."""
+    robot = capsule_robot(load_design("kenan-2.0"))
+    robot = replace(robot, spring=replace(robot.spring, one_sided=one_sided, preload_rad=preload_rad))
+    root, stiffness = ET.fromstring(write_mjcf(robot)), robot.spring.stiffness_nm_per_rad
+    (leg,) = (node for node in root.iter("joint") if node.get("name") == robot.spring.joint)
+    tendons = [*root.iter("fixed")]
+    assert ("stiffness" in leg.attrib, len(tendons)) == (not one_sided, int(one_sided))
+    for angle in (-0.6, 0.0, preload_rad - 0.01, preload_rad + 0.2):
+        expected = stiffness * (preload_rad - angle)
+        if not one_sided:
+            found = float(leg.attrib["stiffness"]) * (float(leg.get("springref", 0.0)) - angle)
+            assert found == pytest.approx(expected)
+            continue
+        (tendon,), (on,) = tendons, tendons[0].iter("joint")
+        assert (on.get("joint"), float(on.attrib["coef"])) == (robot.spring.joint, 1.0)
+        low, high = map(float, tendon.attrib["springlength"].split())
+        found = float(tendon.attrib["stiffness"]) * (max(low - angle, 0.0) - max(angle - high, 0.0))
+        assert found == pytest.approx(max(expected, 0.0))
