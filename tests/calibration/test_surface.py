@@ -7,10 +7,12 @@ import pytest
 
 from jumpcad.calibration.priors import FLOOR
 from jumpcad.calibration.subject import Subject
-from jumpcad.calibration.surface import DT_S, FINE, NODES, Surface, _line
+from jumpcad.calibration.surface import DT_S, FINE, NODES, Surface, _line, surface_of
+from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
+from jumpcad.simulation.jump import Jump
 
 
 def test_it_is_the_engine_at_its_nodes(surface: Surface, subject: Subject) -> None:
@@ -104,3 +106,10 @@ def test_between_the_nodes_at_which_it_jumps_a_line_is_met_and_outside_there_is_
         values = np.full(5, np.nan)
         values[known] = 1.0
         assert np.isnan(_line(values, nodes, even)).all()
+
+
+def test_a_robot_that_never_jumps_has_no_surface(subject: Subject, monkeypatch: pytest.MonkeyPatch) -> None:
+    stays = Jump("no_takeoff", "planar", 0.1, 0.2)
+    monkeypatch.setattr("jumpcad.calibration.surface._jump", lambda *_: stays)
+    with pytest.raises(JumpcadError, match="jumps with no energy, friction or floor that a calibration tries"):
+        surface_of(subject.robot)

@@ -4,6 +4,7 @@ import re
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
 
@@ -52,3 +53,23 @@ def test_the_designs_that_progress_expects_are_those_that_a_view_evaluates(folde
     monkeypatch.setattr("jumpcad.cli.explore.watching", watching)
     data("explore", view, *QUICK, *NARROW, *options)
     assert (expected, len(done)) == ([designs], designs)
+
+
+def test_views_tell_in_json_what_they_looked_at(folder):
+    """A map has a verdict for every pair of values of its axes; choices that are names are told by them."""
+    found = data("explore", "feasibility", *QUICK, "--points", 3, "--over", "rest_angle_deg,compression_ratio")
+    x, y = found["x"], found["y"]
+    assert (x["name"], y["name"]) == ("rest_angle_deg", "compression_ratio")
+    assert (x["values"], y["values"]) == ([20.0, 45.0, 70.0], pytest.approx([0.1, 0.45, 0.8]))
+    assert [len(line) for line in found["verdicts"]] == [3, 3, 3]
+    assert {word for line in found["verdicts"] for word in line} > {"jump"}
+    swept = data("explore", "sweep", *QUICK, *NARROW, "--points", 3)["sweeps"]
+    assert list(swept) == ["compression_ratio", "rest_angle_deg", "stiffness_nmm_per_deg"]
+    for rows in swept.values():
+        assert [row["value"] for row in rows] == sorted(row["value"] for row in rows)
+        assert all((row["score"] is not None) == (row["verdict"] == "jump") for row in rows)
+    views = data("explore", "pca", *QUICK, *NARROW, "--samples", 40)
+    for name in ("sampled", "elite"):
+        assert sum(views[name]["shares"]) == pytest.approx(1.0)
+        assert np.array(views[name]["directions"]).shape == (3, 3)
+    assert views["sampled"]["designs"] == 40 >= views["elite"]["designs"] > 0
