@@ -317,3 +317,13 @@ def test_openings_keep_off_what_stands_in_the_body_and_off_the_standoffs_pads(mo
         assert {"main leg", "lever", "cam", "cam gear", "front axle", "motor", "sensor"} < {
             one.name for one in obstacles
         }
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0])
+def test_walls_around_pins_and_axles_are_those_of_the_plates(axle_mm: float) -> None:
+    """2 mm around the springs' pin in its boss, 1.2 mm more of plate around the leg's axle whose bores are blind."""
+    layout = replace(plans()["kenan-2.0"], axle_mm=axle_mm)
+    assert layout.spring_boss_outer_mm == axle_mm + 2.0 * 2.0
+    assert (layout.boss_mm, layout.floor_mm) == (1.2, 0.8)
+    clipped = replace(layout, retention="clips")
+    assert (clipped.boss_mm, clipped.floor_mm) == (0.0, 0.0)
