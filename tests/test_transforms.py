@@ -63,3 +63,20 @@ def test_metres_are_a_thousandth_and_turns_stay() -> None:
     np.testing.assert_array_equal(metres[:3, :3], pose[:3, :3])
     np.testing.assert_allclose(metres[:3, 3], [1.0, 0.0, -0.25])
     assert pose[0, 3] == 1000.0
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_poses_turn_and_move_and_do_not_stretch(angle: float) -> None:
+    """A rotation's inverse is its transpose, its determinant 1; the last row of a pose is (0, 0, 0, 1)."""
+    rotation = rotation_about_y(angle)
+    poses = {
+        "y": pose_about_y(angle, (3.0, -2.0)), "z": pose_about_z(angle), "at": pose_at(rotation, [3.0, 7.0, -2.0]),
+    }  # fmt: skip
+    poses |= {"chained": chained(poses["y"], poses["z"]), "metres": in_metres(poses["at"])}
+    for pose in poses.values():
+        np.testing.assert_array_equal(pose[3], [0.0, 0.0, 0.0, 1.0])
+        np.testing.assert_allclose(pose[:3, :3].T @ pose[:3, :3], np.eye(3), atol=1e-14)
+        assert np.linalg.det(pose[:3, :3]) == pytest.approx(1.0)
+    np.testing.assert_array_equal(poses["y"][:3, 3], [3.0, 0.0, -2.0])
+    np.testing.assert_array_equal(poses["at"][:3, 3], [3.0, 7.0, -2.0])
+    np.testing.assert_array_equal(poses["z"][:3, 3], np.zeros(3))

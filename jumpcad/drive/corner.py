@@ -72,11 +72,15 @@ def clear_window_rad(geometry: CamGeometry) -> tuple[float, float]:
     There every corner of the cam's outline is at least a roller's radius from the arc of the roller's centre. NaN if
     there is no such angle.
     """
+    return _window(geometry, geometry.outline_mm())
+
+
+def _window(geometry: CamGeometry, outline_mm: Array) -> tuple[float, float]:
     start, lift = geometry.lever_start_rad, geometry.law.lift_rad
     ends = geometry.roller_mm([-geometry.overshoot_rad, geometry.law.compression_rad])
     span = geometry.law.compression_rad + geometry.overshoot_rad
     turns = np.linspace(0.0, 2.0 * math.pi - lift, WINDOW_POSITIONS)
-    outline = geometry.in_body(geometry.outline_mm()[None], lift + turns[:, None])
+    outline = geometry.in_body(outline_mm[None], lift + turns[:, None])
     x, z = outline[..., 0], outline[..., 1]
     beside = np.mod(np.arctan2(z, x) - start + geometry.overshoot_rad, 2.0 * math.pi) <= span
     off_arc = np.abs(np.hypot(x, z) - geometry.lever_mm)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support.built import built, geared
+from support.decimals import decimals
 
 from jumpcad.bundle.motion import SHOWN_S, Moment, _times, motion
 from jumpcad.bundle.viewer import viewer_data
@@ -18,6 +19,7 @@ def test_the_cam_runs_on_over_the_drop_while_its_gear_stands(name: str) -> None:
     robot = built(name)
     jump = simulate(robot, Settings(flight="simulated", trajectory=True), "planar")
     found = motion(robot, jump.trajectory, jump.takeoff_time_s)
+    assert decimals([found["time_s"], found["show_s"]]) == 4
     cam, gear, phase = (np.array(found[key]) for key in ("cam_rad", "gear_rad", "phase"))
     drive = robot.layout.drive
     assert (np.diff(cam) >= 0.0).all()

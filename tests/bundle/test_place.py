@@ -166,3 +166,9 @@ def test_what_appears_during_the_write_is_not_lost(tmp_path: Path, monkeypatch: 
     left = Path(str(error.value).split(" is in ")[1])
     assert listed(left) == ["a.md", "late.txt"]
     assert (left / "a.md").read_text() == "edited late"
+
+
+def test_a_folder_is_made_with_its_parents(tmp_path: Path) -> None:
+    write_folder(tmp_path / "a" / "deep" / "robot", "robot", {}, {"b.md": "new"}.items())
+    assert verify(tmp_path / "a" / "deep" / "robot") == []
+    assert [path.name for path in (tmp_path / "a" / "deep").iterdir()] == ["robot"]

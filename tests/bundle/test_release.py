@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 from support.built import built
+from support.decimals import decimals
 
 from jumpcad.bundle.release import release_facts
 from jumpcad.bundle.stop import stop_facts
@@ -28,6 +29,9 @@ def test_the_release_is_said_in_degrees_and_newton_metres(name: str) -> None:
     assert {key: value for key, value in facts.items() if key in expected} == pytest.approx(expected, abs=5.1e-7)
     assert facts["window_deg"] == pytest.approx([DEGREES * angle for angle in release.window_rad], abs=5.1e-7)
     assert set(facts) == {*expected, "window_deg", "assumed"}
+    assert decimals(facts["gear_ratio"]) <= 9  # of which the reflected inertia is computed
+    long = {key for key, value in facts.items() if decimals(value) > 6}
+    assert long <= {"gear_ratio", "assumed"}
     assert len(facts["assumed"]) == len(release.parts) == 2
     for one, parts in zip(facts["assumed"], release.parts, strict=True):
         angles = {"backlash_deg": DEGREES * parts.backlash_rad}

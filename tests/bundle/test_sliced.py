@@ -1,6 +1,7 @@
 """A bundle's parts as a slicer weighs them and as the mass model does."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,10 +9,11 @@ import trimesh
 from support.slicers import OBEDIENT, pretend_slicer, three_parts
 
 from jumpcad.bundle.export import export
-from jumpcad.bundle.sliced import SlicedPart, _StlPart, slice_bundle
+from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, _StlPart, slice_bundle
 from jumpcad.errors import JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot import Robot
+from jumpcad.workshop import load_workshop
 
 
 def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
@@ -19,6 +21,9 @@ def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
 ) -> None:
     pretend_slicer(OBEDIENT.replace("TAMPER", ""), tmp_path, monkeypatch)
     found = slice_bundle(export(three_parts(small_robot), tmp_path / "frog", pictures=False).folder)
+    files = {f"print/{plate.name}.3mf" for plate in found.plates}
+    assert files == {name for name in found.bundle.files if name.endswith(".3mf")}
+    assert all(plate.name.endswith(f"-{plate.material}") for plate in found.plates)
     parts = {part.name: part for part in small_robot.parts}
     for part in found.parts:
         density = found.workshop.materials[part.material].density_g_cm3
@@ -57,3 +62,14 @@ def test_sections_that_are_alike_are_one(tmp_path: Path) -> None:
     sections = _StlPart(tmp_path / "part.stl").sections_at(np.array([-3.0, 0.0, 3.0, 7.0, 12.0]))
     assert [region.area() for region in sections.outlines] == pytest.approx([100.0, 16.0], rel=1e-3)
     assert sections.which.tolist() == [0, 0, 0, 1, 1]
+
+
+def test_a_sliced_workshop_has_the_slicers_grams_to_a_milligram() -> None:
+    """Instead of what was weighed before; other parts keep theirs."""
+    shop = load_workshop()
+    shop = shop.model_copy(update={"mass": shop.mass.model_copy(update={"weighed_g": {"cam": 1.5, "foot": 9.0}})})
+    part = SlicedPart("cam", "PETG", 1, grams=2.34567, modelled_grams=2.3, time_s=60.0)
+    found = SlicedBundle(SimpleNamespace(), "2.5.0", shop, True, (part,), (), {})
+    assert found.weighed.mass.weighed_g == {"cam": 2.346, "foot": 9.0}
+    assert shop.mass.weighed_g["cam"] == 1.5
+    assert found.weighed.process == shop.process

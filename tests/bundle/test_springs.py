@@ -2,7 +2,9 @@
 
 import math
 import re
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.built import built
 
@@ -10,6 +12,8 @@ from jumpcad.building import build
 from jumpcad.bundle.springs import (
     allowable_mpa,
     arms_off_deg,
+    early_torque_share,
+    least_energy_share,
     loaded_arms,
     spring_facts,
     spring_order,
@@ -94,3 +98,27 @@ def test_stock_springs_are_cut_and_not_made() -> None:
     assert text.startswith("\n## Springs\n")
     assert f"cut both arms to {robot.layout.drive.spring.arm_length_mm:.1f} mm from the coil" in text
     assert "EN 10270-1" not in text
+
+
+@pytest.mark.parametrize("preload_deg", [0.0, 4.0, 15.0])
+def test_the_weakest_springs_that_are_accepted_give_the_area_under_their_torque(preload_deg: float) -> None:
+    """10 % softer, and slack for the 10° by which their arms are narrower; those preloaded by more push from the start.
+
+    The stiffest and widest have the largest torque accepted where they are loaded most, and at the ramp's end by
+    Hooke's law.
+    """
+    robot, preload = built("best-bo"), math.radians(preload_deg)
+    drive = robot.layout.drive
+    spring = replace(drive.spring, preload_rad=preload, wound_rad=drive.spring.wound_rad + preload)
+    law = replace(drive.cam.law, preload_rad=preload)
+    cam = replace(drive.cam, geometry=replace(drive.cam.geometry, law=law))
+    changed = replace(robot, layout=replace(robot.layout, drive=replace(drive, spring=spring, cam=cam)))
+    turns = np.linspace(preload, spring.wound_rad, 4001)
+    weak = 0.9 * np.maximum(turns - math.radians(10.0), 0.0)
+    assert least_energy_share(changed) == pytest.approx(
+        np.trapezoid(weak, turns) / np.trapezoid(turns, turns), rel=1e-5
+    )
+    wider = math.radians(arms_off_deg(changed)[1])
+    rate = torque_shares(changed)[1] * spring.wound_rad / (spring.wound_rad + wider)
+    early = float(law.wind_rad(law.ramp_rad)) + preload
+    assert early_torque_share(changed) == pytest.approx(rate * (early + wider) / early)

@@ -10,8 +10,9 @@ from jumpcad.calibration.likelihood import Model
 from jumpcad.calibration.measurements import Measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, sampled
 from jumpcad.calibration.prediction import explanations, growth, predicted_jump
-from jumpcad.calibration.settings_file import SAVED, settings_toml
+from jumpcad.calibration.settings_file import SAVED, _limits, settings_toml
 from jumpcad.calibration.subject import Subject
+from jumpcad.errors import JumpcadError
 from jumpcad.settings import Settings, load_settings
 
 SAID: dict[str, Any] = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
@@ -120,3 +121,14 @@ def test_the_share_of_draws_that_jump_is_said(posterior: CalibrationPosterior, s
     heavy = type(found)(found.subject, found.values | {"mass:twin": mass}, found.generator)
     assert heavy.jumps_share == pytest.approx(0.5, abs=0.01)
     assert heavy.quantiles()["ballistic_range_m"][0] == 0.0 < heavy.quantiles()["ballistic_range_m"][2]
+
+
+@pytest.mark.parametrize("key", ["spring_efficiency", "pin_friction"])
+def test_what_a_calibration_may_write_is_what_settings_take(key: str) -> None:
+    """Its draws are cut off at the ends of what a file of settings may say, and nowhere before."""
+    least, most = _limits(key)
+    for value in (least, most):
+        assert getattr(Settings(**{key: value}), key) == value
+    for value in (least - 1e-6, most + 1e-6):
+        with pytest.raises(JumpcadError, match=key):
+            Settings(**{key: value})

@@ -6,8 +6,17 @@ from pathlib import Path
 import pytest
 
 from jumpcad.calibration.measurements import Measurements
-from jumpcad.calibration.subject import LARGEST_FACTOR, Subject, _require_energy, _require_unit, load_subject, renamed
+from jumpcad.calibration.subject import (
+    LARGEST_FACTOR,
+    Subject,
+    _require_energy,
+    _require_unit,
+    load_subject,
+    renamed,
+    require_each_once,
+)
 from jumpcad.errors import JumpcadError
+from jumpcad.files import templates_folder
 
 HEAD = 'design = "kenan-2.0"\nsource = "mine"\nrelease = "dog"\n'
 FAR, HIGH = '[[jumps]]\ndistance_of = "first-touchdown"\n', '[[jumps]]\nheight_of = "rise"\n'
@@ -194,3 +203,22 @@ def test_a_spring_s_pair_is_the_robot_s_unless_said(subject: Subject) -> None:
     assert subject.remeasured(Measurements(**said)).pair == "kenan-2.0"
     assert subject.remeasured(Measurements(**said, spring={"pair": "ours"})).pair == "ours"
     assert subject.rate_nmm_per_deg == pytest.approx(subject.robot.design.stiffness_nmm_per_deg)
+
+
+def test_measurements_are_named_once_under_one_name(tmp_path: Path) -> None:
+    """Their jumps would count as others': by name, by a copy, by a link; two robots' are no copies."""
+    text = (templates_folder() / "measurements" / "kenan-1.0.toml").read_text(encoding="utf-8")
+    copy, link = tmp_path / "copy.toml", tmp_path / "link.toml"
+    copy.write_text(text, encoding="utf-8")
+    link.symlink_to(copy)
+    require_each_once(["kenan-1.0", "kenan-2.0"])
+    for names, words in (
+        (
+            ["kenan-1.0", "kenan-2.0", "kenan-1.0"],
+            "kenan-1.0: is given twice: name the measurements of each robot once",
+        ),
+        (["kenan-1.0", copy], "copy.toml: is given too, under the name kenan-1.0"),
+        ([copy, "kenan-2.0", link], "link.toml: is given too, under the name "),
+    ):
+        with pytest.raises(JumpcadError, match=words):
+            require_each_once(names)

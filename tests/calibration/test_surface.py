@@ -7,10 +7,12 @@ import pytest
 
 from jumpcad.calibration.priors import FLOOR
 from jumpcad.calibration.subject import Subject
-from jumpcad.calibration.surface import DT_S, FINE, NODES, Surface
+from jumpcad.calibration.surface import DT_S, FINE, NODES, Surface, _line, surface_of
+from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
+from jumpcad.simulation.jump import Jump
 
 
 def test_it_is_the_engine_at_its_nodes(surface: Surface, subject: Subject) -> None:
@@ -89,3 +91,25 @@ def test_a_line_on_log_energy_pins_and_floor_is_met_everywhere(surface: Surface)
     assert beyond.rise_m == pytest.approx([0.0, 0.9])
     assert beyond.forward_m_s == pytest.approx([0.2, 1.3])
     assert np.isnan(straight.at(np.array([0.299, 3.01]), np.zeros(2), np.ones(2)).range_m).all()
+
+
+def test_between_the_nodes_at_which_it_jumps_a_line_is_met_and_outside_there_is_nothing() -> None:
+    """Interpolation is exact on a straight line; what does not jump at a node is not guessed from its neighbours."""
+    nodes, even = np.array([0.0, 1.0, 2.5, 3.0, 4.0]), np.linspace(0.0, 4.0, 17)
+    found = _line(np.array([np.nan, 3.0, 6.0, 7.0, np.nan]), nodes, even)
+    inside = (even >= 1.0) & (even <= 3.0)
+    assert np.isnan(found[~inside]).all()
+    assert found[inside] == pytest.approx(1.0 + 2.0 * even[inside])
+    hole = _line(np.array([1.0, 3.0, np.nan, 7.0, 9.0]), nodes, even)
+    assert hole == pytest.approx(1.0 + 2.0 * even)
+    for known in ([], [2]):  # one node is no line
+        values = np.full(5, np.nan)
+        values[known] = 1.0
+        assert np.isnan(_line(values, nodes, even)).all()
+
+
+def test_a_robot_that_never_jumps_has_no_surface(subject: Subject, monkeypatch: pytest.MonkeyPatch) -> None:
+    stays = Jump("no_takeoff", "planar", 0.1, 0.2)
+    monkeypatch.setattr("jumpcad.calibration.surface._jump", lambda *_: stays)
+    with pytest.raises(JumpcadError, match="jumps with no energy, friction or floor that a calibration tries"):
+        surface_of(subject.robot)

@@ -1,5 +1,8 @@
 """Articles of the catalogue: rules that every motor, bearing, battery and board keeps."""
 
+import pytest
+from support.documented import documented_ranges, wrongly_taken
+
 from jumpcad.catalogue import load_catalogue
 
 
@@ -13,3 +16,9 @@ def test_shipped_parts_keep_the_rules_of_own_ones() -> None:
     ]
     assert not [wrong for part in parts for wrong in part.contradictions()]
     assert all(part.source for part in parts)
+
+
+@pytest.mark.parametrize("kind", ["motors", "bearings", "batteries", "boards", "springs", "pads"])
+def test_lengths_and_masses_of_ones_own_may_be_what_the_reference_tells(kind: str) -> None:
+    assert documented_ranges(f"{kind}.NAME")
+    assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []

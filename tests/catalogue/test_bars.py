@@ -4,6 +4,7 @@ import itertools
 import math
 
 import pytest
+from support.decimals import decimals
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.catalogue.axles import Clip
@@ -33,6 +34,7 @@ def test_a_tube_is_a_ring() -> None:
 def test_a_round_bar_fits_the_steps_of_its_hole() -> None:
     """Every corner of a hole's steps is outside of the circle; the bar's own have the circle's area to 2 %."""
     bar, wide = TUBE.slabs_mm(), TUBE.slabs_mm(0.1)
+    assert decimals(wide) == 6  # nanometres
     for slabs, radius in ((bar, 3.0), (wide, 3.1)):
         assert (slabs[0][0], slabs[-1][1]) == pytest.approx((-radius, radius))
         assert all(one[1] == other[0] for one, other in itertools.pairwise(slabs))

@@ -1,11 +1,19 @@
 """Electrical articles: voltages of lithium cells, and figures of motors that energy forbids."""
 
+import contextlib
+import math
+
 import pytest
+from support.documented import documented_ranges, wrongly_taken
 
 from jumpcad.catalogue import Battery, load_catalogue
+from jumpcad.catalogue.electrical import Board
 
 
-@pytest.mark.parametrize(("voltage_v", "cells", "empty_v", "full_v"), [(3.7, 1, 3.3, 4.2), (7.4, 2, 6.6, 8.4)])
+@pytest.mark.parametrize(
+    ("voltage_v", "cells", "empty_v", "full_v"),
+    [(3.6, 1, 3.3, 4.2), (3.7, 1, 3.3, 4.2), (7.4, 2, 6.6, 8.4), (22.2, 6, 19.8, 25.2)],
+)
 def test_a_pack_has_the_voltage_of_its_cells(voltage_v: float, cells: int, empty_v: float, full_v: float) -> None:
     pack = Battery(
         name="own", source="a label", description="pack", length_mm=30.0, width_mm=20.0, height_mm=8.0, mass_g=9.0,
@@ -28,3 +36,85 @@ def test_a_motor_gives_no_more_power_than_it_draws() -> None:
     for motor in load_catalogue().motors.values():
         in_nmm = motor.model_copy(update={"stall_torque_nm": 1000.0 * motor.stall_torque_nm})
         assert [place for place, *_ in in_nmm.contradictions()] == [("stall_torque_nm",)]
+
+
+def test_a_pin_at_two_places_is_named_once_at_the_side_where_it_is_first() -> None:
+    """Supply, ground and outputs may stand at several places; others are told apart by theirs."""
+    board = load_catalogue().boards["xiao-esp32c3"]
+    pins = {"A": ("gpio1",), "B": ("gpio2",), "G": ("ground",), "V": ("out",)}
+    plain = board.model_copy(update={"pins": pins, "supply_v": {"5V": (4.0, 6.0)}, "diode_at": (), "button": ""})
+    for left, right, found in (
+        (("A", "G", "5V", "V"), ("B", "G", "5V", "V"), []),
+        (("A", "B"), ("B", "A"), [("left", "A"), ("left", "B")]),
+        (("A", "A"), ("B", "B", "A"), [("left", "A"), ("right", "B")]),
+        (("NC",), ("NC",), []),
+    ):
+        twice = plain.model_copy(update={"left": left, "right": right})
+        assert [(*place, value) for place, value, _ in twice.contradictions()] == found
+
+
+def test_a_motor_is_refused_by_its_figures_from_just_beyond_what_can_be() -> None:
+    """A steel rod's mass by 7.85 g/cm³; at half speed half the torque, with the mean of both currents."""
+    motor = next(iter(load_catalogue().motors.values()))
+    steel = 7.85e-3 * math.pi / 4.0 * motor.shaft_mm**2 * motor.shaft_length_mm
+    watts = motor.voltage_v * (motor.no_load_current_a + motor.stall_current_a) / 2.0
+    torque = 4.0 * watts / (2.0 * math.pi * motor.no_load_rpm / 60.0)
+    narrow = min(motor.width_mm, motor.height_mm)
+    for key, value, inwards in (
+        ("shaft_flat_mm", motor.shaft_mm / 2.0, 1.0), ("shaft_flat_mm", motor.shaft_mm, -1.0),
+        ("boss_mm", motor.shaft_mm - 1e-9, 1.0), ("boss_mm", narrow + 1e-9, -1.0),
+        ("shaft_length_mm", motor.boss_length_mm, 1.0), ("mass_g", steel, 1.0),
+        ("no_load_current_a", motor.stall_current_a, -1.0), ("stall_torque_nm", torque * (1.0 + 1e-9), -1.0),
+    ):  # fmt: skip
+        beyond = [place for place, *_ in motor.model_copy(update={key: value}).contradictions()]
+        assert (key,) in beyond, key
+        inside = motor.model_copy(update={key: value + inwards * 1e-6 * value})
+        assert (key,) not in [place for place, *_ in inside.contradictions()], key
+
+
+def test_a_battery_is_refused_whose_voltage_is_not_between_empty_and_full() -> None:
+    battery = next(iter(load_catalogue().batteries.values()))
+    low, high = battery.range_v
+    for volts, refused in ((low, True), (low + 1e-6, False), (high - 1e-6, False), (high, True)):
+        own = battery.model_copy(update={"voltage_v": volts, "empty_v": low, "full_v": high})
+        assert [place for place, *_ in own.contradictions()] == ([("voltage_v",)] if refused else [])
+
+
+@pytest.mark.parametrize(("kind", "ranges"), [("motors", 16), ("batteries", 11), ("boards", 14)])
+def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
+    assert len(documented_ranges(f"{kind}.NAME")) == ranges
+    assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []
+
+
+def test_a_boards_pins_contradict_each_other_by_what_they_say() -> None:
+    """Each GPIO of a controller has one pin and each pin one GPIO, up to 63; what a pin does is one of a list."""
+    board = load_catalogue().boards["xiao-esp32c3"]
+    plain = board.model_copy(update={"supply_v": {"5V": (4.0, 6.0)}, "diode_at": ("5V",), "left": (), "right": ()})
+    for pins, button, found in (
+        ({"A": ("gpio1", "pwm"), "B": ("gpio63",)}, "B", []),
+        ({"A": ("gpio1",), "B": ("gpio64",)}, "A", [("B", "gpio64", "must be at most gpio63")]),
+        ({"A": ("gpio1",), "B": ("gpio1",)}, "A", [("B", "gpio1", "is the GPIO of A already")]),
+        ({"A": ("gpio1", "gpio2")}, "A", [("A", "gpio2", "is a second GPIO of one pin")]),
+        ({"A": ("gpio1", "blink")}, "A", [("A", "blink", "is no function of a pin: use ground, battery, out,")]),
+        ({"A": ("gpio1",), "B": ("ground",)}, "B", [("button", "B", "is none of its pins with a GPIO, A:")]),
+        ({"A": ("gpio1",)}, "", []),
+    ):
+        told = list(plain.model_copy(update={"pins": pins, "button": button}).contradictions())
+        assert [(place[-1], value) for place, value, _ in told] == [(place, value) for place, value, _ in found]
+        assert all(reason.startswith(start) for (_, _, reason), (_, _, start) in zip(told, found, strict=True))
+    lost = plain.model_copy(update={"pins": {}, "button": "", "diode_at": ("VIN",)})
+    ((place, value, reason),) = lost.contradictions()
+    assert (place, value, reason) == (("diode_at",), "VIN", "is none of the inputs in supply_v, 5V")
+
+
+def test_a_cell_of_unknown_resistance_has_0_15_ohm() -> None:
+    battery = load_catalogue().batteries["lipo-2s-180"]
+    assert battery.ohm == battery.resistance_ohm == 0.4
+    assert battery.model_copy(update={"resistance_ohm": None}).ohm == pytest.approx(2 * 0.15)
+
+
+def test_voltages_ascend() -> None:
+    data = load_catalogue().boards["xiao-esp32c3"].model_dump(exclude_none=True)
+    for volts, taken in (((3.0, 3.001), True), ((3.0, 3.0), False), ((4.0, 3.0), False)):
+        with contextlib.nullcontext() if taken else pytest.raises(ValueError, match=r"\[lowest, highest\] in volts"):
+            Board(**data | {"name": "own", "supply_v": {"5V": volts}, "diode_at": ()})

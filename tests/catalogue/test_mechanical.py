@@ -1,6 +1,7 @@
 """Mechanical articles: the stiffness of rubber blocks, the turns of springs with tangent arms, room in a bearing."""
 
 import pytest
+from support.documented import documented_ranges, wrongly_taken
 
 from jumpcad.catalogue import load_catalogue
 
@@ -35,3 +36,26 @@ def test_a_bearing_has_room_for_its_balls() -> None:
     bearing = next(iter(load_catalogue().bearings.values()))
     thin = bearing.model_copy(update={"outer_mm": bearing.bore_mm + 1.0})
     assert [place for place, *_ in thin.contradictions()] == [("outer_mm",)]
+    least = bearing.model_copy(update={"bore_mm": 1.0, "outer_mm": 3.0})  # the smallest of ISO 15
+    assert not list(least.contradictions())
+    assert list(least.model_copy(update={"outer_mm": 2.99}).contradictions())
+
+
+def test_turns_may_be_a_tenth_off_and_wire_is_thinner_than_the_coil_is_wide() -> None:
+    """Makers round turns; the least friction of a pad is at most its greatest."""
+    spring = next(iter(load_catalogue().springs.values())).model_copy(update={"turns": 4.0, "arm_angle_deg": 180.0})
+    for turns, places in ((4.09, []), (4.11, [("arm_angle_deg",)]), (3.91, []), (3.89, [("arm_angle_deg",)])):
+        found = spring.model_copy(update={"turns": turns}).contradictions()
+        assert [place for place, *_ in found] == places
+    for inside, places in ((spring.wire_mm, [("wire_mm",)]), (spring.wire_mm + 1e-6, [])):
+        found = spring.model_copy(update={"inside_diameter_mm": inside}).contradictions()
+        assert [place for place, *_ in found] == places
+    pad = next(iter(load_catalogue().pads.values()))
+    for most, places in ((pad.friction_min, []), (pad.friction_min - 1e-6, [("friction_max",)])):
+        assert [place for place, *_ in pad.model_copy(update={"friction_max": most}).contradictions()] == places
+
+
+@pytest.mark.parametrize(("kind", "ranges"), [("bearings", 5), ("springs", 6), ("pads", 5)])
+def test_parts_of_ones_own_may_have_the_ranges_that_the_reference_tells(kind: str, ranges: int) -> None:
+    assert len(documented_ranges(f"{kind}.NAME")) == ranges
+    assert wrongly_taken(f"{kind}.NAME", type(next(iter(getattr(load_catalogue(), kind).values())))) == []

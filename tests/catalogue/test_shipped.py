@@ -84,3 +84,23 @@ def test_an_unknown_name_is_answered_with_the_nearest():
         CATALOGUE.motors["n20-299"]
     with pytest.raises(JumpcadError, match="no bearing 'x' in the catalogue"):
         CATALOGUE.bearings["x"]
+
+
+def test_clips_and_clevis_pins_are_found_by_their_shafts():
+    assert (CATALOGUE.clip_for(3.0).groove_mm, CATALOGUE.clip_for(2.0).groove_mm) == (2.3, 1.5)  # DIN 6799
+    assert CATALOGUE.clevis_pin_for(3.0).head_mm == 5.0  # ISO 2341
+    with pytest.raises(JumpcadError, match=r"bought\.axle_mm = 2\.5: no clip of that size \(2, 3.* mm\): use one"):
+        CATALOGUE.clip_for(2.5)
+    with pytest.raises(JumpcadError, match=r"bought\.axle_mm = 2: no clevis pin of that size"):
+        CATALOGUE.clevis_pin_for(2.0)
+
+
+def test_parts_of_ones_own_stand_after_the_shipped_ones():
+    own = CATALOGUE.motors["n20-30"].model_copy(update={"name": "mine"})
+    with_own = CATALOGUE.with_own({"mine": own}, {}, {}, {}, {}, {})
+    assert list(with_own.motors) == [*CATALOGUE.motors, "mine"]
+    assert with_own.motors["mine"] is own
+    assert "mine" not in CATALOGUE.motors
+    assert ("mine" in with_own.motors, "mine" in with_own.bearings) == (True, False)
+    assert len(with_own.motors) == len(CATALOGUE.motors) + 1
+    assert with_own.screws is CATALOGUE.screws

@@ -10,7 +10,18 @@ from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, checked, placed
 
 from jumpcad.building import assembly, build
-from jumpcad.checks.assembly import Way, _covered, _in_the_way, _tool, assembly_findings, assembly_ways, paths, tools
+from jumpcad.checks.assembly import (
+    Blocked,
+    Way,
+    _covered,
+    _findings,
+    _in_the_way,
+    _tool,
+    assembly_findings,
+    assembly_ways,
+    paths,
+    tools,
+)
 from jumpcad.checks.interference import Component
 from jumpcad.design import load_design
 from jumpcad.findings import errors
@@ -164,3 +175,25 @@ def test_a_tool_stands_on_the_middle_of_its_fasteners_face(side: tuple[float, fl
     np.testing.assert_allclose(shaft.T_body_part[:3, 2], side, atol=1e-9)
     np.testing.assert_allclose(shaft.T_body_part[:3, :3].T @ shaft.T_body_part[:3, :3], np.eye(3), atol=1e-9)
     assert shaft.shape.volume_mm3 == pytest.approx(50.0 * np.pi * 4.0, rel=0.01)
+
+
+@pytest.mark.parametrize(("length", "blocked"), [(0.0, False), (0.4, False), (1.0, True), (2.0, True)])
+def test_what_does_not_move_is_not_in_the_way(length: float, blocked: bool) -> None:
+    """A cube of 2 mm comes from 1 mm away at least past a block that begins 0.5 mm behind it."""
+    cube, behind = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), block("behind", (3.0, 2.0, 2.0), (-3.5, 0.0, 0.0))
+    found = _in_the_way(way_past(behind), cube, np.array([length, 0.0, 0.0]))
+    assert (found is not None) == blocked
+
+
+def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
+    blocked = Blocked(SimpleNamespace(title="Close the body"), "leg_axle", "body_plate_left", 2.5)
+    for name, what in (("assembly_paths", "path"), ("tool_access", "tool")):
+        (found,) = _findings(name, [blocked], "all is free")
+        assert found.message.startswith(
+            f"body_plate_left blocks the {what} of leg_axle in step Close the body: it covers 2.50 mm²; "
+        )
+        assert (found.name, found.severity, found.margin, found.value) == (name, "error", -2.5, 2.5)
+        (free,) = _findings(name, [], "all is free")
+        assert (free.severity, free.message, free.margin) == ("info", "all is free", free.limit)
+        assert free.limit > 0.0
+        assert f"{free.limit:g} mm² are allowed" in found.message

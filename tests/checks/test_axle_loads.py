@@ -58,6 +58,7 @@ def test_teeth_and_cam_hold_the_shaft_in_balance(pairs: int) -> None:
         return
     idler = case.beams["idler_axle"]
     assert idler.forces_n[0] == pytest.approx(-on_gear)
+    assert list(idler.places_mm) == pytest.approx([np.mean(one) for one in layout.lateral.gears])
     pitch = train.stages[-1].pinion.teeth / (train.stages[-1].pinion.teeth + train.stages[-1].wheel.teeth)
     inner = layout.idler_mm + pitch * (layout.cam_axis_mm - layout.idler_mm)
     pitch = train.stages[0].wheel.teeth / (train.stages[0].pinion.teeth + train.stages[0].wheel.teeth)

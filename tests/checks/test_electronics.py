@@ -104,6 +104,7 @@ def test_a_battery_whose_current_nobody_states_is_named() -> None:
 def test_the_cap_of_pwm_is_told() -> None:
     finding = found('[bought]\nkit = "strong-2s"')["gearbox_torque"]
     assert "PWM of at most 97 %" in finding.message
+    assert "PWM" not in found("[bought]")["gearbox_torque"].message  # of a motor that a full battery may drive alone
     # the resistance of battery and driver, which the cap leaves out, takes a little more
     assert 0.9 * finding.limit < finding.value < finding.limit
 

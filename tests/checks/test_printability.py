@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from support.built import checked
 
-from jumpcad.checks.printability import _longest_mm, bed_findings, printability_findings
+from jumpcad.checks.printability import _longest_mm, _tall_regions, bed_findings, printability_findings
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.part import Drawing, Part, Placement
 from jumpcad.robot import Robot
 from jumpcad.solids.blocks import Bar, Blocks
-from jumpcad.solids.outline import Region, disc, hole, rectangle
+from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
@@ -78,7 +78,14 @@ def test_fires_alone_with_its_margin(kenan: Robot, name: str, slabs: Slabs, marg
     ],
 )
 def test_silent_on_what_prints(kenan: Robot, slabs: Slabs) -> None:
-    assert not errors(found(kenan, Stack.of(slabs)).values())
+    findings = found(kenan, Stack.of(slabs))
+    assert not errors(findings.values())
+    for name, least_mm in (("walls", 0.8), ("holes", 1.6), ("pins", 3.0)):
+        if findings[name].value is None:  # nothing as narrow as twice the least was found
+            assert f"is under {2.0 * least_mm:.2f} mm" in findings[name].message
+            assert findings[name].margin == pytest.approx(least_mm)
+        else:
+            assert findings[name].margin == pytest.approx(findings[name].value - least_mm)
 
 
 def test_steps_of_45_degrees_are_no_overhang_and_steeper_ones_are(kenan: Robot) -> None:
@@ -130,3 +137,18 @@ def test_bed_either_way_round(kenan: Robot) -> None:
 def test_a_region_is_at_most_as_long_as_its_diagonal(middle: tuple[float, float]) -> None:
     """3, 4, 5; wherever it lies."""
     assert _longest_mm(rectangle((3.0, 4.0), middle)) == pytest.approx(5.0)
+
+
+def test_solids_that_are_no_stacks_are_cut_every_so_often_from_bottom_to_top(kenan: Robot) -> None:
+    """A wall of 0.5 mm from 5 to 15 mm of height, which needs 0.8 mm, and a wedge whose sections fall with height."""
+    foot = Bar(rectangle((20.0, 5.0), (0.0, 2.5)), ((-10.0, 10.0),))
+    wall = Bar(rectangle((20.0, 11.0), (0.0, 9.5)), ((-0.25, 0.25),))
+    findings = found(kenan, Blocks((foot, wall)))
+    assert [finding.name for finding in errors(findings.values())] == ["walls"]
+    assert findings["walls"].margin == pytest.approx(0.5 - 0.8, abs=0.08)
+    wedge = Blocks((Bar(polygon(np.array([(-10.0, 0.0), (10.0, 0.0), (0.0, 20.0)])), ((-5.0, 5.0),)),))
+    drawing = Drawing("piece", "body", wedge, (Placement(BODY, np.eye(4)),))
+    regions = [(height, section.area()) for height, section in _tall_regions(drawing, 0.3)]
+    assert sum(height for height, _ in regions) == pytest.approx(20.0, abs=2.0 * regions[0][0])
+    assert sum(height * area for height, area in regions) == pytest.approx(20.0 * 20.0 / 2.0 * 10.0, rel=0.1)
+    assert [area for _, area in regions] == sorted((area for _, area in regions), reverse=True)

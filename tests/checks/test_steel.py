@@ -143,3 +143,13 @@ def test_the_axle_nearest_to_its_own_fatigue_limit_counts(kenan: Robot) -> None:
     vars(case)["steel_stresses_mpa"] = {"leg_axle": 0.49 * hard, "leg_pin": 0.50 * soft}
     (finding,) = (found for found in steel.steel_findings(case) if found.name == "axle_fatigue")
     assert (finding.severity, finding.value) == ("warning", pytest.approx(0.49 * hard))
+
+
+@pytest.mark.parametrize("robot", ["kenan", "strongest"])
+def test_the_rollers_screw_is_a_cantilever_beside_the_lever(robot: str, request: pytest.FixtureRequest) -> None:
+    """The roller's middle, 2 mm behind a washer of 0.5 mm; an M3 has a core of 2.39 mm (ISO 724)."""
+    strong = request.getfixturevalue(robot)
+    (screw,) = (found for found in strength_findings(strong) if found.name == "roller_screw_strength")
+    force = strong.layout.drive.cam.peak_contact_n
+    assert screw.value == pytest.approx(32.0 * force * 2.5 / (math.pi * 2.387**3), rel=0.01)
+    assert screw.limit == pytest.approx(640.0 / 1.5 / LOADS)  # property class 8.8

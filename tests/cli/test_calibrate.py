@@ -8,6 +8,8 @@ import pytest
 from support.calibrations import with_coarse_calibration
 from support.commands import Run
 
+from jumpcad.cli.calibrate import _lines
+from jumpcad.cli.uncertain import uncertain_lines
 from jumpcad.files.templates import templates_folder
 from jumpcad.simulation import uncertain
 
@@ -32,6 +34,8 @@ def test_calibrated_settings_are_what_uncertain_takes(run: Run, tmp_path: Path) 
     assert {row["what"] for row in document["residuals"]} == {"distance", "height", "battery"}
     assert {row["as"] for row in document["predictions"]["kenan-1.0"]["beside"]} >= {"resting-place", "absolute"}
     assert document["sampler"]["converged"] is False
+    error = document["model_error"]["kenan-2.0"]
+    assert 0.0 <= error["median"] < error["largest"]
     assert sorted(path.name for path in (tmp_path / "pictures").iterdir()) == [
         "measurements.png",
         "measurements.svg",
@@ -102,3 +106,56 @@ def test_jumps_count_once(run: Run, tmp_path: Path, arguments: tuple[str, ...], 
     (tmp_path / "linked.toml").symlink_to("copy.toml")
     expected = f"jumpcad: {message}: name the measurements of each robot once\n"
     assert run("calibrate", *arguments) == (2, "", expected)
+
+
+def test_a_calibration_is_told_in_millimetres_joules_and_per_cent() -> None:
+    """Documents hold metres and shares; distances and heights are read in mm, energies in J."""
+    row = {"what": "distance", "as": "resting-place", "measured": 0.25, "predicted": [0.2, 0.24, 0.3]}
+    battery = {"what": "battery", "as": "battery", "measured": 1.5, "predicted": [1.2, 1.4, 1.7]}
+    residual = {"robot": "k", "of": "distance", "readings": {"resting-place": 0.75}, "off_by_deviations": -1.25}
+    document = {
+        "parameters": [
+            {"label": "pins", "prior": [0.1, 0.2, 0.3], "posterior": [0.11, 0.22, 0.33], "verdict": "stays"}
+        ],
+        "energy_per_mass": {"k": [0.8, 0.9, 1.0]}, "together": [["a", "b", -0.813]],
+        "residuals": [residual | row, residual | battery | {"of": "battery"}],
+        "predictions": {"j": {
+            "ballistic_range_m": [0.1, 0.12, 0.14], "com_rise_m": [0.05, 0.06, 0.07],
+            "beside": [row | {"below_share": 0.62}],
+        }},
+        "model_error": {"k": {"largest": 0.012}, "l": {"largest": 0.034}},
+        "sampler": {"effective": 812.4, "converged": True}, "settings": "mine.toml",
+    }  # fmt: skip
+    lines = _lines(document)
+    assert [" ".join(line.split()) for line in lines[1:]] == [
+        "pins 0.1…0.2…0.3 0.11…0.22…0.33 stays",
+        "k: spring energy over mass / model 0.8…0.9…1",
+        "correlated, not determined alone: a and b (-0.81)",
+        "k: distance 250 mm, calibrated model 200…240…300, likeliest as resting-place (75 %), "
+        "off by -1.2 standard deviations",
+        "k: battery 1.5 J, calibrated model 1.2…1.4…1.7, off by -1.2 standard deviations",
+        "j, predicted: range 100…120…140 mm, rise 50…60…70 mm",
+        "distance as resting-place: 200…240…300 mm predicted with its errors, measured 250, "
+        "above 62 % of the predictions",
+        "812 independent draws; ranges of interpolated jumps are within 3.4 % of the engine's",
+        "mine.toml: jumpcad simulate DESIGN --uncertain --settings mine.toml",
+    ]
+
+
+def test_what_is_uncertain_is_told_in_millimetres_the_largest_share_first() -> None:
+    found = {
+        "calibrated": True, "jumps": 128, "jumps_share": 0.953,
+        "quantiles": {name: [0.1, 0.2, 0.3] for name in uncertain.FIGURES},
+        "first_order": {
+            "mass": {"ballistic_range_m": 0.1, "com_rise_m": 0.3},
+            "floor": {"ballistic_range_m": 0.8, "com_rise_m": 0.2},
+        },
+    }  # fmt: skip
+    lines = [" ".join(line.split()) for line in uncertain_lines(found)]
+    assert lines[0] == "uncertainty (128 jumps, the calibration's draws), quantiles 10…50…90 %:"
+    assert all(line.endswith(" 100…200…300 mm") for line in lines[1:-4])
+    assert lines[-4:] == [
+        "jumps at all 95 %", "first-order indices: share of the variance of range, of rise",
+        "floor 0.80, 0.20", "mass 0.10, 0.30",
+    ]  # fmt: skip
+    assert not any("at all" in line for line in uncertain_lines(found | {"jumps_share": 1.0}))

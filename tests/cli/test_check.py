@@ -50,6 +50,7 @@ def test_it_shows_what_is_tight_and_with_all_the_rest(monkeypatch: pytest.Monkey
     for name in tight | slack:
         assert f" {name} " in long
         assert (f" {name} " in short) == (name in tight)
+    assert len({line.index(" %") for line in long.splitlines() if re.match(r"\w+ +\w+ +\d+ %", line)}) == 1
     assert f"{len(findings)} limits hold" in short
     assert "--all" in short
     assert "--all" not in long

@@ -1,7 +1,9 @@
 """`jumpcad new`: a copy of a template with comments, and nothing replaced unasked."""
 
+import json
 import os
 import re
+import tomllib
 from pathlib import Path
 from unittest.mock import ANY
 
@@ -10,7 +12,7 @@ from support.commands import Run
 
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.files import template_names
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import Workshop, load_workshop
 
 
 def test_new_writes_a_copy_that_can_be_loaded(run: Run, tmp_path: Path) -> None:
@@ -117,3 +119,21 @@ def test_a_workshop_has_no_design(run: Run, tmp_path: Path) -> None:
     assert code == 2
     assert "leave --from out" in err
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("shop", ["", "default", "fine"])
+def test_a_new_file_is_told_in_json_with_the_values_that_it_has(run: Run, tmp_path: Path, shop: str) -> None:
+    """What a file leaves out, as what nobody knows of a part, is left out there too: TOML has no null."""
+    kind = ("--workshop", shop) if shop else ("--from", "best-ga")
+    told = json.loads(run("new", "made.toml", *kind, "--json")[1], parse_constant=pytest.fail)
+    assert told["file"] == "made.toml"
+    if shop:
+        assert Workshop.model_validate(told["workshop"]) == load_workshop(tmp_path / "made.toml")
+    else:
+        assert told["design"] == tomllib.loads((tmp_path / "made.toml").read_text())
+
+    def values(table: object) -> list[object]:
+        inner = table.values() if isinstance(table, dict) else table if isinstance(table, list) else ()
+        return [table, *(value for one in inner for value in values(one))]
+
+    assert None not in values(told)

@@ -1,8 +1,10 @@
 """`jumpcad explore`, with the capsule robot."""
 
 import re
+from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 from support.searches import NARROW, QUICK, data, refusal, run
 
@@ -29,3 +31,45 @@ def test_counts_have_ends_that_are_told(folder, option, least, most):
         assert "did you mean sweep" in refusal("explore", "sweeps", *QUICK, option, count)
     for count, words in ((least - 1, f"greater than or equal to {least}"), (most + 1, f"less than or equal to {most}")):
         assert words in refusal("explore", "sweeps", *QUICK, option, count)
+
+
+@pytest.mark.parametrize(
+    ("view", "options", "designs"),
+    [
+        ("sweep", ("--points", 4), 3 * 4),
+        ("feasibility", ("--points", 3), 3 * 3),
+        ("pca", ("--samples", 40), 40),
+    ],
+)
+def test_the_designs_that_progress_expects_are_those_that_a_view_evaluates(folder, monkeypatch, view, options, designs):
+    """A sweep has its points for each free parameter, of which there are three, a map along each of its axes."""
+    expected, done = [], []
+
+    @contextmanager
+    def watching(total, quiet):
+        expected.append(total)
+        yield lambda trial, computed: done.append(trial)
+
+    monkeypatch.setattr("jumpcad.cli.explore.watching", watching)
+    data("explore", view, *QUICK, *NARROW, *options)
+    assert (expected, len(done)) == ([designs], designs)
+
+
+def test_views_tell_in_json_what_they_looked_at(folder):
+    """A map has a verdict for every pair of values of its axes; choices that are names are told by them."""
+    found = data("explore", "feasibility", *QUICK, "--points", 3, "--over", "rest_angle_deg,compression_ratio")
+    x, y = found["x"], found["y"]
+    assert (x["name"], y["name"]) == ("rest_angle_deg", "compression_ratio")
+    assert (x["values"], y["values"]) == ([20.0, 45.0, 70.0], pytest.approx([0.1, 0.45, 0.8]))
+    assert [len(line) for line in found["verdicts"]] == [3, 3, 3]
+    assert {word for line in found["verdicts"] for word in line} > {"jump"}
+    swept = data("explore", "sweep", *QUICK, *NARROW, "--points", 3)["sweeps"]
+    assert list(swept) == ["compression_ratio", "rest_angle_deg", "stiffness_nmm_per_deg"]
+    for rows in swept.values():
+        assert [row["value"] for row in rows] == sorted(row["value"] for row in rows)
+        assert all((row["score"] is not None) == (row["verdict"] == "jump") for row in rows)
+    views = data("explore", "pca", *QUICK, *NARROW, "--samples", 40)
+    for name in ("sampled", "elite"):
+        assert sum(views[name]["shares"]) == pytest.approx(1.0)
+        assert np.array(views[name]["directions"]).shape == (3, 3)
+    assert views["sampled"]["designs"] == 40 >= views["elite"]["designs"] > 0

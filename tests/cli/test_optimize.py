@@ -7,13 +7,17 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 from support.commands import interruptible
 from support.searches import NARROW, QUICK, data, run
 from typer.testing import CliRunner
 
+from jumpcad.cli import optimize
 from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, load_design
+from jumpcad.search.robust import NOT_EXAMINED, ActiveBound
+from jumpcad.search.widening import Widened
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
 
@@ -106,3 +110,47 @@ def data_or_none(path):
     """Return how many trials a study has, 0 while it has none."""
     result = CliRunner().invoke(app, ["study", path, "--json"])
     return json.loads(result.stdout)["evaluations"] if result.exit_code == 0 and not result.exception else 0
+
+
+def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
+    """What a moved bound is worth, why it is not, and what was not looked at; the front by its springs' energy."""
+    design = load_design("kenan-2.0")
+    trial = SimpleNamespace(design=design, score=1.5, workshop={"body.plate_mm": 2.4, "bought.spring": ""})
+    aim = SimpleNamespace(neighbours_of="")
+    request = SimpleNamespace(
+        aim=aim, searched=180, until_percent=0.05, space=SimpleNamespace(size=1000), is_front=True, objective="range",
+        making=SimpleNamespace(words="lengths ±0.2 mm"),
+    )  # fmt: skip
+    result = SimpleNamespace(
+        request=request, evaluations=10, trials=[trial] * 7, rejected={"loop": 2, "tips": 1}, converged=True,
+        notes=["a note"], best=trial, winner=trial, hypervolume=0.25, front=[trial], candidates=[], score=1.5,
+        design=design,
+        widened=[
+            Widened("c_coef", "upper", 1.2, 1.3, 0.125), Widened("d_coef", "lower", 0.5, 0.4, None, "tips"),
+            Widened("all", "", 0.0, 0.0, -0.5),
+        ],
+        bounds=[
+            ActiveBound("c_coef", "upper", 1.2, 1.25, -0.0625), ActiveBound("d_coef", "lower", 0.5, 0.45, None, "loop"),
+            ActiveBound("e_coef", "upper", 1.0, 1.1, None, NOT_EXAMINED),
+        ],
+    )  # fmt: skip
+    optimize._print_result(result, Path("won.toml"))
+    told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
+    assert told[:4] == [
+        "7 designs evaluated, and 3 for the robust pick; rejected: loop 2, tips 1",
+        "ended before 180: the last proposals promise to gain less than 0.05 % of the best score; --until 0 goes on",
+        "note: a note",
+        "range against spring energy; hypervolume 0.2500",
+    ]
+    assert told[4] == f"{design.spring_energy_j:.4f} J 1.5000"
+    assert told[5:7] == ["best range 1.5000", "won.toml: range 1.5000"]
+    assert {"body.plate_mm 2.4", "bought.spring ''"} < set(told)
+    assert told[-7:-1] == [
+        "widened: c_coef, upper bound 1.2 to 1.3: +0.1250",
+        "widened: d_coef, lower bound 0.5 to 0.4: rejected by tips",
+        "widened: all together: -0.5000",
+        "at its upper bound: c_coef = 1.2; 1.25 changes the score by -0.0625",
+        "at its lower bound: d_coef = 0.5; 0.45 is rejected: loop",
+        f"at its upper bound: e_coef = 1; 1.1 is {NOT_EXAMINED}",
+    ]
+    assert told[-1].startswith("next: jumpcad build won.toml --workshop ")

@@ -1,15 +1,18 @@
 """Any kind of standard output, any file name, Ctrl-C at any time: one line and one exit code."""
 
+import json
+import math
 import os
 import subprocess
 import sys
 from pathlib import Path
 from threading import Event
 
+import numpy as np
 import pytest
 from support.commands import Run, interruptible
 
-from jumpcad.cli.output import console, escaped, status
+from jumpcad.cli.output import console, escaped, print_json, status
 from jumpcad.design import load_design
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -199,3 +202,14 @@ def test_a_table_shows_what_looks_like_markup_as_it_is(capsys: pytest.CaptureFix
     """Names of users may hold brackets and colons: neither a style nor a picture."""
     console(width=60).print("a [red]b[/red] :frog:")
     assert capsys.readouterr().out.strip() == "a [red]b[/red] :frog:"
+
+
+def test_json_has_every_number_and_null_for_what_is_none(capsys: pytest.CaptureFixture[str]) -> None:
+    """NaN and infinities are no JSON (RFC 8259); numpy's values, tuples and keys that are no text are like Python's."""
+    data = {"a": 1.5, "b": (0.0, -2), 3: np.array([[1.0, np.nan], [np.inf, -4.5]]), "c": np.float64(0.1), "d": None}
+    print_json(data | {"e": True, "f": "text", "g": {"h": [np.int64(7), -math.inf]}})
+    told = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert told == {
+        "a": 1.5, "b": [0.0, -2], "3": [[1.0, None], [None, -4.5]], "c": 0.1, "d": None, "e": True, "f": "text",
+        "g": {"h": [7, None]},
+    }  # fmt: skip

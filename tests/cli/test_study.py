@@ -1,11 +1,12 @@
 """`jumpcad study`, with the capsule robot."""
 
 import re
+from pathlib import Path
 
 from support.searches import QUICK, data, refusal, run
 
 
-def test_studies_compare_and_export(folder):
+def test_studies_compare_and_export(folder, monkeypatch):
     for seed in (0, 1):
         run("optimize", "ga", *QUICK, "--evaluations", 20, "--seed", seed, "--study", f"{seed}.db")
     assert len(run("study", "0.db", "1.db").strip().splitlines()) == 2
@@ -18,3 +19,8 @@ def test_studies_compare_and_export(folder):
     ranks = re.findall(r"^ *(\d+)\. ", run("study", "0.db", "--list", 3), re.M)
     assert ranks == ["1", "2", "3"]
     assert "one study" in refusal("study", "0.db", "1.db", "--export", "u.csv")
+    drawn = []
+    monkeypatch.setattr("jumpcad.search.study_plots.plot_study", lambda store, pics: drawn.append(pics) or [pics / "a"])
+    assert data("study", "0.db", "--plots", "pics") == summary | {"pictures": ["pics/a"]}
+    assert "pictures" not in summary
+    assert drawn == [Path("pics")]

@@ -40,11 +40,10 @@ def test_a_printer_that_narrows_holes_gets_fits_that_fit(shrinkage_mm: float) ->
 def test_pegs_foretell_the_play_of_gears_that_spread_likewise(growth_mm: float) -> None:
     pegs = [round(peg + growth_mm, 3) for peg in (4.0, 6.0, 8.0)]
     fits = read(f"[gauge.PETG]\npegs_mm = {pegs}\n[gauge.PLA]\npegs_mm = [4.2, 6.2, 8.2]").fits
+    play = fits.backlash_circumferential_mm
+    assert play == round(play, 3)  # as a file has it: a caliper reads hundredths
     pair = coupon_pair()
-    printed = [
-        polygon(gear.profile_mm).offset(growth_mm / 2.0, JoinType.Miter)
-        for gear in (pair.wheel, pinion(fits.backlash_circumferential_mm))
-    ]
+    printed = [polygon(gear.profile_mm).offset(growth_mm / 2.0, JoinType.Miter) for gear in (pair.wheel, pinion(play))]
     turn = turning_play_deg(printed[0].rotate(9.0), printed[1], pair.centre_distance_mm, 24.0)
     assert math.radians(turn) * pair.pinion.pitch_radius_mm == pytest.approx(LEAST_PLAY_MM, abs=0.008)
 
@@ -71,7 +70,7 @@ def test_joints_are_read_too() -> None:
     assert (fits.m2_tap_mm, fits.rib_mm, fits.lying_mm, fits.sliding_mm) == (1.7, 0.1, 0.15, 0.25)
     assert fits.press_mm == 0.05
     weak = read("[joints]\nfloor_n = 100").materials["PLA"].strength_in_plane_mpa
-    assert weak == pytest.approx(100.0 * math.sqrt(3.0) / (math.pi * 3.0 * 0.8), abs=0.06)
+    assert weak == round(100.0 * math.sqrt(3.0) / (math.pi * 3.0 * 0.8), 1)
     assert read("[joints]\nfloor_n = 1000").materials == WORKSHOP.materials
 
 

@@ -10,7 +10,7 @@ from shapely import affinity
 from support.built import built
 
 from jumpcad.drive.cam import CamGeometry
-from jumpcad.drive.corner import _rounding, clear_window_rad, roll_over
+from jumpcad.drive.corner import _crossing, _rounding, clear_window_rad, roll_over
 
 TEMPLATES = ("kenan-2.0", "best-ga")
 
@@ -90,3 +90,35 @@ def test_the_window_is_where_the_roller_s_way_is_free(name: str) -> None:
     assert min(gap(turn) for turn in np.linspace(begin + slack, end - slack, 20)) > 0.0
     assert gap(begin - slack) < 0.0
     assert gap(end + slack) < 0.0
+
+
+def test_a_cam_that_is_everywhere_leaves_no_window_and_one_that_is_nowhere_all_of_it() -> None:
+    """A disc about its axis that reaches the roller's way, and one that does not, are in the way always or never."""
+    cam = geometry("kenan-2.0")
+    circle = np.column_stack([np.cos(np.linspace(0.0, 6.28, 721)), np.sin(np.linspace(0.0, 6.28, 721))])
+    ways = cam.roller_mm(np.linspace(-cam.overshoot_rad, cam.law.compression_rad, 50))
+    axis = cam.axis_distance_mm * np.array([math.cos(cam.axis_rad), math.sin(cam.axis_rad)])
+    nearest = np.hypot(*(ways - axis).T).min()
+    begin, end = _window(cam, nearest * circle)
+    assert math.isnan(begin)
+    assert math.isnan(end)
+    small = (nearest - cam.roller_radius_mm - 0.1) * circle
+    assert _window(cam, small) == pytest.approx((0.0, 2.0 * math.pi - cam.law.lift_rad))
+
+
+def test_a_gap_opens_between_two_samples_by_a_straight_line() -> None:
+    turns, gap = np.array([0.0, 0.1, 0.2, 0.3]), np.array([-0.3, 0.1, 0.2, -0.6])
+    assert _crossing(turns, gap, 0, 1) == pytest.approx(0.075)
+    assert _crossing(turns, gap, 3, 2) == pytest.approx(0.225)
+    assert (_crossing(turns, gap, -1, 0), _crossing(turns, gap, 4, 3)) == (0.0, 0.3)
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_the_roller_falls_freely_when_the_corner_is_far_enough_from_the_hub(name: str) -> None:
+    """By lever, roller and clearance; where it never is that far, there is no such angle."""
+    cam = geometry(name)
+    assert cam.free_rad > cam.law.lift_rad
+    reach = cam.lever_mm + cam.roller_radius_mm + cam.clearance_mm
+    assert np.hypot(*cam.in_body(cam.tip_mm, cam.free_rad)) == pytest.approx(reach)
+    assert np.hypot(*cam.in_body(cam.tip_mm, cam.law.lift_rad)) < reach
+    assert math.isnan(replace(cam, clearance_mm=200.0).free_rad)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import built, geared
+from support.decimals import decimals
 
 from jumpcad import build, load_design, load_workshop
 from jumpcad.building.limits import release_limits
@@ -38,6 +39,13 @@ def test_every_template_keeps_its_energy_and_its_motor(name: str) -> None:
     assert 1.1 * release.kick_nm <= release.kick_limit_nm
     assert math.degrees(release.free_play_rad) == pytest.approx(math.degrees(release.roll_over_rad) + 3.0, abs=1e-3)
     assert release.window_rad[0] < release.free_play_rad < release.window_rad[1]
+
+
+def test_a_simulation_starts_with_figures_that_do_not_differ_between_processors() -> None:
+    """Angles and shares to nine decimals, rates to six."""
+    offs = [built(name).release.off for name in TEMPLATES]
+    assert decimals([(off.leg_rad, off.energy_ratio) for off in offs]) == 9
+    assert decimals([off.leg_rad_s for off in offs]) == 6
 
 
 def test_the_kick_is_limited_by_the_teeth_of_the_pinion_that_bears_least() -> None:

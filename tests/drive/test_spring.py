@@ -162,6 +162,12 @@ def test_a_short_body_is_preferred_to_a_thin_one_where_it_fits():
 def test_no_room_is_refused_with_what_to_change():
     with pytest.raises(CannotBuildError, match=r"no wire of 0\.5 to 2\.5 mm .* 780 N·mm .* stiffness_nmm_per_deg"):
         spring_of("best-bo", replace(LIMITS, body_lengths_max_mm=(5.0,)))
+    design, preload = load_design("best-bo"), math.radians(10.0)
+    on_leg = springs_on_leg(design, None, preload)
+    loaded = math.degrees(design.compression_rad) + 10.0
+    torque = 500.0 * design.stiffness_nm_per_rad * (design.compression_rad + preload)
+    with pytest.raises(CannotBuildError, match=rf" for {torque:.0f} N·mm at {loaded:.1f}° in 18 mm diameter and 5 mm"):
+        synthesise_spring(on_leg, -1.0, WIRE, replace(LIMITS, body_lengths_max_mm=(5.0,)))
 
 
 def test_coils_are_neither_narrower_nor_wider_than_makers_wind_them():

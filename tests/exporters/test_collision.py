@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import built
+from support.decimals import decimals
 
 from jumpcad.exporters.collision import body_box, capsules
 from jumpcad.mechanism.model import BODY, BODY_NAMES
@@ -28,6 +29,7 @@ def test_capsules_lie_along_the_links_and_the_toes(name: str) -> None:
             assert link.start_m.tolist() == [0.0, 0.0, 0.0]
             assert link.end_m == pytest.approx([length / 1000.0, 0.0, 0.0])
             assert link.radius_m == pytest.approx(0.6 * robot.foot_depth_m, abs=1e-6)
+        assert decimals([[one.end_m, one.radius_m] for one in shapes]) <= 6  # micrometres
         for shape, toe in zip(shapes, toes, strict=True):
             assert shape.end_m == pytest.approx(toe.centre_m, abs=1e-6)
             assert shape.radius_m == pytest.approx(min(0.6 * robot.foot_depth_m, 0.8 * toe.radius_m), abs=1e-6)
@@ -39,6 +41,7 @@ def test_the_box_holds_the_bodys_parts_above_a_millimetre_over_the_ground(name: 
     seen = visuals(robot)
     box = body_box(robot, seen)
     assert box is not None
+    assert decimals([box.low_m, box.high_m]) == 4  # tenths of a millimetre
     points = np.concatenate(
         [
             one.mesh.vertices / 1000.0 @ one.T_body_mesh[:3, :3].T + one.T_body_mesh[:3, 3]

@@ -136,3 +136,14 @@ def test_corners_off_the_circle_are_no_part_of_it(off_mm: float, round_: bool) -
     points = regular(64)
     points[10] *= 1.0 + off_mm / 10.0
     assert (curves_of(points)[0].__class__ is Circle) == round_
+
+
+@pytest.mark.parametrize(("wide_deg", "round_"), [(5.01, True), (5.013, False), (5.2, False)])
+def test_corners_on_a_circle_at_uneven_steps_are_not_what_a_circle_was_drawn_with(
+    wide_deg: float, round_: bool
+) -> None:
+    """Sides of two lengths in turn, which differ by more than the 4 µm that corners 2 µm off allow."""
+    steps = np.tile([wide_deg, 10.0 - wide_deg], 36)
+    turns = np.radians(np.cumsum(steps))
+    points = 10.0 * np.column_stack([np.cos(turns), np.sin(turns)])
+    assert (curves_of(points)[0].__class__ is Circle) == round_

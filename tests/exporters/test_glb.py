@@ -1,11 +1,13 @@
 """GLB read back by trimesh: what is where, in which colour."""
 
 import io
+import json
 
 import numpy as np
 import pytest
 import trimesh
 from support.built import built
+from support.decimals import decimals
 
 from jumpcad.exporters.glb import linear_light, write_glb
 from jumpcad.mechanism.poses import body_poses
@@ -44,3 +46,12 @@ def test_colours_are_linear_light() -> None:
     assert linear_light(0.5) == pytest.approx(0.214041, abs=1e-6)
     assert [linear_light(part) for part in (0.0, 1.0)] == [0.0, 1.0]
     assert linear_light(0.04045) == pytest.approx(0.0031308, rel=1e-4)
+
+
+def test_colours_of_a_glb_have_six_decimals(robot: Robot) -> None:
+    """Of the first chunk, which is JSON: its length is at byte 12, its text at byte 20 (glTF 2.0, 4.4)."""
+    glb = write_glb(robot)
+    tree = json.loads(glb[20 : 20 + int.from_bytes(glb[12:16], "little")])
+    colours = [one["pbrMetallicRoughness"]["baseColorFactor"] for one in tree["materials"]]
+    assert decimals(colours) == 6
+    assert {colour[3] for colour in colours} == {1.0}  # nothing is transparent

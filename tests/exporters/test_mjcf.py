@@ -17,6 +17,7 @@ from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.scene.visuals import visuals
+from jumpcad.settings import Settings
 
 
 def without_meshes(document: str) -> str:
@@ -72,3 +73,47 @@ def test_the_bodys_box_is_as_low_as_its_parts_or_as_the_ground_lets_it(name: str
     assert lowest > 0.0008
     assert raised > -1e-4
     assert raised < 1e-4 or lowest == pytest.approx(0.001, abs=2e-4)
+
+
+@pytest.mark.parametrize("dt_s", [0.0005, 0.002])
+def test_contacts_and_the_loop_are_as_stiff_as_mujoco_allows(dt_s: float) -> None:
+    """Its time constants are at least two of its steps ("solref", XML reference), here a quarter of the settings'."""
+    root = ET.fromstring(write_mjcf(capsule_robot(load_design("kenan-2.0")), Settings(dt_s=dt_s)))
+    option = root.find("option")
+    assert option is not None
+    step = float(option.attrib["timestep"])
+    assert step == pytest.approx(dt_s / 4.0)
+    soft = np.array([node.attrib["solref"].split() for node in root.iter() if "solref" in node.attrib], dtype=float)
+    assert len(soft) > 2
+    assert soft == pytest.approx(np.tile([2.0 * step, 1.0], (len(soft), 1)))
+
+
+@pytest.mark.parametrize("gravity_m_s2", [9.81, 1.62])
+def test_weight_pulls_straight_down(gravity_m_s2: float) -> None:
+    root = ET.fromstring(write_mjcf(capsule_robot(load_design("kenan-2.0")), Settings(gravity_m_s2=gravity_m_s2)))
+    option = root.find("option")
+    assert option is not None
+    assert list(map(float, option.attrib["gravity"].split())) == [0.0, 0.0, -gravity_m_s2]
+
+
+@pytest.mark.parametrize("preload_rad", [0.0, 0.1])
+@pytest.mark.parametrize("one_sided", [True, False])
+def test_springs_push_by_hooke_from_where_they_are_relaxed(one_sided: bool, preload_rad: float) -> None:
+    """Those that only push are a tendon, slack beyond its length; those that also pull are the leg joint's own."""
+    robot = capsule_robot(load_design("kenan-2.0"))
+    robot = replace(robot, spring=replace(robot.spring, one_sided=one_sided, preload_rad=preload_rad))
+    root, stiffness = ET.fromstring(write_mjcf(robot)), robot.spring.stiffness_nm_per_rad
+    (leg,) = (node for node in root.iter("joint") if node.get("name") == robot.spring.joint)
+    tendons = [*root.iter("fixed")]
+    assert ("stiffness" in leg.attrib, len(tendons)) == (not one_sided, int(one_sided))
+    for angle in (-0.6, 0.0, preload_rad - 0.01, preload_rad + 0.2):
+        expected = stiffness * (preload_rad - angle)
+        if not one_sided:
+            found = float(leg.attrib["stiffness"]) * (float(leg.get("springref", 0.0)) - angle)
+            assert found == pytest.approx(expected)
+            continue
+        (tendon,), (on,) = tendons, tendons[0].iter("joint")
+        assert (on.get("joint"), float(on.attrib["coef"])) == (robot.spring.joint, 1.0)
+        low, high = map(float, tendon.attrib["springlength"].split())
+        found = float(tendon.attrib["stiffness"]) * (max(low - angle, 0.0) - max(angle - high, 0.0))
+        assert found == pytest.approx(max(expected, 0.0))

@@ -119,3 +119,19 @@ def test_the_bodys_box_lies_where_its_parts_do(package: dict[str, ET.Element]) -
     assert shape.find("origin").get("rpy") == "0 0 0"
     np.testing.assert_allclose(middle - half, box.low_m, atol=2e-6)
     np.testing.assert_allclose(middle + half, box.high_m, atol=2e-6)
+
+
+def test_every_link_shows_the_parts_of_its_body_where_they_are(package: dict[str, ET.Element]) -> None:
+    """By their names and places; masses are the bodies'. The fixed base has nothing."""
+    robot = built("kenan-2.0")
+    links = {one.get("name"): one for one in package["links.xacro"].findall("link")}
+    seen = {name: {one.name: one.T_body_mesh for one in visuals(robot) if one.body == name} for name in robot.bodies}
+    (base,) = links.keys() - robot.bodies.keys()
+    assert len(links[base]) == 0
+    for name, body in robot.bodies.items():
+        shown = {one.get("name"): one.find("origin") for one in links[name].findall("visual")}
+        assert shown.keys() == seen[name].keys()
+        for part, origin in shown.items():
+            place = np.array(origin.get("xyz").split(), dtype=float)
+            np.testing.assert_allclose(place, seen[name][part][:3, 3], atol=1e-6)
+        assert float(links[name].find("inertial/mass").get("value")) == pytest.approx(body.mass_kg)

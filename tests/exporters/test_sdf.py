@@ -43,6 +43,7 @@ def test_the_loop_is_closed_and_the_foot_lies_flat(small_robot: Robot, model: ET
     links = {link.get("name"): pose(link) for link in model.iter("link")}
     loop = next(joint for joint in model.iter("joint") if joint.get("name") == "loop")
     at_child = links[loop.findtext("child")] @ pose(loop)
+    np.testing.assert_array_equal(numbers(loop, "pose")[3:], np.zeros(3))
     at_parent = links[loop.findtext("parent")] @ np.append(small_robot.loop.point_a_m, 1.0)
     np.testing.assert_allclose(at_child[:3, 3], at_parent[:3], atol=1e-9)
     np.testing.assert_allclose(links[FOOT][:3, :3], np.eye(3), atol=1e-9)

@@ -1,5 +1,6 @@
 """Places of spring pin, motor and idler, with nothing in the way and with something."""
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -157,6 +158,11 @@ def test_an_idler_stands_where_its_wheel_and_its_axle_are_free() -> None:
         free = np.hypot(*(ring - post.points_mm[0]).T) >= 4.0 + reach
         assert 0 < free.sum() < 72
         np.testing.assert_allclose(found, ring[free], atol=2e-6)
+        for number, way in itertools.product((0, 18, 36, 54), ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))):
+            for room, kept in ((0.02, True), (-0.02, False)):
+                post = disc("post", ring[number] + (reach + 1.0 + room) * np.array(way), 1.0, interval)
+                places = drive_places._idler_places([post], drive, lateral, axis)
+                assert bool((np.hypot(*(places - ring[number]).T) < 1e-5).any()) == kept
     gear = disc("cam gear", axis, 5.0, lateral.inside)
     assert len(drive_places._idler_places([gear], drive, lateral, axis)) in (0, 72)
 

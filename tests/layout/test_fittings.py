@@ -108,3 +108,26 @@ def test_5_mm_behind_the_switch_are_for_its_wires(behind_mm: float, stays: bool)
     start = layout.lateral.inside[0] + switch.height_mm + behind_mm
     moved = fittings_of([disc("post", free.switch_mm, 1.0, (start, start + 3.0))], *given)
     assert np.array_equal(moved.switch_mm, free.switch_mm) == stays
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_openings_of_the_right_plate_are_as_near_to_the_boards_as_the_usb_plug_lets_them(name: str) -> None:
+    """On a raster of 2 mm about the boards' middle, the nearest place with 0.4 mm to the rooms of the others.
+
+    Rooms are points 1 mm apart or less, with a radius: a place may be another one by 0.1 mm.
+    """
+    layout = built(name).layout
+    middle, switch = layout.electronics.middle_mm(layout.tray_mm), layout.fittings.switch
+    assert switch is not None
+    found = fittings_of([], layout.lateral, layout.electronics, layout.tray_mm, switch, [], 4.5)
+    assert found.usb_mm is not None
+    rooms = [box(found.usb_mm, tuple(size / 2.0 + 2.5 for size in found.usb_size_mm))]
+    steps = np.arange(-45.0, 45.1, 2.0)
+    places = middle + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    for place, half in ((found.right_mm, (6.0, 8.0)), (found.switch_mm, switch_half_mm(switch))):
+        above = places[places[:, 1] > half[1]]
+        free = [one for one in above if all(box(one, half).distance(room) >= 0.4 - 0.1 for room in rooms)]
+        clear = [one for one in above if all(box(one, half).distance(room) >= 0.4 + 0.1 for room in rooms)]
+        nearest, enough = (min(np.linalg.norm(one - middle) for one in ones) for ones in (free, clear))
+        assert nearest - 1e-6 <= np.linalg.norm(place - middle) <= enough + 1e-6
+        rooms.append(box(place, half))

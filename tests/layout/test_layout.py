@@ -18,8 +18,10 @@ from jumpcad.dimensions import CLEAR_MM, GAP_MM, TRAY_MM
 from jumpcad.drive.spring_arms import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
+from jumpcad.layout import layout as layout_module
 from jumpcad.layout.electronics import Electronics
 from jumpcad.layout.layout import LEVER_HEAD_MM, LEVER_NUT_MM, Layout, _hub_obstacles, make_layout, moving_obstacles
+from jumpcad.layout.room import Obstacle
 from jumpcad.layout.sweep import legs_apart_mm
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
@@ -294,3 +296,34 @@ def test_springs_and_axles_keep_the_usual_clearance() -> None:
         assert (left.radius_mm, right.radius_mm) == pytest.approx((coil + gap, coil + gap))
         assert (left.y_mm, right.y_mm) == (lateral.spring_left, lateral.spring_right)
         assert (axle.radius_mm, axle.y_mm) == (pytest.approx(3.2 + 0.8), lateral.inside)
+
+
+def test_openings_keep_off_what_stands_in_the_body_and_off_the_standoffs_pads(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A standoff needs 9 mm of plate, from plate to plate; the boss of the springs' pin keeps off the same things."""
+    layout, found = plans()["geared"], {}
+    for name in ("fittings_of", "spring_boss_mm"):
+        make = getattr(layout_module, name)
+
+        def kept(obstacles: list[Obstacle], *others: Any, name: str = name, make: Any = make) -> Any:
+            found[name] = list(obstacles)
+            return make(obstacles, *others)
+
+        monkeypatch.setattr(layout_module, name, kept)
+    plan_again(layout)
+    for obstacles in found.values():
+        pads = [one for one in obstacles if one.name == "standoff"]
+        assert [one.points_mm.tolist() for one in pads] == [[place.tolist()] for place in layout.standoffs_mm]
+        assert {(one.radius_mm, one.y_mm) for one in pads} == {(4.5, layout.lateral.inside)}
+        assert {"main leg", "lever", "cam", "cam gear", "front axle", "motor", "sensor"} < {
+            one.name for one in obstacles
+        }
+
+
+@pytest.mark.parametrize("axle_mm", [2.0, 3.0])
+def test_walls_around_pins_and_axles_are_those_of_the_plates(axle_mm: float) -> None:
+    """2 mm around the springs' pin in its boss, 1.2 mm more of plate around the leg's axle whose bores are blind."""
+    layout = replace(plans()["kenan-2.0"], axle_mm=axle_mm)
+    assert layout.spring_boss_outer_mm == axle_mm + 2.0 * 2.0
+    assert (layout.boss_mm, layout.floor_mm) == (1.2, 0.8)
+    clipped = replace(layout, retention="clips")
+    assert (clipped.boss_mm, clipped.floor_mm) == (0.0, 0.0)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.built import built
+from support.decimals import decimals
 
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
@@ -36,6 +37,8 @@ def test_the_heel_touches_the_pads_middle(robot: Robot) -> None:
     np.testing.assert_allclose(stop.along, along, atol=1e-8)
     np.testing.assert_allclose(stop.behind, behind, atol=1e-8)
     assert 9.0 <= stop.radius_mm <= 24.25
+    assert decimals(stop.face_mm) == 6  # nanometres: cosines differ between processors
+    assert decimals([stop.along, stop.behind]) == 9
 
 
 def test_the_bar_begins_at_the_pads_seat_and_its_tabs_at_the_bars_face(robot: Robot) -> None:

@@ -145,3 +145,21 @@ def test_a_robot_tips_over_its_nose_as_well_as_over_its_toes() -> None:
         heavy = replace(body, com_m=body.com_m + np.array([shift, 0.0, 0.0]))
         tips = statics_findings(replace(robot, bodies={**robot.bodies, "body": heavy}))[0]
         assert (tips.name, tips.severity) == ("tips", "error")
+
+
+def test_a_findings_margin_is_how_far_its_value_is_on_the_right_side_of_its_limit() -> None:
+    """Of every design, feasible or not; lengths, angles and the energy must be at least something."""
+    seen = set()
+    flat = load_design("kenan-2.0").model_copy(update={"c_coef": 0.3, "d_coef": 0.6, "rest_angle_deg": 40.0})
+    for design in (flat, *random_designs(200)):
+        findings = geometry_findings(design)
+        if not errors(findings):
+            findings += statics_findings(capsule_robot(design))
+        for found in findings:
+            assert found.value is not None
+            assert found.limit is not None
+            assert found.margin == pytest.approx(found.value - found.limit, abs=1e-12)
+            assert (found.severity == "error") == (found.margin < 0.0 or found.name == "winding")
+            assert found.limit == 0.0 or found.name == "too_weak"
+            seen.add((found.name, found.severity))
+    assert {name for name, _ in seen} == {"winding", "loop", "below_ground", "tips", "too_weak"}

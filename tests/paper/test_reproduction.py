@@ -41,6 +41,14 @@ def test_hyperparameters_that_differ_are_the_known_three() -> None:
     assert differing == {"lateral friction", "spinning friction", "restitution"}
 
 
+def test_hyperparameters_are_those_of_the_studys_table_and_of_its_code() -> None:
+    """In the table: 0.8, 0.1, 0.01, 0.001, 0.8, without one for the ground; the results come from others."""
+    assert {item.name: (item.in_table, item.in_results) for item in HYPERPARAMETERS} == {
+        "lateral friction": (0.8, 1.0), "spinning friction": (0.1, 0.15), "rolling friction": (0.01, 0.01),
+        "joint damping": (0.001, 0.001), "restitution": (0.8, 0.9), "lateral friction of the ground": (None, 1.5),
+    }  # fmt: skip
+
+
 def test_measured_jumps_are_those_that_the_predictions_stand_beside() -> None:
     """Both prototypes' distances, heights and battery energies, as the templates of comparisons have them."""
     measured = {one.template: one.measured for one in PUBLISHED_RESULTS if one.measured is not None}

@@ -11,7 +11,7 @@ from jumpcad.building import build
 from jumpcad.checks.interference import components, interference_findings
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.parts.axles import _clip, require_retention
+from jumpcad.parts.axles import Place, _clevis, _clip, require_retention
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
@@ -95,6 +95,7 @@ def test_an_axle_weighs_its_rod() -> None:
     hollow = build(load_design("kenan-2.0"), workshop(axle="steel-tube"))
     tube = next(item for item in hollow.hardware if item.name == "cam_axle")
     assert np.isclose(tube.shape.volume_mm3 / (np.ptp(tube.shape.bounds_mm[:, 2])), math.pi / 4 * (9 - 4), rtol=0.01)
+    assert 1e6 * tube.mass_kg / tube.shape.volume_mm3 == pytest.approx(7.9, rel=0.01)  # 1.4301, g/cm³
 
 
 @pytest.mark.parametrize(
@@ -199,3 +200,14 @@ def test_a_clevis_pin_is_the_shortest_from_stock_whose_split_pin_is_outside() ->
         along, _, up = np.ptp(item.look.copy().apply_transform(item.T_body_part).bounds, axis=0)
         assert (along > up) == (name != "leg_spring_pin")  # along the foot, and across the leg
         assert max(along, up) == pytest.approx(5.0, abs=0.05)
+
+
+@pytest.mark.parametrize(("more_mm", "longer_mm"), [(0.0, 0.0), (0.01, 2.0), (-0.01, 0.0)])
+def test_a_clevis_pin_that_is_just_long_enough_is_taken(more_mm: float, longer_mm: float) -> None:
+    """Lengths of ISO 2341 are 2 mm apart: between the faces 0.4 mm, half the split pin and its hole's distance less."""
+    catalogue = load_workshop().catalogue
+    pin = catalogue.clevis_pin_for(3.0)
+    for length in pin.lengths_mm[2:5]:
+        half = (length - 0.4 - pin.cotter_mm / 2.0 - pin.end_mm + more_mm) / 2.0
+        found, _ = _clevis(Place("ankle_pin", "foot", np.zeros(2), (-half, half)), 3.0, catalogue)
+        assert found.article.startswith(f"clevis pin B 3 x {length + longer_mm:g} ISO")

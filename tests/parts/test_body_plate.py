@@ -19,12 +19,16 @@ from jumpcad.parts.body_plate import (
     TEXT_HEIGHTS_MM,
     _covers,
     _drawing,
+    _letters,
+    _pads,
     ear_reach_mm,
     socket_about_axis,
     tray_slots,
 )
+from jumpcad.parts.fittings import fitting_pads
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
+from jumpcad.parts.sensor import plate_pad
 from jumpcad.robot import Robot
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.text import engravable, text
@@ -236,7 +240,8 @@ def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -
         letters, flat = inside - outside, text("Fy R", TEXT_HEIGHTS_MM[0]).mirror((1.0, 0.0))
         box, at = flat.bounds(), letters.bounds()
         assert low < at[1] < at[3] < high
-        assert abs(at[0] + at[2]) / 2.0 < 1.0  # in the middle of the plate, on a raster of 1 mm
+        nearest = 0.0 if cover is None else math.ceil(5.0 + 0.8 + (box[3] - box[1]) / 2.0)
+        assert [at[0] + at[2], at[1] + at[3]] == pytest.approx([0.0, 2.0 * nearest])  # on a raster of 1 mm
         moved = flat.translate((at[0] - box[0], at[1] - box[1]))
         assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
 
@@ -303,3 +308,50 @@ def test_pockets_come_as_near_to_the_strut_as_3_mm_beside_a_bore(name: str) -> N
     (edge,) = (shapely.Polygon(contour) for contour in covers.whole.to_polygons())
     assert pockets.distance(edge.exterior) == pytest.approx(3.2, abs=0.05)
     assert pockets.buffer(-1.45).buffer(1.45).symmetric_difference(pockets).area < 0.01 * pockets.area
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
+def test_ribs_join_every_pad_to_its_neighbours(name: str) -> None:
+    """As Delaunay's triangles by GEOS join the pads' middles; where four are on one circle, either diagonal will do."""
+    layout = built(name).layout
+    assert layout.sensor is not None
+    middles = [*layout.axles.values(), *layout.standoffs_mm, layout.spring_pin_mm, layout.motor_mm]
+    middles += [np.array(place) for level in tray_slots(layout, "left") for place in level]
+    rows = [pad.bounds() for pad in [*fitting_pads(layout.fittings, 0.0), plate_pad(layout.sensor)]]
+    middles += [np.array([(row[0] + row[2]) / 2.0, (row[1] + row[3]) / 2.0]) for row in rows]
+    pockets = shapely.union_all([shapely.Polygon(contour) for contour in _covers(layout).pockets.to_polygons()])
+    ribs = shapely.delaunay_triangles(shapely.MultiPoint(middles), only_edges=True).geoms
+    broken = [rib for rib in ribs if rib.buffer(1.59, cap_style="flat").intersection(pockets).area > 0.05]
+    assert len(ribs) > 20
+    assert broken == []
+
+
+@pytest.mark.parametrize(("more_mm", "high"), [((0.02, 0.02), True), ((-0.02, 0.02), False), ((0.02, -0.02), False)])
+def test_a_label_has_0_8_mm_around_it_on_either_side(more_mm: tuple[float, float], high: bool) -> None:
+    """In a window just so wide and high; in one that is a little smaller the letters are lower."""
+    large, small = (text("Fy R", height) for height in TEXT_HEIGHTS_MM)
+    low_x, low_z, high_x, high_z = large.bounds()
+    window = (high_x - low_x + 2.0 * (0.8 + more_mm[0]), high_z - low_z + 2.0 * (0.8 + more_mm[1]))
+    plate = rectangle((60.0, 40.0))  # the raster of places begins at its corner
+    face = rectangle(window) + (plate - rectangle((59.0, 39.0)))
+    letters = _letters("Fy R", face, mirrored=False)
+    assert letters is not None
+    assert letters.area() == pytest.approx((large if high else small).area(), rel=1e-6)
+
+
+@pytest.mark.parametrize("more_mm", [0.0, 1.5])
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_pads_are_as_wide_as_what_they_hold_needs(name: str, more_mm: float) -> None:
+    """3 mm around axles of 3 mm, 9 mm under standoffs, 8 mm round the springs' pin, 2.5 mm around tabs of trays."""
+    layout, more = built(name).layout, 2.0 * more_mm
+    pads = [pad.bounds() for pad in _pads(layout, more_mm)]
+    found = [(*np.round([(row[0] + row[2]) / 2.0, (row[1] + row[3]) / 2.0], 2), row[2] - row[0], row[3] - row[1])
+             for row in pads]  # fmt: skip
+    expected = [(*place, 9.0, 9.0) for place in (*layout.axles.values(), *layout.standoffs_mm)]
+    expected.append((*layout.spring_pin_mm, 8.0, 8.0))
+    expected += [(*place, 10.0 + 5.0, 1.6 + 5.0) for level in tray_slots(layout, "left") for place in level]
+    for row, (x, z, width, height) in zip(found, expected, strict=False):
+        assert row == pytest.approx((x, z, width + more, height + more), abs=0.03)
+    assert (
+        len(found) == len(expected) + len([*fitting_pads(layout.fittings, 0.0)]) + 2
+    )  # and the motor's and the sensor's

@@ -214,3 +214,15 @@ def test_lugs_stand_on_soles_of_1_mm_behind_and_ahead_of_both_eyes(name: str) ->
         assert lug.difference(filled).area < 0.1
     high_x = filled.bounds[2]
     assert high_x == pytest.approx(length + depth, abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_webs_join_the_left_rail_and_the_right_one(name: str) -> None:
+    """From side to side through all that is between the rails, and into them."""
+    robot = built(name)
+    layout, mesh = robot.layout, placed(robot, "foot")
+    inner = layout.sections.thickness_mm / 2.0 + 0.5
+    for start, end, height in foot_part._webs(layout, layout.sections.rail_root_mm):
+        x, z = (start + end) / 2.0, height / 2.0 - layout.sections.foot_depth_mm
+        across = np.arange(-inner - 1.0, inner + 1.01, 0.25)
+        assert mesh.contains([[x, y, z] for y in across]).all()

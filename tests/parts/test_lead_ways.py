@@ -228,3 +228,25 @@ def test_leads_end_in_the_middle_of_their_part_within_its_height(robot: Robot) -
         assert (x, y) == pytest.approx(((low + high) / 2.0)[:2], abs=0.02), part
         assert low[2] < z < high[2], part
         assert others == []
+
+
+def test_leads_lie_2_mm_beside_the_plates_that_they_pass(robot: Robot) -> None:
+    """From what they are soldered to, outside, to the hole in the plate, and through it; the switch's stay inside."""
+    layout = robot.layout
+    (low, high), (right, left) = layout.lateral.inside, layout.lateral.outside
+    (x, z), (hole_x, hole_z) = layout.sensor.place_mm, layout.fittings.left_mm
+    assert np.array(way_in(layout, "sensor")) == pytest.approx(
+        np.array(
+            [[x, left + layout.sensor.base_mm + 2.0, z], [hole_x, left + 2.0, hole_z], [hole_x, high - 2.0, hole_z]]
+        )
+    )
+    (x, z), (hole_x, hole_z) = layout.motor_mm, layout.fittings.right_mm
+    assert np.array(way_in(layout, "motor")) == pytest.approx(
+        np.array([[x, right - 2.0, z], [hole_x, right - 2.0, hole_z], [hole_x, low + 2.0, hole_z]])
+    )
+    if layout.fittings.switch_mm is not None:
+        x, z = layout.fittings.switch_mm
+        assert np.array(way_in(layout, "switch")) == pytest.approx(np.array([[x, low + 2.0, z]]))
+    seat = layout.electronics.seats(layout.lateral.inside)["driver"]
+    at = [layout.tray_mm[0] + seat.x_mm, seat.y_mm, layout.tray_mm[1] + seat.bottom_mm + 1.6]
+    assert np.array(way_in(layout, "driver")) == pytest.approx(np.array([at]))

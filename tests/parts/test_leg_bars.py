@@ -16,7 +16,7 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import errors
 from jumpcad.layout.leg_bars import BarPlace
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.links import leg_bar_place
+from jumpcad.parts.links import front_bar_place, leg_bar_place
 from jumpcad.robot import Robot
 from jumpcad.strength.leg_bar import Socket, bar_bending_mpa, bar_shear_mpa, bent_energy_nmm, buckling_n
 from jumpcad.workshop import Workshop
@@ -201,3 +201,24 @@ def test_glue_bears_the_pull_along_a_bar_and_the_twist_of_a_landing_on_one_toe(l
     shear = bar_shear_mpa(bar, case.torque_nmm / design.l2_mm + 1.5 * mouth / (place.mouth_mm - place.floor_mm), twist)
     worst = max(bent, across, shear * bar.strength_mpa / bar.shear_mpa)
     assert found["leg_bar_strength"].value == pytest.approx(worst, rel=1e-6)
+
+
+@pytest.mark.parametrize("leg", ["carbon-tube-4x2", "carbon-strip-3x6"])
+def test_two_walls_are_between_a_bars_ends_and_the_holes_beside_them(leg: str) -> None:
+    """Of 1.2 mm each, to the springs' pin (3.2 mm) and to eyes (3.2 mm); a bar has 0.2 mm of play at either end."""
+    found = robot(leg)
+    layout, design, holes = found.layout, found.design, HoleSizes.of(found.workshop, found.layout.hub_bearing)
+    leg_place, link_place = leg_bar_place(layout, holes), front_bar_place(layout, holes)
+    assert leg_place is not None
+    assert link_place is not None
+    beside = 3.2 / 2.0 + 2.0 * 1.2
+    assert (leg_place.floor_mm, leg_place.far_floor_mm) == pytest.approx(
+        (layout.leg_pin_mm + beside, design.l2_mm - beside)
+    )
+    assert (link_place.floor_mm, link_place.far_floor_mm) == pytest.approx((beside, design.l3_mm - beside))
+    assert leg_place.far_mouth_mm == pytest.approx(leg_place.far_floor_mm - 8.0)
+    assert link_place.mouth_mm == pytest.approx(link_place.floor_mm + 8.0)
+    for name, place in (("main_leg_bar", leg_place), ("front_link_bar", link_place)):
+        bar = next(item for item in found.hardware if item.name == name)
+        low, high = bar.look.copy().apply_transform(bar.T_body_part).bounds[:, 0]
+        assert (low, high) == pytest.approx((place.floor_mm + 0.2, place.far_floor_mm - 0.2), abs=1e-3)

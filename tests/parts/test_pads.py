@@ -10,7 +10,7 @@ from support.built import built, cut, placed, region
 
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.pads import pads
+from jumpcad.parts.pads import is_printed, pads
 from jumpcad.robot import Robot
 
 
@@ -125,3 +125,27 @@ def test_under_the_bars_of_wide_toes_pads_lie_from_tip_to_end(name: str) -> None
         assert (bar[:, 0].min(), bar[:, 0].max()) == pytest.approx((tip[0] - 2.5, tip[0] + 2.5), abs=0.02)
         assert (sign * bar[:, 1]).max() == pytest.approx(half_mm + 2.5, abs=0.02)
         assert bar[:, 2].max() == pytest.approx(layout.sections.toe_tip_height_mm, abs=1e-3)
+
+
+@pytest.mark.parametrize("more_mm", [0.5, 3.0])
+def test_a_bar_however_short_has_its_pad(more_mm: float) -> None:
+    """From the tip's middle to 1.5 mm before the bar's end; without a bar the pad lies along the toe."""
+    robot = built("kenan-2.0")
+    tip_y = robot.design.l5_mm * np.sin(np.radians(robot.design.ground_link_angle_deg))
+    layout = replace(robot.layout, toe_half_width_mm=tip_y + more_mm)
+    assert robot.workshop.foot_pad is not None
+    for pad in (item for item in pads(layout, robot.workshop.foot_pad) if item.name.startswith("toe")):
+        low, high = pad.look.copy().apply_transform(pad.T_body_part).bounds[:, 1]
+        assert sorted((abs(low), abs(high))) == pytest.approx([tip_y, tip_y + more_mm + 1.5], abs=1e-3)
+
+
+@pytest.mark.parametrize(("under", "stop"), [(True, False), (False, True), (None, True), (True, True), (None, False)])
+def test_a_pad_is_printed_where_its_kind_is(under: bool | None, stop: bool) -> None:
+    """Under nose and toes of one kind, or of none where the feet are bare; on the rest stop of another."""
+    robot = built("kenan-2.0")
+    assert robot.workshop.foot_pad is not None
+    foot_pad = None if under is None else robot.workshop.foot_pad.model_copy(update={"printed": under})
+    stop_pad = robot.workshop.stop_pad.model_copy(update={"printed": stop})
+    found = {item.name for item in robot.hardware if is_printed(item, foot_pad, stop_pad)}
+    under_the_foot = {"nose_pad_left", "nose_pad_right", "toe_left_pad", "toe_right_pad"}
+    assert found == (under_the_foot if under else set()) | ({"stop_pad"} if stop else set())

@@ -12,7 +12,7 @@ from support.built import built, cut, hole_centres, placed, region
 from jumpcad.errors import CannotBuildError
 from jumpcad.layout.sensor import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.sensor import EAR_MM, ear_height_mm, screw_mm, sensor_mount
+from jumpcad.parts.sensor import EAR_MM, THREAD_MIN_MM, ear_height_mm, plate_pad, screw_mm, sensor_mount
 from jumpcad.robot import Robot
 
 
@@ -139,6 +139,7 @@ def test_the_shortest_screw_that_holds_goes_through_the_ear_and_four_threads() -
     """M2 has a pitch of 0.4 mm (ISO 261), so four are 1.6 mm; with 2 mm of ear a screw of 4 mm is long enough."""
     assert screw_mm() == 4.0
     assert screw_mm() >= EAR_MM + 4 * 0.4
+    assert pytest.approx(4 * 0.4) == THREAD_MIN_MM
     thin = built("kenan-2.0").layout
     plate = thin.lateral.left_plate
     for thickness, height in ((plate[1] - plate[0], 2.0), (1.6, 2.6)):
@@ -146,3 +147,14 @@ def test_the_shortest_screw_that_holds_goes_through_the_ear_and_four_threads() -
         ear = ear_height_mm(replace(thin, lateral=lateral))
         assert ear == pytest.approx(height)
         assert screw_mm() <= ear + thickness  # it ends inside the plate
+
+
+@pytest.mark.parametrize("more_mm", [0.0, 1.5])
+def test_the_plates_pad_under_the_mount_reaches_2_mm_beyond_the_opening(robot: Robot, more_mm: float) -> None:
+    """And as far as the mount with its ears, along the switch's long side and across; a margin is added all around."""
+    sensor = robot.layout.sensor
+    contours = [shapely.Polygon(contour) for contour in plate_pad(sensor, more_mm).to_polygons()]
+    low_x, low_y, high_x, high_y = along(robot, shapely.union_all(contours)).bounds
+    wide = max(sensor.half_mm[1], sensor.case_mm[1] / 2.0 + 0.4 + 2.0) + more_mm
+    assert (-low_x, high_x) == pytest.approx([sensor.half_mm[0] + more_mm] * 2, abs=2e-3)
+    assert (-low_y, high_y) == pytest.approx([wide] * 2, abs=2e-3)

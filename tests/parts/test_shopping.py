@@ -256,11 +256,33 @@ def test_wire_is_bought_in_tenths_of_a_metre_rounded_up() -> None:
             assert 1e3 * item.mass_kg == pytest.approx(1e3 * metres * wire.mass_g / wire.length_mm), colour
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+def test_the_sensors_case_lies_in_the_plate_where_the_layout_says(name: str) -> None:
+    """Its base as far outside the left plate as the mount holds it; as long, wide and high as its article."""
+    robot = built(name)
+    felt = robot.layout.sensor
+    item = next(one for one in robot.hardware if one.name == "sensor")
+    low, high = item.look.copy().apply_transform(item.T_body_part).bounds
+    assert ((low + high) / 2.0)[[0, 2]] == pytest.approx(felt.place_mm, abs=2e-3)
+    assert high[1] == pytest.approx(robot.layout.lateral.outside[1] + felt.base_mm, abs=1e-3)
+    part = felt.needs.part
+    corners = item.look.vertices
+    sizes = np.ptp(corners, axis=0)
+    assert sorted(sizes)[1:] == pytest.approx(sorted([part.length_mm, felt.needs.travel.total_mm]), abs=2e-3)
+    assert item.mass_kg == pytest.approx(part.mass_g / 1000.0)
+
+
 def test_the_switchs_screws_stand_in_the_holes_of_the_right_plate() -> None:
     """15 mm apart to either side of the switch, from the plate's outside inwards."""
     robot = built("kenan-2.0")
     x, z = robot.layout.fittings.switch_mm
     low, _ = robot.layout.lateral.outside
+    (switch,) = (one for one in robot.hardware if one.name == "switch")
+    box, inside = switch.look.copy().apply_transform(switch.T_body_part).bounds, robot.layout.lateral.inside[0]
+    assert box.mean(axis=0)[[0, 2]] == pytest.approx([x, z], abs=1e-3)
+    known = robot.layout.fittings.switch
+    assert np.ptp(box, axis=0) == pytest.approx([known.length_mm, known.height_mm, known.width_mm], abs=1e-3)
+    assert box[0, 1] == pytest.approx(inside, abs=1e-3)
     for number, side in ((1, -1.0), (2, 1.0)):
         (item,) = (one for one in robot.hardware if one.name == f"switch_screw_{number}")
         bounds = item.look.copy().apply_transform(item.T_body_part).bounds

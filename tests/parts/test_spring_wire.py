@@ -53,6 +53,8 @@ def test_the_legs_arm_has_the_end_of_the_coil_that_winding_adds(spring: TorsionS
     coil, end = points[:-1], points[-1]
     mean = (spring.inside_diameter_mm + spring.wire_mm) / 2.0
     assert np.hypot(coil[:, 0], coil[:, 2]) == pytest.approx(mean)
+    middles = (coil[1:] + coil[:-1]) / 2.0
+    assert np.hypot(middles[:, 0], middles[:, 2]).min() > (1.0 - 0.009) * mean  # by chords as short as the body's
     wound = spring.wound_rad - spring.preload_rad
     assert turned_rad(coil[:, ::2]) == pytest.approx(wound)
     whole = 2.0 * math.pi * spring.turns + spring.preload_rad

@@ -13,6 +13,7 @@ from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.toes import joint_height_mm, lying_hole, toes, toes_apart
+from jumpcad.solids.outline import hole
 
 
 def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
@@ -22,7 +23,8 @@ def test_toes_lead_from_beside_the_foot_to_their_tips() -> None:
         angle = math.radians(layout.design.ground_link_angle_deg)
         reach = layout.design.l5_mm * np.array([-math.cos(angle), sign * math.sin(angle)])
         np.testing.assert_allclose(tip[:2], reach, atol=1e-9)
-        assert toe.root_mm[1] * sign > layout.sections.thickness_mm / 2.0
+        beside = layout.sections.thickness_mm / 2.0 + 0.5 + layout.sections.toe_width_mm / 2.0  # leg, gap, half a toe
+        assert toe.root_mm.tolist() == pytest.approx([0.0, sign * beside])
 
 
 @pytest.mark.parametrize("diameter", [2.9, 3.4])
@@ -32,6 +34,8 @@ def test_a_lying_hole_holds_its_shaft_under_a_roof_of_45_degrees(diameter: float
     points = np.concatenate(region.to_polygons()) - [5.0, 7.0]
     radius = diameter / 2.0
     assert np.hypot(*points.T).min() > 0.99 * radius
+    assert (hole(diameter, (5.0, 7.0)) - region).area() < 1e-6
+    assert points.min(axis=0) == pytest.approx([-radius, -radius], rel=2e-3)
     above = points[points[:, 1] > 0.75 * radius]
     flat = above[above[:, 1] > above[:, 1].max() - 1e-6]
     assert np.ptp(flat[:, 0]) == pytest.approx(0.264 * diameter, rel=0.01)

@@ -375,3 +375,13 @@ def test_a_gap_of_each_pinion_is_where_a_tooth_of_its_wheel_points(teeth: tuple[
         line = math.atan2(*(pinion_mm - wheel_mm)[::-1])
         share = ((line - wheel_rad) * wheel + (line + math.pi - pinion_rad) * pinion) / (2.0 * math.pi)
         assert share % 1.0 == pytest.approx(0.5, abs=1e-9)
+
+
+def test_the_cam_gears_hub_reaches_to_a_tenth_of_a_millimetre_from_the_plate_or_is_flush_beside_a_spacer() -> None:
+    """Where two pairs need a spacer between gear and plate, nothing stands out of the gear there."""
+    for robot in robots().values():
+        lateral, mesh = robot.layout.lateral, placed(robot, "cam_gear")
+        out = 0.4 if robot.layout.idler_mm is None else 0.0
+        assert mesh.bounds[:, 1] == pytest.approx([lateral.gears[0][0], lateral.gears[0][1] + out], abs=1e-3)
+        if robot.layout.idler_mm is None:
+            assert lateral.left_plate[0] - mesh.bounds[1, 1] == pytest.approx(0.1, abs=1e-3)

@@ -50,7 +50,10 @@ def test_trays_are_as_long_as_was_planned_and_reach_through_both_plates(robot: R
         assert (bounds[0, 1], bounds[1, 1]) == pytest.approx((lateral.outside[0], lateral.outside[1]), abs=2e-3)
         for y in (lateral.outside[0] + 0.5, lateral.outside[1] - 0.5):
             tabs = floor.intersection(shapely.LineString([(-300.0, y), (300.0, y)]))
-            for tab in getattr(tabs, "geoms", [tabs]):
+            pieces = getattr(tabs, "geoms", [tabs])
+            plugged = robot.layout.fittings.usb_mm is not None and y < 0.0 and name.endswith("upper")
+            assert len(pieces) == (1 if plugged else 2)  # the USB plug is where the other would be
+            for tab in pieces:
                 assert tab.length == pytest.approx(10.0, abs=2e-3)
         inside = floor.intersection(shapely.box(-300.0, lateral.inside[0] + 0.05, 300.0, lateral.inside[1] - 0.05))
         beyond = floor.intersection(shapely.box(-300.0, lateral.inside[1] - 0.19, 300.0, lateral.inside[1] - 0.01))
@@ -142,3 +145,22 @@ def test_a_window_is_at_least_as_wide_as_its_round_ends(size: tuple[float, float
     assert len(found) == open_
     for one in found:
         assert one.area() == pytest.approx(40.0 - (4.0 - np.pi) * 4.0, rel=2e-3)
+
+
+@pytest.mark.parametrize("length_mm", [16.0, 24.0, 30.0])
+def test_the_window_under_a_short_battery_ends_a_millimetre_before_its_stops(length_mm: float) -> None:
+    layout, shop = built("kenan-2.0").layout, load_workshop()
+    battery = layout.electronics.battery.model_copy(update={"length_mm": length_mm})
+    electronics = replace(layout.electronics, battery=battery)
+    lower = trays(replace(layout, electronics=electronics), HoleSizes.of(shop, None))[0]
+    floor, stops = (shapely.union_all([shapely.Polygon(ring) for ring in region.to_polygons() if len(ring) > 3])
+                    for region in lower.shape.regions_at(np.array([0.8, 2.6])))  # fmt: skip
+    low, high = sorted(stops.geoms, key=lambda one: one.centroid.x)
+    middle = (low.centroid.x + high.centroid.x) / 2.0
+    rings = [shapely.Polygon(ring) for ring in lower.shape.regions_at(np.array([0.8]))[0].to_polygons()]
+    window = min(
+        (one for one in rings if one.contains(shapely.Point(middle, stops.centroid.y))), key=lambda one: one.area
+    )
+    assert window.area < 0.8 * floor.area
+    assert window.bounds[0] - low.bounds[2] == pytest.approx(1.0, abs=2e-3)
+    assert high.bounds[0] - window.bounds[2] == pytest.approx(1.0, abs=2e-3)

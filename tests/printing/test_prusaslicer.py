@@ -83,8 +83,11 @@ def test_gcode_without_remarks_is_another_programs(stand_in, tmp_path):
 
 
 def test_a_refusal_is_the_parts_fault_and_a_crash_is_not(stand_in, tmp_path):
-    stand_in("echo 'no layers were detected'; exit 1")
+    stand_in("echo 'slicing'; echo 'no layers were detected'; exit 1")
     with pytest.raises(CannotBuildError, match=r"refused leg\.stl: no layers were detected"):
+        sliced(tmp_path)
+    stand_in("echo 'slicing'; echo 'Segmentation fault'; echo; exit 139")
+    with pytest.raises(JumpcadError, match=r"crashed on leg\.stl with exit code 139: Segmentation fault$"):
         sliced(tmp_path)
     stand_in("exit 139")
     with pytest.raises(JumpcadError, match="exit code 139: it printed no message") as crash:

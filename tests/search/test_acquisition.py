@@ -1,6 +1,7 @@
 """The proposal: active bounds, choices, refusals."""
 
 import numpy as np
+import pytest
 from support.hills import FIXED, SMALL
 
 from jumpcad.search.acquisition import _apart, propose
@@ -47,3 +48,19 @@ def test_climbs_begin_at_points_that_are_apart_the_best_first():
     points = np.array([[0.5, 0.5], [0.54, 0.46], [0.5, 0.56], [0.9, 0.9], [0.86, 0.94], [0.1, 0.5]])
     assert _apart(points, np.arange(6), 6) == [0, 2, 3, 5]
     assert _apart(points, np.arange(6)[::-1], 2) == [5, 4]
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_what_is_punished_is_not_proposed(side):
+    """The top of the surrogate at 0.5 is forbidden on one side of 0.4 or 0.6: the nearest place beside that is best."""
+    posterior = fitted_to(lambda x: -((x - 0.5) ** 2).sum(axis=1))
+
+    def penalty(points):
+        return 1e4 * np.maximum(0.1 - side * (points[:, 0] - 0.5), 0.0) ** 2
+
+    plain, away = (
+        propose(SMALL, posterior, 0.0, np.empty((0, 3)), lambda variant: True, np.random.default_rng(1), one)
+        for one in (None, penalty)
+    )
+    assert plain.unit == pytest.approx(np.full(3, 0.5), abs=0.03)
+    assert away.unit[0] == pytest.approx(0.5 + 0.1 * side, abs=0.03)

@@ -9,6 +9,8 @@ from typing import Any
 
 import pytest
 
+from jumpcad.errors import JumpcadError
+from jumpcad.search import code_hash as code_hash_module
 from jumpcad.search.code_hash import code_hash
 
 HELPER = "FACTOR = {factor}\n\ndef scaled(x):\n    return {factor} * x\n\ndef unused(x):\n    return {other} * x\n"
@@ -75,3 +77,16 @@ def test_functions_of_libraries_count_by_their_names(
 
     assert (using(2.0) == using(3.0)) is by_name
     assert using(2.0) == using(2.0)
+
+
+def test_a_function_uses_as_many_values_as_the_message_says(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a list each counts; the function itself takes fewer than a hundred."""
+    monkeypatch.setattr(code_hash_module, "MOST", 2000)
+
+    def using(count: int) -> Any:
+        values = list(range(count))
+        return lambda m: m["range"] + sum(values)
+
+    assert len(code_hash(using(1900))) == 64
+    with pytest.raises(JumpcadError, match="uses more than 2000 values; keep long lists in an array of numpy's"):
+        code_hash(using(2000))

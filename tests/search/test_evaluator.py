@@ -70,8 +70,12 @@ def test_a_search_that_proposes_otherwise_is_refused(evaluator, tmp_path):
     first = evaluator(tmp_path / "s.db")
     first.evaluate(designs(4), "ga", 0)
     first.store.close()
+    again = evaluator(tmp_path / "s.db")
     with pytest.raises(JumpcadError, match="proposes other designs"):
-        evaluator(tmp_path / "s.db").evaluate(designs(4, seed=1), "ga", 0)
+        again.evaluate(designs(4, seed=1), "ga", 0)
+    with pytest.raises(JumpcadError, match="proposes other designs"):  # one of them
+        again.evaluate([*designs(3), *designs(1, seed=1)], "ga", 0)
+    assert len(again.evaluate([*designs(4), *designs(1, seed=1)], "ga", 0)) == 5
 
 
 def test_a_model_that_always_fails_ends_the_run(evaluator):

@@ -76,3 +76,15 @@ def test_twenty_samples_are_the_least(evaluator):
     assert len(sample(evaluator(), 20, 0)) == 20
     with pytest.raises(JumpcadError, match="samples = 19 must be at least 20"):
         sample(evaluator(), 19, 0)
+
+
+def test_shares_are_those_of_the_correlations(evaluator):
+    """Of standardised parameters: the eigenvalues of their correlation matrix over its trace, however wide each is."""
+    one = evaluator(space=Space.default())
+    trials = elite(sample(one, 200, 0))
+    found = components(one, trials)
+    values = np.array([trial.design.to_vector() for trial in trials])
+    eigenvalues, vectors = np.linalg.eigh(np.corrcoef(values.T))
+    assert values.std(axis=0).max() > 100.0 * values.std(axis=0).min()
+    assert found.shares == pytest.approx(eigenvalues[::-1] / 8.0, abs=1e-9)
+    assert np.abs(found.directions @ vectors[:, ::-1]) == pytest.approx(np.eye(8), abs=1e-6)

@@ -170,3 +170,12 @@ def test_figures_of_a_layout_are_those_of_the_built_robot():
     assert 0.5 < steel_g / spring.mass_g < 1.0  # the coil without its arms
     motor = next(item for item in LIKE.hardware if item.name == "motor")
     assert [found["laid_motor_x_mm"], found["laid_motor_z_mm"]] == pytest.approx(motor.T_body_part[[0, 2], 3], abs=1e-3)
+
+
+@pytest.mark.parametrize(("guessed", "ratio"), [(0.95, 0.95), (1.02, 1.0)])
+def test_a_stand_in_releases_no_more_than_was_loaded(guessed, ratio):
+    """Where the roller leaves the cam: short of the whole travel by the turn that was guessed."""
+    found = stand_in(LIKE.design, FIGURES | {"release_ratio": guessed, "release_turn_rad": 0.04}, LIKE)
+    assert found.roller_off.energy_ratio == ratio
+    assert found.roller_off.leg_rad == pytest.approx(0.04 - LIKE.design.compression_rad)
+    assert found.roller_off.leg_rad_s == FIGURES["release_rad_s"]

@@ -1,12 +1,18 @@
 """What a study knows of the program that made it."""
 
+import math
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
+from jumpcad.design import load_design
+from jumpcad.findings import Finding
 from jumpcad.search import models
-from jumpcad.search.models import PRESENTATION, RobotModel, code_digest
+from jumpcad.search.models import PRESENTATION, RobotModel, code_digest, robot_model
+from jumpcad.search.objective import Evaluation, find_objective
+from jumpcad.search.tolerances import Making
 
 
 @pytest.fixture
@@ -55,3 +61,60 @@ print(*[name for name in sys.modules if name.split(".")[:2] in [["jumpcad", part
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.split() == [], done.stderr
+
+
+def test_only_a_printed_robot_has_a_workshop_a_size_and_a_quick_score():
+    """Its links are 0.4 mm off (sliding fits of 0.2 mm at both ends), others 0.2 mm; its springs by half of ±10 %."""
+    printed, capsule, published = robot_model(), robot_model("capsule"), robot_model("published")
+    assert [one.default_objective for one in (printed, capsule, published)] == ["body_lengths", "fitness", "fitness"]
+    assert [one.tolerance_mm for one in (printed, capsule, published)] == pytest.approx([0.4, 0.2, 0.2])
+    assert (printed.making.length_mm, printed.making.rate, printed.making.printed) == pytest.approx((0.4, 0.05, True))
+    assert capsule.making == published.making == Making(0.2)
+    design, score = load_design("kenan-2.0"), find_objective("fitness")
+    assert 0.0 < printed.quick_score(design, score) < 10.0
+    assert [one.quick_score(design, score) for one in (capsule, published)] == [-math.inf] * 2
+    flat = design.model_copy(update={"c_coef": 0.3, "d_coef": 0.6, "rest_angle_deg": 40.0})
+    assert printed.quick_score(flat, score) == -math.inf
+    assert [one.admits(flat) for one in (printed, capsule, published)] == [False] * 3
+    assert [one.admits(design) for one in (printed, capsule, published)] == [True] * 3
+
+
+def test_a_model_says_what_decides_its_evaluations():
+    """The capsule robot is simulated by an engine, the published one by PyBullet alone; versions follow."""
+    printed, capsule, published = robot_model(), robot_model("capsule"), robot_model("published")
+    assert [one.describe()["engine"] for one in (printed, capsule, published)] == ["pybullet"] * 3
+    assert replace(capsule, engine="planar").describe()["engine"] == "planar"
+    assert replace(published, engine="planar").describe()["engine"] == "pybullet"
+    assert [one.describe()["workshop"] is None for one in (printed, capsule, published)] == [False, True, True]
+    assert [one.describe()["settings"] is None for one in (printed, capsule, published)] == [False, False, True]
+    assert {"manifold3d", "trimesh"} < set(printed.versions())
+    assert not {"manifold3d", "trimesh"} & set(capsule.versions())
+    digests = {one.digest for one in (printed, capsule, published, replace(printed, stand_in=True))}
+    assert len(digests) == 4
+
+
+class Slope(RobotModel):
+    """Fitness is the compression ratio; above a limit it tips."""
+
+    limit = 1.0
+
+    def _alone(self, design):
+        if design.compression_ratio > self.limit:
+            return Evaluation("tips", findings=(Finding("tips", "error", -1.0, "", "", ""),))
+        return Evaluation("jump", {"fitness": design.compression_ratio})
+
+
+def test_the_margin_of_neighbours_is_how_many_of_ten_jump_before_one_does_not(monkeypatch):
+    """Less one, so that it is 0 where all do but the last; each costs its evaluation, as the design itself does."""
+    design, looked = load_design("best-ga"), []
+    look = Slope._alone
+    monkeypatch.setattr(Slope, "_alone", lambda self, one: looked.append(one) or look(self, one))
+    found = Slope("capsule", neighbours_of="fitness")(design)
+    assert found.margins["neighbours"] == pytest.approx(1.0 / models.NEIGHBOURS)
+    assert found.metrics["evaluations"] == len(looked) == 1 + models.NEIGHBOURS
+    around = looked[1:]
+    higher = [place for place, one in enumerate(around) if one.compression_ratio > design.compression_ratio]
+    monkeypatch.setattr(Slope, "limit", design.compression_ratio)
+    rejected = Slope("capsule", neighbours_of="fitness")(design)
+    assert rejected.margins["neighbours"] == pytest.approx(higher[0] / models.NEIGHBOURS - 1.0)
+    assert rejected.metrics["evaluations"] == 2.0 + higher[0]

@@ -116,6 +116,18 @@ def test_what_is_no_function_of_a_users_is_refused(function):
             find_objective(function)
 
 
+def test_functions_that_only_promise_a_number_are_refused():
+    def yields(m):
+        yield m["fitness"]
+
+    async def waits(m):
+        return m["fitness"]
+
+    for function in (yields, waits):
+        with pytest.raises(JumpcadError, match=f"the objective {function.__name__} returns no number: leave out"):
+            find_objective(function)
+
+
 def test_what_was_evaluated_before_the_failure_is_kept_and_learned_from(tmp_path):
     def picky(m):
         return 1.0 / (m["fitness"] < 9.0)

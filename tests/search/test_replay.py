@@ -1,12 +1,14 @@
 """What a study file knows of the pick is what the run that wrote it found."""
 
 import sqlite3
+from dataclasses import replace
 
 import pytest
 from support.bumps import REST, Bump, studied
+from support.studies import trials
 
 from jumpcad.search.pool import local_pool
-from jumpcad.search.replay import known
+from jumpcad.search.replay import _share, known
 from jumpcad.search.request import Request
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
@@ -52,3 +54,15 @@ def test_a_study_that_was_stopped_in_its_pick_says_what_it_has(tmp_path):
         found = known(store)
     assert 0 < sum(one.neighbours for one in found.candidates) < whole
     assert [bound.worth for bound in found.bounds] == [None]
+
+
+def test_the_share_of_a_pick_follows_from_the_step_that_it_wrote_last():
+    """Steps of a pick are eight for each number of designs and of evaluations; without a pick there is no share."""
+    (trial,) = trials(1)
+    assert _share([], 10) == 0
+    assert _share([trial], 10) == 0
+    for proposed, share in ((10, 1), (10, 57), (120, 200)):
+        step = 8 * (201 * proposed + share)
+        picked = replace(trial, phase="robust", step=step)
+        assert _share([trial, picked], proposed) == share
+        assert _share([trial, picked], proposed + 1) == 0  # it belongs to a search that has gone on

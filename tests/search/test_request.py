@@ -1,10 +1,13 @@
 """What a study is asked for, and its stages."""
 
+import inspect
 from dataclasses import replace
 
 import pytest
 from support.hills import SMALL, Hill
 
+import jumpcad
+from jumpcad.cli import optimize
 from jumpcad.errors import JumpcadError
 from jumpcad.search.models import robot_model
 from jumpcad.search.request import Request, plan_stages
@@ -76,3 +79,28 @@ def test_what_applies_to_bayesian_optimisation_alone_applies_to_every_search_tha
     assert Request(SMALL, Hill(), method="ga", widen=True, **given).widen
     with pytest.raises(JumpcadError, match=r"does not apply to ga, only to ga\+bo, bo"):
         Request(SMALL, Hill(), method="ga", **given)
+
+
+def test_what_is_not_said_is_the_same_in_python_and_on_the_command_line():
+    """Random seed 0, one proposal at a time, no limit of time, bounds as they are, no guesses."""
+    plain = vars(Request(SMALL, Hill()))
+    usual = {"seed": 0, "preset": "recommended", "batch": 1, "hours": 0.0, "widen": False, "screen": False}
+    usual |= {"method": "bo", "evaluations": plain["evaluations"], "until_percent": plain["until_percent"]}
+    assert {name: plain[name] for name in usual} == usual
+    called = {name: one.default for name, one in inspect.signature(jumpcad.optimize).parameters.items()}
+    assert {name: called[name] for name in usual} == usual
+    typed = {name: one.default for name, one in inspect.signature(optimize.optimize).parameters.items()}
+    assert typed.pop("until") == usual["until_percent"]
+    common = usual.keys() - {"method", "until_percent"}  # which a command's help names
+    assert {name: typed[name] for name in common} == {name: usual[name] for name in common}
+    assert typed["limit"] == called["limit_s"] == 60.0
+    assert typed["model"] == called["model"] == "printed"
+
+
+def test_half_of_a_search_that_widens_goes_on_in_three_steps_from_moved_bounds():
+    """Of 240 evaluations 180 are the search's: 90, then three times 30 by `bo`, whatever came before."""
+    for method in ("bo", "ga"):
+        stages = plan_stages(Request(SMALL, Hill(), method=method, evaluations=240, widen=True))
+        assert [stage.method for stage in stages] == [method, "bo", "bo", "bo"]
+        assert [stage.evaluations for stage in stages] == [90, 30, 30, 30]
+        assert [stage.widen for stage in stages] == [False, True, True, True]

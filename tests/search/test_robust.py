@@ -162,6 +162,13 @@ def test_active_bounds_and_their_worth(evaluator):
     assert {bound.reason for bound in few} == {NOT_EXAMINED} or few == list(found.values())
 
 
+@pytest.mark.parametrize(("off", "named"), [(0.0009, 3), (0.0011, 0)])
+def test_a_design_within_a_thousandth_of_the_range_lies_on_its_bound(evaluator, off, named):
+    one = evaluator(model=Slope())
+    (trial,) = one.evaluate([SMALL.to_design([1.0 - off, off, 1.0 - off])], "bo", 0)
+    assert len(active_bounds(one, trial, 1)) == named
+
+
 def test_making_varies_rate_mass_and_floor_as_a_single_jump_does():
     """Their deviations are those that were asked for; rate over mass is one factor of the springs."""
     design = load_design("kenan-2.0")

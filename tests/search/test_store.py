@@ -1,5 +1,7 @@
 """The study file: complete, readable while it is written, and never mistaken for another."""
 
+import contextlib
+import json
 import os
 import random
 import signal
@@ -14,6 +16,7 @@ from support.places import TESTS
 from support.studies import IDENTITY, trials
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search.rows import APPLICATION_ID, COLUMNS, own_tables, to_row
 from jumpcad.search.space import Space
 from jumpcad.search.store import StudyStore
 
@@ -275,3 +278,70 @@ def test_a_study_in_a_folder_that_may_not_be_written_to(tmp_path):
             place.chmod(mode)
         tmp_path.chmod(0o755)
     assert os.listdir(tmp_path) == ["s.db"]
+
+
+@pytest.mark.parametrize("version", [1, 2, 3])
+def test_a_study_of_an_earlier_format_is_read(tmp_path, version):
+    """Its rows have the names of their figures; from the third they have values of the workshop."""
+    path, (trial,) = tmp_path / "s.db", trials(1)
+    trial = replace(trial, evaluation=replace(trial.evaluation, findings=()))
+    names = [*COLUMNS]
+    values = dict(zip(COLUMNS, to_row(trial, lambda _: 1), strict=True))
+    values |= {"metrics": json.dumps(dict(trial.evaluation.metrics)), "findings": "[]"}
+    identity, held = IDENTITY, {}
+    if version < 3:
+        names.remove("workshop")
+    else:
+        held = {"body.plate_mm": 2.0}
+        identity = IDENTITY | {"space": IDENTITY["space"] | {"body.plate_mm": {"lower": 1.6, "upper": 2.4}}}
+        values["workshop"] = json.dumps(held)
+    with contextlib.closing(sqlite3.connect(path)) as made:
+        for _, _, text in own_tables(version):
+            if text is not None:
+                made.execute(text)
+        made.execute(f"PRAGMA user_version = {version}")
+        made.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+        made.execute("INSERT INTO study VALUES ('identity', ?)", (json.dumps(identity),))
+        marks = ", ".join("?" for _ in names)
+        made.execute(f"INSERT INTO evaluations ({', '.join(names)}) VALUES ({marks})", [values[name] for name in names])
+        made.commit()
+    with StudyStore.read(path) as store:
+        assert store.trials() == [replace(trial, workshop=held)]
+
+
+def test_a_file_that_was_made_for_a_wrong_request_is_gone_again_unless_it_holds_an_evaluation(tmp_path):
+    """What was there before stays, as does what another fault leaves."""
+
+    def attempt(path, error, rows):
+        with StudyStore.write(path, IDENTITY) as store:
+            store.append(trials(rows))
+            raise error
+
+    def left(path, error, rows=0):
+        with pytest.raises(type(error)):
+            attempt(path, error, rows)
+        return sorted(one.name for one in path.parent.iterdir() if one.name.startswith(path.name))
+
+    wrong = JumpcadError("wrong")
+    assert left(tmp_path / "a.db", wrong) == []
+    assert left(tmp_path / "b.db", wrong, rows=2) == ["b.db"]
+    assert left(tmp_path / "c.db", ValueError("a fault")) == ["c.db"]
+    assert left(tmp_path / "c.db", wrong) == ["c.db"]  # of before
+    with pytest.raises(JumpcadError), StudyStore.read(tmp_path / "c.db"):
+        raise wrong
+    assert (tmp_path / "c.db").exists()
+    with StudyStore.read(tmp_path / "b.db") as store:
+        assert len(store.trials()) == 2
+
+
+def test_progress_counts_phases_and_has_the_best_of_what_the_search_proposed(tmp_path):
+    """Neighbours of the pick and designs beyond the bounds may be better; they are not what was searched."""
+    found = [replace(one, score=float(place)) for place, one in enumerate(trials(6))]
+    found[3] = replace(found[3], score=None)
+    around = [replace(one, phase="robust", score=50.0) for one in trials(3, "robust", 1)]
+    with StudyStore.write(tmp_path / "s.db", IDENTITY) as store:
+        assert store.progress() == ({}, None)
+        store.append(around)
+        assert store.progress() == ({"robust": 3}, None)
+        store.append(found)
+        assert store.progress() == ({"ga": 6, "robust": 3}, 5.0)

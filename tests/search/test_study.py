@@ -13,6 +13,7 @@ from support.hills import SMALL, Hill
 from support.places import TESTS
 
 from jumpcad.errors import JumpcadError
+from jumpcad.search import study
 from jumpcad.search.polling import gains
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
@@ -277,3 +278,24 @@ def test_a_prior_study_whose_model_had_other_values_in_another_program_is_said_t
 def test_wrong_requests(change, message):
     with pytest.raises(JumpcadError, match=message):
         run(replace(REQUEST, **change))
+
+
+@pytest.mark.parametrize(("evaluations", "kept"), [(240, 8), (80, 5)])
+def test_a_pick_leaves_a_quarter_for_bounds_or_one_evaluation_a_parameter(monkeypatch, evaluations, kept):
+    """Of 60 evaluations eight for the eight parameters, of 20 five."""
+    shares = []
+    monkeypatch.setattr(study, "rank_candidates", lambda *given: shares.append(given[-1]) or [])
+    run(Request(Space.default(), Hill(), method="ga", evaluations=evaluations))
+    assert shares == [evaluations // 4 - kept]
+
+
+def test_bounds_get_what_the_neighbours_leave_of_the_pick(monkeypatch):
+    given, look = [], study.active_bounds
+    monkeypatch.setattr(study, "active_bounds", lambda *asked: given.append(asked) or look(*asked))
+    request = replace(REQUEST, method="ga", evaluations=80)
+    result = run(request)
+    ((evaluator, winner, _, left),) = given
+    around = [trial for trial in evaluator.trials if trial.phase == "robust"]
+    assert winner is result.winner
+    assert left == request.pick - len(around) > 0
+    assert result.evaluations <= 80

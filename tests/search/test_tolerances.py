@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from support.decimals import decimals
 
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
@@ -30,6 +31,7 @@ def test_printed_robots_have_springs_a_mass_and_a_floor_that_scatter() -> None:
     made = PRINTED.neighbours(Variant.of(DESIGN), np.random.default_rng(2))
     assert all(one.design == DESIGN for one in made)
     springs, floors = (np.array([one.workshop[key] for one in made], dtype=float) for key in (SPRINGS, FLOOR))
+    assert decimals([springs, floors]) == 6
     assert springs.std() == pytest.approx(math.hypot(0.05, 0.03), rel=0.15)
     assert springs.mean() == pytest.approx(1.0, abs=0.01)
     assert np.log(floors).std() == pytest.approx(0.15, rel=0.15)

@@ -8,7 +8,7 @@ from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.trial import Trial, best_trial, count_rejections, feasible_trials, searched
+from jumpcad.search.trial import Trial, best_trial, count_rejections, feasible_trials, searched, trial_numbers
 
 
 @pytest.fixture
@@ -46,3 +46,9 @@ def test_a_rejected_design_has_no_fitness_in_its_record(trial: Trial) -> None:
     assert trial.to_dict()["fitness"] == trial.evaluation.metrics["fitness"] > 0.0
     rejected = replace(trial, evaluation=Evaluation("loop"), score=None).to_dict()
     assert (rejected["fitness"], rejected["score"], rejected["verdict"]) == (0.0, None, "loop")
+
+
+def test_trials_are_numbered_from_one_in_the_studys_order(trial: Trial) -> None:
+    """As the rows of an exported table."""
+    trials = [replace(trial, phase=phase, step=step) for phase, step in (("ga", 0), ("ga", 1), ("robust", 0))]
+    assert [trial_numbers(trials)[one.position] for one in trials] == [1, 2, 3]

@@ -1,7 +1,9 @@
 """Both engines move a robot as mechanics says; how an engine is named and found."""
 
+import os
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -125,3 +127,14 @@ def test_a_missing_engine_is_said_with_the_way_out(kenan: Robot, monkeypatch: py
         simulate(kenan, engine="mujoco")
     with pytest.raises(JumpcadError, match="no physics engine is installed"):
         default_engine()
+
+
+def test_what_an_engine_writes_while_it_loads_is_not_seen(capfd: pytest.CaptureFixture[str]) -> None:
+    """By the process itself, past Python; before and afterwards standard error is as it was, and no file stays open."""
+    files = len(list(Path("/proc/self/fd").iterdir())) if Path("/proc/self/fd").exists() else 0
+    os.write(2, b"before\n")
+    with engines._silent_stderr():
+        os.write(2, b"a banner\n")
+    os.write(2, b"after\n")
+    assert capfd.readouterr().err == "before\nafter\n"
+    assert not files or len(list(Path("/proc/self/fd").iterdir())) == files

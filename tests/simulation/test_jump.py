@@ -57,3 +57,13 @@ def test_a_jump_has_the_account_of_its_budget_and_none_without() -> None:
     jumped = Jump("jump", "planar", 0.1, 0.2, energy=budget)
     assert jumped.energy_account_j == budget.account_j
     assert Jump("no takeoff", "planar", 0.1, 0.2).energy_account_j is None
+
+
+def test_what_does_not_jump_has_no_figures_of_a_jump() -> None:
+    """Fitness 0, and nothing else: no range, no rise, no energies, no take-off."""
+    stays = Jump("no_takeoff", "planar", 0.1, 0.2)
+    figures = {name: value for name, value in vars(stays).items() if value is not None}
+    assert figures == {
+        "verdict": "no_takeoff", "engine": "planar", "mass_kg": 0.1, "spring_energy_j": 0.2, "fitness": 0.0,
+        "findings": (),
+    }  # fmt: skip

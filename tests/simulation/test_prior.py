@@ -10,7 +10,7 @@ from scipy import stats
 from support.built import built
 
 from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
-from jumpcad.simulation.prior import Prior
+from jumpcad.simulation.prior import QUANTILES, Prior
 from jumpcad.simulation.stop_pad import StopPad
 
 SHARES = (0.1, 0.5, 0.9)
@@ -28,6 +28,7 @@ SHARES = (0.1, 0.5, 0.9)
 )
 def test_quantiles_are_those_of_the_distribution(prior: Prior, known: stats.rv_continuous) -> None:
     assert prior.quantiles(SHARES) == pytest.approx(known.ppf(SHARES))
+    assert QUANTILES == SHARES  # what reports call 10, 50 and 90 %
 
 
 def test_a_normal_is_cut_off_and_a_half_normal_stays_finite() -> None:

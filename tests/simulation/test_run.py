@@ -133,3 +133,21 @@ def test_the_budget_of_a_slipping_robot_with_a_cam_adds_up(kenan: Robot, engine:
     assert budget.upward_j == pytest.approx(thrown * np.sin(angle) ** 2, rel=1e-7)
     assert jump.energy_account_j is not None
     assert sum(jump.energy_account_j.values()) == pytest.approx(robot.spring.energy_j, rel=1e-9)
+
+
+def test_touchdown_is_looked_for_after_every_step_of_the_flight(kenan: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the first half of the springs' travel nothing leaves the ground: 4 ms at a time there, then step by step."""
+    from jumpcad.simulation.bullet import BulletWorld
+
+    asked, advance, settings = [], BulletWorld.advance, Settings(flight="simulated")
+
+    def advanced(world: BulletWorld, steps: int) -> float:
+        asked.append(steps)
+        return advance(world, steps)
+
+    monkeypatch.setattr(BulletWorld, "advance", advanced)
+    assert simulate(kenan, settings).touchdown_distance_m is not None
+    first = asked.index(1)
+    assert set(asked[:first]) == {round(0.004 / settings.dt_s)}
+    assert set(asked[first:]) == {1}
+    assert len(asked) - first > 0.1 / settings.dt_s  # a flight of a tenth of a second at least

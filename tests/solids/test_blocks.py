@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import shapely
 
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import load_design
@@ -90,3 +91,14 @@ def test_a_box_around_a_finger_is_that_of_its_solid():
     low, high = np.array(finger.solid().bounding_box()).reshape(2, 3)
     np.testing.assert_allclose(finger.bounds_mm, [low, high], atol=1e-6)
     assert finger.bounds_mm[1] == pytest.approx([5.0, 10.5, 8.0], abs=0.01)
+
+
+def test_outlines_span_what_is_seen_from_above() -> None:
+    """The hull of a bar across, 20 x 6 mm, and of a finger that tapers beside it."""
+    bar = Bar(rectangle((20.0, 4.0), (10.0, 2.0)), ((-3.0, 3.0),))
+    assert sorted(map(tuple, bar.outline_mm.tolist())) == [(0.0, -3.0), (0.0, 3.0), (20.0, -3.0), (20.0, 3.0)]
+    finger = Finger(np.array([0.0, 10.0]), 6.0, 4.0, np.array([30.0, 10.0]), 4.0, 2.0)
+    points = Blocks((bar, finger)).outline_mm
+    solid = Blocks((bar, finger)).solid().to_mesh().vert_properties[:, :2]
+    hull, seen = (shapely.MultiPoint(one).convex_hull for one in (points, solid))
+    assert hull.symmetric_difference(seen).area < 0.01 * seen.area

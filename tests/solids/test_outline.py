@@ -137,3 +137,15 @@ def test_round_corners_are_within_five_micrometres_of_their_circles(radius):
     for at in np.concatenate([points, (points + np.roll(points, -1, axis=0)) / 2.0]):
         beyond = np.maximum(np.abs(at) - 5.0, 0.0)
         assert np.hypot(*beyond) == pytest.approx(radius, abs=1.1 * outline.SAGITTA_MM)
+
+
+@pytest.mark.parametrize("across_mm", [5.5, 4.0])
+def test_a_hexagon_has_its_size_across_flats(across_mm):
+    """Area √3/2·s²; corners on +x and -x, 2/√3 of the size apart (ISO 4032: 5.5 mm for M3)."""
+    region = outline.hexagon(across_mm)
+    assert region.area() == pytest.approx(math.sqrt(3.0) / 2.0 * across_mm**2)
+    corner = across_mm / math.sqrt(3.0)
+    assert region.bounds() == pytest.approx((-corner, -across_mm / 2.0, corner, across_mm / 2.0))
+    corners, middles = reach(region)
+    assert corners == pytest.approx(np.full(6, corner))
+    assert middles == pytest.approx(np.full(6, across_mm / 2.0))

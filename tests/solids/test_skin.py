@@ -117,3 +117,11 @@ def test_edges_meet_in_their_ends_alone_and_pass_no_point_within_half_a_step(see
             np.sign(run[:, 0] * (at - start)[:, 1] - run[:, 1] * (at - start)[:, 0]) for at in (start[one], end[one])
         ]
         assert not ((side[0] * side[1] < 0) & (other[0] * other[1] < 0)).any()
+
+
+def test_the_grid_is_a_micrometre_that_32_bit_floats_hold_up_to_16_metres():
+    """They have 24 bits: a power of two below a micrometre and 16 m over it, no finer."""
+    assert pytest.approx(1e-3, rel=0.03) == GRID_MM
+    for far in (0.0, 300.0, 16000.0):
+        points = far + GRID_MM * np.arange(-50, 51)
+        assert np.array_equal(points.astype(np.float32).astype(float), points)

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from support.decimals import decimals
 
 from jumpcad.solids.tube import SIDES, tube
 
@@ -24,6 +25,7 @@ def test_a_helix_is_closed_and_stays_within_its_wire() -> None:
     assert mesh.is_watertight
     assert mesh.is_winding_consistent
     assert mesh.volume == pytest.approx(OCTAGON * math.hypot(6.0, 1.4 / math.pi) * angle[-1], rel=0.02)
+    assert decimals(mesh.vertices) == 6  # nanometres
     radius = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 1])
     assert radius.min() >= 5.0 - 1e-6
     assert radius.max() <= 7.0 + 1e-6

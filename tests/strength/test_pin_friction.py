@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.decimals import decimals
 from support.machines import PINS_M, rubbing
 
 from jumpcad.design import Design, load_design
@@ -21,6 +22,7 @@ def test_its_work_is_that_of_the_pins(name: str) -> None:
     taken = PlanarWorld(robot, Settings(), pin_forces=True).push_off().moment.losses.friction_j
     work = pin_torque_nm(robot, 0.25) * robot.spring.wind_rad
     assert work == pytest.approx(taken, rel=0.2)
+    assert decimals([pin_torque_nm(robot, coefficient) for coefficient in (0.1, 0.2, 0.25)]) == 6  # micronewton metres
     assert 0.01 < work / robot.spring.energy_j < 0.05
 
 

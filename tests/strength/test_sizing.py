@@ -8,8 +8,9 @@ from support.fits import LOADS
 
 from jumpcad.design import load_design
 from jumpcad.dimensions import STOP_SEAT_MM
+from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.strength.sizing import leg_flex_share, sections
+from jumpcad.strength.sizing import Growth, leg_flex_share, sections
 from jumpcad.strength.stress import Beam
 from jumpcad.workshop import Workshop, load_workshop
 
@@ -134,3 +135,28 @@ def test_preloaded_springs_ask_for_thicker_dogs_and_legs() -> None:
     assert more.thickness_mm == usual.thickness_mm
     assert more.dog_mm / usual.dog_mm == pytest.approx(times ** (1.0 / 3.0), abs=2e-3)
     assert more.lever_root_mm / usual.lever_root_mm == pytest.approx(math.sqrt(times), abs=2e-3)
+
+
+def test_a_robot_with_hardly_any_spring_has_the_least_sections() -> None:
+    """Links 6 mm high and thick; the leg's root, which a pin's hole weakens, and the lever have 2 mm more."""
+    weak = load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": 0.05})
+    sizes = sections(Linkage(weak), load_workshop())
+    assert (sizes.thickness_mm, sizes.front_mm, sizes.leg_tip_mm) == (6.0, 6.0, 6.0)
+    assert sizes.leg_root_mm == sizes.lever_root_mm == 6.0 + 2.0
+    assert (sizes.rail_root_mm, sizes.rail_tip_mm, sizes.toe_root_mm) == (3.2, 3.2, 3.2)  # 16 layers of 0.2 mm
+    assert (sizes.toe_tip_height_mm, sizes.stop_mm) == (2.4, 6.0)
+    eye = max(sizes.eye_radius_mm, sizes.leg_tip_mm / 2.0)
+    assert sizes.foot_depth_mm == pytest.approx(eye + 1.0)  # the links are 1 mm above the ground
+
+
+def test_a_weak_section_grows_by_what_it_lacks_at_most_by_a_tenth() -> None:
+    """And by two thousandths more; by a whole step where the lack is not known, by the most of what is asked."""
+
+    def weak(grows: str, use: float | None) -> Finding:
+        value = None if use is None else 100.0 * use
+        return Finding("f", "error", -1.0, "MPa", "", "", value, None if use is None else 100.0, grows)
+
+    grown = Growth(leg=1.2).more([weak("leg", 1.05), weak("toe", 1.5), weak("rail", None), weak("toe", 1.01)])
+    assert (grown.leg, grown.toe, grown.rail) == pytest.approx((1.2 * 1.002 * 1.05, 1.1, 1.1))
+    assert (grown.lever, grown.front, grown.plate, grown.dog, grown.stop) == (1.0,) * 5
+    assert Growth().more([]) == Growth()

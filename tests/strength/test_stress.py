@@ -56,6 +56,13 @@ def test_shell_of_full_infill_bears_like_solid() -> None:
     full = Shell.of(process.model_copy(update={"infill": 1.0}))
     assert Beam(6.0, 10.0, full).second_moment_mm4 == pytest.approx(500.0)
     assert Shell.of(process).core_share < process.infill
+    printed = process.model_copy(
+        update={"infill": 0.4, "perimeters": 3, "line_width_mm": 0.45, "top_layers": 5, "bottom_layers": 4,
+                "layer_height_mm": 0.2}
+    )  # fmt: skip
+    shell = Shell.of(printed)
+    assert (shell.walls_mm, shell.layers_mm) == pytest.approx((3 * 0.45, 0.2 * (5 + 4) / 2.0))
+    assert shell.core_share == pytest.approx(0.4 / 2.0)  # of a grid, half of the lines run along a bar
 
 
 @pytest.mark.parametrize("shell", [SOLID, SHELL])

@@ -127,6 +127,7 @@ def test_a_point_of_a_study_brings_its_design_and_workshop(study: Path, tmp_path
     shown = Studio(points.trial(1).design, "four", ["fine", "of the study"], server, tmp_path, points)
     assert shown.workshop == load_workshop("fine")
     assert "best 1: 2 body lengths (trial 1)" in points.listed
+    assert (shown.trial.min, shown.trial.max, shown.trial.step) == (1, 4, 1)
     shown._run_action(lambda: shown.open(4))
     assert (shown.design, shown.workshop) == (points.trial(4).design, load_workshop())
     assert "trial 4 of 4" in shown.point.content

@@ -5,6 +5,7 @@ import math
 import re
 
 import pytest
+from support.documented import documented_ranges, wrongly_taken
 
 from jumpcad.errors import JumpcadError
 from jumpcad.workshop import load_workshop
@@ -60,6 +61,22 @@ def test_fits_that_no_printer_needs_are_refused(written):
 )
 def test_values_beyond_their_limits_are_one_line(text, message, refusal):
     assert re.search(message, refusal(text))
+
+
+@pytest.mark.parametrize(
+    ("table", "ranges"),
+    [("printer", 2), ("process", 9), ("fits", 20), ("bought", 1), ("body", 3), ("seats", 6), ("ground", 2),
+     ("pins", 1), ("spring", 1), ("release", 9), ("safety", 19)],
+)  # fmt: skip
+def test_numbers_may_have_the_ranges_that_the_reference_tells(table, ranges):
+    assert len(documented_ranges(table)) == ranges
+    assert wrongly_taken(table, type(getattr(load_workshop(), table))) == []
+
+
+def test_materials_may_have_the_ranges_that_the_reference_tells():
+    for name, material in load_workshop().materials.items():
+        assert len(documented_ranges(f"materials.{name}")) == 7
+        assert wrongly_taken(f"materials.{name}", type(material)) == []
 
 
 def test_a_link_is_as_far_off_as_the_play_of_both_its_ends():

@@ -103,3 +103,46 @@ def test_values_at_the_limit_go_together(table: str, values: dict[str, object]) 
     if values.get("line_width_mm") == 0.8:
         data["fits"] = data["fits"] | {"wall_mm": 1.6}
     Workshop.model_validate(data | {table: data[table] | values})
+
+
+@pytest.mark.parametrize(("play_deg", "taken"), [(0.0, True), (0.5, False), (1.0, False), (11.9, False), (12.0, True)])
+def test_a_dogs_play_that_ends_on_the_corner_is_refused(play_deg: float, taken: bool) -> None:
+    """None at all is a rigid key; between that and 12° it is worse than none."""
+    shop = load_workshop()
+    release = shop.release.model_copy(update={"play_deg": play_deg})
+    found = [place for place, *_ in shop.model_copy(update={"release": release}).contradictions()]
+    assert (("release", "play_deg") in found) == (not taken)
+
+
+def test_what_does_not_go_together_is_told_from_just_beyond():
+    """Layers of at most 0.8 nozzles, lines of 0.8 to 2, walls of two lines, which a chamfer does not eat up."""
+    shop = load_workshop()
+    nozzle, line = shop.printer.nozzle_mm, shop.process.line_width_mm
+    assert (nozzle, line, shop.fits.wall_mm) == (0.4, 0.45, 1.2)
+    for table, key, inside, beyond in (
+        ("process", "layer_height_mm", 0.32, 0.321), ("process", "first_layer_mm", 0.32, 0.321),
+        ("process", "line_width_mm", 0.32, 0.319), ("process", "line_width_mm", 0.6, 0.81),
+        ("process", "line_width_mm", 0.6, 0.2), ("fits", "wall_mm", 0.9, 0.89),
+        ("fits", "wall_min_mm", 1.2, 1.21), ("fits", "first_layer_chamfer_mm", 0.59, 0.6),
+        ("fits", "sliding_mm", 0.1, 0.09), ("fits", "loose_mm", 0.2, 0.19), ("fits", "m2_clearance_mm", 1.6, 1.59),
+        ("fits", "m3_clearance_mm", 2.5, 2.49), ("release", "backlash_deg", (2.0, 2.0), (2.1, 2.0)),
+        ("body", "stop_pad", "rubber-2", ""), ("roles", "links", "PLA", "wood"),
+    ):  # fmt: skip
+        for value, refused in ((inside, False), (beyond, True)):
+            part = getattr(shop, table).model_copy(update={key: value})
+            told = [place for place, *_ in shop.model_copy(update={table: part}).contradictions()]
+            assert ((table, key) in told) == refused, (table, key, value)
+
+
+def test_parts_of_ones_own_have_names_of_their_own():
+    shop = load_workshop()
+    motor = load_catalogue().motors["n20-30"]
+    for name, key, places in (
+        ("mine", "mine", []), ("n20-30", "n20-30", [("motors", "n20-30")]),
+        ("mine", "yours", [("motors", "yours", "name")]),
+    ):  # fmt: skip
+        own = {key: motor.model_copy(update={"name": name})}
+        assert [place for place, *_ in shop.model_copy(update={"motors": own}).contradictions()] == places
+    weak = motor.model_copy(update={"name": "mine", "mass_g": 0.1})
+    told = [place for place, *_ in shop.model_copy(update={"motors": {"mine": weak}}).contradictions()]
+    assert told == [("motors", "mine", "mass_g")]

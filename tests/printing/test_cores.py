@@ -1,0 +1,43 @@
+"""What lies inside perimeters, against plane geometry on paper."""
+
+import numpy as np
+import pytest
+
+from jumpcad.printing.cores import cores, section_moments
+from jumpcad.solids.outline import Region, rectangle
+from jumpcad.solids.stack import Stack
+
+
+def inside(region: Region, shell_mm: float, spacing_mm: float) -> Region:
+    """Return what is inside the perimeters of a plate of one outline."""
+    sections = Stack.of([(0.0, 1.0, region)]).sections_at(np.array([0.5]))
+    return cores(sections, [0], shell_mm, spacing_mm)[0]
+
+
+@pytest.mark.parametrize(("width_mm", "core_mm"), [(1.0, 0.0), (1.38, 0.0), (1.42, 0.42), (3.0, 2.0)])
+def test_a_wall_has_a_core_as_soon_as_a_line_fits_between_its_perimeters(width_mm: float, core_mm: float) -> None:
+    """Perimeters of 0.5 mm in all on either side, lines 0.4 mm apart: less is filled by wider perimeters."""
+    core = inside(rectangle((60.0, width_mm)), 0.5, 0.4)
+    assert core.area() == pytest.approx(59.0 * core_mm, abs=1e-6)
+
+
+def test_a_slim_strip_is_kept_where_a_line_fits_somewhere_in_it() -> None:
+    """0.2 mm wide but for a square of 1 mm, in which a line of 0.4 mm fits; without the square nothing is left."""
+    strip, square = rectangle((101.0, 1.2)), rectangle((2.0, 2.0))
+    assert inside(strip, 0.5, 0.4).is_empty()
+    assert inside(strip + square, 0.5, 0.4).area() == pytest.approx(99.0 * 0.2 + 1.0, rel=0.01)
+
+
+def test_a_pocket_has_perimeters_of_its_own() -> None:
+    """A plate of 40 mm with a pocket of 10 mm: 1 mm less outside, 1 mm more around it; moments by difference."""
+    plate, pocket = rectangle((40.0, 40.0)), rectangle((10.0, 10.0), (3.0, 0.0))
+    stack = Stack.of([(0.0, 2.0, plate)]).pocketed([(1.0, 2.0, pocket)])
+    sections = stack.sections_at(np.array([0.5, 1.5]))
+    first, second = (int(number) for number in sections.which)
+    found = cores(sections, [first, second], 1.0, 0.4)
+    assert found[first].area() == pytest.approx(38.0**2)
+    assert found[second].area() == pytest.approx(38.0**2 - 12.0**2)
+    areas, borders = section_moments(sections)
+    assert areas[[first, second], 0] == pytest.approx([1600.0, 1500.0])
+    assert borders[[first, second], 0] == pytest.approx([160.0, 200.0])
+    assert areas[second, 1] == pytest.approx(-100.0 * 3.0)
