@@ -10,7 +10,7 @@ from shapely import affinity
 from support.built import built
 
 from jumpcad.drive.cam import CamGeometry
-from jumpcad.drive.corner import _crossing, _rounding, clear_window_rad, roll_over
+from jumpcad.drive.corner import _crossing, _rounding, _window, clear_window_rad, roll_over
 
 TEMPLATES = ("kenan-2.0", "best-ga")
 
