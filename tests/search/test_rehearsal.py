@@ -12,9 +12,10 @@ from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.guess import Guess
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
-from jumpcad.search.methods.bayesian import run_bayesian
+from jumpcad.search.methods.bayesian import IDLE, run_bayesian
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.polling import STALLED, Progress
 from jumpcad.search.pool import local_pool
 from jumpcad.search.rehearsal import FAILED, TRIED, Rehearsal
 from jumpcad.search.request import Request
@@ -216,3 +217,20 @@ def test_what_was_refused_for_any_trial_is_not_proposed_again_also_after_a_resta
     assert not restarted.is_refused(hard)
     restarted.learn([replace(trials[-1], step=1, proposal=note)])
     assert restarted.is_refused(hard)
+
+
+def test_a_search_with_guesses_ends_after_ten_steps_in_a_row_without_a_gain(tmp_path, monkeypatch):
+    """After four of them it looks beside the best."""
+    idle, beside, task = [], Learner.beside, replace(TASK, evaluations=60, least_gain=0.2)
+
+    def counted(learner, trials, *others):
+        idle.append(Progress.of(trials, 0.0, 0.2).idle)
+        return beside(learner, trials, *others)
+
+    monkeypatch.setattr(Learner, "beside", counted)
+    trials = search(tmp_path / "end.db", task)
+    assert len(trials) < 60
+    assert Progress.of(trials, 0.0, 0.2).idle == IDLE
+    assert idle[-(IDLE - STALLED) :] == list(range(STALLED, IDLE))
+    assert min(idle) == STALLED
+    assert search(tmp_path / "end.db", task) == trials
