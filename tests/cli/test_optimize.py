@@ -138,7 +138,8 @@ def test_a_result_tells_bounds_and_what_lies_beyond_them(capsys):
     told = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines() if line]
     assert told[:4] == [
         "7 designs evaluated, and 3 for the robust pick; rejected: loop 2, tips 1",
-        "ended before 180: the last proposals promise to gain less than 0.05 % of the best score; --until 0 goes on",
+        "ended before 180: in its last steps less than 0.05 % of the best score was gained or promised; --until 0 "
+        "goes on",
         "note: a note",
         "range against spring energy; hypervolume 0.2500",
     ]
