@@ -11,6 +11,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import (
     did_you_mean,
 )
+from jumpcad.files.complaints import shown
 from jumpcad.workshop import load_workshop
 
 
@@ -91,3 +92,9 @@ def test_a_missing_key_is_told_with_the_line_of_its_table(tmp_path: Path) -> Non
     told = str(caught.value).split("; ")
     assert f"{file}:3: batteries.own.mass_g: missing: weigh it, or take the maker's figure" in told
     assert all(one.startswith((f"{file}:3: batteries.own.", "and ")) for one in told)
+
+
+def test_a_long_value_is_cut_to_the_length_of_a_line() -> None:
+    assert shown("x" * 58) == f"'{'x' * 58}'"
+    assert shown("x" * 59) == f"'{'x' * 56}..."
+    assert shown(list(range(100))) == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."

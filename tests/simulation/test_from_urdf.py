@@ -21,6 +21,7 @@ KENAN = capsule_robot(load_design("kenan-2.0"))
 URDF, LOOP = write_urdf(KENAN), write_loop(KENAN)
 HEAD = '<?xml version="1.0" encoding="utf-8"?>\n'
 LAUGHS = "".join(f'<!ENTITY a{n + 1} "{f"&a{n};" * 10}">' for n in range(9))
+LEG_TURN = r'(?s)(<joint name="leg".*?)rpy="[^"]*"'
 TRIES = 60
 """Mutations of each kind; thousands were tried when this was written."""
 
@@ -68,6 +69,9 @@ def element(tag: str, **attributes: str) -> str:
         (element("limit", velocity="0"), "joint leg: velocity = 0: must be"),
         (element("dynamics", damping="NaN"), "damping = 'NaN': must be 1 finite number"),
         (element("parent", link="foot"), "joint leg: must lead from body to main_leg"),
+        (element("parent", link="x" * 1001), r"parent: link = 'x{56}[.]{3}: is too long"),
+        (re.sub(LEG_TURN, r'\g<1>rpy="0.1 0 0"', URDF, count=1), "leg: is turned out of the plane"),
+        (re.sub(LEG_TURN, r'\g<1>rpy="0 0 0.1"', URDF, count=1), "leg: is turned out of the plane"),
         (URDF.replace('link name="foot"', 'link name="fot"'), r"link 'fot' is none of .*did you mean foot\?"),
         (URDF.replace('link name="foot"', 'link name="body"'), "link body appears twice"),
         (re.sub(r'<joint name="ankle".*?</joint>', "", URDF, flags=re.DOTALL), "joint ankle is missing"),

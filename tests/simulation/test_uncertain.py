@@ -7,9 +7,10 @@ import pytest
 from scipy.special import ndtr
 from support.built import built
 
+from jumpcad.errors import CannotBuildError
 from jumpcad.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
-from jumpcad.simulation import simulate
+from jumpcad.simulation import simulate, uncertain
 from jumpcad.simulation.uncertain import _first_order, _groups, uncertain_jump
 
 
@@ -113,3 +114,20 @@ def test_the_polynomial_is_a_cubic() -> None:
     found = _first_order({"a": a}, np.concatenate([a**3 - 3.0 * a, a**4 - 6.0 * a**2 + 3.0], axis=1), np.arange(4096))
     assert found[0, 0] == pytest.approx(1.0, abs=0.01)
     assert found[0, 1] < 0.3
+
+
+def test_a_draw_that_cannot_be_built_counts_as_no_jump(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every fourth of 16 is refused: the share falls by a quarter, and the least of each figure is 0."""
+    asked: list[str] = []
+
+    def refusing(one: Robot, settings: Settings, engine: str) -> object:
+        asked.append(engine)
+        if len(asked) % 4 == 0:
+            raise CannotBuildError("too long")
+        return simulate(one, settings, engine)
+
+    monkeypatch.setattr(uncertain, "simulate", refusing)
+    found = uncertain.uncertain_jump(robot, Settings(), "planar", samples=16)
+    assert (found.jumps, found.jumps_share) == (16, 0.75)
+    assert all(quantiles[0] == 0.0 < quantiles[1] for quantiles in found.quantiles.values())
+    assert found.to_dict()["jumps_share"] == 0.75
