@@ -71,7 +71,7 @@ STOP_SEAT_MM = 0.6
 STOP_EDGE_MM = 2.5
 """Material of the body plates around the rest stop's tabs; judgement, as around the trays'."""
 PIN_HOLE_EDGE_MM = 2.0
-"""Material of the left plate around the hole for the leg's springs' pin; judgement: four lines of a 0.4 mm nozzle."""
+"""Material of the left plate around the hole for the leg's springs' pin; judgement: five lines of a 0.4 mm nozzle."""
 SPRING_BOSS_MM, SPRING_BOSS_MIN_MM = 4.0, 1.2
 """Height of the boss on the right plate in which the springs' pin stands, where there is room beside the springs, and
 the least that is of use; judgement: with the plate two diameters of a 3 mm pin, which then leans by less than 5 degrees

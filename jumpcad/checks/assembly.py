@@ -92,7 +92,8 @@ def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]
             f"{TOLERANCE_MM2:g} mm² are allowed"
         )
         remedy = "raise carrying_link_mm or d_coef (a longer body), or choose another bought.retention"
-        yield Finding(name, "error", -one.share_mm2, "mm²", message, remedy, value=one.share_mm2, limit=0.0)
+        margin = TOLERANCE_MM2 - one.share_mm2
+        yield Finding(name, "error", margin, "mm²", message, remedy, value=one.share_mm2, limit=TOLERANCE_MM2)
     if not blocked:
         yield Finding(name, "info", TOLERANCE_MM2, "mm²", none, "nothing to do", limit=TOLERANCE_MM2)
 

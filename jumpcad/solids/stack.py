@@ -355,10 +355,7 @@ def _clean(slabs: Iterable[SlabLike]) -> list[Slab]:
 
 
 def _arranged(added: Iterable[SlabLike], removed: Iterable[SlabLike]) -> Stack:
-    """Return disjoint slabs that cover what is added but not removed.
-
-    Adjacent intervals of height in which the same slabs are present become one slab.
-    """
+    """Return disjoint slabs that cover what is added but not removed."""
     plus, minus = _clean(added), _clean(removed)
     levels = sorted({z for slab in (*plus, *minus) for z in (slab.z0_mm, slab.z1_mm)})
     numbers: dict[tuple[tuple[int, ...], tuple[int, ...]], int] = {}
@@ -373,10 +370,7 @@ def _arranged(added: Iterable[SlabLike], removed: Iterable[SlabLike]) -> Stack:
             regions.append(_difference([plus[n].outline for n in solid], [minus[n].outline for n in void]))
         if regions[number].area() <= SMALLEST_AREA_MM2:
             continue
-        if slabs and slabs[-1].number == number and slabs[-1].z1_mm == z0:
-            slabs[-1] = replace(slabs[-1], z1_mm=z1)
-        else:
-            slabs.append(Slab(z0, z1, regions[number], number=number))
+        slabs.append(Slab(z0, z1, regions[number], number=number))
     if not slabs:
         raise JumpcadError("nothing is left of a part: its slabs are empty or cut away completely")
     return Stack(tuple(slabs))

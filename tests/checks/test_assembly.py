@@ -11,6 +11,7 @@ from support.built import LONG_TOES, built, checked, placed
 
 from jumpcad.building import assembly, build
 from jumpcad.checks.assembly import (
+    TOLERANCE_MM2,
     Blocked,
     Way,
     _covered,
@@ -192,7 +193,8 @@ def test_what_is_blocked_is_told_with_what_blocks_it_and_by_how_much() -> None:
         assert found.message.startswith(
             f"body_plate_left blocks the {what} of leg_axle in step Close the body: it covers 2.50 mm²; "
         )
-        assert (found.name, found.severity, found.margin, found.value) == (name, "error", -2.5, 2.5)
+        assert (found.name, found.severity, found.value, found.limit) == (name, "error", 2.5, TOLERANCE_MM2)
+        assert found.margin == TOLERANCE_MM2 - 2.5
         (free,) = _findings(name, [], "all is free")
         assert (free.severity, free.message, free.margin) == ("info", "all is free", free.limit)
         assert free.limit > 0.0

@@ -81,6 +81,21 @@ def test_holes_are_as_wide_as_is_engraved_under_them(material: str) -> None:
         assert cut.area() == pytest.approx(word.area(), rel=0.01)
 
 
+def test_a_row_s_letter_stands_beside_the_middle_of_its_holes() -> None:
+    solid = reread(PIECES["gauge_PETG"])
+    low, high = solid.slice(1.5), solid.slice(2.8)
+    _, holes = contours(low)
+    rows = [[polygon for polygon in holes if (width(polygon) < 5.0) == small] for small in (True, False)]
+    engraved, _ = contours(low - high)
+    left = min(polygon[:, 0].min() for polygon in holes)
+    beside = [polygon for polygon in engraved if polygon[:, 0].max() < left]
+    for row in rows:
+        middle = max((polygon.min(axis=0) + polygon.max(axis=0))[1] / 2.0 for polygon in row)
+        letter = min(beside, key=lambda polygon: abs(polygon[:, 1].mean() - middle))
+        assert (letter[:, 1].min() + letter[:, 1].max()) / 2.0 == pytest.approx(middle, abs=0.1)
+        assert np.ptp(letter[:, 1]) == pytest.approx(5.0, abs=0.1)
+
+
 def test_pegs_can_be_measured() -> None:
     pegs, _ = contours(reread(PIECES["gauge_PETG"]).slice(7.0))
     spans = sorted((float(p[:, 0].min()), float(np.ptp(p[:, 0]))) for p in pegs)

@@ -11,7 +11,7 @@ from jumpcad.design import PARAMETERS, load_design
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search.models import robot_model
 from jumpcad.search.objective import Evaluation
-from jumpcad.search.robust import NOT_EXAMINED, active_bounds, best_apart, plan_rounds, rank_candidates
+from jumpcad.search.robust import NOT_EXAMINED, _Examined, active_bounds, best_apart, plan_rounds, rank_candidates
 from jumpcad.search.tolerances import LENGTHS_ALONE, MADE, Making, as_made, varied_parameters
 from jumpcad.search.variant import Variant
 from jumpcad.settings import Settings, coefficients
@@ -50,6 +50,15 @@ def test_a_plateau_beats_a_needle(evaluator):
     assert [candidate.trial.score for candidate in ranked] == [5.0, 4.9, 9.0]
     assert ranked[-1].parameters_score < 5.0
     assert ranked[0].robust_score == min(ranked[0].parameters_score, ranked[0].print_score)
+
+
+def test_a_candidate_of_which_no_neighbour_is_known_is_as_robust_as_itself(evaluator):
+    one = evaluator(model=Spiked())
+    one.evaluate([SMALL.to_design([0.5, 0.5, 0.5])], "bo", 0)
+    (trial,) = one.trials
+    candidate = _Examined(0, trial).candidate()
+    assert trial.score > 4.0
+    assert candidate.robust_score == candidate.parameters_score == candidate.print_score == trial.score
 
 
 def test_the_search_for_a_robust_one_goes_beyond_ten_needles(evaluator):
