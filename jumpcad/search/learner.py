@@ -16,9 +16,9 @@ from jumpcad.search.trial import Trial, best_trial
 from jumpcad.search.variant import Key, Variant
 from jumpcad.transforms import Array
 
-ROUNDS = 20
+ROUNDS = 8
 """Most rehearsals of a proposal."""
-HELD = 6
+HELD = 4
 """Of which so many hold; the best of them is evaluated."""
 AROUND, LEAP = 0.2, 0.02
 """How far beside a best its neighbours along the axes are rehearsed, in the unit cube, and the share by which it must
