@@ -159,7 +159,7 @@ class Rehearsal:
         return self._variants[key]
 
     def _failure(self, variant: Variant) -> Trial | None:
-        """Return what a variant that does not hold is learned as; the margins of its statics say more than no room."""
+        """Return what a variant that does not hold is learned as; of one with room, with the margins of its statics."""
         refusal, guess = self._refusal(variant), self._guess(variant)
         if guess is None or guess.score is not None:
             return refusal

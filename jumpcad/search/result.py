@@ -49,7 +49,7 @@ class Result:
     widened
         Bounds that the search moved, with what they cost.
     converged
-        Whether the search ended before all of its evaluations, because its proposals promised too little.
+        Whether the search ended before all of its evaluations, because its last steps gained too little.
     """
 
     request: Request

@@ -52,7 +52,7 @@ def default_initial(space: Space, evaluations: int, prior: int = 0, guessed: boo
 
 
 def run_bayesian(evaluator: Evaluator, task: Task, polls: bool = True) -> bool:
-    """Search for the highest score; return whether the search ended because its proposals promised too little.
+    """Search for the highest score; return whether it ended because its last steps gained too little.
 
     Parameters
     ----------
