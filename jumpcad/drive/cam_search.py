@@ -79,7 +79,7 @@ class _Shapes:
     STEP = 1e-6
     STEPS = STEP * np.eye(4, 3, -1)  # none, and one along each axis
     PAST_RAD = 1e-4  # of the lead beyond the overshoot: without any the outline has no hollow
-    GRID = np.array([1e-2, 1e-2, math.radians(1e-2)])
+    GRID = np.array([1e-2, 1e-2, math.radians(1e-2)])  # mm, mm, rad
     CORNERS = np.array(list(itertools.product((0.0, 1.0), repeat=3)))
     RESERVE = 3e-3  # of a margin's scale: about what grid and coarse samples cost, so that most cams are found at once
     ROUNDING = 1e-2  # of a margin's scale: what a step of the grid costs, so that adding it leads to other shapes

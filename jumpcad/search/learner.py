@@ -105,11 +105,11 @@ class Learner:
         best, rehearsal = best_trial(trials), self._rehearsal
         if rehearsal is None or not rehearsal.guessing or best is None:
             return None
-        offers = []
+        offers, known = [], rehearsal.known(self._trials, self.tried)
         for point in neighbours(self._space, best, generator):
             variant = self._space.to_variant(point)
             if admits(variant):
-                self.tried += [] if rehearsal.knows(variant) else [point]
+                self.tried += [] if variant.key in known else [point]
                 offers.append((rehearsal.guess(variant) or 0.0, Proposal(variant, point, 0.0, 0.0)))
         guess, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
         if found is None or guess < (1.0 - WITHIN) * (rehearsal.guess(best.variant) or math.inf):

@@ -106,9 +106,9 @@ class Rehearsal:
         """Whether enough robots were built to guess the jump of others."""
         return self._fit is not None
 
-    def knows(self, variant: Variant) -> bool:
-        """Whether a variant was tried."""
-        return variant.key in self._laid
+    def known(self, trials: Sequence[Trial], tried: Sequence[Array]) -> set[Key]:
+        """Return the keys of what was tried for `trials` and since then."""
+        return {variant.key for variant in self._tried(trials, tried)}
 
     def guess(self, variant: Variant) -> float | None:
         """Return the guessed score of a variant; None where it has no room or does not jump."""

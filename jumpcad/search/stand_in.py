@@ -19,8 +19,6 @@ from jumpcad.scene.extent import extent_m
 
 EXTENTS = ("extent_x_m", "extent_y_m", "extent_z_m")
 """Figures of a standing robot, of which the largest is its size."""
-
-
 LAID = {
     "laid_spring_g": 10.0, "laid_coil_mm": 10.0, "laid_cam_x_mm": 10.0, "laid_cam_z_mm": 10.0, "laid_motor_x_mm": 10.0,
     "laid_motor_z_mm": 10.0, "laid_tray_x_mm": 10.0,

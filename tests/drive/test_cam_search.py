@@ -141,4 +141,4 @@ def test_a_search_that_ends_outside_the_limits_starts_again_from_where_it_misses
 ):
     """Found at random, one of 300 tried: from none of the best points of the grid does the first search fit."""
     cam = synthesised(compression_deg, stiffness, replace(LIMITS, **limits))
-    assert min(finding.margin for finding in cam.findings) >= 0.0
+    assert min(finding.margin for finding in cam.findings) > 0.0

@@ -38,8 +38,8 @@ class Rehearsal:
     def holds(self, variant):
         return SMALL.to_unit(variant)[0] < self.half
 
-    def knows(self, variant):
-        return False
+    def known(self, trials, tried):
+        return {SMALL.to_variant(point).key for point in tried}
 
     def guess(self, variant):
         """The sum of its coordinates."""
@@ -219,6 +219,7 @@ def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as
     new = {SMALL.to_variant(point).key for point in learner.tried} - {found.variant.key}
     other = learner.beside([best], lambda one: one.key in new, np.random.default_rng(0))
     assert 1.5 * (1.0 - WITHIN) < other.unit.sum() < found.unit.sum()
+    assert len(learner.tried) == 6 + DRAWN  # the same points, which are learned from once
     lesser = {key for key in new if rehearsal.guess(variant_of(learner, key)) < 1.5 * (1.0 - WITHIN)}
     assert lesser
     assert learner.beside([best], lambda one: one.key in lesser, np.random.default_rng(0)) is None
