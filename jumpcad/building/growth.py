@@ -1,5 +1,7 @@
 """The printed robot of a design: assembled, checked, and strengthened where larger sections can pass a failed check."""
 
+from collections.abc import Iterable
+
 from jumpcad.arguments import typed
 from jumpcad.building.assembly import assembled
 from jumpcad.checks import constraint_findings
@@ -41,17 +43,29 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
     refused = errors(geometry_findings(design))
     if refused:
         raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")
-    growth = Growth()
+    growth, uses = Growth(), dict[str, tuple[float, float]]()
     robot = assembled(design, workshop, name, growth)
     findings = constraint_findings(robot)
     for _ in range(GROWTH_ROUNDS):
         weak = [finding for finding in errors(findings) if finding.grows]
         if not weak:
             break
-        growth = growth.more(weak)
-        try:
-            robot = assembled(design, workshop, name, growth)
-        except CannotBuildError:  # no room for more: the checks report what stays too weak
+        found = _first_with_room(design, workshop, name, (growth.more(weak, uses), growth.more(weak)))
+        if found is None:  # the checks report what stays too weak
             break
+        uses = growth.uses(weak)
+        robot, growth = found
         findings = constraint_findings(robot)
     return robot, findings
+
+
+def _first_with_room(
+    design: Design, workshop: Workshop, name: str, growths: Iterable[Growth]
+) -> tuple[Robot, Growth] | None:
+    """Return the robot, and its growth, of the first of some growths for which there is room; None if for none."""
+    for growth in dict.fromkeys(growths):
+        try:
+            return assembled(design, workshop, name, growth), growth
+        except CannotBuildError:
+            continue
+    return None

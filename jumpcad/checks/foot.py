@@ -57,7 +57,7 @@ def foot_findings(case: LoadCase) -> Iterator[Finding]:
 def _foot(case: LoadCase) -> Iterator[Finding]:
     """Yield the findings of toes and rails."""
     design, sections = case.robot.design, case.layout.sections
-    toes = float(case.forces.toes_n.max())
+    toes = case.toes_n
     toe, rail = sections.toe(case.shell), sections.rail(case.shell)
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, toes))
     remedy = f"shorten the toes (e_coef), or {WEAKER}"

@@ -17,7 +17,15 @@ from jumpcad.robot import Robot
 from jumpcad.strength.axle_beam import AxleBeam
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM, RoundBar, axle_bar, pin_bar
 from jumpcad.strength.bearings import loaded_forces_n
-from jumpcad.strength.loads import MovingMass, PushOff, landing_force_n, push_off, reflected_share, toe_reach_mm
+from jumpcad.strength.loads import (
+    MovingMass,
+    PushOff,
+    landing_force_n,
+    push_off,
+    reflected_share,
+    toe_load_n,
+    toe_reach_mm,
+)
 from jumpcad.strength.sizing import dog_inside_mm
 from jumpcad.strength.stress import VON_MISES, Shell, jaw_stress_mpa, pin_stress_mpa, tube_shear_mpa
 from jumpcad.transforms import Array, direction, turned_about_y
@@ -77,7 +85,11 @@ class LoadCase:
         body = self.robot.bodies[BODY]
         gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
         mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
-        return push_off(self.robot.linkage, mass, self.layout.sections.ground_mm, self.robot.spring)
+        return push_off(self.robot.linkage, mass, self.robot.spring)
+
+    @cached_property
+    def toes_n(self) -> float:
+        return float(toe_load_n(self.forces, self.layout.design, self.layout.sections.ground_mm).max())
 
     @cached_property
     def ankle_n(self) -> float:

@@ -41,10 +41,10 @@ class PushOff:
         Force of the ground on the foot (n, 2).
     ankle_n
         Force of the foot on the main leg (n, 2).
+    front_eye_n
+        Force of the foot on the front link (n, 2).
     leg_axial_n, front_n
         Compression (n,) of the main leg and of the front link; negative is tension.
-    toes_n
-        Load of both toe tips together (n,), with the foot resting on nose and tips alone.
     residual_n
         Imbalance of forces and torques on the body (n,): the error of the finite differences.
     """
@@ -52,13 +52,13 @@ class PushOff:
     leg_rad: Array
     ground_n: Array
     ankle_n: Array
+    front_eye_n: Array
     leg_axial_n: Array
     front_n: Array
-    toes_n: Array
     residual_n: Array
 
 
-def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float, springs: Spring | None = None) -> PushOff:
+def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) -> PushOff:
     """Return the forces of a push-off from a flat foot that does not slip.
 
     With compression δ, mass m, centre of mass c(q), turn t(q), radius of gyration k and J = |c'|² + k² t'², energy
@@ -111,22 +111,26 @@ def push_off(linkage: Linkage, mass: MovingMass, foot_depth_mm: float, springs: 
     axial, front_force = forces[..., 0].T
     residual = np.linalg.norm((unknown @ forces)[..., 0] - known, axis=1)
     ankle = axial[:, None] * along + shear[:, None] * across
-    eye = front_force[:, None] * front_along
-
-    up = ground[:, 1]
-    stands = np.cumprod(up > 0.0).astype(float)
-    back, _ = toe_reach_mm(design)
-    centre_of_pressure = (design.l4_mm * eye[:, 1] - foot_depth_mm * ground[:, 0]) / np.where(stands > 0, up, 1.0)
-    share = np.clip((design.l4_mm - centre_of_pressure) / (design.l4_mm + back), 0.0, 1.0)
+    stands = np.cumprod(ground[:, 1] > 0.0).astype(float)
     return PushOff(
         leg_rad=leg,
         ground_n=ground * stands[:, None],
         ankle_n=ankle * stands[:, None],
+        front_eye_n=(front_force * stands)[:, None] * front_along,
         leg_axial_n=axial * stands,
         front_n=front_force * stands,
-        toes_n=share * up * stands,
         residual_n=residual * stands,
     )
+
+
+def toe_load_n(forces: PushOff, design: Design, foot_depth_mm: float) -> Array:
+    """Return the load of both toe tips together (n,), with the foot resting on nose and tips alone."""
+    along, up = forces.ground_n.T
+    back, _ = toe_reach_mm(design)
+    centre_of_pressure = (design.l4_mm * forces.front_eye_n[:, 1] - foot_depth_mm * along) / np.where(up > 0.0, up, 1.0)
+    share = np.clip((design.l4_mm - centre_of_pressure) / (design.l4_mm + back), 0.0, 1.0)
+    load: Array = share * up
+    return load
 
 
 def _moment(arm: Array, force: Array) -> Array:

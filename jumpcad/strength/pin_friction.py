@@ -24,7 +24,7 @@ def pin_torque_nm(mechanism: Mechanism, coefficient: float) -> float:
     linkage, body = mechanism.linkage, mechanism.bodies[BODY]
     gyration_mm = 1000.0 * (body.inertia_kg_m2[1, 1] / body.mass_kg) ** 0.5
     mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], float(gyration_mm))
-    loads = push_off(linkage, mass, 1000.0 * mechanism.foot_depth_m, mechanism.spring)
+    loads = push_off(linkage, mass, mechanism.spring)
     leg, front, ankle, eye = friction.pin_radius_m
     foot_rate, front_rate = linkage.turning(loads.leg_rad)
     on_leg, on_front = np.hypot(*loads.ankle_n.T), np.abs(loads.front_n)

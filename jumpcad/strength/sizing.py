@@ -6,8 +6,9 @@ with the formulas of the strength checks of the finished robot. A section that f
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -17,15 +18,18 @@ from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
-from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_moment_nmm
+from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, toe_load_n, toe_moment_nmm
 from jumpcad.strength.stop import BLOW_FACTOR, PEAK_SHARE
-from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm
+from jumpcad.strength.stress import STATIONS, Beam, Shell, height_for_mm, tapered_energy_nmm, tapered_stress_mpa
 from jumpcad.workshop import Fits, Workshop
 
 TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
 """The body's mass properties before its parts are known; those of the template designs are within 10 %."""
 RESERVE = 1.15
 """Factor on every load, since masses, axial forces and the lever are not known yet; judgement."""
+AXIAL_RESERVE = 1.2
+"""Factor on the force along the leg beside the springs' torque, which is known: strong designs have bodies that are
+heavier than the typical one by a half, and axial forces that are larger by up to 1.19 times (measured)."""
 THICKNESS_MM, THICK_MM, THICK_FROM_NMM = 6.0, 8.0, 900.0
 """Thickness of the links, and a larger one from a spring torque on; judgement: axial play tilts thin eyes."""
 HEIGHT_MIN_MM = 6.0
@@ -55,11 +59,13 @@ STOP_MIN_MM = 6.0
 """Least depth of the rest stop's bar in the direction of the impact; judgement."""
 DOG_FACETS_MM = 0.05
 """Thickness that a jaw loses because its two circles are drawn as polygons."""
-GROWTH_STEP, GROWTH_MORE = 1.1, 1.002
-"""Largest factor by which a section grows at a time, and factor beyond what it lacks; judgement: few rounds, little
-mass more than needed, and designs that differ a little stay robots that differ a little."""
-STIFF_ROUNDS, STIFF_MORE = 12, 1.01
-"""Most steps, and factor beyond each, in which the leg's height is raised until it flexes little enough; judgement."""
+GROWTH_STEP, GROWTH_LEAP, GROWTH_MORE = 1.1, 1.5, 1.002
+"""Largest factor by which a section grows at first, then once it is known what growing helps, and factor beyond what
+it lacks; judgement: few rounds, little mass more than needed, and designs that differ a little stay robots that differ
+a little."""
+RAISED_ROUNDS, STIFF_MORE, STRONG_MORE = 12, 1.01, 1.001
+"""Most steps in which the leg's height is raised until it flexes little enough and holds, and factors beyond what each
+lacks; judgement."""
 
 
 @dataclass(frozen=True)
@@ -129,17 +135,32 @@ class Growth:
     dog: float = 1.0
     stop: float = 1.0
 
-    def more(self, weak: Iterable[Finding]) -> "Growth":
+    def more(
+        self, weak: Iterable[Finding], before: Mapping[str, tuple[float, float]] = MappingProxyType({})
+    ) -> "Growth":
         """Return the factors with those of weak sections larger.
 
         By what a finding lacks: stresses fall at least as fast as their section grows. By a whole step where that is
-        not known.
+        not known. `before` are the `uses` of an earlier growth: what has fallen by some power of its section since then
+        is taken to go on so (secant method).
         """
         steps: dict[str, float] = {}
         for finding in weak:
-            step = min(GROWTH_STEP, GROWTH_MORE * (finding.use or GROWTH_STEP))
+            step = self._step(finding, before.get(finding.name))
             steps[finding.grows] = max(step, steps.get(finding.grows, 1.0))
         return replace(self, **{what: step * getattr(self, what) for what, step in steps.items()})
+
+    def uses(self, weak: Iterable[Finding]) -> dict[str, tuple[float, float]]:
+        """Return the factor of what grows and the use of the limit for findings, by their name."""
+        return {one.name: (getattr(self, one.grows), one.use) for one in weak if one.use is not None}
+
+    def _step(self, finding: Finding, before: tuple[float, float] | None) -> float:
+        use, factor = finding.use or GROWTH_STEP, float(getattr(self, finding.grows))
+        if before is not None and factor > before[0]:
+            power = math.log(before[1] / use) / math.log(factor / before[0])
+            if power > 0.0:
+                return math.exp(min(math.log(GROWTH_LEAP), math.log(GROWTH_MORE) + math.log(use) / power))
+        return min(GROWTH_STEP, GROWTH_MORE * use)
 
 
 def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, growth: Growth = Growth()) -> Sections:
@@ -157,15 +178,23 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     thickness = grown_mm(max(least, hub_width_mm, across), growth.thickness)
     bending = height_for_mm(torque, thickness, allowable, shell)
     root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, bending)
-    stiff = root
-    if workshop.leg_bar is None:
-        stiff = _stiff_mm(design, springs, root, thickness, shell, material.modulus_mpa, safety.leg_flex_share)
-    leg_root = max(_in_hundredths(growth.leg * stiff), around)
+    forces = push_off(linkage, TYPICAL_BODY, springs)
+    axial = AXIAL_RESERVE * float(np.abs(forces.leg_axial_n).max())
+
+    def flexes(leg: Beam) -> float:
+        return leg_flex_share(design, leg, material.modulus_mpa, springs) / safety.leg_flex_share
+
+    def bears(leg: Beam) -> float:
+        return tapered_stress_mpa(leg, torque / RESERVE, axial) / allowable
+
+    stiff = root if workshop.leg_bar is not None else _raised_mm(root, thickness, shell, flexes, 3.0, STIFF_MORE)
+    strong = _raised_mm(root, thickness, shell, bears, 2.0, STRONG_MORE)
+    leg_root = max(_in_hundredths(growth.leg * max(stiff, strong)), around)
     leg_tip = max(_leg_tip_mm(leg_root), around)
     eye = max(eye, around / 2.0)
     depth = max(eye, leg_tip / 2.0) + ABOVE_GROUND_MM
     pad = workshop.foot_pad.thickness_mm if workshop.foot_pad else 0.0
-    toes = RESERVE * float(push_off(linkage, TYPICAL_BODY, depth + pad, springs).toes_n.max())
+    toes = RESERVE * float(toe_load_n(forces, design, depth + pad).max())
     toe = height_for_mm(toe_moment_nmm(design, toes), TOE_WIDTH_MM, allowable, shell, upright=True)
     rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
     toe_root = _in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
@@ -210,22 +239,18 @@ def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float, springs: Sprin
     return energy / (1000.0 * springs.energy_j)
 
 
-def _stiff_mm(
-    design: Design,
-    springs: Spring,
-    root_mm: float,
-    thickness_mm: float,
-    shell: Shell,
-    modulus_mpa: float,
-    share_max: float,
+def _raised_mm(
+    root_mm: float, thickness_mm: float, shell: Shell, use: Callable[[Beam], float], power: float, more: float
 ) -> float:
-    """Return the height of the leg's root, raised until it flexes by at most its share: the energy falls with 1/h³."""
-    for _ in range(STIFF_ROUNDS):
-        heights = np.linspace(root_mm, _leg_tip_mm(root_mm), STATIONS)
-        share = leg_flex_share(design, Beam(thickness_mm, heights, shell), modulus_mpa, springs)
-        if share <= share_max:
+    """Return the height of the leg's root, raised until the leg's use of a limit is 1 at most.
+
+    The use falls with 1/h to about some power: 2 of stresses, 3 of the energy that bends the leg.
+    """
+    for _ in range(RAISED_ROUNDS):
+        used = use(Beam(thickness_mm, np.linspace(root_mm, _leg_tip_mm(root_mm), STATIONS), shell))
+        if used <= 1.0:
             break
-        root_mm *= STIFF_MORE * (share / share_max) ** (1.0 / 3.0)
+        root_mm *= more * used ** (1.0 / power)
     return root_mm
 
 

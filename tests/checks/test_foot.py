@@ -34,7 +34,7 @@ def solid(kenan: Robot) -> LoadCase:
 
 def test_toes_and_rails_are_cantilevers(solid: LoadCase) -> None:
     """Both tips share the push-off's force; at a landing one of them may be alone. A rail ends where its toe does."""
-    design, sections, both = solid.robot.design, solid.layout.sections, float(solid.forces.toes_n.max())
+    design, sections, both = solid.robot.design, solid.layout.sections, solid.toes_n
     toe = (sections.toe_width_mm, 5.0), (sections.toe_root_mm, sections.toe_tip_height_mm)
     stresses = found(solid)
     assert stresses["toe_strength"] == pytest.approx(tapered_mpa(both / 2.0, design.l5_mm, *toe), rel=5e-3)
@@ -56,7 +56,7 @@ def test_the_outer_screw_of_a_separate_toe_bears_the_moment_about_the_inner_one(
     """16 and 30 mm from the root; the tapped hole is pressed more, the one that the screw passes has less around it."""
     case = LoadCase(built(LONG_TOES))
     fits, sections = case.workshop.fits, case.layout.sections
-    tip = max(float(case.forces.toes_n.max()) / 2.0, case.toe_blow_n)
+    tip = max(case.toes_n / 2.0, case.toe_blow_n)
     force = tip * (case.robot.design.l5_mm - 16.0) / 14.0
     height = max(sections.toe_root_mm, fits.m3_clearance_mm + 4.0 * fits.wall_mm)
     pressed = force / (fits.m3_tap_mm * sections.toe_width_mm)

@@ -17,6 +17,7 @@ from jumpcad.strength.loads import (
     push_off,
     rail_moment_nmm,
     reflected_share,
+    toe_load_n,
     toe_moment_nmm,
 )
 
@@ -28,7 +29,7 @@ TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo")
 def test_forces_and_torques_on_the_body_balance(c_coef: float) -> None:
     # two forces are solved from three equations of motion; what is left over shows any wrong arm or sign
     design = load_design("best-ga").model_copy(update={"c_coef": c_coef, "compression_ratio": 0.3})
-    forces = push_off(Linkage(design), BODY, 5.2)
+    forces = push_off(Linkage(design), BODY)
     assert forces.residual_n.max() < 0.001 * np.linalg.norm(forces.ground_n, axis=1).max()
 
 
@@ -36,7 +37,7 @@ def test_parallel_legs_swing_the_body_like_a_pendulum() -> None:
     # equal parallel links: the body does not turn, each of its points goes round a circle of radius l2
     design = load_design("kenan-2.0")
     assert design.c_coef == 1.0
-    forces = push_off(Linkage(design), BODY, 5.2)
+    forces = push_off(Linkage(design), BODY)
     loaded = math.radians(design.rest_angle_deg) - design.compression_rad
     angle = loaded + (forces.leg_rad - forces.leg_rad[0])  # of the legs above the ground
     outward = np.stack([-np.cos(angle), np.sin(angle)], axis=-1)
@@ -56,7 +57,7 @@ def test_parallel_legs_swing_the_body_like_a_pendulum() -> None:
 
 def test_leg_carries_the_springs_torque_to_the_ankle() -> None:
     design = load_design("best-bo")
-    forces = push_off(Linkage(design), BODY, 5.2)
+    forces = push_off(Linkage(design), BODY)
     shear = 1000.0 * design.peak_spring_torque_nm / design.l2_mm
     squared = np.sum(forces.ankle_n[0] ** 2) - forces.leg_axial_n[0] ** 2
     assert math.sqrt(squared) == pytest.approx(shear)
@@ -65,11 +66,11 @@ def test_leg_carries_the_springs_torque_to_the_ankle() -> None:
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_forces_grow_with_mass_and_springs_together(name: str) -> None:
     """With springs and body both a thousandth, the same motion, by a thousandth of the forces."""
-    linkage, depth = Linkage(load_design(name)), 5.2
+    linkage = Linkage(load_design(name))
     springs = springs_on_leg(linkage.design)
     weak = replace(springs, stiffness_nm_per_rad=springs.stiffness_nm_per_rad / 1000.0)
-    whole, small = push_off(linkage, BODY, depth, springs), push_off(linkage, replace(BODY, mass_kg=1e-4), depth, weak)
-    for one in ("ground_n", "ankle_n", "leg_axial_n", "front_n", "toes_n"):
+    whole, small = push_off(linkage, BODY, springs), push_off(linkage, replace(BODY, mass_kg=1e-4), weak)
+    for one in ("ground_n", "ankle_n", "front_eye_n", "leg_axial_n", "front_n"):
         forces = getattr(whole, one)
         assert np.abs(forces).max() > 0.0
         np.testing.assert_allclose(1000.0 * getattr(small, one), forces, rtol=1e-9, atol=1e-9)
@@ -77,15 +78,17 @@ def test_forces_grow_with_mass_and_springs_together(name: str) -> None:
 
 def test_heavier_robots_leave_the_ground_later() -> None:
     design = load_design("kenan-2.0")
-    light, heavy = (push_off(Linkage(design), MovingMass(mass, BODY.com_mm, 42.0), 5.2) for mass in (0.05, 0.2))
+    light, heavy = (push_off(Linkage(design), MovingMass(mass, BODY.com_mm, 42.0)) for mass in (0.05, 0.2))
     assert np.count_nonzero(light.ground_n[:, 1]) < np.count_nonzero(heavy.ground_n[:, 1])
 
 
 def test_feet_never_bear_more_than_the_ground_gives() -> None:
     for name in TEMPLATES:
-        forces = push_off(Linkage(load_design(name)), BODY, 5.2)
-        assert np.all(forces.toes_n <= forces.ground_n[:, 1] + 1e-9)
-        assert np.all(forces.toes_n >= 0)
+        design = load_design(name)
+        forces = push_off(Linkage(design), BODY)
+        toes_n = toe_load_n(forces, design, 5.2)
+        assert np.all(toes_n <= forces.ground_n[:, 1] + 1e-9)
+        assert np.all(toes_n >= 0)
 
 
 @pytest.mark.parametrize(
@@ -110,12 +113,13 @@ def test_the_foot_balances_on_nose_and_toes(
     """
     monkeypatch.setattr("jumpcad.strength.loads.POSITIONS", positions)
     design, depth_mm = load_design(name), 10.0
-    forces = push_off(Linkage(design), BODY, depth_mm)
+    forces = push_off(Linkage(design), BODY)
+    toes_n = toe_load_n(forces, design, depth_mm)
     back_mm = design.l5_mm * math.cos(math.radians(design.ground_link_angle_deg))
     (along, up), eye_up = forces.ground_n.T, (forces.ground_n - forces.ankle_n)[:, 1]
-    nose = up - forces.toes_n
-    on_both = (forces.toes_n > 1e-6) & (nose > 1e-6)
-    moment = nose * design.l4_mm - forces.toes_n * back_mm + along * depth_mm - eye_up * design.l4_mm
+    nose = up - toes_n
+    on_both = (toes_n > 1e-6) & (nose > 1e-6)
+    moment = nose * design.l4_mm - toes_n * back_mm + along * depth_mm - eye_up * design.l4_mm
     assert on_both.any()
     assert moment[on_both] == pytest.approx(0.0, abs=within * np.abs(up * design.l4_mm).max())
 
@@ -143,11 +147,14 @@ def test_toes_and_rails_balance_about_the_ankle() -> None:
 
 def test_nothing_bears_after_the_robot_has_left_the_ground() -> None:
     """A light robot on a strong design leaves early, and stays off: every force is then zero."""
-    forces = push_off(Linkage(load_design("best-bo")), MovingMass(0.02, np.array([4.0, 17.0]), 42.0), 5.2)
+    design = load_design("best-bo")
+    forces = push_off(Linkage(design), MovingMass(0.02, np.array([4.0, 17.0]), 42.0))
     up = forces.ground_n[:, 1]
     off = int(np.argmax(up <= 0.0))
     assert 0 < off < len(up) - 1
-    for one in (forces.ground_n, forces.ankle_n, forces.leg_axial_n, forces.front_n, forces.toes_n, forces.residual_n):
+    toes_n = toe_load_n(forces, design, 5.2)
+    parts = (forces.ankle_n, forces.front_eye_n, forces.leg_axial_n, forces.front_n)
+    for one in (forces.ground_n, *parts, toes_n, forces.residual_n):
         assert (one[off:] == 0.0).all()
         assert np.isfinite(one).all()
     assert (np.abs(forces.front_n[:off]) > 0.0).any()

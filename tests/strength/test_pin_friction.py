@@ -52,7 +52,7 @@ def test_each_pin_rubs_by_its_force_along_its_own_turn() -> None:
     body = robot.bodies["body"]
     gyration = 1000.0 * (body.inertia_kg_m2[1, 1] / body.mass_kg) ** 0.5
     mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
-    loads = push_off(robot.linkage, mass, 1000.0 * robot.foot_depth_m, robot.spring)
+    loads = push_off(robot.linkage, mass, robot.spring)
     pose = robot.linkage.pose(loads.leg_rad)
     leg, front, foot = robot.linkage.rest_rad + pose.leg_rad, robot.linkage.rest_rad + pose.front_rad, pose.foot_rad
     on_leg, on_front = np.hypot(*loads.ankle_n.T), np.abs(loads.front_n)
