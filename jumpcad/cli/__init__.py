@@ -5,6 +5,7 @@
 import _signal as signal  # type: ignore[import-not-found]
 import sys
 
+from jumpcad.collecting import collect_seldom
 from jumpcad.interrupts import holding, seen
 
 TYPE_CHECKING = False  # as in `jumpcad`
@@ -19,6 +20,7 @@ IMPORTING = "<frozen importlib._bootstrap>"
 def main() -> None:
     """Run the command line; exit codes are those of `jumpcad.cli.commands.run`, and 130 for an interrupt."""
     seen.clear()
+    collect_seldom()
     listening = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # nohup and & have it ignored
     hooks = sys.excepthook, sys.unraisablehook
     if listening:

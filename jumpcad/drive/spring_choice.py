@@ -40,7 +40,7 @@ def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: Sp
         smallest = [
             (arms, tensile)
             for d, tensile in zip(wire.diameters_mm, wire.tensile_strength_mpa, strict=True)
-            if (arms := _smallest_arms(d, tensile, on_leg, wire, limits, length))
+            if (arms := _smallest_arms(d, tensile, on_leg, wire, limits, length)) and _fits(arms, limits)
         ]
         for plate_pin in limits.plate_pins_rad:
             between = between_pins_rad(plate_pin, leg_pin_rad)
@@ -100,8 +100,13 @@ def _arms_between(least: Arms, on_leg: Spring, between_rad: float, wire: Wire, l
         before, arms = arms, _arms_of(round(product / (turns + arms.arm_turns), DIAMETER_DIGITS), d, limits)
         if arms == before:
             break
-    fits = arms.mean_mm <= INDEX_MAX * d and arms.mean_mm + d <= limits.outer_max_mm
-    return arms if fits else None
+    return arms if _fits(arms, limits) else None
+
+
+def _fits(arms: Arms, limits: SpringLimits) -> bool:
+    """Whether a coil has room and can be wound; one that has not has none with other arms either, which widen it."""
+    d = arms.wire_mm
+    return arms.mean_mm <= INDEX_MAX * d and arms.mean_mm + d <= limits.outer_max_mm
 
 
 def _arms_of(mean_mm: float, wire_mm: float, limits: SpringLimits) -> Arms:

@@ -102,7 +102,7 @@ class Cloud:
         met = [obstacle for obstacle in obstacles if obstacle.y_mm[0] < y_mm[1] and y_mm[0] < obstacle.y_mm[1]]
         if not met:
             return cls(np.zeros((0, 2)), np.zeros(0))
-        radii = [np.broadcast_to(obstacle.radius_mm, len(obstacle.points_mm)) for obstacle in met]
+        radii = [np.full(len(obstacle.points_mm), obstacle.radius_mm) for obstacle in met]
         return cls(np.concatenate([obstacle.points_mm for obstacle in met]), np.concatenate(radii))
 
     def near(self, centres_mm: Array, half_mm: npt.ArrayLike, within_mm: float = 0.0) -> "Cloud":

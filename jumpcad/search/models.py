@@ -218,7 +218,7 @@ class RobotModel:
         """
         if self.name != "printed":
             return -math.inf
-        quick = RobotModel("capsule", None, load_settings("screening"), self.engine)
+        quick = RobotModel("capsule", None, load_settings("screening"), self.guess_engine)
         if not quick.admits(design):
             return -math.inf
         found = quick(design)

@@ -14,6 +14,7 @@ from typing import Any
 
 import cloudpickle
 
+from jumpcad.collecting import collect_seldom
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.objective import Evaluation, Model
@@ -34,6 +35,7 @@ def start_worker(parent: int) -> None:
     # Engines print a banner; the parent may be printing one JSON document.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     threading.Thread(target=_end_with_parent, args=(parent,), daemon=True).start()
+    collect_seldom()
     atexit.register(os._exit, 0)  # else libraries that count leaks when Python ends print them into the parent's lines
 
 
