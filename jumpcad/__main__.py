@@ -1,5 +1,5 @@
 """`python -m jumpcad`: the command line of this very tree."""
 
-from jumpcad.cli import main
+from jumpcad.cli import program
 
-main()
+program()
