@@ -113,6 +113,17 @@ def response(inertia: Inertia, ankle: complex, foot: float, leg: float) -> Motio
 
 
 @compiled
+def gains_of(inertia: Inertia) -> Gains:
+    """Return the responses to unit impulses."""
+    return Gains(
+        response(inertia, 1.0 + 0j, 0.0, 0.0),
+        response(inertia, 1j, 0.0, 0.0),
+        response(inertia, 0j, 1.0, 0.0),
+        response(inertia, 0j, 0.0, 1.0),
+    )
+
+
+@compiled
 def plus(speed: Motion, change: Motion, factor: float) -> Motion:
     """Return velocities changed by a factor times a change."""
     return Motion(
@@ -323,12 +334,11 @@ def contact_of(model: Model, ground: Ground, gains: Gains, free: Motion, last: C
 
 @compiled
 def settle(
-    model: Model, ground: Ground, inertia: Inertia, free: Motion, last: Contact, held: bool
+    model: Model, ground: Ground, gains: Gains, free: Motion, last: Contact, held: bool
 ) -> tuple[Motion, Contact, float]:
     """Return velocities after a step, the ground's impulses, and the impulse that holds the leg joint if it is held."""
-    by_x, by_z = response(inertia, 1.0 + 0j, 0.0, 0.0), response(inertia, 1j, 0.0, 0.0)
-    by_foot, by_leg = response(inertia, 0j, 1.0, 0.0), response(inertia, 0j, 0.0, 1.0)
-    gains, hold = Gains(by_x, by_z, by_foot), 0.0
+    by_x, by_z, by_foot, by_leg = gains
+    hold = 0.0
     if held:
         hold = -free.leg / by_leg.leg
         free = plus(free, by_leg, hold)
@@ -336,6 +346,7 @@ def settle(
             plus(by_x, by_leg, -by_x.leg / by_leg.leg),
             plus(by_z, by_leg, -by_z.leg / by_leg.leg),
             plus(by_foot, by_leg, -by_foot.leg / by_leg.leg),
+            by_leg,
         )
     contact = contact_of(model, ground, gains, free, last)
     up, turning = contact.first_ns + contact.second_ns, turning_impulse(model, ground, contact)
@@ -347,31 +358,31 @@ def settle(
 
 @compiled
 def settle_with_friction(
-    model: Model, ground: Ground, inertia: Inertia, free: Motion, last: Contact, limit_ns: float
+    model: Model, ground: Ground, gains: Gains, free: Motion, last: Contact, limit_ns: float
 ) -> tuple[Motion, Contact, float]:
     """Like `settle`, with dry friction on the leg joint: all of it against the motion, or what holds it still."""
     if limit_ns == 0.0:
-        return settle(model, ground, inertia, free, last, False)
+        return settle(model, ground, gains, free, last, False)
     against = -limit_ns if free.leg >= 0.0 else limit_ns
     for friction in (against, -against):
-        rubbed = plus(free, response(inertia, 0j, 0.0, 1.0), friction)
-        after, contact, _ = settle(model, ground, inertia, rubbed, last, False)
+        rubbed = plus(free, gains.leg, friction)
+        after, contact, _ = settle(model, ground, gains, rubbed, last, False)
         if after.leg * friction <= 0.0:
             return after, contact, friction
-    return settle(model, ground, inertia, free, last, True)
+    return settle(model, ground, gains, free, last, True)
 
 
 @compiled
 def settle_at_stop(
-    model: Model, ground: Ground, inertia: Inertia, free: Motion, last: Contact, leg_rad: float
+    model: Model, ground: Ground, gains: Gains, free: Motion, last: Contact, leg_rad: float
 ) -> tuple[Motion, Contact, float]:
     """Do as `settle` with the leg in the stop: the pad pushes back, but no more than brings the leg to a standstill."""
     push = -2.0 * ground.half_s * model.stop_nm_per_rad * max(leg_rad - model.stop_rad, 0.0)
-    pushed = plus(free, response(inertia, 0j, 0.0, 1.0), push)
-    after, contact, _ = settle(model, ground, inertia, pushed, last, False)
+    pushed = plus(free, gains.leg, push)
+    after, contact, _ = settle(model, ground, gains, pushed, last, False)
     if after.leg >= 0.0:
         return after, contact, push
-    return settle(model, ground, inertia, free, last, True)
+    return settle(model, ground, gains, free, last, True)
 
 
 @compiled
@@ -383,16 +394,17 @@ def step(model: Model, moment: Moment, dt: float) -> Moment:
     turn = complex(math.cos(foot_rad), -math.sin(foot_rad))
     ground, links = Ground(ankle, turn, half), links_at(model, leg_rad)
     inertia = inertia_at(model, links, turn)
+    gains = gains_of(inertia)
     last, pins, middle = moment.contact, moment.pins_nm, before
     after, contact, friction_ns, stop_ns = before, last, 0.0, 0.0
     for _ in range(2):
         ankle_n, foot_nm, leg_nm = forces(model, links, inertia, turn, leg_rad, middle)
         free = plus(before, response(inertia, ankle_n, foot_nm, leg_nm), dt)
-        after, contact, friction_ns = settle_with_friction(model, ground, inertia, free, last, dt * pins)
+        after, contact, friction_ns = settle_with_friction(model, ground, gains, free, last, dt * pins)
         stop_ns = 0.0
         if after.leg > 0.0 and leg_rad + half * after.leg > model.stop_rad:
-            rubbed = plus(free, response(inertia, 0j, 0.0, 1.0), friction_ns)
-            after, contact, stop_ns = settle_at_stop(model, ground, inertia, rubbed, last, leg_rad)
+            rubbed = plus(free, gains.leg, friction_ns)
+            after, contact, stop_ns = settle_at_stop(model, ground, gains, rubbed, last, leg_rad)
         change = plus(after, before, -1.0)
         middle = plus(before, change, 0.5)
         pins = pin_torque(model, links, ground, middle, change, contact)

@@ -65,11 +65,12 @@ class Ground(NamedTuple):
 
 
 class Gains(NamedTuple):
-    """Changes of velocity by unit impulses at the ankle along x and along z, and of torque on the foot."""
+    """Changes of velocity by unit impulses at the ankle along x and z, and of torque on the foot and on the leg joint."""
 
     x: Motion
     z: Motion
     foot: Motion
+    leg: Motion
 
 
 class Losses(NamedTuple):

@@ -320,7 +320,7 @@ def test_a_step_on_the_ground_obeys_the_laws_of_contact(either: Robot, held: boo
         ground = Ground(complex(0.0, -lowest + rng.choice([0.0, 1e-4])), turn, 1e-4)
         inertia = kernel.inertia_at(model, kernel.links_at(model, leg_rad), turn)
         free = Motion(complex(rng.normal(0.0, 1.0), rng.normal(-0.5, 1.0)), rng.normal(0.0, 8.0), rng.normal(0.0, 20.0))
-        after, contact, hold = kernel.settle(model, ground, inertia, free, NO_CONTACT, held)
+        after, contact, hold = kernel.settle(model, ground, kernel.gains_of(inertia), free, NO_CONTACT, held)
         arms = [(at * turn).real for at in model.sole_m]
         up, height = contact.first_ns + contact.second_ns, ground.ankle_m.imag
         turning = -height * contact.along_ns - sum(
@@ -360,7 +360,9 @@ def test_dry_friction_brakes_the_leg_or_holds_it(either: Robot, height_m: float 
         ground = Ground(ankle, complex(1.0, 0.0), 1e-4)
         inertia = kernel.inertia_at(model, kernel.links_at(model, rng.uniform(-0.6, 0.0)), ground.turn)
         free = Motion(complex(rng.normal(0.0, 0.2), -0.3), rng.normal(0.0, 2.0), rng.normal(0.0, 3.0))
-        after, contact, friction = kernel.settle_with_friction(model, ground, inertia, free, NO_CONTACT, limit)
+        after, contact, friction = kernel.settle_with_friction(
+            model, ground, kernel.gains_of(inertia), free, NO_CONTACT, limit
+        )
         assert abs(friction) <= limit * (1.0 + 1e-9)
         if abs(after.leg) > 1e-9:
             assert friction == pytest.approx(-math.copysign(limit, after.leg))
