@@ -96,17 +96,21 @@ class Learner:
         return proposal
 
     def beside(
-        self, trials: Sequence[Trial], admits: Callable[[Variant], bool], generator: np.random.Generator
+        self,
+        trials: Sequence[Trial],
+        admits: Callable[[Variant], bool],
+        generator: np.random.Generator,
+        wider: float = 1.0,
     ) -> Proposal | None:
         """Return the neighbour of the best of some trials with the best guess; None where none is about as good.
 
-        `admits` tells which variants are new. All neighbours are rehearsed.
+        `admits` tells which variants are new; neighbours are so many times `wider` apart. All of them are rehearsed.
         """
         best, rehearsal = best_trial(trials), self._rehearsal
         if rehearsal is None or not rehearsal.guessing or best is None:
             return None
         offers, known = [], rehearsal.known(self._trials, self.tried)
-        for point in neighbours(self._space, best, generator):
+        for point in neighbours(self._space, best, generator, wider):
             variant = self._space.to_variant(point)
             if admits(variant):
                 self.tried += [] if variant.key in known else [point]

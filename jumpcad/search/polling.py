@@ -2,7 +2,8 @@
 
 The score of a printed robot has steps of a per cent, where a section grows or a part takes another place. The processes
 smooth over them, and promise nothing where a ridge of steps goes on. Points a step away along each axis (compass
-search: Kolda, Lewis and Torczon, SIAM Review 2003) and some aslant are guessed, and the best of them are evaluated.
+search: Kolda, Lewis and Torczon, SIAM Review 2003) and some aslant are guessed, and the best of them are evaluated;
+near and far ones where a proposal promises nothing.
 """
 
 import itertools
@@ -22,6 +23,9 @@ DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
 WITHIN = 0.005
 """Of a neighbour's guess: how much less than the best's it may be; judgement: about what a guess is wrong by."""
+HOPELESS, FARTHEST = 1e-8, 6.25
+"""Of the best score: what a proposal promises that promises nothing. Neighbours are then up to so many times as far
+away, an eighth of the unit cube along an axis; judgement."""
 STALLED = 4
 """Steps in a row without a gain after which neighbours are evaluated; judgement."""
 
@@ -60,13 +64,14 @@ def gains(trials: Sequence[Trial], best: float = 0.0) -> Iterator[tuple[float, f
         best = max(best, found)
 
 
-def neighbours(space: Space, best: Trial, generator: np.random.Generator) -> list[Array]:
+def neighbours(space: Space, best: Trial, generator: np.random.Generator, wider: float = 1.0) -> list[Array]:
     """Return points (d,) near a trial that differ along the axes of numbers on whose bounds it does not lie.
 
-    A step away along each of them, both ways, and `DRAWN` points that are drawn at such a distance.
+    A step away along each of them, both ways, and `DRAWN` points that are drawn at such a distance; all of them so many
+    times `wider`.
     """
     centre = space.to_unit(best.variant)
     inside = (centre > 0.5 * STEP) & (centre < 1.0 - 0.5 * STEP) & (np.array(space.categories) == 0)
-    ways = STEP * np.eye(space.dimension)[inside]
-    drawn = DRAWN_STEP * inside * generator.standard_normal((DRAWN, space.dimension))
+    ways = wider * STEP * np.eye(space.dimension)[inside]
+    drawn = wider * DRAWN_STEP * inside * generator.standard_normal((DRAWN, space.dimension))
     return list(space.snap(np.clip(centre + np.vstack([ways, -ways, drawn]), 0.0, 1.0).round(DIGITS)))

@@ -65,7 +65,7 @@ class Ground(NamedTuple):
 
 
 class Gains(NamedTuple):
-    """Changes of velocity by unit impulses at the ankle along x and z, and of torque on the foot and on the leg joint."""
+    """Changes of velocity by unit impulses at the ankle along x and z, and of torque on foot and leg joint."""
 
     x: Motion
     z: Motion

@@ -91,3 +91,5 @@ def test_neighbours_lie_along_the_axes_that_are_on_no_bound():
     points = np.array(neighbours(SMALL, whole, np.random.default_rng(0)))
     assert len(points) == 6 + DRAWN
     assert (np.abs(points[6:] - [0.4, 0.5, 0.6]) > 0.0).all()
+    wider = np.array(neighbours(SMALL, whole, np.random.default_rng(0), 2.5)) - [0.4, 0.5, 0.6]
+    assert wider == pytest.approx(2.5 * (points - [0.4, 0.5, 0.6]), abs=3e-4)  # of the same draws, to four digits

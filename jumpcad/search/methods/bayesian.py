@@ -18,7 +18,7 @@ from jumpcad.search.evaluator import Evaluator
 from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.objective import SCREENED
-from jumpcad.search.polling import STALLED, Progress
+from jumpcad.search.polling import FARTHEST, HOPELESS, STALLED, Progress
 from jumpcad.search.rehearsal import TRIED, Rehearsal
 from jumpcad.search.space import Space
 from jumpcad.search.start import first_points
@@ -84,6 +84,9 @@ def run_bayesian(evaluator: Evaluator, task: Task, polls: bool = True) -> bool:
             proposal = beside or learner.propose(ask, best)
             if proposal is None:
                 break
+            if polls and beside is None and proposal.promised_gain(best) < HOPELESS:
+                wider = FARTHEST ** generator.random()
+                proposal = learner.beside(trials, admits, generator, wider) or proposal
             proposals.append(proposal)
         return proposals
 

@@ -1,12 +1,16 @@
 """Bayesian optimisation: few evaluations, batches, resumption."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from support.hills import FIXED, SMALL, TOP, Hill
 
+from jumpcad.search.learner import Learner
 from jumpcad.search.methods import Task
 from jumpcad.search.methods.bayesian import default_initial, incumbent, learned_trials, run_bayesian
 from jumpcad.search.objective import Evaluation
+from jumpcad.search.polling import FARTHEST
 from jumpcad.search.space import Space
 from jumpcad.search.trial import Trial
 
@@ -37,6 +41,36 @@ def test_few_of_the_proposals_are_refused(evaluator):
     run_bayesian(one, Task(44, 1, initial=12))
     refused = [trial for trial in one.trials[12:] if trial.score is None]
     assert len(refused) <= 3
+
+
+@pytest.mark.parametrize(("promise", "polls", "looks"), [(-30.0, True, 3), (-30.0, False, 0), (-1.0, True, 0)])
+def test_where_a_proposal_promises_nothing_neighbours_near_and_far_are_looked_at(
+    evaluator, monkeypatch, promise, polls, looks
+):
+    """What is found there is evaluated in place of the proposal."""
+    proposed, asked, propose = [], [], Learner.propose
+
+    def promising(learner, ask, best):
+        proposed.append(replace(propose(learner, ask, best), log_improvement=promise, log_feasible=0.0))
+        return proposed[-1]
+
+    def beside(learner, trials, admits, generator, wider=1.0):
+        asked.append(wider)
+        if len(asked) < 3:
+            return None
+        point = np.full(3, 0.5)
+        return replace(proposed[-1], variant=SMALL.to_variant(point), unit=point)
+
+    monkeypatch.setattr(Learner, "propose", promising)
+    monkeypatch.setattr(Learner, "beside", beside)
+    one = evaluator()
+    run_bayesian(one, Task(8, 0, initial=5), polls)
+    assert len(asked) == looks
+    assert len(set(asked)) == looks
+    assert all(1.0 <= wider <= FARTHEST for wider in asked)
+    expected = [proposal.variant.key for proposal in proposed]
+    assert [trial.key for trial in one.trials[5:7]] == expected[:2]
+    assert (one.trials[7].key == SMALL.to_variant(np.full(3, 0.5)).key) == (looks == 3)
 
 
 @pytest.mark.usefixtures("quick_proposals_once")
