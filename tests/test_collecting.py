@@ -4,7 +4,7 @@ import gc
 import subprocess
 import sys
 
-from jumpcad.collecting import THRESHOLDS
+from jumpcad.collecting import THRESHOLDS, collect_seldom, collect_usually
 from jumpcad.search.local_workers import LocalWorkers
 
 COMMAND = """
@@ -33,3 +33,14 @@ def test_a_worker_looks_seldom() -> None:
         assert workers.submit(gc.get_threshold).result(60.0) == THRESHOLDS
     finally:
         workers.end()
+
+
+def test_a_process_that_stays_looks_as_usual() -> None:
+    usual = gc.get_threshold()
+    try:
+        collect_seldom()
+        assert gc.get_threshold() == THRESHOLDS
+        collect_usually()
+        assert gc.get_threshold() != THRESHOLDS
+    finally:
+        gc.set_threshold(*usual)

@@ -43,7 +43,7 @@ def built_and_checked(design: Design, workshop: Workshop | None, name: str) -> t
     refused = errors(geometry_findings(design))
     if refused:
         raise CannotBuildError(f"{refused[0].name}: {refused[0].message}: {refused[0].remedy}")
-    growth, uses = Growth(), dict[str, tuple[float, float]]()
+    growth, uses = Growth(), dict[tuple[str, str], tuple[float, float]]()
     robot = assembled(design, workshop, name, growth)
     findings = constraint_findings(robot)
     for _ in range(GROWTH_ROUNDS):

@@ -38,6 +38,7 @@ def studio(
         import viser
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
+    from jumpcad.collecting import collect_usually
     from jumpcad.files.templates import template_names
     from jumpcad.studio import Studio
 
@@ -54,6 +55,7 @@ def studio(
     shown = Studio(opened, name, list(shops), server, Path.cwd(), points, number)
     shown.start()
     print(f"http://127.0.0.1:{server.get_port()}  (Ctrl-C ends the studio; the browser needs WebGL)")
+    collect_usually()
     try:
         server.sleep_forever()
     finally:

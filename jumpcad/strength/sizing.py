@@ -26,7 +26,7 @@ from jumpcad.workshop import Fits, Workshop
 TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
 """The body's mass properties before its parts are known; those of the template designs are within 10 %."""
 RESERVE = 1.15
-"""Factor on every load, since masses, axial forces and the lever are not known yet; judgement."""
+"""Factor on every load, since masses and the lever are not known yet; judgement."""
 AXIAL_RESERVE = 1.2
 """Factor on the force along the leg beside the springs' torque, which is known: strong designs have bodies that are
 heavier than the typical one by a half, and axial forces that are larger by up to 1.19 times (measured)."""
@@ -63,6 +63,10 @@ GROWTH_STEP, GROWTH_LEAP, GROWTH_MORE = 1.1, 1.5, 1.002
 """Largest factor by which a section grows at first, then once it is known what growing helps, and factor beyond what
 it lacks; judgement: few rounds, little mass more than needed, and designs that differ a little stay robots that differ
 a little."""
+LEAST_POWER = 0.5
+"""Least power of a section by which a use is taken to fall; judgement: stresses fall with the first to the third power,
+the release's kick with 0.6 to 0.8 of the lever's (measured). What falls less is held by another size too, which a
+leap would pass."""
 RAISED_ROUNDS, STIFF_MORE, STRONG_MORE = 12, 1.01, 1.001
 """Most steps in which the leg's height is raised until it flexes little enough and holds, and factors beyond what each
 lacks; judgement."""
@@ -136,29 +140,29 @@ class Growth:
     stop: float = 1.0
 
     def more(
-        self, weak: Iterable[Finding], before: Mapping[str, tuple[float, float]] = MappingProxyType({})
+        self, weak: Iterable[Finding], before: Mapping[tuple[str, str], tuple[float, float]] = MappingProxyType({})
     ) -> "Growth":
         """Return the factors with those of weak sections larger.
 
         By what a finding lacks: stresses fall at least as fast as their section grows. By a whole step where that is
         not known. `before` are the `uses` of an earlier growth: what has fallen by some power of its section since then
-        is taken to go on so (secant method).
+        is taken to go on so (secant method), if it is one that a section can have.
         """
         steps: dict[str, float] = {}
         for finding in weak:
-            step = self._step(finding, before.get(finding.name))
+            step = self._step(finding, before.get((finding.name, finding.grows)))
             steps[finding.grows] = max(step, steps.get(finding.grows, 1.0))
         return replace(self, **{what: step * getattr(self, what) for what, step in steps.items()})
 
-    def uses(self, weak: Iterable[Finding]) -> dict[str, tuple[float, float]]:
-        """Return the factor of what grows and the use of the limit for findings, by their name."""
-        return {one.name: (getattr(self, one.grows), one.use) for one in weak if one.use is not None}
+    def uses(self, weak: Iterable[Finding]) -> dict[tuple[str, str], tuple[float, float]]:
+        """Return the factor of what grows and the use of the limit for findings, by their name and what grows."""
+        return {(one.name, one.grows): (getattr(self, one.grows), one.use) for one in weak if one.use is not None}
 
     def _step(self, finding: Finding, before: tuple[float, float] | None) -> float:
         use, factor = finding.use or GROWTH_STEP, float(getattr(self, finding.grows))
-        if before is not None and factor > before[0]:
+        if before is not None and factor > before[0] and 1.0 < before[1] / use < math.inf:
             power = math.log(before[1] / use) / math.log(factor / before[0])
-            if power > 0.0:
+            if power >= LEAST_POWER:
                 return math.exp(min(math.log(GROWTH_LEAP), math.log(GROWTH_MORE) + math.log(use) / power))
         return min(GROWTH_STEP, GROWTH_MORE * use)
 

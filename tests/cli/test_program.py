@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -34,15 +33,33 @@ def test_libraries_count_no_leaks_at_the_end() -> None:
     assert ended.stdout.splitlines()[1:] == ["ended"]  # what others ask for at the end is done
 
 
-def test_an_output_that_cannot_be_written_is_told_by_python() -> None:
-    full = Path("/dev/full")
-    if not full.exists():
-        pytest.skip("no /dev/full on this system")
-    before = "import atexit, sys; atexit.register(print, 'after all', end='')"
-    code = f"{before}; {CALL.format(entry='program', arguments=['--version'])}"
-    with full.open("w") as output, subprocess.Popen(
-        [sys.executable, "-c", code], stdout=output, stderr=subprocess.PIPE, text=True
-    ) as process:  # fmt: skip
-        _, errors = process.communicate()
-    assert process.returncode != 0
-    assert "No space left" in errors
+BROKEN = """
+import atexit, sys
+class Broken:
+    closed = False
+    def flush(self):
+        raise OSError("no space left")
+atexit.register(lambda: setattr(sys, "stdout", Broken()))
+from jumpcad.cli import program
+sys.argv = ["jumpcad", "--version"]
+program()
+"""
+
+
+def test_what_cannot_be_written_at_the_very_end_is_told_by_python() -> None:
+    """Exit code 120, as of any Python program whose last output is lost."""
+    done = subprocess.run([sys.executable, "-c", BROKEN], capture_output=True, text=True, check=False)
+    assert done.returncode == 120
+    assert "no space left" in done.stderr
+
+
+def test_threads_that_still_write_are_waited_for() -> None:
+    later = "import sys, threading, time; threading.Thread(target=lambda: (time.sleep(0.3), print('later'))).start()"
+    ended = called("program", "--version", before=later)
+    assert ended.stdout.splitlines()[1:] == ["later"]
+
+
+def test_a_profile_of_the_program_is_printed() -> None:
+    command = [sys.executable, "-m", "cProfile", "-m", "jumpcad", "--version"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "function calls" in done.stdout
