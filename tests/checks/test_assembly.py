@@ -157,6 +157,16 @@ def test_what_stands_in_the_way_covers_its_section(axis: int, sign: float) -> No
     assert _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path) is None
 
 
+@pytest.mark.parametrize(("past", "free"), [("", False), ("post", True), ("post|wall", True), ("po|wall", False)])
+def test_a_part_passes_what_its_move_names_and_nothing_else(past: str, free: bool) -> None:
+    """A ring comes along its post; a tool stands on it there too."""
+    cube, post = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), block("post", (1.0, 1.0, 30.0), (0.5, 0.5, -25.0))
+    way = Way(None, SimpleNamespace(move=SimpleNamespace(past=past, reach="")), [], [], [post])
+    path, key = np.array([0.0, 0.0, 20.0]), Tool("key", 4.0, 50.0)
+    assert (_in_the_way(way, cube, path) is None) == free
+    assert (_tool_blocked(way, key, cube, path) is None) == free
+
+
 def test_an_oblique_way_is_sampled_from_its_beginning_to_its_end() -> None:
     """What is shared at the worst position counts over the whole way: never less than what is swept."""
     cube, path = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), np.array([12.0, 0.0, 16.0])
