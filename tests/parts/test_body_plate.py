@@ -123,6 +123,21 @@ def test_ears_as_wide_as_the_axles_seat_lead_from_the_leg_to_the_stop(name: str,
     assert ear.difference(filled).area < 1e-3
 
 
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_stops_tabs_are_pressed_into_slots(name: str, side: str) -> None:
+    """A tab of 5 x 4 mm with the press fit's 0.1 mm all around it, as the stop is turned."""
+    layout = built(name).layout
+    plate, stop = layout.lateral.left_plate if side == "left" else layout.lateral.right_plate, layout.stop
+    section = region(cut(placed(built(name), f"body_plate_{side}"), sum(plate) / 2.0))
+    rings = [ring for one in getattr(section, "geoms", [section]) for ring in one.interiors]
+    slot = min(rings, key=lambda ring: ring.centroid.distance(shapely.Point(*stop.tab_mm)))
+    corners = [
+        stop.tab_mm + a * 2.6 * stop.along + b * 2.1 * stop.behind for a, b in ((1, 1), (1, -1), (-1, -1), (-1, 1))
+    ]
+    assert shapely.Polygon(slot).symmetric_difference(shapely.Polygon(corners)).area < 0.02
+
+
 def test_the_springs_pin_stands_in_a_boss_of_the_right_plate(kenan: Robot) -> None:
     """Up to 0.5 mm beside the spring, at most 4 mm: then, with the plate's bore, nearly two diameters deep."""
     layout = kenan.layout
