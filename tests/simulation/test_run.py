@@ -25,6 +25,9 @@ def test_audit_rejects_a_loop_that_comes_apart(jumping: list[Flight]) -> None:
     assert jump.ballistic_range_m is None
     finding = jump.findings[-1]
     assert (finding.name, finding.severity) == ("audit_loop", "error")
+    assert finding.limit == 0.5
+    assert finding.value == pytest.approx(0.5 - finding.margin)
+    assert f"came apart by up to {finding.value:.4f} mm" in finding.message
     assert "dt_s" in finding.remedy
 
 
