@@ -1,5 +1,6 @@
 """Body plates, measured on their meshes: bores, the motor's seat, and a name where there is material for all of it."""
 
+import itertools
 import math
 
 import numpy as np
@@ -21,6 +22,7 @@ from jumpcad.parts.body_plate import (
     _drawing,
     _letters,
     _pads,
+    _possible,
     ear_reach_mm,
     socket_about_axis,
     tray_slots,
@@ -259,6 +261,17 @@ def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -
         assert [at[0] + at[2], at[1] + at[3]] == pytest.approx([0.0, 2.0 * nearest])  # on a raster of 1 mm
         moved = flat.translate((at[0] - box[0], at[1] - box[1]))
         assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
+
+
+def test_letters_may_lie_where_no_point_of_the_raster_below_them_is_outside() -> None:
+    """A box of 5 x 3 mm covers what is less than 2.5 and 1.5 mm from its middle; beyond the raster all is outside."""
+    outside = np.zeros((6, 9), dtype=bool)
+    outside[1, 1] = True
+    free = {(x, z) for z, x in itertools.product(range(6), range(9)) if not outside[z, x]}
+    around = list(itertools.product((-2, -1, 0, 1, 2), (-1, 0, 1)))
+    expected = [all((x + dx, z + dz) in free for dx, dz in around) for z in range(6) for x in range(9)]
+    assert 0 < sum(expected) < 4 * 5
+    assert _possible(outside, (5.0, 3.0)).tolist() == expected
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
