@@ -106,8 +106,8 @@ class Coefficients:
         return self.ground * self.of(surface)
 
 
-STUDY = Coefficients(ground=1.5, foot=1.0, body=0.5, pin=0.0, joint_damping_nms_per_rad=0.001)
-"""Of the capsule robot: what the published study's results were made with."""
+STUDY = {"ground": 1.5, "body": 0.5, "pin": 0.0, "joint_damping_nms_per_rad": 0.001}
+"""Of the capsule robot: what the published study's results were made with; its foot follows the settings."""
 
 
 def coefficients(mechanism: Mechanism, settings: Settings) -> Coefficients:
@@ -117,18 +117,16 @@ def coefficients(mechanism: Mechanism, settings: Settings) -> Coefficients:
     """
     own, friction = STUDY, mechanism.friction
     if friction is not None:
-        own = Coefficients(friction.foot, STUDY.foot, friction.body / friction.foot, friction.pin, 0.0)
-
-    def chosen(asked: float | None, otherwise: float) -> float:
-        return otherwise if asked is None else asked
-
-    return Coefficients(
-        chosen(settings.ground_friction, own.ground),
-        settings.foot_friction,
-        chosen(settings.body_friction, own.body),
-        chosen(settings.pin_friction, own.pin),
-        chosen(settings.joint_damping_nms_per_rad, own.joint_damping_nms_per_rad),
-    )
+        body = friction.body / friction.foot
+        own = {"ground": friction.foot, "body": body, "pin": friction.pin, "joint_damping_nms_per_rad": 0.0}
+    asked = {
+        "ground": settings.ground_friction,
+        "body": settings.body_friction,
+        "pin": settings.pin_friction,
+        "joint_damping_nms_per_rad": settings.joint_damping_nms_per_rad,
+    }
+    chosen = {name: own[name] if value is None else value for name, value in asked.items()}
+    return Coefficients(foot=settings.foot_friction, **chosen)
 
 
 def takeoff_clearance_m(mechanism: Mechanism, settings: Settings) -> float:

@@ -136,7 +136,7 @@ def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
         raise JumpcadError(f"{len(trials)} designs are too few for principal components; raise --samples")
     units = np.array([evaluator.space.to_unit(trial.variant) for trial in trials])
     deviation = units.std(axis=0)
-    found = PCA(svd_solver="full").fit((units - units.mean(axis=0)) / np.where(deviation > 0, deviation, 1.0))
+    found = PCA(svd_solver="full").fit(units / np.where(deviation > 0, deviation, 1.0))
     names = tuple(parameter.name for parameter in evaluator.space.free)
     return Components(names, found.explained_variance_ratio_, found.components_, len(trials))
 

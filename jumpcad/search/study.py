@@ -107,7 +107,7 @@ def run_study(request: Request, path: str | Path | None, pool: Pool, watch: Watc
         for number, stage in enumerate(stages):
             converged = False
             allowance += stage.evaluations
-            if not evaluator.trials or not evaluator.expired():
+            if not evaluator.expired():
                 before, first_step = len(evaluator.trials), 0
                 if stage.widen:
                     first_step = number * STEPS

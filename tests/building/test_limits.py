@@ -63,6 +63,22 @@ def test_the_default_workshop_has_the_limits_of_its_comments() -> None:
     assert limits(load_workshop()).motors == ("n20-298-mp",)
 
 
+def test_reserves_are_kept_on_the_side_where_it_is_harder() -> None:
+    """Above gaps of 0.5 mm, below the cam's 45° and below the motor's torque with the stiffest springs."""
+    none, much = (
+        limits(changed("safety", gap_reserve_mm=gap, pressure_angle_reserve_deg=angle, motor_torque_reserve=torque))
+        for gap, angle, torque in ((0.0, 0.0, 0.0), (0.2, 5.0, 0.3))
+    )
+    assert math.degrees(none.cam.pressure_angle_rad) == pytest.approx(45.0)
+    assert math.degrees(much.cam.pressure_angle_rad) == pytest.approx(40.0)
+    assert (none.cam.clearance_mm, much.cam.clearance_mm) == pytest.approx((0.5, 0.7))
+    assert much.cam.undercut_margin_mm == pytest.approx(none.cam.undercut_margin_mm + 0.2)
+    safety = load_workshop().safety
+    stiffest = safety.motor_torque_max_nm / (1.0 + safety.spring_rate_scatter)
+    assert none.train.torque_max_nm == pytest.approx(stiffest)
+    assert much.train.torque_max_nm == pytest.approx(0.7 * stiffest)
+
+
 def test_springs_that_last_longer_are_stressed_less() -> None:
     """Shigley, table 10-10: 50 % of the tensile strength for a million jumps."""
     assert limits(changed("safety", jumps=1e6)).spring.stress_share == pytest.approx(0.5 / 1.05)

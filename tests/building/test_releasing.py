@@ -13,6 +13,7 @@ from jumpcad.drive.release import MovingParts
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot import Robot
 from jumpcad.strength.bearings import hub_bearings
+from jumpcad.workshop import Workshop
 
 
 @pytest.fixture(scope="module")
@@ -23,12 +24,17 @@ def robot() -> Robot:
 
 @pytest.fixture(scope="module")
 def moving(robot: Robot) -> MovingParts:
+    return moving_in(robot, robot.workshop)
+
+
+def moving_in(robot: Robot, workshop: Workshop) -> MovingParts:
+    """Return what moves of a robot, its lever printed in a workshop."""
     seen: list[Any] = []
-    bearing = next(one for one in hub_bearings(robot.workshop) if one is not None)
+    bearing = next(one for one in hub_bearings(workshop) if one is not None)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(releasing, "release", lambda *given: seen.append(given))
-        holes = HoleSizes.of(robot.workshop, bearing)
-        release_of(robot.layout, robot.workshop, holes, robot.parts, robot.hardware, robot.bodies, robot.spring)
+        holes = HoleSizes.of(workshop, bearing)
+        release_of(robot.layout, workshop, holes, robot.parts, robot.hardware, robot.bodies, robot.spring)
     ((drive, found, _),) = seen
     assert drive is robot.layout.drive
     assert isinstance(found, MovingParts)
@@ -61,6 +67,9 @@ def test_the_roller_moves_with_a_quarter_of_its_lever(robot: Robot, moving: Movi
     more = moving.roller_kg - bearing
     assert bearing > 0.001
     assert 0.4 * solid < more <= solid
+    process = robot.workshop.process.model_copy(update={"infill": 1.0})
+    filled = moving_in(robot, robot.workshop.model_copy(update={"process": process}))
+    assert filled.roller_kg - bearing == pytest.approx(solid, rel=1e-3)
 
 
 def test_the_lever_bends_as_a_cantilever_that_tapers(robot: Robot, moving: MovingParts) -> None:

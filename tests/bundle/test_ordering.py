@@ -29,7 +29,7 @@ def with_article(robot: Robot, pattern: str, replacement: str) -> Robot:
 
 @pytest.mark.parametrize(
     ("length", "stock"),
-    [("20.0", "20"), ("20.1", "25"), ("32.9", "35"), ("45.5", "50"), ("60.0", "60"), ("71.2", "72")],
+    [("20.0", "20"), ("20.1", "25"), ("32.9", "35"), ("45.5", "50"), ("51.0", "60"), ("60.0", "60"), ("71.2", "72")],
 )
 def test_a_standoff_is_cut_from_the_next_longer_one(length: str, stock: str) -> None:
     """Shops have 20 to 50 mm in steps of 5 mm, and 60 mm; a longer one is made."""

@@ -39,6 +39,8 @@ def test_shipped_files_have_the_published_figures_and_say_what_is_unknown() -> N
         ("[mass]\nrobot_error_g = 1.0", r"is the error of nothing: give robot_g too"),
         ("[mass]\nrobot_g = -3.0", r"mass.robot_g = -3.0: must be more than 0"),
         ("[floor]\nslope_deg = [95.0]", r"must be less than 90"),
+        ("[floor]\nslope_deg = [0.0]", r"must be more than 0$"),
+        ("[floor]\npull_n = [0.0]", r"must be more than 0$"),
         ('[[jumps]]\ndistance_mm = [250.0]\ndistance_of = "toe"', r"must be 'centre-of-mass', 'first-touchdown'"),
     ],
 )

@@ -18,6 +18,7 @@ from jumpcad.checks.assembly import (
     _findings,
     _in_the_way,
     _tool,
+    _tool_blocked,
     assembly_findings,
     assembly_ways,
     paths,
@@ -156,6 +157,16 @@ def test_what_stands_in_the_way_covers_its_section(axis: int, sign: float) -> No
     assert _in_the_way(way_past(block("beside", tuple(size), tuple(low))), cube, path) is None
 
 
+@pytest.mark.parametrize(("past", "free"), [("", False), ("post", True), ("post|wall", True), ("po|wall", False)])
+def test_a_part_passes_what_its_move_names_and_nothing_else(past: str, free: bool) -> None:
+    """A ring comes along its post; a tool stands on it there too."""
+    cube, post = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), block("post", (1.0, 1.0, 30.0), (0.5, 0.5, -25.0))
+    way = Way(None, SimpleNamespace(move=SimpleNamespace(past=past, reach="")), [], [], [post])
+    path, key = np.array([0.0, 0.0, 20.0]), Tool("key", 4.0, 50.0)
+    assert (_in_the_way(way, cube, path) is None) == free
+    assert (_tool_blocked(way, key, cube, path) is None) == free
+
+
 def test_an_oblique_way_is_sampled_from_its_beginning_to_its_end() -> None:
     """What is shared at the worst position counts over the whole way: never less than what is swept."""
     cube, path = block("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), np.array([12.0, 0.0, 16.0])
@@ -176,6 +187,21 @@ def test_a_tool_stands_on_the_middle_of_its_fasteners_face(side: tuple[float, fl
     np.testing.assert_allclose(shaft.T_body_part[:3, 2], side, atol=1e-9)
     np.testing.assert_allclose(shaft.T_body_part[:3, :3].T @ shaft.T_body_part[:3, :3], np.eye(3), atol=1e-9)
     assert shaft.shape.volume_mm3 == pytest.approx(50.0 * np.pi * 4.0, rel=0.01)
+
+
+@pytest.mark.parametrize(("low_mm", "height_mm"), [(20.0, 4.0), (-30.0, 200.0)])
+def test_what_stands_in_a_tools_way_covers_its_section(low_mm: float, height_mm: float) -> None:
+    """A key of 4 mm stands on a head, where that came from: a block, short or longer than it, covers half of it."""
+    head = block("head", (6.0, 6.0, 6.0), (-3.0, -3.0, -3.0))
+    way = replace(way_past(), placed=SimpleNamespace(move=SimpleNamespace(past="", reach="")))
+    wall, beside = (block("wall", (9.0, 9.0, height_mm), (x, -4.5, low_mm)) for x in (0.0, 2.01))
+    key, path = Tool("key", 4.0, 50.0), np.array([0.0, 0.0, -20.0])
+    found = _tool_blocked(replace(way, there=[head, wall]), key, head, path)
+    assert found is not None
+    assert (found.name, found.by) == ("head", "wall")
+    assert found.share_mm2 == pytest.approx(np.pi * 4.0 / 2.0, rel=0.01)
+    assert _tool_blocked(replace(way, there=[head], movers=[wall]), key, head, path) == found
+    assert _tool_blocked(replace(way, there=[head, beside]), key, head, path) is None
 
 
 @pytest.mark.parametrize(("length", "blocked"), [(0.0, False), (0.4, False), (1.0, True), (2.0, True)])

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from manifold3d import Manifold
-from support.built import geared
+from support.built import built, geared
 
 from jumpcad.checks.ground import foot_findings, ground_findings
 from jumpcad.checks.interference import Moment, components, pose_of
@@ -119,8 +119,10 @@ def test_the_roller_counts_with_its_radius(strongest: Robot) -> None:
     assert finding.margin + 0.6 == pytest.approx(lowest - roller_mm / 2.0 + 1000.0 * strongest.foot_depth_m, abs=1e-6)
 
 
-def test_the_trays_count_with_their_ends(strongest: Robot) -> None:
+@pytest.mark.parametrize("name", ["best-bo", "best-printable"])
+def test_the_trays_count_with_their_ends(name: str) -> None:
     """The lower tray 100 mm further down: the lower of its two ends in the pose where it is lowest."""
+    strongest = built(name)
     layout = strongest.layout
     tray = layout.tray_mm + np.array([0.0, -100.0])
     (finding,) = ground_findings(replace(strongest, layout=replace(layout, tray_mm=tray)))

@@ -10,6 +10,7 @@ from support.built import body_in_plane, checked
 from jumpcad.checks.interference import (
     Component,
     Moment,
+    _near,
     components,
     interference_findings,
     moments,
@@ -53,6 +54,15 @@ def test_fires_on_a_plates_pin_in_the_way_of_the_legs_arm(kenan: Robot, side: st
     hardware = tuple(replace(item, T_body_part=pose) if item is pin else item for item in kenan.hardware)
     found = errors(interference_findings(replace(kenan, hardware=hardware)))
     assert any("spring_pin" in finding.message and arm.name in finding.message for finding in found)
+
+
+def test_every_two_boxes_that_overlap_are_looked_at_once() -> None:
+    """Four cubes of 2 mm in a row, 1, 2 and 1.5 mm apart: the second and the third only touch."""
+    lows = np.array([[x, 0.3 * x, -0.2 * x] for x in (0.0, 1.0, 3.0, 4.5)])
+    boxes = [np.stack([low, low + 2.0]) for low in lows]
+    for row in (boxes, boxes[::-1]):
+        assert [(int(i), int(j)) for i, j in _near(row)] == [(0, 1), (2, 3)]
+    assert [(int(i), int(j)) for i, j in _near([boxes[0]] * 3)] == [(0, 1), (0, 2), (1, 2)]
 
 
 @pytest.mark.parametrize("turned", [False, True])

@@ -100,6 +100,18 @@ def test_leg_stress_by_hand(kenan: Robot) -> None:
     assert bending < stress < bending + 0.3
 
 
+@pytest.mark.parametrize("root_mm", [1.0, 30.0])
+def test_beside_its_bore_the_leg_is_as_high_as_its_hub_or_its_root(kenan: Robot, root_mm: float) -> None:
+    """6·M·H/(b·(H³ - d³)), H the hub's diameter or the root's height, whichever is larger."""
+    layout = replace(kenan.layout, sections=replace(kenan.layout.sections, leg_root_mm=root_mm))
+    robot = replace(kenan, layout=layout)
+    case = LoadCase(robot)
+    height, bore = max(root_mm, 2.0 * case.holes.hub_radius_mm), case.holes.hub_bore_mm
+    stress = 6.0 * case.torque_nmm * height / (layout.sections.thickness_mm * (height**3 - bore**3))
+    (found,) = (one for one in strength_findings(robot) if one.name == "hub_strength")
+    assert found.value == pytest.approx(stress)
+
+
 def test_twice_the_spring_torque_bends_twice_as_much(kenan: Robot) -> None:
     doubled = kenan.design.model_copy(update={"stiffness_nmm_per_deg": 2.0 * kenan.design.stiffness_nmm_per_deg})
     assert kenan.layout is not None

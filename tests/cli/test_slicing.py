@@ -77,6 +77,8 @@ def test_grams_and_times_are_told_in_tables(run: Run, bundle: Path, pretend: Cal
     assert rows["all"] == ["0.60", "2:05", "h"]
     assert rows["slicer"] == ["PrusaSlicer", "2.9.1"]
     assert rows["settings"] == ["all", "taken", "over"]
+    ends = {len(line.rstrip()) for line in out.splitlines() if line.lstrip().startswith(("plate", "all"))}
+    assert len(ends) == 1  # figures and the head of their column end below each other
 
 
 def test_times_go_into_bill_and_guide(run: Run, built: Path, bundle: Path, pretend: Callable[[str], None]) -> None:

@@ -49,7 +49,8 @@ def test_openings_are_evenly_apart_with_a_margin(cuts: list) -> None:
     assert plate[1, 1] - max(box[1, 1] for box in found) == pytest.approx(MARGIN_MM, abs=2e-3)
     assert middles[0, 0] - plate[0, 0] == pytest.approx(plate[1, 0] - middles[-1, 0], abs=2e-3)
     assert middles[0, 0] - plate[0, 0] == pytest.approx(pitch[0] / 2.0, abs=2e-3)
-    assert min(box[0, 1] for box in found) - plate[0, 1] > MARGIN_MM + 3.0  # letters in front
+    front = min(box[0, 1] for box in found) - plate[0, 1]
+    assert MARGIN_MM + 3.5 < front < 2.0 * MARGIN_MM + 3.5  # letters of 3.5 mm, nearer to the opening than to the edge
 
 
 def test_steps_lie_on_both_sides_of_a_fit_and_ribs_are_never_negative() -> None:

@@ -125,9 +125,12 @@ def test_pinions_play_by_the_backlash_engraved_on_them() -> None:
     bar = PIECES["gear_holder"].shape.bounds_mm
     assert np.ptp(bar, axis=0)[1] == pytest.approx(3.2 + 4.0 * WORKSHOP.fits.wall_mm)  # two walls on each side
     wheel = reread(PIECES["gear_wheel"]).slice(2.5).rotate(180.0 + 360.0 / 40.0)
+    running = 3.0 + 2.0 * WORKSHOP.fits.sliding_mm  # both turn on axles of 3 mm
+    assert [width(bore) for bore in contours(wheel)[1]] == pytest.approx([running], abs=2e-3)
     played = {}
     for name in (name for name in PIECES if name.startswith("pinion")):
         solid = reread(PIECES[name])
+        assert [width(bore) for bore in contours(solid.slice(2.5))[1]] == pytest.approx([running], abs=2e-3)
         play = math.radians(turning_play_deg(wheel, solid.slice(2.5), distance, 360.0 / 15.0))
         played[name] = play * 1.25 * 15 / 2.0  # along the pitch circle of 15 teeth of module 1.25
         label = f"0.{name[-2:]}"[1:]

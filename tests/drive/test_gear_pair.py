@@ -45,6 +45,16 @@ def test_contact_ratio_grows_to_that_of_two_racks():
     assert pair.contact_ratio == pytest.approx(1.981, abs=1e-3)
 
 
+def test_a_cut_tip_leaves_its_share_of_the_straight_flank():
+    """The cutter's flank is straight as deep as a rack's tip reaches: 0; contact leans by 20° to the pitch line.
+
+    Of two gears the one with less counts.
+    """
+    for cut, mate_cut, left in ((0.0, 0.0, 0.0), (0.1, 0.1, 0.1 / math.sin(math.radians(20))), (0.1, 0.0, 0.0)):
+        gears = [Gear(50000, 1.0, 0.0, 5, tip_cut_mm=one) for one in (cut, mate_cut)]
+        assert GearPair(*gears, 50000.0).involute_margin_mm == pytest.approx(left, abs=1e-3)
+
+
 def test_the_centre_distance_is_that_of_a_worked_example():
     # m = 1, z = 12 and 21: inv(working angle) = inv(20°) + 2·tan(20°)·x/33, with the least shift of the pinion alone
     pair = gear_pair(12, 21, 1.0, 5.0, 0.0)

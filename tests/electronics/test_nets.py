@@ -6,7 +6,16 @@ import pytest
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.electronics.chosen import Chosen, chosen_of
-from jumpcad.electronics.nets import LOWER_OHM, PULL_UP_OHMS, UPPER_OHMS, Wiring, gpio, logic_range, wiring_of
+from jumpcad.electronics.nets import (
+    LOWER_OHM,
+    PULL_UP_OHMS,
+    UPPER_OHMS,
+    Wiring,
+    _pull_up_ohm,
+    gpio,
+    logic_range,
+    wiring_of,
+)
 
 CATALOGUE = load_catalogue()
 KITS = ("light-1s", "strong-2s")
@@ -140,6 +149,18 @@ def test_a_closed_contact_carries_its_least_current_even_with_five_per_cent_off(
     assert 0.95 * volts / (1.05 * wiring.pull_up_ohm) >= 0.995 * sensor.least_a
     assert volts / (10.0**0.2 * wiring.pull_up_ohm) < 1.1 * sensor.least_a  # the next of the series is too large
     assert wiring.resistors["pull-up resistor"] == wiring.pull_up_ohm
+
+
+@pytest.mark.parametrize(("most_ohm", "chosen"), [(2250.0, 2200), (2150.0, 1500), (1010.0, 1000), (990.0, None)])
+def test_a_pull_up_is_the_largest_that_gives_a_tenth_more_than_the_contact_needs(
+    most_ohm: float, chosen: int | None
+) -> None:
+    """Resistor and supply may both be off by 5 %."""
+    found = parts("light-1s")
+    volts, sensor = found.controller.logic_v, found.components["sensor"]
+    assert volts is not None
+    needs = sensor.model_copy(update={"least_a": volts / (1.1 * most_ohm)})
+    assert _pull_up_ohm(replace(found, components=found.components | {"sensor": needs})) == chosen
 
 
 def test_a_contact_without_a_least_current_has_the_largest_pull_up() -> None:

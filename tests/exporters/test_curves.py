@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.exporters.curves import Arc, Circle, Curve, Line, curves_of
+from jumpcad.exporters.curves import Arc, Circle, Curve, Line, _is_arc, curves_of
 from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, rounded, stadium
 
 
@@ -46,6 +46,14 @@ def test_a_bar_with_round_ends_is_two_lines_and_two_arcs() -> None:
     assert [radius(curve) for curve in curves if isinstance(curve, Arc)] == pytest.approx([4.5, 4.5], abs=1e-3)
     lines = [math.dist(*ends(curve)) for curve in curves if isinstance(curve, Line)]
     assert lines == pytest.approx([math.hypot(40.0, 15.0)] * 2, abs=0.5)  # to within a side of the arcs
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_points_of_a_circle_are_an_arc_only_in_order(sign: float) -> None:
+    turns = sign * np.radians(np.arange(0.0, 60.0, 5.0))
+    assert _is_arc(4.0 * np.column_stack([np.cos(turns), np.sin(turns)]))
+    turns[[4, 5]] = turns[[5, 4]]
+    assert not _is_arc(4.0 * np.column_stack([np.cos(turns), np.sin(turns)]))
 
 
 def test_corners_stay_corners() -> None:

@@ -10,7 +10,6 @@ import pytest
 from support.machines import PAD_NM_PER_RAD, STOP_RAD, machine, one_sided, rubbing
 
 from jumpcad.design import load_design
-from jumpcad.exporters.limits import SWING_RAD
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.urdf import write_loop, write_urdf
@@ -31,14 +30,18 @@ def leg(root: ET.Element) -> ET.Element:
 
 
 def test_the_leg_is_limited_at_the_stop(robot: Mechanism) -> None:
+    """A quarter turn beyond its travel on the other side, and on both without a stop."""
     urdf = leg(ET.fromstring(write_urdf(robot))).find("limit")
     sdf = leg(ET.fromstring(write_sdf(robot))).find("axis/limit")
     mjcf = leg(ET.fromstring(write_mjcf(robot)))
     assert float(urdf.get("upper")) == float(sdf.findtext("upper")) == STOP_RAD
     assert float(sdf.findtext("stiffness")) == PAD_NM_PER_RAD
-    assert [float(word) for word in mjcf.get("range").split()] == [robot.joint("leg").lower_rad - SWING_RAD, STOP_RAD]
+    assert [float(word) for word in mjcf.get("range").split()] == [
+        robot.joint("leg").lower_rad - math.pi / 2.0,
+        STOP_RAD,
+    ]
     free = capsule_robot(robot.design)
-    assert float(leg(ET.fromstring(write_urdf(free))).find("limit").get("upper")) == SWING_RAD
+    assert float(leg(ET.fromstring(write_urdf(free))).find("limit").get("upper")) == math.pi / 2.0
     assert leg(ET.fromstring(write_mjcf(free))).get("range") is None
 
 

@@ -15,6 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.leg_inertia import leg_inertia_kg_m2
 from jumpcad.mechanism.model import BODY, BODY_NAMES
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings
@@ -86,6 +87,18 @@ def test_contacts_and_the_loop_are_as_stiff_as_mujoco_allows(dt_s: float) -> Non
     soft = np.array([node.attrib["solref"].split() for node in root.iter() if "solref" in node.attrib], dtype=float)
     assert len(soft) > 2
     assert soft == pytest.approx(np.tile([2.0 * step, 1.0], (len(soft), 1)))
+
+
+def test_the_stop_is_as_stiff_as_the_robots() -> None:
+    """A time constant T and a damping ratio of 1 are the stiffness I/T² ("solver parameters", MuJoCo's modeling)."""
+    robot = built("kenan-2.0")
+    assert robot.stop is not None
+    root = ET.fromstring(write_mjcf(robot))
+    (leg,) = (node for node in root.iter("joint") if node.get("name") == robot.spring.joint)
+    time_s, ratio = map(float, leg.attrib["solreflimit"].split())
+    inertia = leg_inertia_kg_m2(robot, robot.stop.angle_rad)
+    assert inertia / time_s**2 == pytest.approx(robot.stop.stiffness_nm_per_rad, rel=1e-6)
+    assert ratio == 1.0
 
 
 @pytest.mark.parametrize("gravity_m_s2", [9.81, 1.62])

@@ -17,7 +17,8 @@ from jumpcad.workshop import load_workshop
 
 def test_hint_only_where_something_is_near() -> None:
     assert did_you_mean("kenan2", ["kenan-2.0", "best-bo"]) == " (did you mean kenan-2.0?)"
-    assert did_you_mean("zzz", ["kenan-2.0", "best-bo"]) == ""
+    for word in ("zzz", "keys", "bold-box"):  # two letters that occur in both words do not make them alike
+        assert did_you_mean(word, ["kenan-2.0", "best-bo"]) == ""
 
 
 def complaint(tmp_path: Path, text: str) -> str:

@@ -126,11 +126,19 @@ def test_a_strap_has_its_slots_and_a_wall_between_battery_and_plate() -> None:
         assert CARRIED.seats(inside)["battery"].y_mm == pytest.approx(place)
 
 
-@pytest.mark.parametrize("half_mm", [18.0, 21.0])
-def test_resistors_lie_two_by_two_apart_from_each_other_and_from_ties_and_boards(half_mm: float) -> None:
-    """Each takes 2.3 x 6.3 mm on the upper tray, between controller and driver; nearest to the controller first."""
+@pytest.mark.parametrize(("half_mm", "longer_mm"), [(18.0, 0.0), (21.0, 0.0), (26.0, 30.0)])
+def test_resistors_lie_two_by_two_apart_from_each_other_and_from_ties_and_boards(
+    half_mm: float, longer_mm: float
+) -> None:
+    """Each takes 2.3 x 6.3 mm on the upper tray, between controller and driver; nearest to the controller first.
+
+    A long capacitor reaches over the gap between the boards.
+    """
     parts = CATALOGUE.components
-    full = replace(CARRIED, plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"])
+    capacitor = parts["electrolytic-100uf"]
+    assert capacitor.length_mm is not None
+    capacitor = capacitor.model_copy(update={"length_mm": capacitor.length_mm + longer_mm})
+    full = replace(CARRIED, plug=parts["jst-ph-2"], capacitor=capacitor)
     inside = (-half_mm, half_mm)
     small, seats = full.small_seats(inside), full.seats(inside)
     assert len(small) >= 4

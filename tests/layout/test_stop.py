@@ -83,7 +83,8 @@ def test_the_stop_gives_way_to_what_is_there_and_says_what_misses(robot: Robot) 
     assert moved.radius_mm - farther.radius_mm == pytest.approx(0.5)
     with pytest.raises(CannotBuildError, match=r"no room for the rest stop .* mm too little"):
         stop_place([replace(post, radius_mm=40.0)], *given)
-    thin = stop.pad.model_copy(update={"thickness_mm": 0.5})
+    enough, thin = (stop.pad.model_copy(update={"thickness_mm": thickness}) for thickness in (1.5, 1.49))
+    assert stop_place([], *given[:3], enough, *given[4:]).pad == enough
     with pytest.raises(CannotBuildError, match="choose a thicker pad"):
         stop_place([], *given[:3], thin, *given[4:])
 

@@ -1,5 +1,6 @@
 """Body plates, measured on their meshes: bores, the motor's seat, and a name where there is material for all of it."""
 
+import itertools
 import math
 
 import numpy as np
@@ -21,6 +22,7 @@ from jumpcad.parts.body_plate import (
     _drawing,
     _letters,
     _pads,
+    _possible,
     ear_reach_mm,
     socket_about_axis,
     tray_slots,
@@ -121,6 +123,21 @@ def test_ears_as_wide_as_the_axles_seat_lead_from_the_leg_to_the_stop(name: str,
     stop = shapely.Point(*layout.stop.tab_mm).buffer(2.0 + 2.5 - 0.05)
     ear = shapely.union_all([*base, stop]).convex_hull
     assert ear.difference(filled).area < 1e-3
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_stops_tabs_are_pressed_into_slots(name: str, side: str) -> None:
+    """A tab of 5 x 4 mm with the press fit's 0.1 mm all around it, as the stop is turned."""
+    layout = built(name).layout
+    plate, stop = layout.lateral.left_plate if side == "left" else layout.lateral.right_plate, layout.stop
+    section = region(cut(placed(built(name), f"body_plate_{side}"), sum(plate) / 2.0))
+    rings = [ring for one in getattr(section, "geoms", [section]) for ring in one.interiors]
+    slot = min(rings, key=lambda ring: ring.centroid.distance(shapely.Point(*stop.tab_mm)))
+    corners = [
+        stop.tab_mm + a * 2.6 * stop.along + b * 2.1 * stop.behind for a, b in ((1, 1), (1, -1), (-1, -1), (-1, 1))
+    ]
+    assert shapely.Polygon(slot).symmetric_difference(shapely.Polygon(corners)).area < 0.02
 
 
 def test_the_springs_pin_stands_in_a_boss_of_the_right_plate(kenan: Robot) -> None:
@@ -244,6 +261,17 @@ def test_a_label_is_read_from_outside_beside_what_covers_the_plate(side: Face) -
         assert [at[0] + at[2], at[1] + at[3]] == pytest.approx([0.0, 2.0 * nearest])  # on a raster of 1 mm
         moved = flat.translate((at[0] - box[0], at[1] - box[1]))
         assert (moved - letters).area() + (letters - moved).area() < 1e-3 * moved.area()
+
+
+def test_letters_may_lie_where_no_point_of_the_raster_below_them_is_outside() -> None:
+    """A box of 5 x 3 mm covers what is less than 2.5 and 1.5 mm from its middle; beyond the raster all is outside."""
+    outside = np.zeros((6, 9), dtype=bool)
+    outside[1, 1] = True
+    free = {(x, z) for z, x in itertools.product(range(6), range(9)) if not outside[z, x]}
+    around = list(itertools.product((-2, -1, 0, 1, 2), (-1, 0, 1)))
+    expected = [all((x + dx, z + dz) in free for dx, dz in around) for z in range(6) for x in range(9)]
+    assert 0 < sum(expected) < 4 * 5
+    assert _possible(outside, (5.0, 3.0)).tolist() == expected
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

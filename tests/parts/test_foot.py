@@ -146,15 +146,18 @@ def test_the_ankles_boss_has_two_walls_around_its_pin_and_more_than_its_ends_hav
     assert low_z == pytest.approx(-layout.sections.foot_depth_mm)
 
 
+@pytest.mark.parametrize("higher_mm", [0.0, 60.0])
 @pytest.mark.parametrize("name", [*ONE_PIECE, LONG_TOES])
-def test_webs_are_as_high_as_rails_and_folded_link_let_them(name: str) -> None:
+def test_webs_are_as_high_as_rails_and_folded_link_let_them(name: str, higher_mm: float) -> None:
     """Seen in the foot by the law of cosines: 1 mm below the loaded link's eyes and no higher than the rails.
 
     10 mm long at the ankle, 2 mm high at least; 6 mm long from the middle, 0.2 mm lower than the rails at 0.6 of their
     length, if that leaves 2 mm.
     """
     robot = built(name)
-    layout, sections, length = robot.layout, robot.layout.sections, robot.design.l4_mm
+    rails = {key: higher_mm + getattr(robot.layout.sections, key) for key in ("rail_root_mm", "rail_tip_mm")}
+    layout, length = replace(robot.layout, sections=replace(robot.layout.sections, **rails)), robot.design.l4_mm
+    sections = layout.sections
     foot, link = (body_in_plane(robot, body, robot.spring.wind_rad) for body in (FOOT, FRONT_LINK))
     pivot = np.linalg.inv(foot) @ link[:, 2]
     along = np.array([length, 0.0]) - pivot[:2]

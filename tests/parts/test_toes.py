@@ -9,10 +9,11 @@ import shapely
 import trimesh
 from support.built import LONG_TOES, built, part, placed
 
+from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.foot import foot
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.toes import joint_height_mm, lying_hole, toes, toes_apart
+from jumpcad.parts.toes import _bar, joint_height_mm, lying_hole, toes, toes_apart
 from jumpcad.solids.outline import hole
 
 
@@ -113,6 +114,21 @@ def test_cross_screws_are_16_and_30_mm_from_the_toes_root() -> None:
             if item.name.startswith(f"{toe.name}_screw"):
                 places.append(item.look.copy().apply_transform(inverse @ item.T_body_part).bounds[:, 0].mean())
         assert sorted(places) == pytest.approx([16.0, 30.0], abs=0.05)
+
+
+@pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])
+def test_bars_reach_straight_to_the_side(name: str) -> None:
+    """From the design's tips to half the width asked for, with the round end of a tip of 5 mm beyond."""
+    robot = built(name)
+    tip = np.array([toe_tip_mm(robot.design)[0], 0.0, 0.0])
+    layout = replace(robot.layout, toe_half_width_mm=toe_tip_mm(robot.design)[1] + 20.0)
+    for toe in toes(layout):
+        (bar,) = _bar(layout, toe)
+        ends = [toe.pose_mm @ [*end, 0.0, 1.0] for end in (bar.root_mm, bar.tip_mm)]
+        for end, away in zip(ends, (0.0, 20.0), strict=True):
+            beside = toe.sign * np.array([0.0, toe_tip_mm(robot.design)[1] + away, 0.0])
+            np.testing.assert_allclose(end[:3], tip + beside, atol=1e-6)
+    assert _bar(replace(layout, toe_half_width_mm=0.0), toes(layout)[0]) == []
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", LONG_TOES])

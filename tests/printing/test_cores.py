@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jumpcad.printing.cores import cores, section_moments
+from jumpcad.printing.cores import cores, section_moments, shared
 from jumpcad.solids.outline import Region, rectangle
 from jumpcad.solids.stack import Stack
 
@@ -41,3 +41,23 @@ def test_a_pocket_has_perimeters_of_its_own() -> None:
     assert areas[[first, second], 0] == pytest.approx([1600.0, 1500.0])
     assert borders[[first, second], 0] == pytest.approx([160.0, 200.0])
     assert areas[second, 1] == pytest.approx(-100.0 * 3.0)
+
+
+@pytest.mark.parametrize("others", [[1], [2], [3], [1, 2], [2, 3], [1, 2, 3]])
+@pytest.mark.parametrize("number", [0, 1, 2, 3])
+def test_a_core_shares_with_other_layers_what_lies_in_all_of_them(number: int, others: list[int]) -> None:
+    """A whole plate of 40 mm, with one pocket, with another one that overlaps it, and a smaller plate on top."""
+    plate, small = rectangle((40.0, 40.0)), rectangle((20.0, 60.0), (6.0, 0.0)) ^ rectangle((40.0, 40.0))
+    stack = Stack.of([(0.0, 3.0, plate), (3.0, 4.0, small)])
+    first, second = rectangle((10.0, 12.0), (3.0, 0.0)), rectangle((14.0, 10.0), (8.0, 5.0))
+    stack = stack.pocketed([(1.0, 2.0, first), (2.0, 3.0, second)])
+    heights = np.array([0.5, 1.5, 2.5, 3.5])
+    sections, layers = stack.sections_at(heights), stack.regions_at(heights)
+    which = [int(one) for one in sections.which]
+    core = cores(sections, [which[number]], 1.0, 0.4)[which[number]]
+    expected = core
+    for other in others:
+        expected = expected ^ layers[other]
+    found = core ^ shared(core, which[number], [which[other] for other in others], sections)
+    assert ((found - expected) + (expected - found)).area() < 1e-6
+    assert found.area() > 0.0

@@ -226,5 +226,15 @@ def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as
     assert learner.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
 
 
+@pytest.mark.parametrize(("less", "proposed"), [(-1.0, True), (0.9, True), (1.1, False)])
+def test_a_neighbour_may_be_a_little_worse_than_the_best(less, proposed):
+    """By half a hundredth of its guess."""
+    best, rehearsal = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0), Rehearsal()
+    rehearsal.guessing = True
+    rehearsal.guess = lambda variant: 3.0 if variant.key == best.key else 3.0 * (1.0 - 0.005 * less)
+    found = Learner(SMALL, TRIALS, rehearsal, {}, refit=False).beside([best], lambda _: True, np.random.default_rng(0))
+    assert (found is not None) == proposed
+
+
 def variant_of(learner, key):
     return next(one for one in map(SMALL.to_variant, learner.tried) if one.key == key)

@@ -39,6 +39,8 @@ def test_where_the_best_lie_on_an_edge_the_pick_keeps_off_it(evaluator):
     # 1 % above it is still feasible, and it gives away no more than twice what that costs.
     assert 0.98 * 0.7 < best.trial.design.compression_ratio < 0.7 / 1.008
     assert best.rejections.get("loop", 0) <= 1
+    safer = [trial.design.compression_ratio for trial in one.trials if trial.phase == "margin"][:3]
+    assert 0.7 > safer[0] > safer[1] > safer[2]  # more confidence keeps farther off
     # Of those on the edge every second neighbour is rejected; a few may be lucky while few are known.
     edge = [one for one in ranked if one.trial.design.compression_ratio > 0.6985]
     assert all(one.neighbours < best.neighbours for one in edge)

@@ -1,5 +1,6 @@
 """Whole studies: the same trials, whoever computes them and whatever interrupts them."""
 
+import math
 import os
 import random
 import subprocess
@@ -14,6 +15,8 @@ from support.places import TESTS
 
 from jumpcad.errors import JumpcadError
 from jumpcad.search import study
+from jumpcad.search.models import NEIGHBOURS
+from jumpcad.search.objective import Evaluation
 from jumpcad.search.polling import gains
 from jumpcad.search.pool import local_pool
 from jumpcad.search.request import Request
@@ -299,3 +302,30 @@ def test_bounds_get_what_the_neighbours_leave_of_the_pick(monkeypatch):
     assert winner is result.winner
     assert left == request.pick - len(around) > 0
     assert result.evaluations <= 80
+
+
+class Crowd(Hill):
+    """A hill where half the designs are rejected for their first neighbour, and the others take all of theirs."""
+
+    def __call__(self, design):
+        if design.rest_angle_deg > 60.0:
+            return Evaluation("tips", {"evaluations": 2.0})
+        return Evaluation("jump", {"p10": 1.0, "evaluations": 1.0 + NEIGHBOURS})
+
+
+@pytest.mark.parametrize("evaluations", [60, 89, 133])
+def test_as_many_designs_with_neighbours_are_tried_together_as_fit(monkeypatch, evaluations):
+    """Of the first twenty, and of those that are left each time; each may take eleven robots."""
+    parts = []
+    with local_pool(0) as pool:
+        look = pool.evaluate
+        monkeypatch.setattr(pool, "evaluate", lambda model, part: parts.append(len(part)) or look(model, part))
+        request = Request(SMALL, Crowd(), "p10-fitness", "ga", evaluations)
+        trials = [trial for trial in run_study(request, None, pool).trials if trial.step == 0]
+    left, waiting = evaluations, 20
+    while left > 0 and waiting > 0:
+        count = parts.pop(0)
+        assert count == min(waiting, math.ceil(left / 11))
+        part, trials = trials[:count], trials[count:]
+        left, waiting = left - sum(11 if trial.score else 2 for trial in part), waiting - count
+    assert not trials

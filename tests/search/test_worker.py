@@ -1,6 +1,7 @@
 """What runs in a worker process."""
 
 import os
+import signal
 import subprocess
 import sys
 from types import SimpleNamespace
@@ -35,6 +36,17 @@ def test_a_worker_that_starts_after_its_parent_was_killed_ends():
         "import os, signal; from jumpcad.search.worker import start_worker; start_worker(os.getpid()); signal.pause()"
     )
     assert subprocess.run([sys.executable, "-c", code]).returncode == 1
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="alarms are POSIX")
+def test_the_alarm_is_off_after_a_design_that_was_in_time():
+    with worker._alarm(60.0):
+        left, again = signal.getitimer(signal.ITIMER_REAL)
+        assert 50.0 < left <= 60.0
+        assert again == 0.0
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+    with worker._alarm(0.0):  # no limit
+        assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
 
 
 def test_what_a_worker_prints_goes_nowhere(monkeypatch):

@@ -70,6 +70,30 @@ def test_slip_takes_the_contacts_force_times_the_foots_velocity_there() -> None:
     assert world._foot == tuple(after)
 
 
+def test_every_step_pushes_with_springs_and_pad_and_counts_what_the_joints_take() -> None:
+    """On the leg alone; c·w²·dt and the dry torque times |w|·dt, over all three joints and steps."""
+    rates = np.array([[0.5, -2.0, 3.0], [-1.0, 4.0, 0.25]])
+    states = iter([((0.3, a), (7.0, b), (8.0, c)) for a, b, c in rates])
+    pushes: list[tuple[int, int, int, float]] = []
+    world = object.__new__(BulletWorld)
+    world._bullet = SimpleNamespace(
+        TORQUE_CONTROL=2,
+        stepSimulation=lambda _client: None,
+        getJointStates=lambda *_: next(states),
+        setJointMotorControl2=lambda robot, joint, mode, *, force, physicsClientId: pushes.append(
+            (robot, joint, mode, force)
+        ),
+    )
+    world.robot_id, world._client, world._slides, world.joint_damping_j = 5, 0, False, 0.1
+    world._spring = SimpleNamespace(torque_nm=lambda angle: 10.0 * angle)  # type: ignore[assignment]
+    world._pad = SimpleNamespace(torque_nm=lambda angle, rate: angle + rate)  # type: ignore[assignment]
+    world._dry_nm, world._damping_dt, world._dt_s = [0.1, 0.2, 0.4], 0.002, 0.01
+    assert world.advance(2) == 0.3
+    assert pushes == [(5, 0, 2, pytest.approx(3.0 - 0.3 - rate)) for rate in rates[:, 0]]
+    lost = 0.002 * (rates**2).sum() + 0.01 * (np.abs(rates) @ [0.1, 0.2, 0.4]).sum()
+    assert world.joint_damping_j == pytest.approx(0.1 + lost)
+
+
 def test_the_body_moves_as_the_roller_leaves_the_cam() -> None:
     """Bullet is given the velocity of the centre of mass: that of the frame's origin, and the turn about y with it.
 

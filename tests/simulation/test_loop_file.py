@@ -15,6 +15,7 @@ def test_what_is_written_is_what_is_read(kenan: Robot) -> None:
     read = LoopFile.of(json.loads(write_loop(kenan)))
     assert read.spring.stiffness_nm_per_rad == kenan.spring.stiffness_nm_per_rad
     assert read.spring.wind_rad == kenan.spring.wind_rad
+    assert (read.spring.one_sided, read.spring.preload_rad) == (kenan.spring.one_sided, kenan.spring.preload_rad)
     assert {read.loop.body_a, read.loop.body_b} == {kenan.loop.body_a, kenan.loop.body_b}
     assert read.loop.point_a_m == pytest.approx(kenan.loop.point_a_m)
     assert read.foot_depth_m == kenan.foot_depth_m

@@ -154,6 +154,10 @@ def test_a_body_that_comes_down_is_said(flights: list[Flight]) -> None:
     assert (finding.name, finding.severity) == ("body_contact", "warning")
     assert -1.0 < finding.margin <= 0.0
     assert "pybullet" in finding.remedy
+    run.body_gap_m = -2.5e-4
+    assert run.findings()[-1].margin == pytest.approx(-0.25)
+    run.body_gap_m = 1e-4  # near, not there
+    assert "body_contact" not in [one.name for one in run.findings()]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,8 @@
 """The run: audit, flight, trajectory, published quantities."""
 
+import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.robot import Robot
 from jumpcad.simulation import Settings, simulate
+from jumpcad.simulation.run import Run
 
 pytest.importorskip("pybullet")
 
@@ -25,6 +28,9 @@ def test_audit_rejects_a_loop_that_comes_apart(jumping: list[Flight]) -> None:
     assert jump.ballistic_range_m is None
     finding = jump.findings[-1]
     assert (finding.name, finding.severity) == ("audit_loop", "error")
+    assert finding.limit == 0.5
+    assert finding.value == pytest.approx(0.5 - finding.margin)
+    assert f"came apart by up to {finding.value:.4f} mm" in finding.message
     assert "dt_s" in finding.remedy
 
 
@@ -42,6 +48,19 @@ def test_audit_rejects_energy_from_nowhere(kenan: Robot, monkeypatch: pytest.Mon
     jump = simulate(kenan)
     assert jump.verdict == "audit_energy"
     assert jump.findings[-2].margin < 0
+
+
+def test_energy_gained_counts_as_a_share_of_the_springs() -> None:
+    """0.2 J more than at the start, of springs of 0.5 J: 1.4; what is not finite is infinitely bad."""
+    run = object.__new__(Run)
+    run.worst_energy_ratio, run.worst_gap_m, run.start_energy_j = 1.0, 2e-4, 1.0
+    run.mechanism = SimpleNamespace(spring=SimpleNamespace(energy_j=0.5))  # type: ignore[assignment]
+    for total_j, ratio, gap_m in ((1.2, 1.4, 2e-4), (0.9, 1.4, 2e-4), (math.nan, math.inf, math.inf)):
+        run.mechanics = SimpleNamespace(  # type: ignore[assignment]
+            energies=lambda _, total_j=total_j: SimpleNamespace(total_j=total_j), loop_gap_m=lambda _: 1e-4
+        )
+        run._look(None, record=False)  # type: ignore[arg-type]
+        assert (run.worst_energy_ratio, run.worst_gap_m) == pytest.approx((ratio, gap_m))
 
 
 def test_time_runs_out(kenan: Robot) -> None:

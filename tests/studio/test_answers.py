@@ -9,6 +9,7 @@ import pytest
 from support.built import built
 
 from jumpcad.findings import Finding, at_most, limit
+from jumpcad.studio import answers
 from jumpcad.studio.answers import SHOWN, Printed
 
 NAME = "kenan-2.0"
@@ -56,6 +57,17 @@ def test_the_tightest_five_limits_are_shown_and_every_error() -> None:
     assert re.findall(r"\| \*\*(\w+)\*\* \| 200 % \|", text) == [one.name for one in wrong]
     assert "kept" not in text
     assert "| **apart** | -0.25 mm |" in printed(findings=[limit("apart", -0.25, "mm", "", "")]).to_markdown()
+
+
+def test_what_is_kept_counts_as_a_limit_only_where_it_has_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is violated is always told."""
+    told = [
+        at_most("kept", 1.0, 2.0, "N", "", ""), at_most("broken", 3.0, 2.0, "N", "", ""),
+        limit("apart", -0.25, "mm", "", ""), limit("far", 0.25, "mm", "", ""),
+    ]  # fmt: skip
+    monkeypatch.setattr(answers, "quick_findings", lambda _: told)
+    found = Printed(built(NAME).design, built(NAME))
+    assert {one.name for one in found.findings} == {"kept", "broken", "apart"}
 
 
 def test_what_cannot_be_built_says_why() -> None:

@@ -1,5 +1,7 @@
 """The motion at any time: the report's moments, and between them a linkage that stays closed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -51,6 +53,8 @@ def test_phases_follow_one_another_and_say_how_slow_they_are(played: Playback) -
     assert 3.0 / first.slower == pytest.approx(max(one.real_s for one in moments if one.phase == "winding"), rel=0.03)
     assert 3.0 / first.slower < winding_s * 1.01
     assert first.to_text(2.0).endswith(f"({2.0 * first.slower:.3g} times slower than real)")
+    assert replace(first, slower=2.0).to_text().endswith("(2 times slower than real)")
+    assert replace(first, slower=0.5).to_text().endswith("(2 times quicker than real)")
 
 
 def test_gears_turn_against_each_other_while_the_spring_is_wound(played: Playback) -> None:

@@ -134,6 +134,15 @@ def test_what_does_not_go_together_is_told_from_just_beyond():
             assert ((table, key) in told) == refused, (table, key, value)
 
 
+def test_the_pads_that_a_stop_may_have_are_named():
+    """Those of at least 1.5 mm, as the template says."""
+    shop = load_workshop()
+    bare = shop.model_copy(update={"body": shop.body.model_copy(update={"stop_pad": ""})})
+    (reason,) = (reason for place, _, reason in bare.contradictions() if place == ("body", "stop_pad"))
+    thick = [pad.name for pad in load_catalogue().pads.values() if pad.thickness_mm >= 1.5]
+    assert reason == f"the rest stop needs a pad of at least 1.5 mm: name one of {', '.join(thick)}"
+
+
 def test_parts_of_ones_own_have_names_of_their_own():
     shop = load_workshop()
     motor = load_catalogue().motors["n20-30"]

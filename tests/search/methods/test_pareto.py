@@ -51,6 +51,32 @@ def test_constrained_improvement_finds_the_front(evaluator):
     assert dominated_share(one) > 0.99
 
 
+def test_every_cap_asks_for_more_than_the_best_below_it(evaluator, monkeypatch):
+    """Where energy is all that counts; more than the cap is penalised by 1 at a hundredth above it, and less is not."""
+
+    class Strong(Hill):
+        def __call__(self, design):
+            return Evaluation("jump", {"fitness": design.spring_energy_j})
+
+    asked, look = [], pareto.propose
+    monkeypatch.setattr(pareto, "propose", lambda *given, **more: asked.append(more) or look(*given, **more))
+    one = evaluator(model=Strong())
+    run_pareto(one, Task(17, 0, initial=9))
+    caps = energy_caps_j(SMALL)
+    bests = [
+        max((trial.score or 0.0 for trial in one.trials[:9] if trial.design.spring_energy_j <= cap), default=0.0)
+        for cap in caps
+    ]
+    assert [given["best"] for given in asked] == bests
+    assert len(set(bests)) > 1
+    for cap, given in zip(caps, asked, strict=True):
+        points = np.array([SMALL.to_unit(trial.variant) for trial in one.trials])
+        over = np.array([trial.design.spring_energy_j for trial in one.trials]) / cap - 1.0
+        expected = np.where(over > 0.0, (100.0 * over) ** 2, 0.0)
+        np.testing.assert_allclose(given["penalty"](points), expected, rtol=1e-6, atol=1e-12)
+        assert all(SMALL.to_design(point).spring_energy_j <= cap for point in given["elite"])
+
+
 def test_nsga2_finds_most_of_it(evaluator):
     one = evaluator()
     run_nsga2(one, Task(300, 0))
