@@ -5,8 +5,6 @@ import gc
 THRESHOLDS = 50_000, 20, 20
 """Of Python's three generations of objects, in place of 700, 10 and 10. Commands make many objects, hardly any in
 cycles: 6 % of a search's time and 9 % of a build's went into looking (measured)."""
-
-
 USUAL = gc.get_threshold()
 
 
