@@ -88,13 +88,12 @@ def _leg_things(layout: Layout, holes: HoleSizes, catalogue: Catalogue, chosen: 
     lateral, cam = layout.lateral, layout.drive.cam
     low, high = lateral.leg
     if holes.bearing is not None:
-        seats = [(low, low + holes.bearing.width_mm), (high - holes.bearing.width_mm, high)]
-        for number, seat in enumerate(seats, start=1):
-            yield _bearing(f"hub_bearing_{number}", np.zeros(2), seat, holes.bearing)
+        for number, right in enumerate((low, high - holes.bearing.width_mm), start=1):
+            yield _bearing(f"hub_bearing_{number}", np.zeros(2), right, holes.bearing)
     angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
     end = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
     roller = catalogue.bearings[chosen.roller]
-    yield _bearing("roller", end, lateral.cam, roller)
+    yield _bearing("roller", end, lateral.cam[0], roller)
     washer, nut, screw = catalogue.washers["M3"], catalogue.nuts["M3 nyloc"], catalogue.screws["M3"]
     slabs = [(0.0, ROLLER_WASHER_MM, _round(washer.outer_mm, washer.bore_mm))]
     yield bought("roller_washer", "washer M3 ISO 7089", MAIN_LEG, washer.mass_g, slabs, (end[0], high, end[1]))
@@ -291,9 +290,10 @@ def _box(
     return bought(name, article, BODY, mass_g, slabs, (x, y, z + size_z / 2.0))
 
 
-def _bearing(name: str, centre: Array, y: Interval, bearing: Bearing) -> BoughtPart:
+def _bearing(name: str, centre: Array, right_mm: float, bearing: Bearing) -> BoughtPart:
+    """Return a bearing whose right side is at `right_mm` along y."""
     slabs = [(0.0, bearing.width_mm, _round(bearing.outer_mm, bearing.bore_mm))]
-    at = (centre[0], y[0], centre[1])
+    at = (centre[0], right_mm, centre[1])
     return bought(name, f"ball bearing {bearing.name}", MAIN_LEG, bearing.mass_g, slabs, at)
 
 

@@ -1,5 +1,6 @@
 """The studio without a browser: a real viser server, its sliders, what it shows and says."""
 
+import queue
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -10,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from support.built import built
 
 from jumpcad.bundle.bom import bill_of_materials
-from jumpcad.design import load_design
+from jumpcad.design import Design, load_design
 from jumpcad.evaluation import evaluate
 from jumpcad.robot import Robot
 from jumpcad.scene.visuals import visuals
@@ -40,6 +41,22 @@ def test_it_shows_every_part_and_says_what_evaluate_says(studio: Studio) -> None
     told = found.figures()["range"][0]
     assert told == pytest.approx(1000.0 * jump.ballistic_range_m, rel=0.005)  # planar against PyBullet
     assert f"{told:.1f} mm" in studio.figures.content
+
+
+def test_its_thread_answers_one_design_after_the_other_until_it_ends(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    answered: queue.Queue[Design] = queue.Queue()
+    monkeypatch.setattr(studio, "answer", answered.put)
+    studio.start()
+    assert answered.get(timeout=30.0) == studio.design  # the first, without being asked
+    for length in (105.0, 110.0):
+        studio.sliders["carrying_link_mm"].value = length
+        studio._ask()
+        assert answered.get(timeout=30.0).carrying_link_mm == length
+    studio.end()
+    assert not studio._thread.is_alive()
+    assert answered.empty()
 
 
 def test_differences_are_those_from_the_robot_before() -> None:
