@@ -219,7 +219,7 @@ def test_what_was_refused_for_any_trial_is_not_proposed_again_also_after_a_resta
     assert restarted.is_refused(hard)
 
 
-def test_a_search_with_guesses_ends_after_ten_steps_in_a_row_without_a_gain(tmp_path, monkeypatch):
+def test_a_search_with_guesses_ends_after_so_many_steps_in_a_row_without_a_gain(tmp_path, monkeypatch):
     """After four of them it looks beside the best."""
     idle, beside, task = [], Learner.beside, replace(TASK, evaluations=60, least_gain=0.2)
 
