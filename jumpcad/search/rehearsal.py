@@ -8,7 +8,6 @@ All of it follows from the trials and from the points that are kept with them, s
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from typing import Self
 
@@ -16,7 +15,8 @@ import numpy as np
 
 from jumpcad.findings import bare
 from jumpcad.search.evaluator import Evaluator
-from jumpcad.search.guess import MARK, STATICS, Fit, Guess, Guesser, Table, learned_rows
+from jumpcad.search.fitting import MARK, STATICS, Table, learned_rows
+from jumpcad.search.guess import Fit, Guess, Guesser
 from jumpcad.search.methods import Task
 from jumpcad.search.models import RobotModel
 from jumpcad.search.objective import Evaluation
@@ -94,8 +94,7 @@ class Rehearsal:
         if first is None:
             return
         if self._guesser is None:
-            quick = replace(self._model, settings=self._model.guess_settings)
-            self._guesser = Guesser(self._space, quick, self._evaluator.objective, quick.guess_engine, first)
+            self._guesser = Guesser.quick(self._space, self._model, self._evaluator.objective, first)
             self._first = [self._variant(point) for point in self.ranked[:SPREAD]]
         centre = self._space.to_unit((best_trial(known) or first).variant)
         self._fit = Fit(rows, Table(self._space, known, centre, laid=True).coefficients(), {})

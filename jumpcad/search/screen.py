@@ -1,31 +1,36 @@
 """A screen for searches of many candidates: what the guess of a candidate leaves out is not built.
 
-What a guess is worth is measured on robots that were held out. A candidate is left out only if it fails, or scores less
-than the best known, by more than that error. A guess is never a score: what is proposed as the best was built.
+A candidate is guessed from its parameters first, then from its layout too, which also tells whether its parts have
+room. A candidate is left out only if it fails, or scores less than another, by more than the error of guesses of robots
+that were held out. A guess is never a score: what is proposed as the best was built.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 from threadpoolctl import threadpool_limits
 
-from jumpcad.search.guess import FOLDS, MARK, Fit, Guess, Guesser, Table, learned_rows
+from jumpcad.mechanism.feasibility import geometry_findings
+from jumpcad.search.fitting import MARK, learned_rows
+from jumpcad.search.guess import Fit, Guesser
 from jumpcad.search.models import RobotModel
-from jumpcad.search.objective import SCREENED, Objective
+from jumpcad.search.objective import GUESSED, SCREENED, Evaluation, Objective
+from jumpcad.search.quick_refusal import quick_refusal
 from jumpcad.search.space import Space
+from jumpcad.search.tier import Expected, Tier
 from jumpcad.search.trial import Trial, best_trial
-from jumpcad.search.variant import Variant
+from jumpcad.search.variant import NOTHING, Key, Variant
+from jumpcad.settings import Settings
+from jumpcad.workshop import load_workshop
 
-LEAST, GROWTH = 80, 1.2
+LEAST, GROWTH = 16, 1.25
 """Robots from which on the screen works; it is fitted anew when there are so many times more."""
-SURE = 95.0
-"""Percentile of the held-out errors that a guess must exceed."""
+WORTH = 0.003
+"""Least gain, as a share of the best score, for which a robot is built; judgement, as in `learner`."""
 
 
 class Screen:
-    """Guesses for one search; see `Fit` for what it learns.
+    """Guesses for one search; see `Tier` for what it learns.
 
     Parameters
     ----------
@@ -35,62 +40,85 @@ class Screen:
 
     def __init__(self, space: Space, model: RobotModel, objective: Objective) -> None:
         self.space, self.model, self.objective = space, model, objective
-        self._guesser: Guesser | None = None
-        self.fit: Fit | None = None
+        self.tiers: dict[bool, Tier] = {}
+        """Without and with figures of the layout."""
+        self._rows = self._known = 0
 
     def learn(self, trials: Sequence[Trial], kept: Mapping[str, Any] | None = None) -> bool:
-        """Fit the trials of the search so far, or take up the fit that was kept; return whether it is a new one."""
-        known = [trial for trial in trials if trial.evaluation.verdict != SCREENED]
+        """Learn the robots of the search so far, with fits that were kept, if any; return whether they are new ones."""
+        known = [trial for trial in trials if MARK in trial.evaluation.metrics]
         rows = learned_rows(len(known), LEAST, GROWTH)
-        if rows == 0 or (self.fit is not None and self.fit.rows == rows):
+        best = best_trial(known[:rows])
+        if best is None or len(known) == self._known:
             return False
-        known = known[:rows]
-        best = best_trial(known)
-        if best is None or sum(MARK in trial.evaluation.metrics for trial in known) < LEAST:
-            return False
-        if self._guesser is None:
-            self._guesser = Guesser(self.space, self.model, self.objective, self.model.screen_engine, best)
-        if kept is not None and kept["rows"] == rows:
-            self.fit = Fit.from_record(kept)
-            return False
+        if not self.tiers:
+            guesser = Guesser.quick(self.space, self.model, self.objective, best)
+            self.tiers = {laid: Tier(self.space, guesser, laid) for laid in (False, True)}
+        new = False
         with threadpool_limits(1):  # sums in a fixed order give the same bits however many cores there are
-            self.fit = replace(self._fitted(known, best), rows=rows)
-        return True
+            for laid, tier in self.tiers.items():
+                if rows != self._rows and kept is not None and kept["rows"] == rows:
+                    tier.take(Fit.from_record(kept["laid" if laid else "plain"]))
+                elif rows != self._rows:
+                    tier.learn(known[:rows])
+                    new = True
+                tier.correct(known)
+        self._rows, self._known = rows, len(known)
+        return new
 
-    def guess(self, one: Variant) -> Guess | None:
+    def to_record(self) -> dict[str, Any]:
+        """Return the fits as plain data, as the study keeps them."""
+        fits = {"laid" if laid else "plain": tier.fit.to_record() for laid, tier in self.tiers.items() if tier.fit}
+        return {"rows": self._rows, **fits}
+
+    def guess(self, one: Variant, laid: Mapping[str, float] = NOTHING) -> Expected | None:
         """Return what a variant would do; None where nothing is known yet, or its jump cannot be guessed."""
-        return None if self.fit is None or self._guesser is None else self._guesser(one, self.fit)
+        return self.tiers[bool(laid)].guess(one, laid) if self.tiers else None
 
-    def leaves_out(self, guess: Guess, best: float) -> bool:
-        """Whether a guess fails, or is worse than the best score known, by more than its error."""
-        assert self.fit is not None
-        error = self.fit.errors
-        if any(margin < -error.get(name, np.inf) for name, margin in guess.margins.items()):
-            return True
-        return (guess.score or 0.0) + error["score"] < best
+    def outcomes(self, variants: Iterable[Variant], best: float) -> dict[Key, Evaluation]:
+        """Return the outcomes of the variants of a generation that need not be built.
 
-    def _fitted(self, trials: Sequence[Trial], best: Trial) -> Fit:
-        table = Table(self.space, trials, self.space.to_unit(best.variant))
-        held = list(self._held_out(table))
-        pairs = [(guess.score, trial.score) for guess, trial in held if guess.score and trial.score]
-        bias = float(np.median([exact / guessed for guessed, exact in pairs])) if pairs else 1.0
-        nearest = sorted(pairs, key=lambda pair: -pair[1])[: max(LEAST // 3, len(pairs) // 3)]
-        good = [exact - bias * guessed for guessed, exact in nearest]
-        wrong: dict[str, list[float]] = {"score": good}
-        for guess, trial in held:
-            for finding in trial.evaluation.findings:
-                if finding.name in guess.margins:
-                    wrong.setdefault(finding.name, []).append(finding.margin - guess.margins[finding.name])
-        # One side: how much better than guessed the best third is, and how much the limits are.
-        error = {name: float(np.percentile(values, SURE)) for name, values in wrong.items() if values}
-        return Fit(0, table.coefficients(), {"score": np.inf} | error, bias)
+        They fail for certain, or are worse than the best score, or than another of them, by more than the errors.
+        """
+        found, offers, held = {}, [], []
+        for one in variants:
+            if not self.model.admits(one.design):  # refused at once
+                continue
+            guess = self.guess(one)
+            if guess is not None and leaves_out(guess, best):
+                found[one.key] = _screened(guess)
+            elif refused := self._refused(one):
+                found[one.key] = refused
+            elif guess is not None:
+                offers.append((one, guess))
+        for one, guess in sorted(offers, key=lambda offer: -(offer[1].score or 0.0)):
+            if leaves_out(guess, best):
+                found[one.key] = _screened(guess)
+                continue
+            laid = self.model.laid_out(one)
+            if isinstance(laid, Evaluation):
+                found[one.key] = laid.bare
+                continue
+            better = self.guess(one, laid)
+            if better is not None:
+                held.append((one, better))
+                best = max(best, better.least)
+        return found | {one.key: _screened(guess) for one, guess in held if leaves_out(guess, best)}
 
-    def _held_out(self, table: Table) -> Iterator[tuple[Guess, Trial]]:
-        """Yield guesses of trials from fits without them."""
-        assert self._guesser is not None
-        for fold in range(FOLDS):
-            part = Fit(0, table.coefficients(fold), {})
-            for trial in table.trials[fold::FOLDS]:
-                guess = self._guesser(trial.variant, part)
-                if guess is not None:
-                    yield guess, trial
+    def _refused(self, one: Variant) -> Evaluation | None:
+        """Return the outcome of a variant that an estimate of its masses refuses."""
+        workshop, settings = self.model.workshop or load_workshop(), self.model.settings or Settings()
+        refused = quick_refusal(one.design, workshop, settings)
+        if not refused:
+            return None
+        return Evaluation(refused[0].name, findings=(*geometry_findings(one.design), *refused)).bare
+
+
+def leaves_out(guess: Expected, best: float) -> bool:
+    """Whether a guess fails for certain, or is not worth a robot beside a score even at most."""
+    return guess.fails or guess.most < best * (1.0 + WORTH)
+
+
+def _screened(guess: Expected) -> Evaluation:
+    """Return the outcome of what is left out, with the guessed score unless it fails."""
+    return Evaluation(SCREENED, {} if guess.fails or guess.score is None else {GUESSED: guess.score})

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from support.quick import BEST, FIGURES, LIKE, SPACE, quick
 
-from jumpcad.search.guess import MARK, Fit, Guesser, Table, features, learned_rows
+from jumpcad.search.fitting import MARK, Table, features, learned_rows
+from jumpcad.search.guess import Fit, Guesser
 from jumpcad.search.objective import Evaluation, find_objective
 from jumpcad.search.stand_in import EXTENTS, LAID, laid_out, stand_in
 from jumpcad.search.trial import Trial
@@ -69,13 +70,13 @@ def test_a_guess_is_the_jump_of_the_robot_with_the_fitted_figures(monkeypatch):
     guesser = Guesser(SPACE, quick(), find_objective("range"), "pybullet", first_trial())
     one = np.eye(45)[0]
     constant = {name: value * one for name, value in FIGURES.items() if name != "body_mass_kg"}
-    fit = Fit(0, constant | {"size_m": 0.1 * one, "log body_mass_kg": np.eye(45)[1] - 3.0 * one}, {}, bias=2.0)
+    fit = Fit(0, constant | {"size_m": 0.1 * one, "log body_mass_kg": np.eye(45)[1] - 3.0 * one}, {})
     for share in (0.3, 0.8):
         point = SPACE.to_unit(BEST)
         point[0] = share
         variant = SPACE.to_variant(point)
         robot = stand_in(variant.design, FIGURES | {"body_mass_kg": np.exp(2.0 * share - 4.0)}, LIKE)
-        assert guesser(variant, fit).score == pytest.approx(2.0 * simulate(robot).ballistic_range_m, rel=1e-6)
+        assert guesser(variant, fit).score == pytest.approx(simulate(robot).ballistic_range_m, rel=1e-6)
 
 
 def test_what_the_gate_refuses_does_not_jump(monkeypatch):
@@ -160,6 +161,30 @@ def test_what_masses_leap_with_is_told_by_the_layout():
         errors.append([abs(one / metrics["body_mass_kg"] - 1.0) for one in guesses])
     assert np.max(errors, axis=0)[0] < 0.05
     assert np.max(errors, axis=0)[1] > 0.2
+
+
+def test_a_robot_is_held_out_as_if_it_had_not_been_built():
+    """Weighted least squares with a ridge, solved anew without each robot."""
+
+    def robot(design):
+        x = 2.0 * SPACE.to_unit(design) - 1.0
+        return Evaluation("jump", {MARK: 1.0, "com_x_m": float(np.sin(3.0 * x[0]) * x[1] - x[2] ** 3)})
+
+    points = SPACE.spread(32, np.random.default_rng(4))
+    trials = [Trial("ga", 0, 0, SPACE.to_design(one), robot(SPACE.to_design(one)), 1.0, "m", 0.0) for one in points]
+    values = np.array([trial.evaluation.metrics["com_x_m"] for trial in trials])
+    rows, away = features(points), np.abs(points - points[0]).max(axis=1)
+    weights = 1.0 / (1.0 + (away / 0.1) ** 2)
+    d = SPACE.dimension
+    ridge = np.array([1e-9, *[1e-4] * d, *[1e-3] * (d * (d + 1) // 2)]) * weights.sum()  # of few robots
+    held_out = Table(SPACE, trials, points[0], reach=0.1, ridge=1e-4).held_out()
+    for place in (0, 7, 31):
+        kept = np.arange(len(trials)) != place
+        left = np.vstack([rows[kept] * np.sqrt(weights[kept])[:, None], np.diag(np.sqrt(ridge))])
+        right = np.append(values[kept] * np.sqrt(weights[kept]), np.zeros(len(ridge)))
+        coefficients = np.linalg.lstsq(left, right)[0]
+        assert held_out[place]["com_x_m"] == pytest.approx(rows[place] @ coefficients, abs=1e-6)
+        assert held_out[place]["com_x_m"] != pytest.approx(values[place], abs=1e-3)
 
 
 def test_figures_of_a_layout_are_those_of_the_built_robot():

@@ -131,6 +131,7 @@ class ScreenedFitness(Fitness):
         evaluator = self.evaluator
         assert isinstance(evaluator.model, RobotModel)
         self._screen = Screen(evaluator.space, evaluator.model, evaluator.objective)
+        self._seen: set[Key] = set()
 
     def fitness(self, trial: Trial) -> Any:
         """Return the fitness of a trial, guessed or exact."""
@@ -139,21 +140,19 @@ class ScreenedFitness(Fitness):
         return trial.evaluation.metrics.get(GUESSED, self.rejected)
 
     def left_out(self, variants: Sequence[Variant]) -> Mapping[Key, Evaluation]:
-        """Return the guesses of variants that the screen leaves out."""
+        """Return the outcomes of variants that the screen leaves out.
+
+        Of all that are new to this run, also where the study file holds some: a resumed run decides alike.
+        """
         evaluator, screen = self.evaluator, self._screen
-        best = best_trial(evaluator.trials)
-        fresh = {variant.key: variant for variant in variants if not evaluator.holds(variant)}
-        if not fresh or best is None:
+        fresh = {variant.key: variant for variant in variants if variant.key not in self._seen}
+        self._seen.update(fresh)
+        if all(evaluator.holds(variant) for variant in fresh.values()):
             return {}
         if screen.learn(evaluator.trials, evaluator.store.recall("screen")):
-            assert screen.fit is not None
-            evaluator.store.remember("screen", screen.fit.to_record())
-        guesses = {key: screen.guess(variant) for key, variant in fresh.items()}
-        return {
-            key: Evaluation(SCREENED, {} if guess.score is None else {GUESSED: guess.score})
-            for key, guess in guesses.items()
-            if guess is not None and screen.leaves_out(guess, best.score or 0.0)
-        }
+            evaluator.store.remember("screen", screen.to_record())
+        best = best_trial(evaluator.trials)
+        return screen.outcomes(fresh.values(), (best and best.score) or 0.0)
 
 
 def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], seed: int) -> None:
