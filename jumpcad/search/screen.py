@@ -48,11 +48,10 @@ class Screen:
         """Learn the robots of the search so far, with fits that were kept, if any; return whether they are new ones."""
         known = [trial for trial in trials if MARK in trial.evaluation.metrics]
         rows = learned_rows(len(known), LEAST, GROWTH)
-        best = best_trial(known[:rows])
-        if best is None or len(known) == self._known:
+        if best_trial(known[:rows]) is None or len(known) == self._known:
             return False
         if not self.tiers:
-            guesser = Guesser.quick(self.space, self.model, self.objective, best)
+            guesser = Guesser.quick(self.space, self.model, self.objective, known[0])
             self.tiers = {laid: Tier(self.space, guesser, laid) for laid in (False, True)}
         new = False
         with threadpool_limits(1):  # sums in a fixed order give the same bits however many cores there are
