@@ -98,6 +98,22 @@ def test_beside_a_robot_the_error_is_smaller(model, trials):
     assert 1.5 * math.log(beside.most / beside.least) < math.log(other.most / other.least)
 
 
+def test_what_guesses_miss_is_learned_with_every_robot(model, trials):
+    """Of robots that were built after the last fit, by so much that they have become the best."""
+    built = [one for one in trials if one.evaluation.verdict != SCREENED]
+    misses = []
+    for place in range(LEAST + 1, len(built)):
+        screen, new = Screen(SPACE, model, find_objective("body_lengths")), built[place]
+        if (new.score or 0.0) > best_trial(built[:place]).score and screen.learn(built[:place]):
+            before = screen.guess(new.variant)
+            if not screen.learn(built[: place + 1]):
+                after = screen.guess(new.variant)
+                assert after.most / after.least < before.most / before.least
+                misses.append([abs(one.score / new.score - 1.0) for one in (before, after)])
+    assert len(misses) > 1
+    assert np.mean(misses, axis=0)[1] < 0.2 * np.mean(misses, axis=0)[0]
+
+
 def test_it_is_fitted_in_one_thread(model, trials, monkeypatch):
     seen = []
 
