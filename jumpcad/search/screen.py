@@ -80,18 +80,19 @@ class Screen:
         They fail for certain, or are worse than the best score, or than another of them, by more than the errors.
         """
         found, offers, held = {}, [], []
+        bar = best * (1.0 + WORTH)
         for one in variants:
             if not self.model.admits(one.design):  # refused at once
                 continue
             guess = self.guess(one)
-            if guess is not None and leaves_out(guess, best):
+            if guess is not None and leaves_out(guess, bar):
                 found[one.key] = _screened(guess)
             elif refused := self._refused(one):
                 found[one.key] = refused
             elif guess is not None:
                 offers.append((one, guess))
         for one, guess in sorted(offers, key=lambda offer: -(offer[1].score or 0.0)):
-            if leaves_out(guess, best):
+            if leaves_out(guess, bar):
                 found[one.key] = _screened(guess)
                 continue
             laid = self.model.laid_out(one)
@@ -101,8 +102,8 @@ class Screen:
             better = self.guess(one, laid)
             if better is not None:
                 held.append((one, better))
-                best = max(best, better.least)
-        return found | {one.key: _screened(guess) for one, guess in held if leaves_out(guess, best)}
+                bar = max(bar, better.least)
+        return found | {one.key: _screened(guess) for one, guess in held if leaves_out(guess, bar)}
 
     def _refused(self, one: Variant) -> Evaluation | None:
         """Return the outcome of a variant that an estimate of its masses refuses."""
@@ -113,9 +114,9 @@ class Screen:
         return Evaluation(refused[0].name, findings=(*geometry_findings(one.design), *refused)).bare
 
 
-def leaves_out(guess: Expected, best: float) -> bool:
-    """Whether a guess fails for certain, or is not worth a robot beside a score even at most."""
-    return guess.fails or guess.most < best * (1.0 + WORTH)
+def leaves_out(guess: Expected, bar: float) -> bool:
+    """Whether a guess fails for certain, or is worse than a score even at most."""
+    return guess.fails or guess.most < bar
 
 
 def _screened(guess: Expected) -> Evaluation:
