@@ -24,7 +24,10 @@ BESIDE, TRIED = 30, 20
 PAIRS = 8
 """Least of them that jump, so that they tell an error."""
 SURE = 95.0
-"""Percentile of the held-out errors that a guess must exceed."""
+"""Percentile of the held-out errors of scores that a guess must exceed."""
+CAREFUL = 2.0
+"""How many times the worst error of its margin a limit must be missed by; judgement: robots tell little of what has
+no room."""
 REACH, RIDGE = 0.1, {False: 1e-3, True: 1e-4}
 """Of fits without and with the layout, see `Table`: errors on robots of a search were the smallest."""
 LENGTH, NOISE = 0.3, 0.003
@@ -111,7 +114,7 @@ class Tier:
             if ratio is not None and len(others) >= PAIRS:
                 mean, deviation = _at(self._ratios_of(others), self._place(trial.variant, trial.evaluation.metrics))
                 off.append((ratio - mean) / deviation)
-        errors = {name: float(np.percentile(values, SURE)) for name, values in wrong.items()}
+        errors = {name: CAREFUL * max(map(abs, values)) for name, values in wrong.items()}
         if len(off) >= PAIRS:
             less, more = np.percentile(off, [100.0 - SURE, SURE]).tolist()
             errors |= {LESS: min(less, 0.0), MORE: max(more, 0.0)}
