@@ -26,7 +26,7 @@ from jumpcad.workshop import load_workshop
 LEAST, GROWTH = 16, 1.25
 """Robots from which on the screen works; it is fitted anew when there are so many times more."""
 WORTH = 0.003
-"""Least gain, as a share of the best score, for which a robot is built; judgement, as in `learner`."""
+"""Least gain, as a share of the best score, for which a robot is built; judgement."""
 
 
 class Screen:
