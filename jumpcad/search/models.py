@@ -141,7 +141,7 @@ class RobotModel:
             return ()
         from jumpcad.search.quick_refusal import quick_refusal
 
-        return quick_refusal(design, self.workshop or load_workshop(), self.settings or Settings())
+        return quick_refusal(design, self.workshop or load_workshop(), self.guess_settings)
 
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
         """Return the model of the robot in the workshop with other values, or made otherwise than designed."""
