@@ -4,6 +4,7 @@ How near over thousands of robots, `benchmarks/refuse.py` tells.
 """
 
 import math
+from dataclasses import replace
 
 import pytest
 from support.built import LONG_TOES, built
@@ -12,7 +13,7 @@ from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot import Robot
-from jumpcad.search.sized_robot import NUMBERS, SizedLinks, near, printed_g_mm, sized_robot
+from jumpcad.search.sized_robot import NUMBERS, SizedLinks, near, printed_g_mm, sized_robot, usual_bearing
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 
 SHOP = load_workshop(DEFAULT)
@@ -57,6 +58,17 @@ def test_friction_stop_and_springs_are_those_of_the_built_robot(robot: Robot) ->
     assert (guess.stop.joint, guess.stop.angle_rad) == (robot.stop.joint, pytest.approx(robot.stop.angle_rad))
     assert guess.stop.stiffness_nm_per_rad == pytest.approx(robot.stop.stiffness_nm_per_rad, rel=0.25)
     assert guess.roller_off is None
+
+
+def test_the_hub_s_bearing_is_that_of_the_built_robot(robot: Robot) -> None:
+    bearing = robot.layout.hub_bearing
+    assert bearing is not None
+    assert usual_bearing(robot.workshop, robot.spring) == bearing
+    axle = robot.workshop.bought.axle_mm
+    fitting = [one for one in robot.workshop.catalogue.bearings.values() if one.bore_mm == axle]
+    lightest = min(fitting, key=lambda one: one.mass_g)
+    weak = replace(robot.spring, stiffness_nm_per_rad=robot.spring.stiffness_nm_per_rad / 10.0)
+    assert usual_bearing(robot.workshop, weak) == lightest != bearing
 
 
 def test_a_hub_without_bearings_rubs_on_its_axle() -> None:
