@@ -245,7 +245,7 @@ class RobotModel:
 
     @property
     def guess_settings(self) -> Settings:
-        """The settings of a rehearsal: those of the model with steps of `GUESS_STEP_S`, or longer ones."""
+        """The settings of what is only guessed: those of the model with steps of `GUESS_STEP_S`, or longer ones."""
         settings = self.settings or Settings()
         return settings.model_copy(update={"dt_s": max(settings.dt_s, GUESS_STEP_S)})
 
