@@ -1,8 +1,8 @@
 """The figures that README and documentation show, by name, each as the text that it should have; `readme.py` compares.
 
 What follows from the templates alone takes some seconds: `of_robots`, `of_engines`, `of_prototypes`,
-`of_best_printable`, `of_assumptions`. The others take minutes: they run the search, PrusaSlicer and the benchmarks of
-this folder. Those of calibrations are in `calibrated.py`.
+`of_best_printable`, `of_loads`, `of_assumptions`. The others take minutes: they run the search, PrusaSlicer and the
+benchmarks of this folder. Those of calibrations are in `calibrated.py`.
 """
 
 import json
@@ -22,9 +22,12 @@ from start import children_cpu_s
 from jumpcad import published
 from jumpcad.building import build
 from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
+from jumpcad.checks.load_case import LoadCase
 from jumpcad.design import SEARCH_BOUNDS, load_design
+from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.model import BODY
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot import Robot
 from jumpcad.search.models import RobotModel
@@ -38,6 +41,7 @@ HERE = Path(__file__).parent
 ROBOTS = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
 SHOWN = ("kenan-1.0", "kenan-2.0", "best-printable")
 """The templates of the README."""
+STRONG = ("best-ga", "best-bo", "best-printable")
 PROTOTYPES = tuple(row for row in PUBLISHED_RESULTS if row.measured is not None)
 SEARCH = ("optimize", "--seed", "7")
 RIVALS = ("pybullet", "mujoco", "planar")
@@ -217,6 +221,38 @@ def of_springs() -> dict[str, str]:
         "early torque": f"{min(early):.0f} to {max(early):.0f} %",
         "weakest springs": f"{min(less):.0f} to {max(less):.0f} %",
     }
+
+
+def of_loads() -> dict[str, str]:
+    """Return what the docs say of loads that checks leave out, of turns in flight, and of the strong designs' cams."""
+    strong = [built(name)[0] for name in STRONG]
+    seats = [_seat_mpa(LoadCase(robot)) for robot in strong]
+    cams = [1000.0 * robot.layout.drive.cam.law.peak_torque_nm for robot in strong]
+    first, second, third = (f"{_turn_deg(built(name)[0]):.0f}°" for name in SHOWN)
+    return {
+        "plate seats": f"{min(seats):.1f} to {max(seats):.1f}",
+        "turns": f"the prototypes turn forwards by {first} and {second}, `best-printable` by {third}",
+        "strong cams": f"{min(cams):.0f} to {max(cams):.0f} mN·m",
+    }
+
+
+def _seat_mpa(case: LoadCase) -> float:
+    """Return the pressure of axles and pins on the part of their blind bores that their end play leaves them."""
+    lateral, longer = case.layout.lateral, {"leg_axle": case.layout.boss_mm}
+    seat = lateral.left_plate[1] - lateral.left_plate[0] - case.layout.floor_mm - AXLE_END_PLAY_MM
+    loads = (beam.plate_load_n / (seat + longer.get(name, 0.0)) for name, beam in case.beams.items())
+    return max(loads) / case.layout.axle_mm
+
+
+def _turn_deg(robot: Robot) -> float:
+    """Return by how much the body turns forwards from take-off to touchdown."""
+    jump = simulate(robot, Settings(flight="simulated", trajectory=True))
+    path = jump.trajectory
+    assert path is not None
+    assert jump.takeoff_time_s is not None
+    _, about_y, _, cosine = path.quaternion_xyzw[:, path.body_names.index(BODY)].T
+    turn = np.degrees(np.unwrap(2.0 * np.arctan2(about_y, cosine)))
+    return float(turn[-1] - np.interp(jump.takeoff_time_s, path.time_s, turn))
 
 
 def of_assumptions() -> dict[str, str]:

@@ -1,9 +1,9 @@
 """Is every figure of README and docs what the program gives today? Exit code 1 and a list of what differs, if not.
 
-Compared are the figures between `<!-- NAME -->` and `<!-- / -->` in README.md and docs/*.md, the template
-`best-printable` and its picture. Words have to be the same. Numbers may be a unit of their last digit apart; those of
-the search, which may take another path on another processor or library, 1 %; those of a sampler 5 %; CPU times, a
-factor of 1.5.
+Compared are the figures between `<!-- NAME -->` and `<!-- / -->` in README.md, docs/*.md and docs/decisions/*.md, the
+template `best-printable` and its picture. Words have to be the same. Numbers may be a unit of their last digit apart;
+those of the search, which may take another path on another processor or library, 1 %; those of a sampler 5 %; CPU
+times, a factor of 1.5.
 
 Run `python benchmarks/readme.py [--cheap | --only search|masses|speed|calibration|effects ...] [--write]`. All but
 what follows from the templates takes minutes: `--cheap` leaves it out, as the tests do; `--only` takes those that it
@@ -26,7 +26,7 @@ from jumpcad.design import Design
 from jumpcad.files.outputs import write_atomically
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *sorted((ROOT / "docs" / "decisions").glob("*.md"))]
 TEMPLATE = ROOT / "templates" / "robots" / "best-printable.toml"
 PICTURE = ROOT / "docs" / "best-printable.png"
 COMPARED = ROOT / "templates" / "compared"
@@ -44,6 +44,7 @@ CHEAP: dict[Maker, float] = {
     figures.of_prototypes: 0.0,
     figures.of_best_printable: 0.0,
     figures.of_springs: 0.0,
+    figures.of_loads: 0.0,
     figures.of_assumptions: 0.0,
 }
 COSTLY: dict[str, tuple[Maker, float]] = {

@@ -14,7 +14,7 @@ from jumpcad.mechanism.model import Mechanism, Surface
 Coefficient = Annotated[float, Field(ge=0, le=100)]
 PRINTED_CLEARANCE_M = 0.001
 """What a printed robot's contacts must clear for a jump: judgement, some ten times what pads and floor give way under
-its weight. A foot that tips over its nose hops by up to 0.4 mm, in some engines for 4 ms and in others not at all."""
+its weight. A foot that tips over its nose hops by up to 0.5 mm, in some engines for 4 ms and in others not at all."""
 
 
 class Draws(TomlTable):

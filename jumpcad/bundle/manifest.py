@@ -19,7 +19,7 @@ from jumpcad.files.names import Text
 MANIFEST = "manifest.json"
 FORMAT = 1
 LARGEST_BYTES = 16_000_000
-"""A manifest has some 20 kB; a file that is far larger is not read."""
+"""A manifest has some 30 kB; a file that is far larger is not read."""
 
 
 SUFFIXES = (

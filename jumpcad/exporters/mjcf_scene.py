@@ -44,9 +44,10 @@ model = scene.compile()
 
 Tested with MuJoCo {mujoco}. Attached, the robot keeps its contacts, joints and springs, but the scene's options hold:
 set `timestep` to 0.00025, `integrator` to `implicitfast`, `cone` to `elliptic` and `impratio` to 100 for the figures of
-the bundle. Ranges of four templates differ by up to 2 % at a time step of 1 ms and 5 % at 2 ms; with MuJoCo's own
-options feet creep, and they jump 4 to 13 % shorter. A key frame of the robot poses the robot alone, in the world and
-not in your frame: add the frame's position to `data.joint("jumper-free").qpos[:3]`.
+the bundle. With longer steps robots jump shorter, the five templates by up to 12 % at 1 ms and by 2 to 21 % at 2 ms.
+With MuJoCo's own options feet creep: 3 to 8 % shorter at 0.25 ms, 7 to 22 % at MuJoCo's own step of 2 ms. A key frame
+of the robot poses the robot alone, in the world and not in your frame: add the frame's position to
+`data.joint("jumper-free").qpos[:3]`.
 
 ## What it is
 

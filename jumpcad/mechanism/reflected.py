@@ -13,7 +13,8 @@ from jumpcad.mechanism.planar import seen_from_foot
 from jumpcad.transforms import Array
 
 POSITIONS = 33
-"""Leg angles of the table; with four times as many, inertia and slopes change by less than 0.3 %."""
+"""Leg angles of the table; with four times as many, the templates' inertia changes by less than 0.4 %, the time of
+their push-off and the kick of their release by less than 0.1 %."""
 
 WEAKEST = 0.2
 """Least share of the springs' energy that becomes kinetic; a leg too weak for its body is rejected elsewhere."""

@@ -15,7 +15,7 @@ X, Y, NEARNESS, SHADE = range(4)
 """Columns of a corner's data."""
 
 
-def rasterized(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Array]:
+def rasterized(corners: Array, size: tuple[int, int]) -> tuple[npt.NDArray[np.int32], Array, Array]:
     """Return the visible triangle at every pixel, with its nearness and shade there.
 
     Parameters
@@ -38,50 +38,63 @@ def rasterized(corners: Array, size: tuple[int, int]) -> tuple[Ints, Array, Arra
     ahead, across = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
     before = (corners[:, :, NEARNESS] > 0.0).all(axis=1)
     facing = np.nonzero(before & (ahead[:, 0] * across[:, 1] < ahead[:, 1] * across[:, 0]))[0]
-    span, left, right = _spans(corners[facing], height)
-    which, x = _centres(left[:, X], right[:, X], width)
-    share = (x + 0.5 - left[:, X][which]) / (right[:, X] - left[:, X])[which]
-
-    def between(column: int, some: Ints | slice) -> Array:
-        """Interpolate a column of the spans' ends at some of the pixels."""
-        first, span_of = left[:, column], which[some]
-        point: Array = first[span_of] + share[some] * (right[:, column] - first)[span_of]
-        return point
-
-    near = between(NEARNESS, np.s_[:])
-    pixel = ((left[:, Y] - 0.5).astype(np.int64) * width)[which] + x
+    spans = _Spans(corners[facing], height)
+    (left, right), (low, high) = spans.ends(X), spans.ends(NEARNESS)
+    first, many = _centres(left, right, width)
+    x = _counted(first, many)
+    share = x + 0.5
+    share -= np.repeat(left, many)
+    share /= np.repeat(right - left, many)
+    near = np.repeat(high - low, many)
+    near *= share
+    near += np.repeat(low, many)
+    pixel = np.repeat(spans.row * width, many) + x
     nearness = np.zeros(width * height)
     np.maximum.at(nearness, pixel, near)
     nearest = np.flatnonzero(near == nearness[pixel])
-    number, shade = np.full(width * height, -1), np.zeros(width * height)
-    number[pixel[nearest]] = facing[span[which[nearest]]]
-    shade[pixel[nearest]] = between(SHADE, nearest)
+    seen, span = pixel[nearest], np.repeat(np.arange(len(many)), many)[nearest]
+    low, high = spans.ends(SHADE)
+    number, shade = np.full(width * height, -1, dtype=np.int32), np.zeros(width * height)
+    number[seen] = facing[spans.triangle][span]
+    shade[seen] = low[span] + share[nearest] * (high - low)[span]
     return number.reshape(height, width), nearness.reshape(height, width), shade.reshape(height, width)
 
 
-def _spans(corners: Array, height: int) -> tuple[Ints, Array, Array]:
-    """Return the spans of triangles (n, 3, 4) on the rows that they cover: triangle (m,), left and right end (m, 4)."""
-    order = np.argsort(corners[:, :, Y], axis=1, kind="stable")
-    ends = np.take_along_axis(corners, order[:, :, None], axis=1).reshape(-1, 4)  # top, middle and bottom of each
-    number, row = _centres(ends[0::3, Y], ends[2::3, Y], height)
-    top = 3 * number
-    below = top + (row + 0.5 >= ends[top + 1, Y])
-    one, other = _at(row, ends[top], ends[top + 2]), _at(row, ends[below], ends[below + 1])
-    swapped = (one[:, X] > other[:, X])[:, None]
-    return number, np.where(swapped, other, one), np.where(swapped, one, other)
+class _Spans:
+    """The spans (m) of triangles (n, 3, 4) on the rows that they cover: `triangle` (m,) and `row` (m,).
 
+    A span lies between the edge from the top of its triangle to the bottom, and the one above or below the corner
+    between.
+    """
 
-def _at(row: Ints, start: Array, end: Array) -> Array:
-    """Return where edges that run down from start to end (n, 4) cross the middles of rows (n,), as points (n, 4)."""
-    share = (row + 0.5 - start[:, Y]) / (end[:, Y] - start[:, Y])
-    point: Array = start + share[:, None] * (end - start)
-    point[:, Y] = row + 0.5
-    return point
+    def __init__(self, corners: Array, height: int) -> None:
+        order = np.argsort(corners[:, :, Y], axis=1, kind="stable")
+        top, middle, bottom = np.take_along_axis(corners, order[:, :, None], axis=1).transpose(1, 2, 0)
+        first, many = _centres(top[Y], bottom[Y], height)
+        self.triangle, self.row = np.repeat(np.arange(len(many)), many), _counted(first, many)
+        below = self.row + 0.5 >= middle[Y][self.triangle]
+        self._starts = np.concatenate([top, top, middle], axis=1)
+        self._ways = np.concatenate([bottom - top, middle - top, bottom - middle], axis=1)
+        self._edges = [self.triangle, self.triangle + np.where(below, 2, 1) * len(many)]
+        self._shares = [(self.row + 0.5 - self._starts[Y][edge]) / self._ways[Y][edge] for edge in self._edges]
+        self._swapped = np.greater(*self._crossings(X))
+
+    def ends(self, column: int) -> tuple[Array, Array]:
+        """Return a column's values where the spans begin, on the left, and where they end (m,)."""
+        one, other = self._crossings(column)
+        return np.where(self._swapped, other, one), np.where(self._swapped, one, other)
+
+    def _crossings(self, column: int) -> list[Array]:
+        start, way = self._starts[column], self._ways[column]
+        return [start[edge] + share * way[edge] for edge, share in zip(self._edges, self._shares, strict=True)]
 
 
 def _centres(low: Array, high: Array, count: int) -> tuple[Ints, Ints]:
-    """Return all pairs (interval, pixel) in which low ≤ pixel + 0.5 < high, for pixels from 0 to below a count."""
+    """Return the first pixel of each interval with low ≤ pixel + 0.5 < high, and how many there are, below a count."""
     first, last = (np.clip(np.ceil(ends - 0.5), 0, count).astype(np.int64) for ends in (low, high))
-    many = np.maximum(last - first, 0)
-    interval = np.repeat(np.arange(len(low)), many)
-    return interval, first[interval] + np.arange(len(interval)) - np.repeat(np.cumsum(many) - many, many)
+    return first, np.maximum(last - first, 0)
+
+
+def _counted(first: Ints, many: Ints) -> Ints:
+    """Return the numbers from each first one on, so many of each, in a row."""
+    return np.arange(many.sum()) + np.repeat(first - np.cumsum(many) + many, many)

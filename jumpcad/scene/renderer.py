@@ -8,7 +8,7 @@ import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -91,7 +91,7 @@ class Renderer:
         )
         covered = np.flatnonzero(number >= 0)
         seen = np.repeat(np.arange(len(there)), [len(thing.faces) for thing, *_ in there])[number.ravel()[covered]]
-        owner = np.full(number.shape, -1)
+        owner = np.full(number.shape, -1, dtype=np.int16)
         owner.ravel()[covered] = seen
         image = np.full((number.size, 3), BACKGROUND, dtype=np.uint8)
         brightness = shade.ravel()[covered]
@@ -112,7 +112,7 @@ def creases(mesh: "trimesh.Trimesh") -> Array:
     return np.asarray(mesh.vertices[mesh.face_adjacency_edges[sharp]], dtype=float)
 
 
-def borders(owner: npt.NDArray[np.int_]) -> Mask:
+def borders(owner: npt.NDArray[np.integer[Any]]) -> Mask:
     """Return the pixels (height, width) whose left or upper neighbour shows another mesh, or the background."""
     mask = np.zeros(owner.shape, dtype=bool)
     mask[:, 1:] |= owner[:, 1:] != owner[:, :-1]
@@ -138,10 +138,10 @@ def _corners(thing: ShadedMesh, pose: Array, camera: Camera, size: tuple[int, in
 
 def _least_beside(values: Array, y: Ints, x: Ints) -> Array:
     """Return the least value (n,) among each of some pixels and its eight neighbours; `values` (height, width)."""
-    low_y, high_y = np.maximum(y - 1, 0), np.minimum(y + 1, values.shape[0] - 1)
-    low_x, high_x = np.maximum(x - 1, 0), np.minimum(x + 1, values.shape[1] - 1)
-    rows = (values[row, column] for row in (low_y, y, high_y) for column in (low_x, x, high_x))
-    return functools.reduce(np.minimum, rows)
+    height, width = values.shape
+    rows = [width * row for row in (np.maximum(y - 1, 0), y, np.minimum(y + 1, height - 1))]
+    columns = [np.maximum(x - 1, 0), x, np.minimum(x + 1, width - 1)]
+    return functools.reduce(np.minimum, (values.take(row + column) for row in rows for column in columns))
 
 
 def _draw(ink: Mask, pixel: Array, distance_m: Array, nearness: Array) -> None:
@@ -152,13 +152,16 @@ def _draw(ink: Mask, pixel: Array, distance_m: Array, nearness: Array) -> None:
     """
     height, width = ink.shape
     before = (distance_m > 0.0).all(axis=1)
-    pixel, distance_m = pixel[before], distance_m[before]
-    count = np.ceil(np.abs(pixel[:, 1] - pixel[:, 0]).max(axis=1, initial=0.0)).astype(int) + 1
-    which = np.repeat(np.arange(len(pixel)), count)
-    share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / np.repeat(count, count)
+    start, way = pixel[before, 0].T, (pixel[before, 1] - pixel[before, 0]).T
     # perspective: the inverse of the distance is linear across the picture
-    x, y = np.floor(pixel[which, 0] + share[:, None] * (pixel[which, 1] - pixel[which, 0])).astype(int).T
-    near = 1.0 / (1.0 / distance_m[which, 0] + share * (1.0 / distance_m[which, 1] - 1.0 / distance_m[which, 0]))
+    close, closer = (1.0 / distance_m[before]).T
+    count = np.ceil(np.abs(way).max(axis=0, initial=0.0)).astype(int) + 1
+    share = (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)) / np.repeat(count, count)
+    x, y = (
+        np.floor(np.repeat(from_, count) + share * np.repeat(along, count)).astype(int)
+        for from_, along in zip(start, way, strict=True)
+    )
+    near = 1.0 / (np.repeat(close, count) + share * np.repeat(closer - close, count))
     inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
     x, y, near = x[inside], y[inside], near[inside]
     seen = near <= 1.0 / np.maximum(_least_beside(nearness, y, x), np.finfo(float).tiny) + EDGE_DEPTH_M

@@ -141,7 +141,7 @@ class RobotModel:
             return ()
         from jumpcad.search.quick_refusal import quick_refusal
 
-        return quick_refusal(design, self.workshop or load_workshop(), self.settings or Settings())
+        return quick_refusal(design, self.workshop or load_workshop(), self.guess_settings)
 
     def varied(self, values: Mapping[str, Value]) -> "RobotModel":
         """Return the model of the robot in the workshop with other values, or made otherwise than designed."""
@@ -245,7 +245,7 @@ class RobotModel:
 
     @property
     def guess_settings(self) -> Settings:
-        """The settings of a rehearsal: those of the model with steps of `GUESS_STEP_S`, or longer ones."""
+        """The settings of what is only guessed: those of the model with steps of `GUESS_STEP_S`, or longer ones."""
         settings = self.settings or Settings()
         return settings.model_copy(update={"dt_s": max(settings.dt_s, GUESS_STEP_S)})
 

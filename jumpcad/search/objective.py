@@ -76,7 +76,7 @@ class Evaluation:
     def bare(self) -> "Evaluation":
         """The same with findings of name, severity, unit and six digits of margin only: what studies keep.
 
-        Eighty findings with their texts are 26 kB; who wants to read them evaluates the design again.
+        Ninety findings with their texts are 30 kB; who wants to read them evaluates the design again.
         """
         findings = tuple(bare(one.name, one.severity, float(f"{one.margin:.6g}"), one.unit) for one in self.findings)
         return replace(self, findings=findings)

@@ -17,7 +17,7 @@ from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Mechanism, five_bar
 from jumpcad.printing.layer_mass import line_spacing_mm
-from jumpcad.workshop import DEFAULT, Workshop, load_workshop
+from jumpcad.workshop import DEFAULT, Process, Workshop, load_workshop
 
 DESIGNS = {
     "carrying_link_mm": (80.0, 260.0),
@@ -132,15 +132,13 @@ def known_masses(design: Design, workshop: Workshop) -> dict[str, float]:
 def mass_features(design: Design, workshop: Workshop) -> dict[str, tuple[float, ...]]:
     """Return what the other masses of each body are proportional to."""
     plates = workshop.body.plate_mm * _density(BODY, workshop)
-    rod = workshop.catalogue.rods[workshop.bought.axle]
-    axles = rod.density_g_cm3 * (1.0 - rod.bore_share**2) * workshop.bought.axle_mm**2
     spring = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
     strong = math.sqrt(spring.peak_torque_nm)  # heights of sections in bending go with the root of the moment
     links, whole = _density(MAIN_LEG, workshop), float(workshop.leg_bar is None)
     foot, half = _density(FOOT, workshop), design.l5_mm * math.sin(math.radians(design.ground_link_angle_deg))
     bars = max(0.0, workshop.body.toe_half_width_mm - half)
     return {
-        BODY: (1.0, plates, plates * design.l1_mm, axles),
+        BODY: (1.0, plates, plates * design.l1_mm, axle_measure(workshop)),
         MAIN_LEG: (1.0, links * (1.0 - whole), links * whole * design.l2_mm, links * whole * design.l2_mm * strong),
         FRONT_LINK: (links, links * (1.0 - whole), links * whole * design.l3_mm),
         FOOT: (1.0, foot * design.l4_mm, foot * design.l5_mm, foot * design.l5_mm * strong, foot * bars),
@@ -158,6 +156,12 @@ def foot_x_features(design: Design) -> tuple[float, float, float]:
     return 1.0, design.l4_mm, float(toe_tip_mm(design)[0])
 
 
+def axle_measure(workshop: Workshop) -> float:
+    """Return what the mass of the axles is proportional to: density times the square of the diameter."""
+    rod = workshop.catalogue.rods[workshop.bought.axle]
+    return rod.density_g_cm3 * (1.0 - rod.bore_share**2) * workshop.bought.axle_mm**2
+
+
 def _motors_g(workshop: Workshop) -> list[float]:
     motors = workshop.catalogue.motors
     return [motors[name].mass_g for name in workshop.bought.motors or motors]
@@ -168,7 +172,11 @@ def _density(body: str, workshop: Workshop) -> float:
     process, density = workshop.process, workshop.material("body" if body == BODY else "links").density_g_cm3
     if workshop.mass.model == "solid":
         return density
-    width, height = WALL_MM[body]
-    walls = 2.0 * process.perimeters * line_spacing_mm(process.line_width_mm, process.layer_height_mm) / width
-    layers = (process.top_layers + process.bottom_layers) * process.layer_height_mm / height
-    return density * (1.0 - (1.0 - process.infill) * max(0.0, 1.0 - walls) * max(0.0, 1.0 - layers))
+    return density * solid_share(process, *WALL_MM[body])
+
+
+def solid_share(process: Process, width_mm: float, height_mm: float) -> float:
+    """Return the mean density of a bar over that of its material: walls at its width's ends, layers at its height's."""
+    walls = 2.0 * process.perimeters * line_spacing_mm(process.line_width_mm, process.layer_height_mm) / width_mm
+    layers = (process.top_layers + process.bottom_layers) * process.layer_height_mm / height_mm
+    return 1.0 - (1.0 - process.infill) * max(0.0, 1.0 - walls) * max(0.0, 1.0 - layers)

@@ -22,7 +22,7 @@ from jumpcad.search.tolerances import LENGTHS_ALONE, Making
 from jumpcad.search.trial import Trial
 
 MOST_EVALUATIONS = 1_000_000
-"""About six days at two evaluations per second."""
+"""About a day of one core, at 80 ms an evaluation (docs/speed.md)."""
 MOST_FIRST = 50
 """Most evaluations of the first of two methods: with 190 of 240, the second found the best design in 10 (measured)."""
 WIDENINGS, WIDENING_SHARE, WIDER = 3, 0.5, "bo"

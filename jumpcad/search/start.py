@@ -1,6 +1,6 @@
 """The first designs of a search: half are the best of many by a quick model, the others are evenly spread.
 
-Of evenly spread designs of the printed robot, three quarters are rejected. The capsule robot is simulated in
+Of evenly spread designs of the printed robot, six in seven are rejected. The capsule robot is simulated in
 milliseconds, and designs with which it jumps far are probably good. The other half covers errors of the quick model.
 """
 
@@ -17,7 +17,7 @@ from jumpcad.spread import sobol
 from jumpcad.transforms import Array
 
 SCREENED = 512
-"""Designs that the quick model ranks (about a second)."""
+"""Designs that the quick model ranks (about half a second with the extra `fast`)."""
 APART = 0.1
 """Least difference between two of its best designs along some axis of the unit cube."""
 

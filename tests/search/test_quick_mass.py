@@ -27,7 +27,7 @@ from jumpcad.search.quick_mass import (
     quick_robot,
     ranges,
 )
-from jumpcad.search.quick_refusal import AHEAD_MM, LIGHTER
+from jumpcad.search.quick_refusal import KNOWN
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 
 SHOP = load_workshop(DEFAULT)
@@ -70,10 +70,10 @@ def test_masses_and_centres_are_near_those_of_the_built_robot(robot: Robot) -> N
     assert link == pytest.approx(robot.bodies[FRONT_LINK].com_m[0], abs=2e-4)
     assert guess.bodies[BODY].com_m[2] == pytest.approx(robot.bodies[BODY].com_m[2], abs=0.0025)
     quick, exact = statics_findings(guess), statics_findings(robot)
-    assert exact[0].margin - quick[0].margin < AHEAD_MM
+    assert exact[0].margin - quick[0].margin < KNOWN.ahead_mm
     assert quick[1].limit is not None
     assert exact[1].limit is not None
-    assert quick[1].limit * (1.0 - LIGHTER) < exact[1].limit < quick[1].limit / (1.0 - 2.0 * LIGHTER)
+    assert quick[1].limit * (1.0 - KNOWN.lighter) < exact[1].limit < quick[1].limit / (1.0 - 2.0 * KNOWN.lighter)
 
 
 def test_springs_joints_and_loop_are_those_of_the_built_robot(robot: Robot) -> None:

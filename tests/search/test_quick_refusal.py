@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.built import LONG_TOES, built
+from support.built import design as named
 
 from jumpcad import evaluation
 from jumpcad.building import build
@@ -11,11 +13,14 @@ from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
+from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search import quick_refusal as quick
 from jumpcad.search.models import robot_model
 from jumpcad.search.quick_mass import known, quick_robot
-from jumpcad.search.quick_refusal import quick_refusal
+from jumpcad.search.quick_refusal import Bounds, quick_refusal
+from jumpcad.search.sized_robot import sized_robot
 from jumpcad.settings import Settings
+from jumpcad.simulation import simulate
 from jumpcad.workshop import Workshop, load_workshop, varied
 
 DEFAULT = load_workshop("default")
@@ -56,7 +61,9 @@ def standing():
 
 
 def wrongly_refused(robots):
-    return [design for design, workshop in robots if quick_refusal(design, workshop, Settings())]
+    """Return the designs that are refused by statics; whether they take off is another question."""
+    found = [(design, quick_refusal(design, workshop, Settings())) for design, workshop in robots]
+    return [design for design, refused in found if {one.name for one in refused} & {"tips", "too_weak"}]
 
 
 def test_a_robot_that_stands_is_not_refused(standing):
@@ -64,8 +71,9 @@ def test_a_robot_that_stands_is_not_refused(standing):
     assert wrongly_refused(standing) == []
 
 
-def test_robots_near_their_limit_would_notice_an_error_that_is_too_small(standing, monkeypatch):
-    monkeypatch.setattr(quick, "LIGHTER", 0.0)
+@pytest.mark.parametrize("kind", ["KNOWN", "NEAR"])
+def test_robots_near_their_limit_would_notice_an_error_that_is_too_small(standing, monkeypatch, kind):
+    monkeypatch.setattr(quick, kind, Bounds(0.0, getattr(quick, kind).ahead_mm))
     assert wrongly_refused(standing)
 
 
@@ -82,7 +90,7 @@ def test_an_absurdly_weak_robot_is_refused_before_anything_is_built(shop, monkey
     estimate = found.findings[-1]
     true = next(one for one in exact.findings if one.name == "too_weak")
     assert estimate.value == pytest.approx(true.value, rel=1e-12)  # the springs are known
-    assert estimate.limit == pytest.approx(true.limit, rel=quick.LIGHTER)
+    assert estimate.limit == pytest.approx(true.limit, rel=quick.KNOWN.lighter)
     assert estimate.margin == estimate.value - estimate.limit < 0.0
     assert f"{1000.0 * estimate.limit:.1f} mJ" in estimate.message
     assert "by an estimate of the masses" in estimate.message
@@ -94,7 +102,72 @@ def test_a_robot_whose_toes_are_far_too_short_falls_over():
     true = statics_findings(build(short, DEFAULT))[0]
     assert tips.name == true.name == "tips"
     assert true.margin < 0.0
-    assert tips.margin == pytest.approx(true.margin, abs=quick.AHEAD_MM)
+    assert tips.margin == pytest.approx(true.margin, abs=quick.KNOWN.ahead_mm)
+
+
+def just_jumps(robot):
+    """Return the settings in which a built robot just takes off: with less of its springs' energy it would not."""
+    low, high = 0.1, 1.0
+    while high - low > 0.001:
+        middle = (low + high) / 2.0
+        jumps = simulate(robot, Settings(spring_efficiency=middle), "planar").verdict == "jump"
+        low, high = (low, middle) if jumps else (middle, high)
+    return Settings(spring_efficiency=high)
+
+
+@pytest.fixture(scope="module", params=[("best-ga", "light"), ("best-printable", "default"), ("best-bo", "light")])
+def barely_jumping(request):
+    robot = built(*request.param)
+    return robot, just_jumps(robot)
+
+
+def test_a_robot_that_just_takes_off_is_not_refused(barely_jumping, monkeypatch):
+    """An estimate that errs by more than is allowed for would be noticed."""
+    robot, settings = barely_jumping
+    assert quick_refusal(robot.design, robot.workshop, settings) == ()
+    monkeypatch.setattr(quick, "sized_robot", lambda *one: with_spring_factor(sized_robot(*one), 0.85))
+    monkeypatch.setattr(quick, "NEAR", Bounds(1.0, 1e3))
+    (standing,) = quick_refusal(robot.design, robot.workshop, settings)
+    assert standing.name == "no_takeoff"
+
+
+def test_an_estimate_that_is_near_its_take_off_refuses_nothing(monkeypatch):
+    """It stays on the ground by itself, but not with the springs that its error asks for."""
+    near = Design.from_vector([187.16, 1.02, 0.86, 0.98, 0.4, 59.45, 29.6, 35.88])
+    weaker = near.model_copy(update={"stiffness_nmm_per_deg": 0.9 * near.stiffness_nmm_per_deg})
+    stronger = near.model_copy(update={"carrying_link_mm": 0.9 * near.carrying_link_mm})
+    verdicts = [simulate(sized_robot(one, DEFAULT), Settings(), "planar").verdict for one in (near, weaker, stronger)]
+    assert verdicts == ["no_takeoff", "no_takeoff", "jump"]
+    assert quick_refusal(near, DEFAULT, Settings()) == ()
+    assert [one.name for one in quick_refusal(weaker, DEFAULT, Settings())] == ["no_takeoff"]
+    monkeypatch.setattr(quick, "STRENGTHS", (0.5,))
+    assert [one.name for one in quick_refusal(near, DEFAULT, Settings())] == ["no_takeoff"]
+    assert quick_refusal(stronger, DEFAULT, Settings()) == ()
+
+
+def test_a_robot_that_stays_on_the_ground_is_not_built(monkeypatch):
+    robot = built(LONG_TOES)
+    assert simulate(robot).verdict == "no_takeoff"
+    assert not errors(statics_findings(robot))
+    monkeypatch.setattr(evaluation, "evaluate_made", None)
+    found = robot_model()(named(LONG_TOES))
+    assert (found.verdict, found.reasons, dict(found.metrics)) == ("no_takeoff", ("no_takeoff",), {})
+    standing = found.findings[-1]
+    assert standing.margin == pytest.approx(standing.value - standing.limit)
+    assert standing.margin < 0.0
+    assert "by an estimate of the masses, with springs of up to 6 % more energy too" in standing.message
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [{"restitution": 0.3}, {"drag_per_s": 1.0}, {"gravity_m_s2": 9.0}, {"spring_efficiency": 1.05}],
+)
+def test_where_the_push_off_is_not_that_of_the_measured_error_the_robot_is_built(settings):
+    """What the planar engine lacks, and springs that do more than in the robots that were compared."""
+    design = named(LONG_TOES)
+    assert [one.name for one in quick_refusal(design, DEFAULT, Settings())] == ["no_takeoff"]
+    assert quick_refusal(design, DEFAULT, Settings(**settings)) == ()
+    assert quick_refusal(design, varied(DEFAULT, {"body.stop_deg": 4.0}), Settings()) == ()
 
 
 def test_efficiency_and_gravity_are_those_of_the_simulation():

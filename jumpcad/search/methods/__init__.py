@@ -100,7 +100,7 @@ METHODS = {
 SEQUENCES = {"ga+bo": ("ga", "bo")}
 """Two methods, one after the other; the second learns from the first."""
 DEFAULT = "bo"
-"""Of printed robots, it needs about 60 designs to come within a hundredth of the best known, after `ga` 100 to 150."""
+"""Of printed robots, it needs about 35 designs to come within a hundredth of the best known, after `ga` 100 to 150."""
 EVALUATIONS, UNTIL_PERCENT = 250, 0.05
 """What a search may cost at most unless the user says something else, and the promised gain at which it ends."""
 NAMES = (*SEQUENCES, *METHODS)

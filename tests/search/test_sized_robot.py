@@ -1,0 +1,149 @@
+"""Robots whose links are sized but not laid out: as near as refusals need, and which workshops are near.
+
+How near over thousands of robots, `benchmarks/refuse.py` tells.
+"""
+
+import math
+from dataclasses import replace
+
+import pytest
+from support.built import LONG_TOES, built
+
+from jumpcad.design import SEARCH_BOUNDS, Design, load_design
+from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.robot import Robot
+from jumpcad.search.sized_robot import NUMBERS, SizedLinks, near, printed_g_mm, sized_robot, usual_bearing
+from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
+
+SHOP = load_workshop(DEFAULT)
+DESIGN = load_design("best-printable")
+
+
+@pytest.fixture(scope="module", params=[("best-ga", "default"), ("best-printable", "light"), (LONG_TOES, "default")])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return built(*request.param)
+
+
+def test_masses_centres_and_inertias_are_near_those_of_the_built_robot(robot: Robot) -> None:
+    """Strong robots, whose sections have grown, are the farthest."""
+    guess = sized_robot(robot.design, robot.workshop)
+    assert guess.mass_kg == pytest.approx(robot.mass_kg, rel=0.07)
+    for name, body in robot.bodies.items():
+        mine = guess.bodies[name]
+        assert mine.mass_kg == pytest.approx(body.mass_kg, rel=0.12), name
+        assert mine.com_m[[0, 2]] == pytest.approx(body.com_m[[0, 2]], abs=0.005), name
+        assert mine.inertia_kg_m2[1, 1] == pytest.approx(body.inertia_kg_m2[1, 1], rel=0.25), name
+        assert mine.com_m[1] == 0.0
+
+
+def test_what_touches_the_ground_is_that_of_the_built_robot(robot: Robot) -> None:
+    """Nose, toe tips and the ends of the body, seen from the side; sections that have grown differ by tenths."""
+    guess = sized_robot(robot.design, robot.workshop)
+    assert guess.foot_depth_m == pytest.approx(robot.foot_depth_m, abs=3e-4)
+    for name in (BODY, FOOT):
+        mine, built_ones = guess.bodies[name].contacts, robot.bodies[name].contacts[:2]
+        for one, other in zip(mine, built_ones, strict=True):
+            assert one.centre_m[[0, 2]] == pytest.approx(other.centre_m[[0, 2]], abs=5e-4)
+            assert one.radius_m == pytest.approx(other.radius_m, abs=5e-4)
+            assert one.surface == other.surface
+
+
+def test_friction_stop_and_springs_are_those_of_the_built_robot(robot: Robot) -> None:
+    guess = sized_robot(robot.design, robot.workshop)
+    assert guess.friction == robot.friction
+    assert guess.spring == robot.spring
+    assert guess.stop is not None
+    assert robot.stop is not None
+    assert (guess.stop.joint, guess.stop.angle_rad) == (robot.stop.joint, pytest.approx(robot.stop.angle_rad))
+    assert guess.stop.stiffness_nm_per_rad == pytest.approx(robot.stop.stiffness_nm_per_rad, rel=0.25)
+    assert guess.roller_off is None
+
+
+def test_the_hub_s_bearing_is_that_of_the_built_robot(robot: Robot) -> None:
+    bearing = robot.layout.hub_bearing
+    assert bearing is not None
+    assert usual_bearing(robot.workshop, robot.spring) == bearing
+    axle = robot.workshop.bought.axle_mm
+    fitting = [one for one in robot.workshop.catalogue.bearings.values() if one.bore_mm == axle]
+    lightest = min(fitting, key=lambda one: one.mass_g)
+    weak = replace(robot.spring, stiffness_nm_per_rad=robot.spring.stiffness_nm_per_rad / 10.0)
+    assert usual_bearing(robot.workshop, weak) == lightest != bearing
+
+
+def test_a_hub_without_bearings_rubs_on_its_axle() -> None:
+    guess = sized_robot(DESIGN, varied(SHOP, {"bought.leg_bearing": "", "bought.retention": "nuts"}))
+    assert guess.friction is not None
+    assert guess.friction.pin_radius_m == (0.0015,) * 4
+
+
+def test_a_solid_bar_weighs_its_volume_and_infill_saves_the_inside() -> None:
+    """10 mm by 6 mm of PETG, 1.27 g/cm³; of infill alone, without walls and layers, a fifth of it."""
+    solid = varied(SHOP, {"process.infill": 1.0})
+    assert printed_g_mm(solid, "links", 10.0, 6.0) == pytest.approx(1.27e-3 * 60.0)
+    assert printed_g_mm(SHOP, "links", 1.0, 6.0) == pytest.approx(1.27e-3 * 6.0)  # all walls
+    assert printed_g_mm(SHOP, "links", 10.0, 1.0) == pytest.approx(1.27e-3 * 10.0)  # all layers
+    light = varied(SHOP, {"process.infill": 0.2})
+    inside = (printed_g_mm(light, "links", 30.0, 20.0) - printed_g_mm(light, "links", 20.0, 20.0)) / (1.27e-3 * 10.0)
+    layers = 9 * 0.2
+    assert inside == pytest.approx(layers + 0.2 * (20.0 - layers))
+
+
+def test_toes_apart_are_heavier_by_their_screws() -> None:
+    """A bed on which the foot fits keeps it in one piece."""
+    small, large = (SizedLinks.of(built(LONG_TOES).design, shop) for shop in (SHOP, with_bed(600.0)))
+    assert (small.apart, large.apart) == (1.0, 0.0)
+    at_tips = (one.places(dict.fromkeys(one.known_g, 20.0))[FOOT][3] for one in (small, large))
+    assert next(at_tips) == pytest.approx(toe_tip_mm(small.plain.design)[0] / small.plain.design.l5_mm / 20.0)
+    assert next(at_tips) == 0.0
+
+
+def with_bed(size_mm: float) -> Workshop:
+    return SHOP.model_copy(update={"printer": SHOP.printer.model_copy(update={"bed_mm": (size_mm,) * 3})})
+
+
+def test_bars_reach_from_the_toes_to_the_width_that_is_asked_for() -> None:
+    half = DESIGN.l5_mm * math.sin(math.radians(DESIGN.ground_link_angle_deg))
+    for more, length in ((-3.0, 0.0), (6.0, 6.0)):
+        shop = varied(SHOP, {"body.toe_half_width_mm": half + more})
+        bars = SizedLinks.of(DESIGN, shop).mass_features[FOOT][3]
+        assert bars == pytest.approx(shop.material("links").density_g_cm3 * length, abs=1e-9)
+
+
+@pytest.mark.parametrize("shop", ["default", "fine", "light"])
+def test_shipped_workshops_are_near_with_designs_of_the_default_bounds(shop: str) -> None:
+    workshop = load_workshop(shop)
+    for end in ("lower", "upper"):
+        design = Design(**{name: getattr(bound, end) for name, bound in SEARCH_BOUNDS.items()})
+        assert near(design, workshop)
+        for name, bound in SEARCH_BOUNDS.items():
+            beyond = getattr(bound, end) * (0.999 if end == "lower" else 1.001)
+            assert not near(design.model_copy(update={name: beyond}), workshop), name
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ({"bought.kit": "strong-2s"}, True),
+        ({"bought.retention": "nuts", "bought.leg_bearing": "", "roles.links": "PLA"}, True),
+        ({"bought.leg": "carbon-strip-3x6"}, False),
+        ({"bought.axle_mm": 2.0}, False),
+        ({"ground.pad": "rubber-2"}, False),
+        ({"fits.wall_mm": 1.3}, False),
+        ({"process.perimeters": 4}, False),
+        ({"body.stop_deg": 4.0}, False),
+        ({"mass.model": "solid"}, False),
+        *(({".".join(key): end}, True) for key, ends in NUMBERS.items() for end in ends),
+        *(({".".join(key): low - 0.01}, False) for key, (low, _) in NUMBERS.items()),
+        *(({".".join(key): high + 0.01}, False) for key, (_, high) in NUMBERS.items()),
+    ],
+)
+def test_workshops_are_near_that_differ_in_nothing_but_what_was_measured(
+    values: dict[str, float | str], expected: bool
+) -> None:
+    assert near(DESIGN, varied(SHOP, values)) is expected
+
+
+def test_materials_of_one_s_own_are_not_near() -> None:
+    petg = SHOP.materials["PETG"].model_copy(update={"density_g_cm3": 1.2})
+    assert not near(DESIGN, SHOP.model_copy(update={"materials": SHOP.materials | {"PETG": petg}}))
