@@ -2,7 +2,6 @@
 
 import hashlib
 import importlib.metadata
-import importlib.util
 import json
 import math
 from collections.abc import Mapping
@@ -231,13 +230,8 @@ class RobotModel:
             return found.metrics["fitness"]
 
     @property
-    def screen_engine(self) -> str:
-        """The engine of a screen: the planar one where it is compiled, else the model's own."""
-        return "planar" if importlib.util.find_spec("numba") else self.engine
-
-    @property
     def guess_engine(self) -> str:
-        """The engine of a rehearsal: the planar one, compiled or not, unless the settings ask for what it lacks."""
+        """The engine of what is only guessed: the planar one, compiled or not, unless it lacks what settings ask for."""
         from jumpcad.simulation.planar import LACKING
 
         lacks = any(getattr(self.settings or Settings(), key) for key in LACKING)

@@ -200,7 +200,7 @@ class Request:
             "preset": self.preset,
             "batch": self.batch,
             **({"widen": True} if self.widen else {}),
-            **({"screen": self.model.screen_engine} if self.screen and isinstance(self.model, RobotModel) else {}),
+            **({"screen": self.model.guess_engine} if self.screen and isinstance(self.model, RobotModel) else {}),
             "making": asdict(self.making),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),

@@ -43,7 +43,7 @@ def test_only_what_was_asked_for_is_in_a_studys_identity():
     assert replace(plain, evaluations=50).default_name() == plain.default_name()
     printed = robot_model()
     screened = Request(SMALL, printed, "body_lengths", "ga", 40, screen=True)
-    assert screened.identity([])["screen"] == printed.screen_engine  # another engine guesses otherwise
+    assert screened.identity([])["screen"] == printed.guess_engine  # another engine guesses otherwise
 
 
 def test_a_fixed_value_of_the_workshop_leaves_one_workshop_to_guess_in():
