@@ -22,6 +22,17 @@ def test_every_method_spends_its_evaluations_in_a_phase_of_its_name(evaluator, n
     assert bool(learned) == METHODS[name].learns == (name in LEARNING_PHASES)
 
 
+@pytest.mark.parametrize("name", [name for name in METHODS if name != "paper"])
+def test_the_first_designs_follow_from_the_seed(evaluator, name):
+    runs = []
+    for seed in (0, 0, 1):
+        one = evaluator()
+        METHODS[name].run(one, Task(4, seed=seed, initial=4))
+        runs.append([trial.key for trial in one.trials])
+    assert runs[0] == runs[1]
+    assert not set(runs[1]) & set(runs[2])
+
+
 def test_what_follows_from_the_registry():
     assert set(METHODS) < set(PHASES)
     assert set(NAMES) == {*METHODS, *SEQUENCES}
