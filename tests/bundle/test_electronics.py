@@ -49,6 +49,9 @@ def test_the_manifest_says_what_each_part_gets_and_bears(robot: Robot) -> None:
     assert {board["role"] for board in facts["boards"]} == {"controller", "driver"} | (
         {"regulator"} if cells == 2 else set()
     )
+    train = robot.layout.drive.train
+    boards_w = supply_of(chosen_parts(robot.workshop)).boards_w
+    assert facts["energy_j"]["boards"] == pytest.approx(boards_w * train.winding_s, abs=1e-4)
     assert sum(facts["energy_j"].values()) == pytest.approx(robot.layout.drive.train.electrical_j, abs=1e-5)
 
 

@@ -1,5 +1,6 @@
 """`jumpcad build`, `render` and `verify`, and `simulate` of what was built."""
 
+import inspect
 import json
 import os
 import re
@@ -11,8 +12,10 @@ import pytest
 from support.commands import Run
 from support.pictures import with_few_pictures
 
+from jumpcad.bundle import export as bundle_export
 from jumpcad.cli.bundle import _print_facts
 from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.model import BODY_NAMES
 
 
@@ -223,6 +226,26 @@ def test_a_printer_or_a_material_is_no_workshop(run: Run, name: str, option: str
     code, _, err = run("check", "kenan-2.0", "--workshop", name)
     assert code == 2
     assert option in err
+
+
+@pytest.mark.parametrize("option", ["--no-pictures", "--step", "--ros2", "--force"])
+def test_every_option_of_build_is_that_of_the_export(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, option: str
+) -> None:
+    """Each option changes what it is named after, and nothing else."""
+    asked = {}
+
+    def export(robot: object, folder: Path, *options: bool) -> None:
+        asked.update(zip(inspect.signature(real).parameters, (robot, folder, *options), strict=True))
+        raise JumpcadError("enough")
+
+    real = bundle_export.export
+    monkeypatch.setattr(bundle_export, "export", export)
+    assert run("build", "kenan-2.0", "-o", tmp_path / "b", option)[0] == 2
+    assert asked["folder"] == tmp_path / "b"
+    usual = {"pictures": True, "step": False, "force": False, "ros2": False}
+    name = option.removeprefix("--").removeprefix("no-")
+    assert {key: asked[key] for key in usual} == usual | {name: not option.startswith("--no-")}
 
 
 def test_a_ros2_package_is_part_of_the_bundle_where_it_is_asked_for(run: Run, bundle: Path, tmp_path: Path) -> None:

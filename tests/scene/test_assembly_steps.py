@@ -125,6 +125,25 @@ def test_toes_come_along_their_own_width(name: str, way: float) -> None:
         travel(built("kenan-2.0"), thing, Move("toe_left", "from nowhere"), turned)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("boss_mm", [0.0, 2.0])
+def test_the_springs_pin_leans_on_a_boss_or_on_a_strip_of_tape(boss_mm: float) -> None:
+    robot = built("kenan-2.0")
+    steps = assembly_steps(replace(robot, layout=replace(robot.layout, spring_boss_mm=boss_mm)))
+    words = " ".join(text for step in steps for text in step.text)
+    found = [text in words for text in ("its boss on the plate holds it", "adhesive tape from it to the plate")]
+    assert found == [boss_mm > 0.0, boss_mm == 0.0]
+
+
+@pytest.mark.parametrize("preload_rad", [0.0, 0.1])
+def test_springs_with_a_preload_are_put_on_with_a_screwdriver(preload_rad: float) -> None:
+    robot = built("kenan-2.0")
+    layout = robot.layout
+    drive = replace(layout.drive, spring=replace(layout.drive.spring, preload_rad=preload_rad))
+    steps = assembly_steps(replace(robot, layout=replace(layout, drive=drive)))
+    words = " ".join(text for step in steps for text in step.text)
+    assert ("The springs are loaded by" in words) == (preload_rad > 0.0)
+
+
 @pytest.mark.parametrize(
     ("needs", "lacks", "said"),
     [

@@ -40,6 +40,8 @@ def test_a_robot_that_only_stands_up_does_not_take_off() -> None:
     assert jump.verdict == "no_takeoff"
     assert jump.fitness == 0.0
     assert jump.ballistic_range_m is None
+    (refusal,) = (finding for finding in jump.findings if finding.severity == "error")
+    assert (refusal.name, bool(refusal.message), bool(refusal.remedy)) == ("no_takeoff", True, True)
 
 
 def test_heavier_gravity_makes_it_too_weak(kenan: Robot) -> None:
