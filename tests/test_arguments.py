@@ -102,6 +102,16 @@ def test_a_design_is_built_where_a_robot_is_wanted(tmp_path: Path, monkeypatch: 
     assert ours.files == theirs.files
 
 
+def test_a_whole_number_is_taken_for_any_number_and_a_text_is_not() -> None:
+    @typed
+    def doubled(length_mm: float) -> float:
+        return 2.0 * length_mm
+
+    assert (doubled(2), doubled(2.5)) == (4.0, 5.0)
+    with pytest.raises(JumpcadError, match=r"doubled\(\) takes .* as length_mm, not '2'"):
+        doubled("2")  # type: ignore[arg-type]
+
+
 def test_a_vector_may_be_of_any_numbers() -> None:
     for kind in (list, tuple, np.array, np.float32):
         assert jumpcad.Design.from_vector(kind([100, 1, 1, 1, 0.5, 60, 8, 40])).carrying_link_mm == 100.0
