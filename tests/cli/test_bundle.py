@@ -6,16 +6,20 @@ import os
 import re
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 from unittest.mock import ANY
 
 import pytest
+from support.built import built
 from support.commands import Run
 from support.pictures import with_few_pictures
 
+from jumpcad import checks
 from jumpcad.bundle import export as bundle_export
-from jumpcad.cli.bundle import _print_facts
+from jumpcad.cli.bundle import _facts, _print_facts
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.findings import at_most
 from jumpcad.mechanism.model import BODY_NAMES
 
 
@@ -69,6 +73,19 @@ def test_build_of_a_robot_with_violated_limits_names_them_and_says_not_to_build_
     assert sentence[1] in page
     warning = next(line for line in guide.splitlines() if "Do not build it as it is" in line)
     assert all(name in warning for name in names)
+
+
+def test_build_tells_of_warnings_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is violated: first what is used most, warnings among the errors, and nothing that holds."""
+    found = [
+        at_most("holds", 1.0, 2.0, "mm", "", ""), at_most("warns", 3.0, 2.0, "mm", "", "", "warning"),
+        at_most("fails", 2.5, 2.0, "mm", "", ""),
+    ]  # fmt: skip
+    monkeypatch.setattr(checks, "quick_findings", lambda _: found)
+    bundle, jump = SimpleNamespace(folder="b", files={}, manifest={"masses": []}), SimpleNamespace(to_dict=dict)
+    facts = _facts(built("kenan-2.0"), bundle, jump, jump)  # type: ignore[arg-type]
+    assert [one["name"] for one in facts["violated"]] == ["warns", "fails"]
+    assert facts["violation"].startswith("2 of its 3 limits are violated")
 
 
 def test_simulating_the_bundle_gives_the_range_of_the_build(run: Run, bundle: Path) -> None:
