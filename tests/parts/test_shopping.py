@@ -442,3 +442,19 @@ def test_cross_screws_go_through_the_toe_into_the_stub() -> None:
             along = item.look.copy().apply_transform(inverse @ item.T_body_part).vertices @ side
             assert along.max() - outside == pytest.approx(1.65, abs=1e-3)
             assert overlap[1].min() < along.min() <= inside - 4.0
+
+
+def test_rings_have_their_bores(assembled_robot: Robot) -> None:
+    """A washer of ISO 7089 M3: 7 mm, 3.2 mm, 0.5 mm; ball bearings as their names say, filled between the rings."""
+    catalogue, seen = load_catalogue(), set()
+    for item in assembled_robot.hardware:
+        if item.name == "roller_washer":
+            outer, bore, width = 7.0, 3.2, 0.5
+        elif item.article.startswith("ball bearing "):
+            bearing = catalogue.bearings[item.article.removeprefix("ball bearing ")]
+            outer, bore, width = bearing.outer_mm, bearing.bore_mm, bearing.width_mm
+        else:
+            continue
+        seen.add(item.name)
+        assert item.shape.volume_mm3 == pytest.approx(math.pi / 4.0 * (outer**2 - bore**2) * width, rel=0.01), item.name
+    assert seen == {"roller_washer", "roller", "hub_bearing_1", "hub_bearing_2"}
