@@ -33,6 +33,20 @@ def test_the_first_designs_follow_from_the_seed(evaluator, name):
     assert not set(runs[1]) & set(runs[2])
 
 
+@pytest.mark.parametrize("name", [name for name, method in METHODS.items() if method.learns])
+def test_proposals_follow_from_the_seed(evaluator, name):
+    """From the same first designs, which another search has evaluated."""
+    points = SMALL.spread(8, np.random.default_rng(0))
+    runs = []
+    for seed in (0, 0, 1):
+        one = evaluator()
+        one.evaluate([SMALL.to_variant(point) for point in points], "sample", 0)
+        METHODS[name].run(one, Task(3, seed=seed))
+        runs.append([trial.key for trial in one.trials[8:]])
+    assert len(runs[0]) == 3
+    assert runs[0] == runs[1] != runs[2]
+
+
 def test_what_follows_from_the_registry():
     assert set(METHODS) < set(PHASES)
     assert set(NAMES) == {*METHODS, *SEQUENCES}
