@@ -190,6 +190,8 @@ def test_a_summary_has_the_quantiles_of_prior_and_posterior() -> None:
         "partly identified", "identified", "stays at its prior",
     )  # fmt: skip
     assert pins["posterior"] == pytest.approx([0.25] * 3)
+    moved, _, stays = drawn(np.stack([z[:, 2] + 1.1, z[:, 1], z[:, 2] + 0.9], axis=1)).summaries()
+    assert (moved["verdict"], stays["verdict"]) == ("partly identified", "stays at its prior")
 
 
 def test_a_measurement_stands_beside_its_likeliest_reading() -> None:
