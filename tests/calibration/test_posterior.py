@@ -64,6 +64,7 @@ def test_chains_are_long_enough_or_say_so(posterior: CalibrationPosterior) -> No
 def test_the_same_seed_gives_the_same_draws(subject: Subject, posterior: CalibrationPosterior) -> None:
     first, again = (sampled(Model(posterior.model.subjects), 1, **SHORTEST) for _ in range(2))
     assert np.array_equal(again.z, first.z)
+    assert not np.array_equal(sampled(Model(posterior.model.subjects), 2, **SHORTEST).z, first.z)
     assert first.walkers == 8 * len(posterior.model.parameters)
 
 

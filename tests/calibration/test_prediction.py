@@ -42,6 +42,12 @@ def test_shared_parameters_are_those_of_the_calibration(posterior: CalibrationPo
     )
 
 
+def test_what_stays_open_is_drawn_by_the_seed(posterior: CalibrationPosterior, subject: Subject) -> None:
+    other = twin(subject, jumps=JUMPS, mass={"robot_g": 103.0})
+    draws = [predicted_jump(posterior, other, seed).values["floor:twin"].tolist() for seed in (0, 0, 1)]
+    assert draws[0] == draws[1] != draws[2]
+
+
 def test_a_twin_jumps_as_far_with_a_wider_interval(posterior: CalibrationPosterior, subject: Subject) -> None:
     found = predicted_jump(posterior, twin(subject, jumps=JUMPS, mass={"robot_g": 103.0}))
     low, middle, high = found.quantiles()["ballistic_range_m"]
