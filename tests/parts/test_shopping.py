@@ -444,6 +444,17 @@ def test_cross_screws_go_through_the_toe_into_the_stub() -> None:
             assert overlap[1].min() < along.min() <= inside - 4.0
 
 
+def test_small_steel_weighs_what_the_catalogue_says(assembled_robot: Robot) -> None:
+    catalogue = load_catalogue()
+    expected = {"roller_nut": catalogue.nuts["M3 nyloc"].mass_g, "roller_washer": catalogue.washers["M3"].mass_g}
+    for name in ("roller", "hub_bearing_1", "hub_bearing_2"):
+        (bearing,) = named(assembled_robot, name) if name != "roller" else named(assembled_robot, "roller")[:1]
+        assert bearing.name == name
+        expected[name] = catalogue.bearings[bearing.article.removeprefix("ball bearing ")].mass_g
+    found = {one.name: 1000.0 * one.mass_kg for one in assembled_robot.hardware if one.name in expected}
+    assert found == pytest.approx(expected, rel=1e-9)
+
+
 def test_rings_have_their_bores(assembled_robot: Robot) -> None:
     """A washer of ISO 7089 M3: 7 mm, 3.2 mm, 0.5 mm; ball bearings as their names say, filled between the rings."""
     catalogue, seen = load_catalogue(), set()
