@@ -65,6 +65,7 @@ def test_jumps_and_their_resampling_follow_from_the_seed(robot: Robot, monkeypat
     one, other = found(0), found(1)
     assert one.quantiles == other.quantiles
     assert one.interval != other.interval
+    assert all(low < high for group in one.interval.values() for low, high in group.values())
 
 
 def test_the_workshop_says_how_much_springs_scatter(robot: Robot) -> None:
