@@ -9,6 +9,7 @@ from jumpcad.cli import optimize
 from jumpcad.search import methods, request
 from jumpcad.search.methods import FRONTS, METHODS, NAMES, SEQUENCES, Method, Task
 from jumpcad.search.request import Request, Stage, plan_stages
+from jumpcad.search.space import Space
 from jumpcad.search.trial import LEARNING_PHASES, PHASES
 
 
@@ -31,6 +32,22 @@ def test_the_first_designs_follow_from_the_seed(evaluator, name):
         runs.append([trial.key for trial in one.trials])
     assert runs[0] == runs[1]
     assert not set(runs[1]) & set(runs[2])
+
+
+@pytest.mark.parametrize("name", ["ga", "nsga2"])
+def test_generations_follow_from_the_seed(evaluator, monkeypatch, name):
+    """Of the same first population."""
+    spread = Space.spread
+    monkeypatch.setattr(Space, "spread", lambda self, count, _: spread(self, count, np.random.default_rng(0)))
+    runs = []
+    for seed in (0, 0, 1):
+        one = evaluator()
+        METHODS[name].run(one, Task(60, seed=seed))
+        steps = [[trial.key for trial in one.trials if (trial.step == 0) == first] for first in (True, False)]
+        runs.append(steps)
+    assert runs[0] == runs[1]
+    assert runs[0][0] == runs[2][0]
+    assert runs[0][1] != runs[2][1]
 
 
 @pytest.mark.parametrize("name", [name for name, method in METHODS.items() if method.learns])
