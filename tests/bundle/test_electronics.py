@@ -49,7 +49,11 @@ def test_the_manifest_says_what_each_part_gets_and_bears(robot: Robot) -> None:
     assert {board["role"] for board in facts["boards"]} == {"controller", "driver"} | (
         {"regulator"} if cells == 2 else set()
     )
-    train = robot.layout.drive.train
+    train, safety = robot.layout.drive.train, robot.workshop.safety
+    assert 0.0 < facts["pwm_cap"] <= 1.0
+    assert facts["pwm_cap"] == pytest.approx(
+        supply_of(chosen_parts(robot.workshop)).duty(train.motor, safety.motor_torque_max_nm), abs=1e-3
+    )
     boards_w = supply_of(chosen_parts(robot.workshop)).boards_w
     assert facts["energy_j"]["boards"] == pytest.approx(boards_w * train.winding_s, abs=1e-4)
     assert sum(facts["energy_j"].values()) == pytest.approx(robot.layout.drive.train.electrical_j, abs=1e-5)

@@ -149,6 +149,9 @@ def test_the_release_is_the_worst_of_its_cases(name: str) -> None:
     sharp, rounded = ([roll(corner, parts, wound) for parts in found.parts] for corner in corners)
     for ratio, rolled in ((found.energy_ratio, sharp), (found.rounded_ratio, rounded)):
         assert ratio == pytest.approx(min(one.kept_j for one in rolled) / rolled[0].held_j, rel=1e-3)
+    (energy,) = (finding for finding in found.findings if finding.name == "release_energy")
+    assert energy.value == pytest.approx(100.0 * min(found.energy_ratio, found.rounded_ratio))
+    assert found.energy_ratio != found.rounded_ratio
     assert found.blow_nm == max(one.blow_nm for one in (*sharp, *rounded))
     assert found.kick_nm == pytest.approx(max(one.kick_nm for one in (*sharp, *rounded)) / found.gear_ratio)
 
