@@ -20,6 +20,7 @@ from jumpcad.cli.bundle import _facts, _print_facts
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import at_most
+from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES
 
 
@@ -41,6 +42,9 @@ def test_build_says_how_far_it_jumps_and_what_it_weighs(
     facts = json.loads(out)
     assert code == 0
     assert facts["jump"]["verdict"] == facts["capsule_jump"]["verdict"] == "jump"
+    assert facts["jump"]["mass_kg"] == pytest.approx(facts["mass_kg"])
+    assert facts["capsule_jump"]["mass_kg"] == pytest.approx(capsule_robot(load_design("kenan-2.0")).mass_kg)
+    assert facts["capsule_jump"]["mass_kg"] != pytest.approx(facts["mass_kg"])
     assert sum(line["quantity"] * line["mass_kg"] for line in facts["masses"]) == pytest.approx(facts["mass_kg"])
     assert facts["winding"]["efficiency"] == pytest.approx(facts["spring_energy_j"] / facts["winding"]["electrical_j"])
     assert facts["violated"] == []
