@@ -432,3 +432,11 @@ def test_what_is_put_on_with_a_tool_names_it(name: str) -> None:
                 assert any(line.endswith(f"; {move.tool.name})") for line in lines), step.key
                 counted += 1
     assert counted > 3
+
+
+def test_the_table_of_printed_parts_has_the_grams_of_each() -> None:
+    robot = built("kenan-2.0")
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in write_guide(robot).splitlines() if "|" in line]
+    grams = {row[0]: row[3] for row in rows if len(row) >= 4}
+    for part in robot.parts:
+        assert grams[part.name] == f"{1000.0 * part.mass_kg:.2f}"
